@@ -59,30 +59,32 @@ struct LogEnd {
 };
 
 void print_ports() {
-    for (const SerialPortEntry& port : list_serial_ports()) {
+    for (const source::SerialPortEntry& port : source::list_serial_ports()) {
         std::printf("%s\t%s\t%s\n", port.path.c_str(),
                     port.by_id.empty() ? "-" : port.by_id.c_str(),
                     port.usb ? port.usb->to_text().c_str() : "-");
     }
 }
 
-PlacedSample placed(const record::Sample& sample, UtcTime time) {
+live::PlacedSample placed(const archive::Sample& sample, UtcTime time) {
     const auto& axes = sample.values.axes;
     return {sample.index, time, {axes[0], axes[1], axes[2], sample.values.temperature}};
 }
 
-void recall_past(const Config& config, UtcTime now, spdlog::logger& log, LiveRecord& live) {
+void recall_past(const config::Config& config, UtcTime now, spdlog::logger& log,
+                 live::Record& live) {
     try {
-        take_archived_past(config.storage.root / "archive", config.station.codes, now, live);
+        live::take_archived_past(config.storage.root / "archive", config.station.codes, now, live);
     } catch (const std::exception& error) {
         log.warn("archived data could not be loaded, the verdict starts without them: {}",
                  error.what());
     }
 }
 
-Status snapshot(const Config& config, const HostClock& clock, const SensorLink& link,
-                const std::optional<OvenLink>& oven, Store& store, LiveRecord& live) {
-    Status status;
+status::Status snapshot(const config::Config& config, const source::HostClock& clock,
+                        const source::SensorLink& link, const std::optional<source::OvenLink>& oven,
+                        store::Store& store, live::Record& live) {
+    status::Status status;
     status.version = A351_VERSION;
     const timing::ClockReading reading = clock.read();
     status.now = reading.realtime;
@@ -95,20 +97,20 @@ Status snapshot(const Config& config, const HostClock& clock, const SensorLink& 
     status.declared_rate_hz = config.storage.declared_rate_hz;
     if (const auto& unit = config.survey.calibration)
         status.calibrated_serial_number = unit->serial_number;
-    fill(status, link.status());
+    status::fill(status, link.status());
     if (oven) status.oven = oven->status();
     store.fill(status);
-    assess(status);
+    status::assess(status);
     return status;
 }
 
-void log_recovery(spdlog::logger& log, const record::RecoveryReport& report) {
+void log_recovery(spdlog::logger& log, const archive::RecoveryReport& report) {
     if (report.journal) {
         log.warn("recovery: {} bytes removed from {} from offset {} on: {}",
                  report.journal->byte_count, report.journal->file.string(), report.journal->offset,
                  report.journal->reason);
     }
-    for (const record::TornTail& tail : report.archive) {
+    for (const archive::TornTail& tail : report.archive) {
         log.warn("recovery: {} bytes removed from {} from offset {} on", tail.byte_count,
                  tail.file.string(), tail.offset);
     }
@@ -148,30 +150,31 @@ sigset_t block_signals() {
     return signals;
 }
 
-std::string brief(const Status& status) {
+std::string brief(const status::Status& status) {
     return status.reasons.empty() ? status.link_state
                                   : status.link_state + "; " + status.reasons.front();
 }
 
 /// Returns the thresholds of the verdict.  gap_s is instrument time and must not be shorter than a
 /// pause of the host.
-VerdictOptions thresholds_of(const Config& config, const HostClock& clock) {
-    VerdictOptions options = config.verdict;
+verdict::Options thresholds_of(const config::Config& config, const source::HostClock& clock) {
+    verdict::Options options = config.verdict;
     const std::chrono::duration<double> shortest = clock.instrument_span(kShortestRealStale);
     options.gap_s = std::max(options.gap_s, shortest.count());
     return options;
 }
 
-OccupationOptions occupation_options(const Config& config) {
+survey::OccupationOptions occupation_options(const config::Config& config) {
     return {.planned = config.survey.planned, .target = MilliGal(config.verdict.target_mgal)};
 }
 
 /// Reads the configuration again after SIGHUP, and takes sites, planned length and thresholds from
 /// it.  A file that is refused changes nothing.
-void reload(const std::filesystem::path& config_file, const HostClock& clock, spdlog::logger& log,
-            LiveRecord& live, Occupations& occupations, Server& page) {
+void reload(const std::filesystem::path& config_file, const source::HostClock& clock,
+            spdlog::logger& log, live::Record& live, survey::Occupations& occupations,
+            page::Server& page) {
     try {
-        const Config fresh = read_config(config_file);
+        const config::Config fresh = config::read_config(config_file);
         live.judge_by(thresholds_of(fresh, clock));
         page.post([&occupations, sites = fresh.survey.sites, options = occupation_options(fresh)] {
             occupations.use(sites, options);
@@ -183,48 +186,48 @@ void reload(const std::filesystem::path& config_file, const HostClock& clock, sp
     }
 }
 
-ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log,
-               const sigset_t& signals, StatusLog& status_log) {
-    ServiceNotice notice = ServiceNotice::from_environment();
-    ReadQueue reads;
-    LiveRecord live(*config.sensor.profile, config.station.output_rate_hz,
-                    thresholds_of(config, clock));
+ExitStatus run(const config::Config& config, const source::HostClock& clock, spdlog::logger& log,
+               const sigset_t& signals, status::StatusLog& status_log) {
+    service::ServiceNotice notice = service::ServiceNotice::from_environment();
+    source::ReadQueue reads;
+    live::Record live(*config.sensor.profile, config.station.output_rate_hz,
+                      thresholds_of(config, clock));
     std::atomic<bool> is_recovered{false};
-    Store store(record::posix_files(),
-                {.root = config.storage.root,
-                 .station = config.station,
-                 .keeper = {.keep_days = config.storage.journal_keep_days},
-                 .recovered =
-                     [&](const auto& report) {
-                         log_recovery(log, report);
-                         is_recovered = true;
-                     },
-                 .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
-                 .sample = [&](const record::Sample& sample,
-                               UtcTime time) { live.take(placed(sample, time)); }},
-                clock, reads);
-    LinkOptions sensor = config.sensor;
-    sensor.header = journal_header(config, clock);
+    store::Store store(files::posix_files(),
+                       {.root = config.storage.root,
+                        .station = config.station,
+                        .keeper = {.keep_days = config.storage.journal_keep_days},
+                        .recovered =
+                            [&](const auto& report) {
+                                log_recovery(log, report);
+                                is_recovered = true;
+                            },
+                        .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
+                        .sample = [&](const archive::Sample& sample,
+                                      UtcTime time) { live.take(placed(sample, time)); }},
+                       clock, reads);
+    source::LinkOptions sensor = config.sensor;
+    sensor.header = config::journal_header(config, clock);
     sensor.known = store.known_stream();
-    SensorLink link(std::move(sensor), clock, reads);
-    std::optional<OvenLink> oven;
+    source::SensorLink link(std::move(sensor), clock, reads);
+    std::optional<source::OvenLink> oven;
     if (config.oven) {
-        oven.emplace(*config.oven, clock, [&](record::OvenChunk poll) {
-            if (const auto point = oven_point(poll, clock.read().realtime)) live.take(*point);
+        oven.emplace(*config.oven, clock, [&](journal::OvenChunk poll) {
+            if (const auto point = live::oven_point(poll, clock.read().realtime)) live.take(*point);
             store.post(std::move(poll));
         });
     }
     const std::filesystem::path events = config.storage.root / "events";
-    Occupations occupations(store, config.survey.sites, record::read_events(events).events,
-                            occupation_options(config));
-    Server page(
+    survey::Occupations occupations(store, config.survey.sites, events::read_events(events).events,
+                                    occupation_options(config));
+    page::Server page(
         {.listen = config.page.listen, .hosts = config.page.hosts, .token = config.page.token},
         {.status = [&] { return snapshot(config, clock, link, oven, store, live); },
          .occupations = occupations,
          .live = live,
          .latitude = config.station.latitude,
          .longitude = config.station.longitude,
-         .events = [&] { return record::read_events(events).events; },
+         .events = [&] { return events::read_events(events).events; },
          .assets = config.page.assets,
          .stale_after = std::max<Nanoseconds>(kStale, clock.instrument_span(kShortestRealStale))});
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
@@ -240,7 +243,7 @@ ExitStatus run(const Config& config, const HostClock& clock, spdlog::logger& log
     constexpr timespec kSecond{1, 0};
     while (true) {
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
-        const Status status = snapshot(config, clock, link, oven, store, live);
+        const status::Status status = snapshot(config, clock, link, oven, store, live);
         status_log.note(status, std::chrono::steady_clock::now());
         notice.beat(store.is_alive(), brief(status));
         if (signal == SIGHUP) reload(config.file, clock, log, live, occupations, page);
@@ -298,14 +301,14 @@ int main(int argc, char** argv) {
         if (config_file.empty()) return complain_and_end(kBadUsage, "--config FILE is required");
         std::optional<ClockScale> scale;
         if (!clock_text.empty()) {
-            scale = parse_clock_scale(clock_text, host_realtime());
+            scale = parse_clock_scale(clock_text, source::host_realtime());
             if (!scale) {
                 return complain_and_end(
                     kBadUsage, "--clock = " + clock_text +
                                    ": not a clock scale; allowed: scaled:FACTOR@UTC[,HOST]");
             }
         }
-        const Config config = read_config(config_file);
+        const config::Config config = config::read_config(config_file);
         if (is_check) {
             std::puts("ok");
             return kDone;
@@ -313,13 +316,13 @@ int main(int argc, char** argv) {
         const sigset_t signals = block_signals();
         const auto log = make_log();
         const LogEnd end;
-        StatusLog status_log(log);
-        return run(config, HostClock(scale), *log, signals, status_log);
+        status::StatusLog status_log(log);
+        return run(config, source::HostClock(scale), *log, signals, status_log);
     } catch (const InputError& error) {
         return complain_and_end(kBadUsage, error.what());
-    } catch (const DataRootLocked& error) {
+    } catch (const store::DataRootLocked& error) {
         return complain_and_end(kAlreadyRunning, error.what());
-    } catch (const PortError& error) {
+    } catch (const source::PortError& error) {
         return complain_and_end(kAlreadyRunning, error.what());
     } catch (const std::exception& error) {
         return complain_and_end(kFailed, error.what());

@@ -28,13 +28,14 @@ int fail(const char* reason, int status) {
 
 int main(int argc, char** argv) {
     using namespace a351;
+    using namespace a351::sim;
     CLI::App app{"Emulated M-A351 accelerometer, and simulated survey days", "a351-sim"};
     app.set_version_flag("--version", "a351-sim " A351_VERSION);
     app.require_subcommand(1);
-    sim::add_device_command(app, until_stopped);
-    sim::add_replay_command(app, until_stopped);
-    sim::add_survey_command(app);
-    sim::add_plan_command(app);
+    command::add_device_command(app, until_stopped);
+    command::add_replay_command(app, until_stopped);
+    command::add_survey_command(app);
+    command::add_plan_command(app);
     try {
         app.parse(argc, argv);
         return kDone;

@@ -19,20 +19,20 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 struct CalibrateOptions {
     std::vector<std::string> tilt, records;
     std::string out, merge, valid_from, valid_to, power_on;
-    double within_mgal = WarmUpGuidance{}.within_mgal;
+    double within_mgal = unit::WarmUpGuidance{}.within_mgal;
     bool is_within_given = false;
 };
 
 /// Reads a survey file, or makes one for a data root with a sites.csv.
-SurveyFile series_file(const std::filesystem::path& path) {
-    if (!std::filesystem::is_directory(path)) return read_survey_file(path);
-    SurveyFile survey;
+job::SurveyFile series_file(const std::filesystem::path& path) {
+    if (!std::filesystem::is_directory(path)) return job::read_survey_file(path);
+    job::SurveyFile survey;
     survey.name = path.filename().string();
     survey.root = path;
     survey.sites = path / "sites.csv";
@@ -46,10 +46,10 @@ public:
     /// @param archive_sha256  of the archive's files that the rows were read from.
     /// @param file            the series as the user calls it.
     /// @throws InputError  a row's interval overlaps one of a series before, from the same file.
-    void add(const std::vector<SurveyRow>& rows, const std::vector<std::string>& archive_sha256,
-             const std::string& file) {
+    void add(const std::vector<reading::SurveyRow>& rows,
+             const std::vector<std::string>& archive_sha256, const std::string& file) {
         std::vector<Counted> added;
-        for (const SurveyRow& row : rows)
+        for (const reading::SurveyRow& row : rows)
             added.push_back({row.start.value_or(row.time), row.end.value_or(row.time), file});
         for (const std::string& sha256 : archive_sha256) {
             std::vector<Counted>& before = of_archive_file_[sha256];
@@ -72,7 +72,7 @@ private:
     std::map<std::string, std::vector<Counted>> of_archive_file_;
 };
 
-std::string series_text(const TiltSeries& series, const std::string& name) {
+std::string series_text(const model::TiltSeries& series, const std::string& name) {
     std::string lines =
         fmt::format("{}: {} set-ups, temperature within {} degC, set-ups scatter by {} mGal\n",
                     name, series.set_ups, text::fixed(series.temperature_range_degc, 3),
@@ -89,35 +89,35 @@ std::string series_text(const TiltSeries& series, const std::string& name) {
 }
 
 /// Adds parts that this run has not measured, with the data they come from.
-void take_over(Calibration& calibration, const std::string& file) {
-    const Calibration other = read_calibration(file);
+void take_over(unit::Calibration& calibration, const std::string& file) {
+    const unit::Calibration other = unit::read_calibration(file);
     if (other.serial_number != calibration.serial_number)
         throw InputError(fmt::format("{}: serial_number = {}: another unit; allowed: {}", file,
                                      other.serial_number, calibration.serial_number));
     if (!calibration.axis_bias) calibration.axis_bias = other.axis_bias;
     if (!calibration.thermal) calibration.thermal = other.thermal;
     if (!calibration.warm_up) calibration.warm_up = other.warm_up;
-    for (const CalibrationData& data : other.data) list_data(calibration, data);
+    for (const unit::CalibrationData& data : other.data) list_data(calibration, data);
     calibration.valid_from = std::max(calibration.valid_from, other.valid_from);
     calibration.valid_to = other.valid_to;
 }
 
-void calibrate_from_tilt(Calibration& calibration, const std::vector<std::string>& files) {
-    std::vector<TiltSeries> all;
+void calibrate_from_tilt(unit::Calibration& calibration, const std::vector<std::string>& files) {
+    std::vector<model::TiltSeries> all;
     CountedReadings counted;
     for (const std::string& file : files) {
-        const SurveyFile survey = series_file(file);
+        const job::SurveyFile survey = series_file(file);
         ProgressBar bar(survey.name);
-        const OccupationRows read = read_survey(survey, std::ref(bar));
+        const reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
         for (const std::string& warning : read.warnings)
             std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
-        all.push_back(measure_axis_bias(read, file));
+        all.push_back(model::measure_axis_bias(read, file));
         const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
         counted.add(read.rows,
                     note_origin(calibration, read.serial_number, start, read.inputs, file), file);
         std::cout << series_text(all.back(), survey.name);
     }
-    calibration.axis_bias = combine(all);
+    calibration.axis_bias = model::combine(all);
 }
 
 RecordCalibrationOptions record_options(const CalibrateOptions& options) {
@@ -134,7 +134,7 @@ void calibrate(const CalibrateOptions& options) {
     if (options.tilt.empty() && options.records.empty())
         throw InputError("no record and no tilt series; allowed: FILE..., --tilt FILE... or both");
     require_file_option("--out", options.out);
-    Calibration calibration;
+    unit::Calibration calibration;
     calibration.program = "a351-correct " A351_VERSION;
     if (!options.tilt.empty()) calibrate_from_tilt(calibration, options.tilt);
     if (!options.records.empty())
@@ -150,7 +150,8 @@ void calibrate(const CalibrateOptions& options) {
                         options.valid_to.empty() ? options.merge + ": valid_to_utc" : "--valid-to",
                         to_rfc3339(*calibration.valid_to), to_rfc3339(calibration.valid_from)));
     const std::filesystem::path out = std::filesystem::absolute(options.out);
-    text::write_together(out.parent_path(), {{out.filename().string(), to_toml(calibration)}});
+    text::write_together(out.parent_path(),
+                         {{out.filename().string(), unit::to_toml(calibration)}});
     std::cout << "unit " << calibration.serial_number << ": written to " << options.out << '\n';
 }
 
@@ -187,4 +188,4 @@ void add_calibrate_command(CLI::App& program) {
     });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

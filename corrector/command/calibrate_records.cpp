@@ -12,7 +12,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 // Longest time from power-on to the first sample, over which the warm-up is extrapolated.
@@ -22,12 +22,12 @@ constexpr double kSettled_h = 4.0;
 constexpr double kContradiction = 0.01;
 constexpr double kCycle_s = 900.0;  // usual cycle of the oven, for the bands of the residual test
 
-double hours_of(const RecordSegment& segment, double step_s) {
+double hours_of(const long_record::RecordSegment& segment, double step_s) {
     return static_cast<double>(segment.size()) * step_s / kSecondsPerHour;
 }
 
 /// Returns the time from power-on to the start of the segment, if it is at most kLatestBegin_h.
-std::optional<double> begins_after_h(const RecordSegment& segment,
+std::optional<double> begins_after_h(const long_record::RecordSegment& segment,
                                      const std::optional<UtcTime>& power_on) {
     if (!power_on) return std::nullopt;
     const double hours = seconds_between(*power_on, segment.start) / kSecondsPerHour;
@@ -35,7 +35,7 @@ std::optional<double> begins_after_h(const RecordSegment& segment,
 }
 
 /// Removes the first hours of a segment, in which the unit is not in equilibrium after power-on.
-RecordSegment without_begin(RecordSegment segment, double step_s) {
+long_record::RecordSegment without_begin(long_record::RecordSegment segment, double step_s) {
     const auto cut =
         std::min(segment.size(), static_cast<std::size_t>(kSettled_h * kSecondsPerHour / step_s));
     const auto behind = static_cast<std::ptrdiff_t>(cut);
@@ -47,30 +47,31 @@ RecordSegment without_begin(RecordSegment segment, double step_s) {
     return segment;
 }
 
-TwoPathFit fitted(const RecordSegment& segment, double step_s) {
-    return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, step_s, kCycle_s);
+long_record::TwoPathFit fitted(const long_record::RecordSegment& segment, double step_s) {
+    return long_record::fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, step_s,
+                                      kCycle_s);
 }
 
 /// @throws InputError  the record is of several units.
-std::string unit_of(const LongRecord& record, const std::string& file) {
+std::string unit_of(const long_record::LongRecord& record, const std::string& file) {
     const std::string& unit = record.stretches.front().serial_number;
-    const auto other = std::ranges::find_if(record.stretches, [&](const RecordStretch& stretch) {
-        return stretch.serial_number != unit;
-    });
+    const auto other = std::ranges::find_if(
+        record.stretches,
+        [&](const long_record::RecordStretch& stretch) { return stretch.serial_number != unit; });
     if (other == record.stretches.end()) return unit;
     throw InputError(fmt::format("{}: from {} on of unit '{}', before of '{}'; allowed: one unit",
                                  file, to_rfc3339(other->times.front()), other->serial_number,
                                  unit));
 }
 
-std::string value_text(const FittedParameter& parameter) {
+std::string value_text(const long_record::FittedParameter& parameter) {
     return fmt::format("{}: {} +- {} {}", parameter.name, text::fixed(parameter.value, 1),
                        text::fixed(parameter.standard_error, 1), parameter.unit);
 }
 
-std::string thermal_text(const PooledThermal& pooled) {
+std::string thermal_text(const long_record::PooledThermal& pooled) {
     std::string text;
-    for (const FittedParameter& parameter : pooled.parameters) {
+    for (const long_record::FittedParameter& parameter : pooled.parameters) {
         text += fmt::format(
             "  {}{}\n", value_text(parameter),
             parameter.is_determined ? "" : "; not determined, needed: " + parameter.needed);
@@ -86,9 +87,9 @@ std::string thermal_text(const PooledThermal& pooled) {
     return text;
 }
 
-std::string refusal(const PooledThermal& pooled, const std::string& file) {
+std::string refusal(const long_record::PooledThermal& pooled, const std::string& file) {
     std::string message = file + ": the response to temperature is not determined";
-    for (const FittedParameter& parameter : pooled.parameters)
+    for (const long_record::FittedParameter& parameter : pooled.parameters)
         if (!parameter.needed.empty())
             message += fmt::format("; {}, needed: {}", value_text(parameter), parameter.needed);
     return message;
@@ -96,37 +97,39 @@ std::string refusal(const PooledThermal& pooled, const std::string& file) {
 
 }  // namespace
 
-std::string calibrate_from_records(Calibration& calibration,
+std::string calibrate_from_records(unit::Calibration& calibration,
                                    const RecordCalibrationOptions& options) {
-    const LongRecord record = joined_record(read_records(options.files, {}));
+    const long_record::LongRecord record =
+        long_record::joined_record(read_records(options.files, {}));
     const std::string& file = options.files.front();
     note_origin(calibration, unit_of(record, file), record.stretches.front().times.front(),
                 record.inputs, file);
-    const RecordSegments parts = divide_or_refuse(record, {}, file);
-    const double within_mgal = options.within_mgal.value_or(WarmUpGuidance{}.within_mgal);
-    WarmUpReading warm_up{std::nullopt,
-                          "no warm-up guidance: needed: a record that begins at most half an hour "
-                          "after the sensor was switched on, with --power-on"};
+    const long_record::RecordSegments parts = divide_or_refuse(record, {}, file);
+    const double within_mgal = options.within_mgal.value_or(unit::WarmUpGuidance{}.within_mgal);
+    long_record::WarmUpReading warm_up{
+        std::nullopt,
+        "no warm-up guidance: needed: a record that begins at most half an hour "
+        "after the sensor was switched on, with --power-on"};
     std::string text;
-    std::vector<TwoPathFit> fits;
+    std::vector<long_record::TwoPathFit> fits;
     std::vector<std::string> lacks;
-    for (RecordSegment segment : parts.segments) {
+    for (long_record::RecordSegment segment : parts.segments) {
         if (const auto begin_h = begins_after_h(segment, options.power_on)) {
-            warm_up = warm_up_guidance(fitted(segment, record.step_s), *begin_h,
-                                       hours_of(segment, record.step_s), within_mgal);
+            warm_up = long_record::warm_up_guidance(fitted(segment, record.step_s), *begin_h,
+                                                    hours_of(segment, record.step_s), within_mgal);
             segment = without_begin(std::move(segment), record.step_s);
         }
         const std::string name =
             fmt::format("{} h from {}", text::fixed(hours_of(segment, record.step_s), 1),
                         to_rfc3339(segment.start));
         const std::string lack =
-            segment.size() < SegmentOptions{}.shortest
+            segment.size() < long_record::SegmentOptions{}.shortest
                 ? fmt::format(
                       "too short for the response to temperature; needed: 3 h that begin "
                       "{} h after power-on or later",
                       text::fixed(kSettled_h, 0))
-                : reason_against_two_paths(segment.temperature_degc, segment.acceleration_mgal,
-                                           record.step_s);
+                : long_record::reason_against_two_paths(segment.temperature_degc,
+                                                        segment.acceleration_mgal, record.step_s);
         if (!lack.empty()) {
             lacks.push_back(fmt::format("{}: {}", name, lack));
             text += lacks.back() + '\n';
@@ -141,7 +144,7 @@ std::string calibrate_from_records(Calibration& calibration,
                                   "describe all of it");
     }
     if (fits.empty()) throw InputError(fmt::format("{}: {}", file, lacks.front()));
-    const PooledThermal pooled = pool_thermal(fits);
+    const long_record::PooledThermal pooled = long_record::pool_thermal(fits);
     if (!pooled.response) throw InputError(refusal(pooled, file));
     if (options.within_mgal && !warm_up.guidance)
         throw InputError(
@@ -151,4 +154,4 @@ std::string calibrate_from_records(Calibration& calibration,
     return fmt::format("{}{}  {}\n", text, thermal_text(pooled), warm_up.words);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

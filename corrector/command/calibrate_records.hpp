@@ -16,7 +16,7 @@
 
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 
 /// Options of calibrate_from_records().
 ///
@@ -46,7 +46,7 @@ struct RecordCalibrationOptions {
 /// @return  a text: the parameters found, and those not determined.
 /// @throws InputError  a record cannot be read or is of another unit; the records do not determine
 ///                     the thermal part, or, when `within_mgal` is given, the warm-up.
-[[nodiscard]] std::string calibrate_from_records(Calibration& calibration,
+[[nodiscard]] std::string calibrate_from_records(unit::Calibration& calibration,
                                                  const RecordCalibrationOptions& options);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -20,7 +20,7 @@ namespace CLI {
 class App;
 }
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 
 /// `calibrate`: what is to be known of a unit before a survey, measured.  Writes a calibration file
 /// for `survey --calibration` and `record --apply`.
@@ -53,4 +53,4 @@ void add_table_command(CLI::App& program);
 /// larger.
 void add_tide_command(CLI::App& program);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 
 CsvOutput::CsvOutput(const std::string& file) {
     if (file.empty()) return;
@@ -32,4 +32,4 @@ void write_or_print(const std::string& file, std::string_view csv) {
     output.finish();
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -15,7 +15,7 @@
 
 #include "protocol/text/new_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 
 /// A table that is written piece by piece to a new or replaced file, or to standard output if
 /// `file` is empty.
@@ -47,4 +47,4 @@ private:
 /// @throws std::system_error  the file cannot be written; nothing is left of it.
 void write_or_print(const std::string& file, std::string_view csv);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -16,7 +16,7 @@
 #include "protocol/signal/decimator.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 constexpr int kMostStages = 9;
@@ -73,12 +73,12 @@ void write_decimated(const DecimateOptions& options) {
     number_option("--factor", options.factor, 2, 1000);
     number_option("--stages", options.stages, 1, kMostStages);
     if (!options.output.empty()) require_file_option("--output", options.output);
-    const DecimationFilter filter = design_decimation(options.factor);
-    const double least = least_length(filter, options.stages);
+    const signal::DecimationFilter filter = signal::design_decimation(options.factor);
+    const double least = signal::least_length(filter, options.stages);
     SampleColumn column(options.input, options.column);
     CsvOutput output(options.output);
     DecimatedRows rows(output);
-    Decimator decimator(filter, options.stages);
+    signal::Decimator decimator(filter, options.stages);
     ProgressBar bar("decimate, MB");
 
     std::vector<double> samples;
@@ -125,4 +125,4 @@ void add_decimate_command(CLI::App& program) {
     command.callback([options] { write_decimated(*options); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -13,7 +13,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 constexpr int kMostModes = 64;  // Above floor(log2 n) of any record.
@@ -23,9 +23,9 @@ struct EmdCommandOptions {
     std::string input;
     std::string column;
     std::optional<int> modes;
-    int ensemble = EemdOptions{}.ensemble_size;
-    double noise = EemdOptions{}.noise_ratio;
-    int sifts = FixedSifts{}.count;
+    int ensemble = eemd::Options{}.ensemble_size;
+    double noise = eemd::Options{}.noise_ratio;
+    int sifts = eemd::FixedSifts{}.count;
     std::optional<int> s_number;
     std::string finish = "extrema";
     std::string ends = "line";
@@ -35,22 +35,22 @@ struct EmdCommandOptions {
     std::string output;
 };
 
-EemdOptions decomposition(const EmdCommandOptions& options) {
-    EemdOptions eemd_options;
+eemd::Options decomposition(const EmdCommandOptions& options) {
+    eemd::Options eemd_options;
     if (options.modes) number_option("--modes", *options.modes, 0, kMostModes);
     eemd_options.mode_count = options.modes;
     number_option("--ensemble", options.ensemble, 1, kMostMembers);
     eemd_options.ensemble_size = options.ensemble;
     eemd_options.noise_ratio = number_option("--noise", options.noise, 0.0, 1e6);
-    number_option("--sifts", options.sifts, 1, kMaxSifts);
-    eemd_options.stopping = FixedSifts{options.sifts};
+    number_option("--sifts", options.sifts, 1, eemd::kMaxSifts);
+    eemd_options.stopping = eemd::FixedSifts{options.sifts};
     if (options.s_number) {
-        number_option("--s-number", *options.s_number, 1, kMostSNumberSifts);
-        eemd_options.stopping = SNumber{*options.s_number};
+        number_option("--s-number", *options.s_number, 1, eemd::kMostSNumberSifts);
+        eemd_options.stopping = eemd::SNumber{*options.s_number};
     }
-    eemd_options.finish =
-        options.finish == "always" ? FinishRule::always : FinishRule::at_most_two_extrema;
-    eemd_options.ends = options.ends == "mirror" ? EndRule::mirror : EndRule::line;
+    eemd_options.finish = options.finish == "always" ? eemd::FinishRule::always
+                                                     : eemd::FinishRule::at_most_two_extrema;
+    eemd_options.ends = options.ends == "mirror" ? eemd::EndRule::mirror : eemd::EndRule::line;
     eemd_options.reflect_ends = options.ends == "reflect";
     eemd_options.complementary_pairs = options.pairs;
     if (options.pairs && options.ensemble % 2 != 0) {
@@ -63,21 +63,22 @@ EemdOptions decomposition(const EmdCommandOptions& options) {
     return eemd_options;
 }
 
-std::string to_csv(const EemdResult& result) {
+std::string to_csv(const eemd::Result& result) {
     std::string csv;
     for (std::size_t k = 1; k <= result.modes.size(); ++k) csv += fmt::format("imf{},", k);
     csv += "residue\n";
     for (std::size_t i = 0; i < result.residue.values.size(); ++i) {
-        for (const Component& mode : result.modes) csv += text::shortest(mode.values[i]) + ',';
+        for (const eemd::Component& mode : result.modes)
+            csv += text::shortest(mode.values[i]) + ',';
         csv += text::shortest(result.residue.values[i]) + '\n';
     }
     return csv;
 }
 
 /// Properties of each component, for a choice by period instead of by number.
-std::string report_csv(const EemdResult& result) {
+std::string report_csv(const eemd::Result& result) {
     std::string csv = "component,extrema,mean_period_samples,energy_share,standard_error\n";
-    const auto add = [&](const std::string& name, const Component& component) {
+    const auto add = [&](const std::string& name, const eemd::Component& component) {
         csv += fmt::format(
             "{},{},{},{},{}\n", name, component.extrema_count,
             component.extrema_count > 0 ? text::shortest(component.mean_period_samples) : "",
@@ -92,7 +93,7 @@ std::string report_csv(const EemdResult& result) {
 }
 
 void write_modes(const EmdCommandOptions& options) {
-    EemdOptions eemd_options = decomposition(options);
+    eemd::Options eemd_options = decomposition(options);
     require_file_option("--output", options.output);
     const text::CsvTable table = text::read_csv(options.input);
     std::vector<double> signal;
@@ -104,7 +105,7 @@ void write_modes(const EmdCommandOptions& options) {
         bar(static_cast<std::size_t>(done), static_cast<std::size_t>(members));
         return true;
     };
-    const EemdResult result = eemd(signal, eemd_options);
+    const eemd::Result result = eemd::eemd(signal, eemd_options);
     write_or_print(options.output, to_csv(result));
     write_or_print("", report_csv(result));
 }
@@ -155,4 +156,4 @@ void add_emd_command(CLI::App& program) {
     command.callback([options] { write_modes(*options); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -5,34 +5,35 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/export/export.hpp"
+#include "corrector/resampling/export.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/new_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 struct Texts {
-    ExportOptions options;
+    resampling::ExportOptions options;
     std::string from, to, format, out;
 };
 
 void run(Texts texts) {
-    ExportOptions& options = texts.options;
+    resampling::ExportOptions& options = texts.options;
     options.from = instant_option("--from", texts.from);
     options.to = instant_option("--to", texts.to);
-    options.format = texts.format == "csv" ? ExportFormat::csv : ExportFormat::mseed;
+    options.format =
+        texts.format == "csv" ? resampling::ExportFormat::csv : resampling::ExportFormat::mseed;
     if (options.from >= options.to)
         throw InputError(
             fmt::format("--to = {}: not after --from; allowed: a later instant", texts.to));
     require_file_option("--out", texts.out);
     text::NewFile file(texts.out);
-    const ExportReport report =
-        export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
+    const resampling::ExportReport report =
+        resampling::export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
     file.close();
     file.publish();
-    for (const record::ArchiveDamage& damage : report.damage)
-        std::cerr << "a351-correct: " << to_text(damage) << '\n';
+    for (const archive::Damage& damage : report.damage)
+        std::cerr << "a351-correct: " << archive::to_text(damage) << '\n';
     std::cout << fmt::format("{}: {} values of {} at {} Hz in {} runs without a gap\n", texts.out,
                              report.values, options.channel, options.rate_hz, report.runs);
 }
@@ -58,4 +59,4 @@ void add_export_command(CLI::App& program) {
     command.callback([texts] { run(*texts); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

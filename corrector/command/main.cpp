@@ -24,20 +24,22 @@ int report(std::string message, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    using namespace a351;
+    using namespace a351::corrector;
     CLI::App program("Corrects the readings of an M-A351 accelerometer to gravity.",
                      "a351-correct");
     program.set_version_flag("--version", "a351-correct " A351_VERSION);
     program.require_subcommand(1);
-    a351::corrector::add_calibrate_command(program);
-    a351::corrector::add_decimate_command(program);
-    a351::corrector::add_emd_command(program);
-    a351::corrector::add_export_command(program);
-    a351::corrector::add_record_command(program);
-    a351::corrector::add_retime_command(program);
-    a351::corrector::add_smooth_command(program);
-    a351::corrector::add_survey_command(program);
-    a351::corrector::add_table_command(program);
-    a351::corrector::add_tide_command(program);
+    command::add_calibrate_command(program);
+    command::add_decimate_command(program);
+    command::add_emd_command(program);
+    command::add_export_command(program);
+    command::add_record_command(program);
+    command::add_retime_command(program);
+    command::add_smooth_command(program);
+    command::add_survey_command(program);
+    command::add_table_command(program);
+    command::add_tide_command(program);
     try {
         program.parse(argc, argv);
         std::cout.flush();
@@ -46,7 +48,7 @@ int main(int argc, char** argv) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
         return report(std::string(error.what()) + "; see --help", kBadUsage);
-    } catch (const a351::InputError& error) {
+    } catch (const InputError& error) {
         return report(error.what(), kBadUsage);
     } catch (const std::exception& error) {
         return report(error.what(), kFailed);

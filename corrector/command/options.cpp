@@ -6,7 +6,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 /// Returns the longest beginning of the path that exists.
@@ -38,17 +38,17 @@ void add_figures_option(CLI::App& command, std::vector<std::string>& formats) {
     add_option(command, "--figures", "FORMAT", formats,
                "Also write the figures in this format, besides SVG; may be repeated")
         ->allow_extra_args(false)
-        ->check(CLI::IsMember(picture_formats()));
+        ->check(CLI::IsMember(figure::picture_formats()));
 }
 
-void add_tide_factors(CLI::App& command, TideFactors& factors) {
+void add_tide_factors(CLI::App& command, tide::Factors& factors) {
     add_with_default(command, "--delta2", "FACTOR", factors.delta2,
                      "Gravimetric factor of degree 2 (1: rigid Earth)");
     add_with_default(command, "--delta3", "FACTOR", factors.delta3,
                      "Gravimetric factor of degree 3 (1: rigid Earth)");
 }
 
-TideFactors tide_factor_options(const TideFactors& factors) {
+tide::Factors tide_factor_options(const tide::Factors& factors) {
     constexpr double kLeast = 0.5, kGreatest = 2.0;  // 1 is a rigid Earth
     return {number_option("--delta2", factors.delta2, kLeast, kGreatest),
             number_option("--delta3", factors.delta3, kLeast, kGreatest)};
@@ -80,4 +80,4 @@ void require_folder_option(std::string_view name, const std::filesystem::path& p
     require_folder(name, path, std::filesystem::absolute(path), "a folder");
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

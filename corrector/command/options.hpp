@@ -21,7 +21,7 @@
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 
 /// Adds an option.  The variable keeps its value if the option is not given.
 /// @param name   with its dashes, as "--step"; without dashes it is positional.
@@ -56,11 +56,11 @@ void add_column_options(CLI::App& command, std::string& input, std::string& colu
 void add_figures_option(CLI::App& command, std::vector<std::string>& formats);
 
 /// Adds --delta2 and --delta3.  The present factors are the defaults in the help.
-void add_tide_factors(CLI::App& command, TideFactors& factors);
+void add_tide_factors(CLI::App& command, tide::Factors& factors);
 
 /// Returns the factors given in options.
 /// @throws InputError  one is out of range; allowed are 0.5 to 2.
-[[nodiscard]] TideFactors tide_factor_options(const TideFactors& factors);
+[[nodiscard]] tide::Factors tide_factor_options(const tide::Factors& factors);
 
 /// Returns the instant given in an option.
 /// @param name  of the option, for the message.
@@ -87,4 +87,4 @@ void require_file_option(std::string_view name, const std::filesystem::path& pat
 /// @throws InputError  the path, or the longest part of it that exists, is not a folder.
 void require_folder_option(std::string_view name, const std::filesystem::path& path);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 constexpr std::chrono::seconds kSilence(2);
@@ -31,4 +31,4 @@ void ProgressBar::operator()(std::size_t done, std::size_t total) {
     std::cerr << '\r' << line << std::flush;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

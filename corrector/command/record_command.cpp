@@ -18,31 +18,31 @@
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 struct RecordCommandOptions {
     std::vector<std::string> files;
     std::string from, to, apply;
     std::string out = "result";
-    double cycle_s = RecordAnalysisOptions{}.cycle_s;
-    double shift_s = RecordAnalysisOptions{}.shift_s;
-    int ensemble = RecordAnalysisOptions{}.ensemble_size;
-    std::uint64_t seed = RecordAnalysisOptions{}.seed;
+    double cycle_s = long_record::RecordAnalysisOptions{}.cycle_s;
+    double shift_s = long_record::RecordAnalysisOptions{}.shift_s;
+    int ensemble = long_record::RecordAnalysisOptions{}.ensemble_size;
+    std::uint64_t seed = long_record::RecordAnalysisOptions{}.seed;
     std::vector<std::string> figures;
 };
 
-LongRecord read_record(const RecordCommandOptions& options) {
-    RecordWindow window;
+long_record::LongRecord read_record(const RecordCommandOptions& options) {
+    long_record::RecordWindow window;
     if (!options.from.empty()) window.from = instant_option("--from", options.from);
     if (!options.to.empty()) window.to = instant_option("--to", options.to);
     if (window.from && window.to && *window.from >= *window.to)
         throw InputError(fmt::format("--to = {}; allowed: an instant after --from", options.to));
-    return joined_record(read_records(options.files, window));
+    return long_record::joined_record(read_records(options.files, window));
 }
 
-RecordResult analysed(const RecordCommandOptions& options) {
-    RecordResult result;
+long_record::RecordResult analysed(const RecordCommandOptions& options) {
+    long_record::RecordResult result;
     result.options.cycle_s = number_option("--cycle", options.cycle_s, 200.0, 7200.0);
     result.options.shift_s = number_option("--shift", options.shift_s, 0.0, options.cycle_s);
     number_option("--ensemble", options.ensemble, 1, kMostMembers);
@@ -51,24 +51,26 @@ RecordResult analysed(const RecordCommandOptions& options) {
     result.options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
     result.record = read_record(options);
-    SegmentOptions segments;
-    segments.shortest =
-        std::max(segments.shortest, least_record_length(options.cycle_s, result.record.step_s));
+    long_record::SegmentOptions segments;
+    segments.shortest = std::max(
+        segments.shortest, long_record::least_record_length(options.cycle_s, result.record.step_s));
     result.parts = divide_or_refuse(result.record, segments, options.files.front());
-    const auto longest = std::ranges::max_element(result.parts.segments, {}, &RecordSegment::size);
+    const auto longest =
+        std::ranges::max_element(result.parts.segments, {}, &long_record::RecordSegment::size);
     result.analysed = static_cast<std::size_t>(longest - result.parts.segments.begin());
     ProgressBar bar("decompose");
     result.options.progress = std::ref(bar);
-    result.analysis = analyse_record(result.segment(), result.record.step_s, result.options);
+    result.analysis =
+        long_record::analyse_record(result.segment(), result.record.step_s, result.options);
     result.options.progress = nullptr;
     return result;
 }
 
 /// Returns true if the calibration was measured from a file of the record, metadata aside.
-bool is_in_sample(const LongRecord& record, const Calibration& calibration) {
+bool is_in_sample(const long_record::LongRecord& record, const unit::Calibration& calibration) {
     return std::ranges::any_of(record.inputs, [&](const text::InputFile& input) {
         return input.role != "metadata" &&
-               std::ranges::any_of(calibration.data, [&](const CalibrationData& data) {
+               std::ranges::any_of(calibration.data, [&](const unit::CalibrationData& data) {
                    return data.name == input.name &&
                           data.sha256 == text::sha256_of_file(input.path);
                });
@@ -78,8 +80,8 @@ bool is_in_sample(const LongRecord& record, const Calibration& calibration) {
 /// Applies the thermal part of a calibration to the analysed segment, and notes whether the
 /// calibration was measured from this record.
 /// @throws InputError  the file is not a calibration, has no thermal part, or is of another unit.
-void apply_to(RecordResult& result, const std::string& file) {
-    const Calibration calibration = read_calibration(file);
+void apply_to(long_record::RecordResult& result, const std::string& file) {
+    const unit::Calibration calibration = unit::read_calibration(file);
     const std::string& unit = result.segment().serial_number;
     if (!unit.empty() && unit != calibration.serial_number)
         throw InputError(fmt::format(
@@ -87,9 +89,9 @@ void apply_to(RecordResult& result, const std::string& file) {
             file, calibration.serial_number, unit));
     if (!calibration.thermal)
         throw InputError(file + ": thermal is missing; allowed: a calibration from a long record");
-    AppliedCalibration applied =
-        apply_calibration(*calibration.thermal, result.segment(), result.analysis,
-                          longest_of_band_s(result.options.cycle_s));
+    long_record::AppliedCalibration applied =
+        long_record::apply_calibration(*calibration.thermal, result.segment(), result.analysis,
+                                       long_record::longest_of_band_s(result.options.cycle_s));
     applied.origin = fmt::format(
         "calibration of unit {} ({}, from {}), {}", calibration.serial_number, calibration.program,
         to_rfc3339(calibration.valid_from),
@@ -108,7 +110,7 @@ void apply_to(RecordResult& result, const std::string& file) {
 
 void analyse(const RecordCommandOptions& options) {
     require_folder_option("--out", options.out);
-    RecordResult result = analysed(options);
+    long_record::RecordResult result = analysed(options);
     if (!options.apply.empty()) apply_to(result, options.apply);
     nlohmann::ordered_json settings;
     settings["command"] = "record";
@@ -117,16 +119,16 @@ void analyse(const RecordCommandOptions& options) {
     settings["cycle_s"] = options.cycle_s;
     settings["shift_s"] = options.shift_s;
     settings["ensemble"] = options.ensemble;
-    settings["noise_ratio"] = EemdOptions{}.noise_ratio;
+    settings["noise_ratio"] = eemd::Options{}.noise_ratio;
     settings["seed"] = options.seed;
     settings["apply"] = options.apply;
-    std::vector<text::NamedText> files = record_files(result, settings);
-    Report page = make_long_record_page(result, settings, options.figures);
+    std::vector<text::NamedText> files = long_record::record_files(result, settings);
+    report::Report page = report::make_long_record_page(result, settings, options.figures);
     std::move(page.files.begin(), page.files.end(), std::back_inserter(files));
     for (const std::string& warning : page.warnings)
         std::cerr << "a351-correct: " << warning << '\n';
     text::write_together(options.out, files);
-    std::cout << record_text(result) << "\nwritten to " << options.out << '\n';
+    std::cout << long_record::record_text(result) << "\nwritten to " << options.out << '\n';
 }
 
 }  // namespace
@@ -158,4 +160,4 @@ void add_record_command(CLI::App& program) {
     command.callback([options] { analyse(*options); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -12,7 +12,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 /// Returns the data root of a folder or of a day file within its archive; empty for other files.
@@ -28,38 +28,39 @@ std::filesystem::path root_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<LongRecord> read_records(const std::vector<std::string>& files,
-                                     const RecordWindow& window) {
+std::vector<long_record::LongRecord> read_records(const std::vector<std::string>& files,
+                                                  const long_record::RecordWindow& window) {
     std::vector<std::filesystem::path> roots;
-    std::vector<LongRecord> records;
+    std::vector<long_record::LongRecord> records;
     {
         ProgressBar bar("read");
         for (const std::string& file : files) {
             const std::filesystem::path root = root_of(file);
             if (root.empty()) {
-                records.push_back(read_csv_record(file, window, std::ref(bar)));
+                records.push_back(long_record::read_csv_record(file, window, std::ref(bar)));
             } else if (std::find(roots.begin(), roots.end(), root) == roots.end()) {
                 roots.push_back(root);
-                records.push_back(read_archive_record(root, window, std::ref(bar)));
+                records.push_back(long_record::read_archive_record(root, window, std::ref(bar)));
             }
         }
     }
-    for (const LongRecord& record : records)
+    for (const long_record::LongRecord& record : records)
         for (const std::string& warning : record.warnings)
             std::cerr << "a351-correct: " << warning << '\n';
     return records;
 }
 
-RecordSegments divide_or_refuse(const LongRecord& record, const SegmentOptions& options,
-                                const std::string& name) {
-    RecordSegments parts = divide_record(record, options);
+long_record::RecordSegments divide_or_refuse(const long_record::LongRecord& record,
+                                             const long_record::SegmentOptions& options,
+                                             const std::string& name) {
+    long_record::RecordSegments parts = long_record::divide_record(record, options);
     if (!parts.segments.empty()) return parts;
     std::string message = name + ": no part can be analysed";
-    for (const RefusedPart& part : parts.refused)
+    for (const long_record::RefusedPart& part : parts.refused)
         message += fmt::format("; from {} {}", to_rfc3339(part.start), part.reason);
     const double shortest_h = static_cast<double>(options.shortest) * record.step_s / 3600.0;
     throw InputError(
         fmt::format("{}; allowed: {} h or more in one piece", message, text::fixed(shortest_h, 1)));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -11,7 +11,7 @@
 #include "corrector/long_record/archive_record.hpp"
 #include "corrector/long_record/record_segments.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 
 /// Reads data roots (a day file of an archive means its root) and CSV files, each as a record.
 /// A progress bar and a warning for each skipped part go to standard error.
@@ -23,14 +23,14 @@ namespace a351::corrector {
 /// @return records in the order of the files.
 /// @throws std::filesystem::filesystem_error  a path does not exist.
 /// @throws InputError  one cannot be read.
-[[nodiscard]] std::vector<LongRecord> read_records(const std::vector<std::string>& files,
-                                                   const RecordWindow& window);
+[[nodiscard]] std::vector<long_record::LongRecord> read_records(
+    const std::vector<std::string>& files, const long_record::RecordWindow& window);
 
 /// Returns the parts found by divide_record(), with at least one segment.
 /// @param name  of the record, for the message.
 /// @throws InputError  no part can be analysed; gives the reason for each.
-[[nodiscard]] RecordSegments divide_or_refuse(const LongRecord& record,
-                                              const SegmentOptions& options,
-                                              const std::string& name);
+[[nodiscard]] long_record::RecordSegments divide_or_refuse(
+    const long_record::LongRecord& record, const long_record::SegmentOptions& options,
+    const std::string& name);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

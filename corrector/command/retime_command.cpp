@@ -8,7 +8,7 @@
 #include "corrector/command/options.hpp"
 #include "protocol/archive/retime.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 struct RetimeOptions {
@@ -16,9 +16,9 @@ struct RetimeOptions {
 };
 
 void run(const RetimeOptions& options) {
-    const record::RetimeReport report =
-        record::retime(record::posix_files(), options.root, options.out);
-    for (const record::JournalDamage& damage : report.damage) {
+    const archive::RetimeReport report =
+        archive::retime(files::posix_files(), options.root, options.out);
+    for (const journal::Damage& damage : report.damage) {
         std::cerr << fmt::format("a351-correct: {}: offset {}: {} bytes are skipped: {}\n",
                                  damage.file.string(), damage.offset, damage.byte_count,
                                  damage.reason);
@@ -45,4 +45,4 @@ void add_retime_command(CLI::App& program) {
     command.callback([options] { run(*options); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

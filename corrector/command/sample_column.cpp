@@ -10,7 +10,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 constexpr std::size_t kBlock = 16384;  // samples: 128 kB
@@ -66,7 +66,7 @@ bool SampleColumn::read(std::vector<double>& samples) {
             continue;
         }
         const std::optional<double> value = text::parse_number(cell);
-        if (!value || std::abs(*value) > kLargestSample) {
+        if (!value || std::abs(*value) > reading::kLargestSample) {
             reader_.refuse(column_, value ? "out of range" : "not a finite number",
                            "a number with a decimal point, at most 1e150 in magnitude, or nothing "
                            "for a missing sample");
@@ -107,4 +107,4 @@ void SampleColumn::check_time() {
     last_time_ = time;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

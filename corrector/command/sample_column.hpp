@@ -19,7 +19,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/csv_reader.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 
 /// The samples of one column of a CSV, a block at a time: a file of any length, or a pipe.
 ///
@@ -68,4 +68,4 @@ private:
     std::size_t byte_count_ = 0;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

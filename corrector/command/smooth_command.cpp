@@ -14,7 +14,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 struct SmoothOptions {
@@ -24,9 +24,10 @@ struct SmoothOptions {
     std::string output;
 };
 
-SmoothTrend smooth_column(const SmoothOptions& options, const std::vector<double>& samples) {
+reading::SmoothTrend smooth_column(const SmoothOptions& options,
+                                   const std::vector<double>& samples) {
     try {
-        return smooth(samples, options.cutoff);
+        return reading::smooth(samples, options.cutoff);
     } catch (const std::invalid_argument&) {
         throw InputError(fmt::format(
             "{}: {}: too many samples are missing for --cutoff = {}; allowed: gaps, also at the "
@@ -36,17 +37,17 @@ SmoothTrend smooth_column(const SmoothOptions& options, const std::vector<double
 }
 
 void write_trend(const SmoothOptions& options) {
-    number_option("--cutoff", options.cutoff, kShortestCutoff, kLongestCutoff);
+    number_option("--cutoff", options.cutoff, reading::kShortestCutoff, reading::kLongestCutoff);
     if (!options.output.empty()) require_file_option("--output", options.output);
     SampleColumn column(options.input, options.column);
     std::vector<double> samples, block;
     while (column.read(block)) samples.insert(samples.end(), block.begin(), block.end());
     const std::size_t present_count = column.count() - column.missing_count();
-    if (present_count < kFewestSamples) {
+    if (present_count < reading::kFewestSamples) {
         throw InputError(fmt::format("{}: {}: {} samples; allowed: {} or more", options.input,
-                                     options.column, present_count, kFewestSamples));
+                                     options.column, present_count, reading::kFewestSamples));
     }
-    const SmoothTrend trend = smooth_column(options, samples);
+    const reading::SmoothTrend trend = smooth_column(options, samples);
     const std::vector<double> errors = trend.standard_errors();
     std::string csv = "index,value,standard_error,weight\n";
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -78,4 +79,4 @@ void add_smooth_command(CLI::App& program) {
     command.callback([options] { write_trend(*options); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -25,7 +25,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 /// Options of the command line; an empty text keeps the value of the survey file.
@@ -42,15 +42,17 @@ struct SurveyCommandOptions {
     std::vector<std::string> figures;
 };
 
-SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options) {
+job::SurveyFile with_overrides(job::SurveyFile survey, const SurveyCommandOptions& options) {
     if (!options.model.empty()) survey.survey.model = options.model;
     if (!options.flags.empty()) survey.survey.use_flags = options.flags == "use";
-    if (!options.tide.empty()) set_tide_option(survey.tide, options.tide);
+    if (!options.tide.empty()) tide::set_tide_option(survey.tide, options.tide);
     if (!options.trend.empty())
-        survey.trend = options.trend == "eemd" ? TrendMethod::eemd : TrendMethod::smoother;
+        survey.trend =
+            options.trend == "eemd" ? reading::TrendMethod::eemd : reading::TrendMethod::smoother;
     if (!options.curve.empty())
-        survey.curve = options.curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
-    if (!options.calibration.empty()) use_calibration(survey, options.calibration);
+        survey.curve =
+            options.curve == "paper" ? reading::TrendCurve::paper : reading::TrendCurve::slow;
+    if (!options.calibration.empty()) job::use_calibration(survey, options.calibration);
     if (!options.from.empty()) survey.from = instant_option("--from", options.from);
     if (!options.to.empty()) survey.to = instant_option("--to", options.to);
     if (survey.from && survey.to && *survey.from >= *survey.to) {
@@ -61,26 +63,30 @@ SurveyFile with_overrides(SurveyFile survey, const SurveyCommandOptions& options
     return survey;
 }
 
-nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrection& result,
-                                   const OccupationRows& read) {
+nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
+                                   const model::SurveyCorrection& result,
+                                   const reading::OccupationRows& read) {
     nlohmann::ordered_json settings;
     settings["command"] = "survey";
     settings["name"] = survey.name;
     settings["model"] = survey.survey.model;
     settings["flags"] = survey.survey.use_flags ? "use" : "ignore";
-    describe_tide(settings, survey.tide);
+    tide::describe_tide(settings, survey.tide);
     settings["base"] = result.options.base;
     settings["datum"] = survey.survey.datum;
-    settings["trend"] = trend_method_of(survey) == TrendMethod::eemd ? "eemd" : "smoother";
+    settings["trend"] =
+        job::trend_method_of(survey) == reading::TrendMethod::eemd ? "eemd" : "smoother";
     settings["cutoff_s"] = survey.cutoff_s;
-    settings["curve"] = trend_curve_of(survey) == TrendCurve::paper ? "paper" : "slow";
-    settings["norm"] = survey.norm == NormOrder::decimate_first ? "decimate-first" : "as-published";
+    settings["curve"] =
+        job::trend_curve_of(survey) == reading::TrendCurve::paper ? "paper" : "slow";
+    settings["norm"] =
+        survey.norm == reading::NormOrder::decimate_first ? "decimate-first" : "as-published";
     settings["rate"] = "interval";
     settings["calibration"] = survey.calibration.filename().string();
     settings["seed"] = survey.seed;
     settings["from_utc"] = survey.from ? to_rfc3339(*survey.from) : "";
     settings["to_utc"] = survey.to ? to_rfc3339(*survey.to) : "";
-    settings["amendments"] = amendments_json(read.amendments);
+    settings["amendments"] = reading::amendments_json(read.amendments);
     settings["warnings"] = read.warnings;
     return settings;
 }
@@ -88,7 +94,7 @@ nlohmann::ordered_json settings_of(const SurveyFile& survey, const SurveyCorrect
 /// A survey day, corrected but not yet written.
 struct Day {
     std::string name;
-    SurveyCorrection result;
+    model::SurveyCorrection result;
     std::string amendments;
     std::vector<text::NamedText> files;
 };
@@ -101,11 +107,11 @@ std::string folder_name(std::string name) {
 }
 
 /// @throws InputError  as correct_survey(); names the survey file and every occupation left out.
-SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
+model::SurveyCorrection corrected(const job::SurveyFile& survey, reading::OccupationRows& read) {
     try {
-        SurveyCorrection result = correct_with_calibration(
-            read.rows, with_sites_of(read, survey.survey), read.day ? &*read.day : nullptr);
-        add_left_out(result, read.left_out);
+        model::SurveyCorrection result = model::correct_with_calibration(
+            read.rows, job::with_sites_of(read, survey.survey), read.day ? &*read.day : nullptr);
+        model::add_left_out(result, read.left_out);
         return result;
     } catch (const InputError& error) {
         std::string message = fmt::format("{}: {}", survey.path.string(), error.what());
@@ -114,16 +120,16 @@ SurveyCorrection corrected(const SurveyFile& survey, OccupationRows& read) {
     }
 }
 
-Day correct_day(const SurveyFile& survey, const std::vector<std::string>& picture_formats) {
+Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& picture_formats) {
     ProgressBar bar(survey.name);
-    OccupationRows read = read_survey(survey, std::ref(bar));
+    reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
     Day day;
     day.name = survey.name;
     day.result = corrected(survey, read);
-    day.amendments = amendments_text(read.amendments);
+    day.amendments = reading::amendments_text(read.amendments);
     const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
-    day.files = result_files(day.result, settings, read.inputs, read.sites);
-    Report report = make_report(
+    day.files = result::result_files(day.result, settings, read.inputs, read.sites);
+    report::Report report = report::make_report(
         day.result, settings,
         {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
          read.inputs, read.warnings, picture_formats});
@@ -135,10 +141,10 @@ Day correct_day(const SurveyFile& survey, const std::vector<std::string>& pictur
 }
 
 void correct_days(const SurveyCommandOptions& options) {
-    std::vector<SurveyFile> surveys;
+    std::vector<job::SurveyFile> surveys;
     std::set<std::string> names;
     for (const std::string& file : options.files) {
-        surveys.push_back(with_overrides(read_survey_file(file), options));
+        surveys.push_back(with_overrides(job::read_survey_file(file), options));
         if (!names.insert(folder_name(surveys.back().name)).second) {
             throw InputError(fmt::format(
                 "{}: survey.name = {}: used by two days; allowed: a different name for each day",
@@ -151,9 +157,9 @@ void correct_days(const SurveyCommandOptions& options) {
     require_folder_option("--out", out);
     const bool is_joint = surveys.size() > 1;
     std::vector<Day> days;
-    std::vector<JointDay> joint_days;
+    std::vector<report::JointDay> joint_days;
     std::string troubles;
-    for (const SurveyFile& survey : surveys) {
+    for (const job::SurveyFile& survey : surveys) {
         joint_days.push_back({survey.name, folder_name(survey.name)});
         try {
             days.push_back(correct_day(survey, options.figures));
@@ -165,23 +171,23 @@ void correct_days(const SurveyCommandOptions& options) {
     }
     if (days.empty()) throw InputError(is_joint ? troubles : joint_days.front().trouble);
 
-    std::vector<SurveyCorrection> results;
+    std::vector<model::SurveyCorrection> results;
     for (const Day& day : days) {
         text::write_together(is_joint ? out / folder_name(day.name) : out, day.files);
         std::cout << "survey " << day.name << '\n'
-                  << survey_text(day.result) << day.amendments << trend_comparison_text(day.result)
-                  << '\n';
+                  << result::survey_text(day.result) << day.amendments
+                  << model::trend_comparison_text(day.result) << '\n';
         results.push_back(day.result);
     }
     if (is_joint) {
-        const std::vector<JointStation> joint = join_days(results);
+        const std::vector<result::JointStation> joint = result::join_days(results);
         auto result = days.begin();
-        for (JointDay& day : joint_days)
+        for (report::JointDay& day : joint_days)
             if (day.trouble.empty()) day.result = &(result++)->result;
-        text::write_together(out, {{"joint.csv", csv_table(joint_columns(), joint)},
-                                   {"joint.html", joint_html(joint_days)}});
+        text::write_together(out, {{"joint.csv", result::csv_table(result::joint_columns(), joint)},
+                                   {"joint.html", report::joint_html(joint_days)}});
         std::cout << (troubles.empty() ? "all days\n" : "all corrected days\n")
-                  << aligned_text(table_of(joint_columns(), joint)) << '\n';
+                  << result::aligned_text(result::table_of(result::joint_columns(), joint)) << '\n';
     }
     std::cout << "written to " << out.string() << '\n';
     if (!troubles.empty())
@@ -201,13 +207,13 @@ void add_survey_command(CLI::App& program) {
                "Folder of the result (default: result beside the first survey file); several days "
                "have one folder each in it");
     add_option(command, "--model", "NAME", options->model, "Model of the instrument")
-        ->check(CLI::IsMember(model_names()));
+        ->check(CLI::IsMember(model::model_names()));
     add_option(command, "--flags", "RULE", options->flags,
                "use: occupations with used = 0 are not used in the fit; ignore: they are used")
         ->check(CLI::IsMember({"use", "ignore"}));
     add_option(command, "--tide", "SOURCE", options->tide,
                "Tide, as its effect on gravity, that is subtracted from the readings: " +
-                   std::string(kTideSources));
+                   std::string(tide::kTideSources));
     add_option(command, "--trend", "NAME", options->trend,
                "Trend that is averaged; the model paper always uses eemd")
         ->check(CLI::IsMember({"eemd", "smoother"}));
@@ -226,4 +232,4 @@ void add_survey_command(CLI::App& program) {
     command.callback([options] { correct_days(*options); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -15,16 +15,16 @@
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 struct TableOptions {
     std::string sites;
     std::string observations;
-    SurveyOptions survey;
+    model::SurveyOptions survey;
     std::string flags = "use";
     std::string tide;  ///< Empty: given if the column exists, else direct.
-    TideFactors factors;
+    tide::Factors factors;
     std::vector<std::tuple<std::string, double, double>> priors;
     std::string out = "result";
     std::vector<std::string> figures;
@@ -33,50 +33,51 @@ struct TableOptions {
 void correct_table(TableOptions options) {
     require_folder_option("--out", options.out);
     const std::vector<text::Site> sites = text::read_sites(options.sites);
-    std::vector<SurveyRow> rows = read_observations(options.observations, sites);
+    std::vector<reading::SurveyRow> rows = reading::read_observations(options.observations, sites);
     if (options.tide.empty()) options.tide = rows.front().given_tide ? "given" : "direct";
-    TideChoice tide;
-    set_tide_option(tide, options.tide);
+    tide::Choice tide;
+    tide::set_tide_option(tide, options.tide);
     tide.factors = tide_factor_options(options.factors);
-    apply_tide(rows, sites, tide);
+    tide::apply_tide(rows, sites, tide);
     options.survey.use_flags = options.flags == "use";
     for (const auto& [name, mean, sd] : options.priors) {
-        set_prior(options.survey.priors, "--prior", name, {mean, sd});
+        model::set_prior(options.survey.priors, "--prior", name, {mean, sd});
     }
-    number_option("--datum-sd", options.survey.network.datum_sd_mgal, kLeastSd_mgal,
-                  kGreatestSd_mgal);
-    number_option("--reading-sd", options.survey.priors.reading_sd_mgal, kLeastSd_mgal,
-                  kGreatestSd_mgal);
-    const SurveyCorrection result = correct_survey(rows, options.survey);
+    number_option("--datum-sd", options.survey.network.datum_sd_mgal, model::kLeastSd_mgal,
+                  model::kGreatestSd_mgal);
+    number_option("--reading-sd", options.survey.priors.reading_sd_mgal, model::kLeastSd_mgal,
+                  model::kGreatestSd_mgal);
+    const model::SurveyCorrection result = model::correct_survey(rows, options.survey);
 
     nlohmann::ordered_json settings;
     settings["command"] = "table";
     settings["model"] = options.survey.model;
     settings["flags"] = options.flags;
-    describe_tide(settings, tide);
+    tide::describe_tide(settings, tide);
     settings["base"] = result.options.base;
     settings["datum"] = options.survey.datum;
     settings["rate"] = "backward";
-    std::vector<std::string> warnings = position_warnings(rows, sites);
+    std::vector<std::string> warnings = reading::position_warnings(rows, sites);
     settings["warnings"] = warnings;
     settings["seed"] = options.survey.seed;
     std::vector<text::InputFile> inputs{text::describe_input("sites", options.sites),
                                         text::describe_input("observations", options.observations)};
     if (!tide.series.empty()) inputs.push_back(text::describe_input("tide", tide.series));
-    std::vector<text::NamedText> files = result_files(result, settings, inputs, sites);
-    Report report = make_report(result, settings,
-                                {std::filesystem::path(options.observations).stem().string(),
-                                 sites,
-                                 {},
-                                 {},
-                                 inputs,
-                                 warnings,
-                                 options.figures});
+    std::vector<text::NamedText> files = result::result_files(result, settings, inputs, sites);
+    report::Report report =
+        report::make_report(result, settings,
+                            {std::filesystem::path(options.observations).stem().string(),
+                             sites,
+                             {},
+                             {},
+                             inputs,
+                             warnings,
+                             options.figures});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(files));
     text::write_together(options.out, files);
     warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : warnings) std::cerr << "a351-correct: " << warning << '\n';
-    std::cout << survey_text(result) << "written to " << options.out << '\n';
+    std::cout << result::survey_text(result) << "written to " << options.out << '\n';
 }
 
 }  // namespace
@@ -90,13 +91,13 @@ void add_table_command(CLI::App& program) {
                  "Averages, with the columns site, occupation, time_utc (or time_jst, time), "
                  "acceleration_mgal, temperature_degc and, if known, outlier and earth_tide_mgal");
     add_with_default(command, "--model", "NAME", options->survey.model, "Model of the instrument")
-        ->check(CLI::IsMember(model_names()));
+        ->check(CLI::IsMember(model::model_names()));
     add_with_default(command, "--flags", "RULE", options->flags,
                      "use: rows with outlier = 1 are not used in the fit; ignore: they are used")
         ->check(CLI::IsMember({"use", "ignore"}));
     add_option(command, "--tide", "SOURCE", options->tide,
                "Tide, as its effect on gravity, that is subtracted from the readings: " +
-                   std::string(kTideSources) +
+                   std::string(tide::kTideSources) +
                    " (default: given if the column exists, else direct)");
     add_tide_factors(command, options->factors);
     add_option(
@@ -115,8 +116,9 @@ void add_table_command(CLI::App& program) {
                      "network: degree of the polynomial in time that describes the drift, 0-2")
         ->check(CLI::Range(0, 2));
     std::vector<std::string> linear_models;
-    linear_models.reserve(kLinearModels.size());
-    for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
+    linear_models.reserve(model::kLinearModels.size());
+    for (const model::LinearModel& model : model::kLinearModels)
+        linear_models.emplace_back(model.name);
     add_with_default(command, "--robust-terms", "NAME", options->survey.robust_terms,
                      "robust: linear model that is fitted")
         ->check(CLI::IsMember(linear_models));
@@ -125,4 +127,4 @@ void add_table_command(CLI::App& program) {
     command.callback([options] { correct_table(*options); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

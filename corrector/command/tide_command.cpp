@@ -9,7 +9,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::command {
 namespace {
 
 struct TideOptions {
@@ -20,12 +20,12 @@ struct TideOptions {
     std::string to;
     double step_s = 0.0;
     std::string model = "direct";
-    TideFactors factors;
+    tide::Factors factors;
     std::string output;
 };
 
 void write_series(const TideOptions& options) {
-    const TideStation station{
+    const tide::Station station{
         Degrees(number_option("--latitude", options.latitude_deg, -90.0, 90.0)),
         Degrees(number_option("--longitude", options.longitude_deg, -180.0, 360.0)),
         Metres(number_option("--height", options.height_m, -500.0, 9000.0))};
@@ -36,9 +36,9 @@ void write_series(const TideOptions& options) {
                                      options.from));
     }
     const Nanoseconds step = from_seconds(number_option("--step", options.step_s, 0.001, 1e6));
-    const TideFactors factors = tide_factor_options(options.factors);
+    const tide::Factors factors = tide_factor_options(options.factors);
     if (!options.output.empty()) require_file_option("--output", options.output);
-    const TideModel model = tide_model(options.model);
+    const tide::Model model = tide::tide_model(options.model);
     constexpr Nanoseconds kSecond = std::chrono::seconds(1);
     const bool is_whole =
         from.time_since_epoch() % kSecond == Nanoseconds(0) && step % kSecond == Nanoseconds(0);
@@ -46,7 +46,7 @@ void write_series(const TideOptions& options) {
     std::string csv = "time,tide_mgal\n";
     for (UtcTime time = from; time <= to; time += step) {
         csv += fmt::format("{},{}\n", to_rfc3339(time, is_whole ? 0 : 9),
-                           text::fixed(earth_tide(model, time, station, factors).value(), 6));
+                           text::fixed(tide::earth_tide(model, time, station, factors).value(), 6));
     }
     write_or_print(options.output, csv);
 }
@@ -75,4 +75,4 @@ void add_tide_command(CLI::App& program) {
     command.callback([options] { write_series(*options); });
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::command

@@ -4,7 +4,7 @@
 
 #include "corrector/correlation/regression.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::correlation {
 
 std::size_t fast_length(std::size_t n) {
     for (;; ++n) {
@@ -41,4 +41,4 @@ Spectrum analytic_signal(std::span<const double> x) {
     return padded;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::correlation

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 
-namespace a351::corrector {
+namespace a351::corrector::correlation {
 namespace {
 
 /// Sums of products of deviations from the means.
@@ -112,4 +112,4 @@ CrossCorrelation correlate(std::span<const double> temperature,
     return all;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::correlation

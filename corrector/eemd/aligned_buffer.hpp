@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// A buffer of `size` doubles, initially zero, aligned to 64 bytes.
 ///
@@ -46,4 +46,4 @@ private:
     std::size_t offset_ = 0;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

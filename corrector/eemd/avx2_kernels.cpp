@@ -6,7 +6,7 @@
 #include "corrector/eemd/kernel_table.hpp"
 #endif
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 const SiftKernels* avx2_kernels() noexcept {
 #ifdef __AVX2__
@@ -19,4 +19,4 @@ const SiftKernels* avx2_kernels() noexcept {
     return nullptr;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -6,7 +6,7 @@
 #include "corrector/eemd/kernel_table.hpp"
 #endif
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 const SiftKernels* avx512_kernels() noexcept {
 #ifdef __AVX512F__
@@ -20,4 +20,4 @@ const SiftKernels* avx512_kernels() noexcept {
     return nullptr;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -12,7 +12,7 @@
 #include "corrector/eemd/ensemble.hpp"
 #include "corrector/eemd/extrema.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 void require(bool holds, std::string_view name, int value, std::string_view limits) {
@@ -20,7 +20,7 @@ void require(bool holds, std::string_view name, int value, std::string_view limi
     throw std::invalid_argument(fmt::format("eemd: {} = {}, must be {}", name, value, limits));
 }
 
-void validate(const EemdOptions& options) {
+void validate(const Options& options) {
     require(options.ensemble_size >= 1, "ensemble_size", options.ensemble_size, ">= 1");
     require(!options.complementary_pairs || options.ensemble_size % 2 == 0, "ensemble_size",
             options.ensemble_size, "even for pairs");
@@ -126,7 +126,7 @@ double energy(std::span<const double> values) {
 /// The record scaled for the decomposition, and the scale back to its unit.
 class Preparation {
 public:
-    Preparation(std::span<const double> signal, const EemdOptions& options)
+    Preparation(std::span<const double> signal, const Options& options)
         : exponent(checked_exponent(signal, options)), scaled_(signal.size()) {
         std::transform(signal.begin(), signal.end(), scaled_.begin(),
                        [this](double value) { return std::ldexp(value, -exponent); });
@@ -152,10 +152,10 @@ public:
     Preparation(const Preparation&) = delete;  // the plan refers to this object's record
     Preparation& operator=(const Preparation&) = delete;
 
-    /// @throws EemdCancelled
+    /// @throws Cancelled
     [[nodiscard]] EnsembleSums sum(const EnsemblePlan& of) const {
         auto sums = sum_ensemble(of, threads_, progress_);
-        if (!sums) throw EemdCancelled();
+        if (!sums) throw Cancelled();
         return *std::move(sums);
     }
     /// Returns the ensemble mean of a sum over the members, not yet in the unit of the record.
@@ -173,7 +173,7 @@ public:
     EnsemblePlan plan;
 
 private:
-    static int checked_exponent(std::span<const double> signal, const EemdOptions& options) {
+    static int checked_exponent(std::span<const double> signal, const Options& options) {
         validate(options);
         return common_exponent(signal);
     }
@@ -189,7 +189,7 @@ int default_mode_count(std::size_t n) noexcept {
     return std::max(0, static_cast<int>(std::bit_width(n)) - 2);
 }
 
-EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
+Result eemd(std::span<const double> signal, const Options& options) {
     const Preparation prepared(signal, options);
     const EnsemblePlan& plan = prepared.plan;
     const std::size_t n = signal.size();
@@ -213,7 +213,7 @@ EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
             *out.standard_error = std::ldexp(*out.standard_error, prepared.exponent);
         return out;
     };
-    EemdResult result;
+    Result result;
     for (std::size_t k = 0; k < plan.mode_count; ++k) result.modes.push_back(component(k, 0.0));
     result.residue = component(plan.mode_count, plan.residue_origin);
     double total_energy = result.residue.energy_share;
@@ -226,14 +226,13 @@ EemdResult eemd(std::span<const double> signal, const EemdOptions& options) {
     return result;
 }
 
-EemdTrend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
-                     const EemdOptions& options) {
+Trend eemd_trend(std::span<const double> signal, std::size_t most_extrema, const Options& options) {
     const Preparation prepared(signal, options);
     EnsemblePlan plan = prepared.plan;
     std::vector<double> left(static_cast<std::size_t>(plan.members) * plan.signal.size());
     plan.left = left;
     plan.mode_count = 0;
-    EemdTrend trend;
+    Trend trend;
     for (;; ++trend.removed_modes) {
         trend.values = prepared.mean(prepared.sum(plan).values);
         prepared.restore_unit(trend.values);
@@ -245,4 +244,4 @@ EemdTrend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
     return trend;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -12,9 +12,9 @@
 /// Use eemd() for all modes with their standard errors, and eemd_trend() for the slow part alone.
 /// The series must have no gaps.  Despike it first: no treatment makes up for a disturbed end.
 ///
-///     EemdOptions options;
+///     Options options;
 ///     options.threads = 4;
-///     const EemdResult result = eemd(series, options);
+///     const Result result = eemd(series, options);
 ///     for (const Component& mode : result.modes) {
 ///         const double period_s = mode.mean_period_samples * step_s;
 ///         ...
@@ -33,13 +33,13 @@
 
 #include "corrector/eemd/emd.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// Options of eemd() and eemd_trend().
 ///
 /// The default values are valid for every signal.  The options are checked before any work; a value
 /// out of range is refused by name.
-struct EemdOptions {
+struct Options {
     int ensemble_size = 80;  ///< Members that are averaged, >= 1; each has its own noise.
     /// Standard deviation of the added noise, divided by that of the signal (divisor n - 1, trend
     /// included); finite, >= 0.  0 is plain EMD with one member.
@@ -76,7 +76,7 @@ struct EemdOptions {
 
 /// Thrown by eemd() and eemd_trend() if `progress` returned false.
 /// No result is returned then, not even a part of it.
-struct EemdCancelled : std::exception {
+struct Cancelled : std::exception {
     [[nodiscard]] const char* what() const noexcept override { return "eemd: cancelled"; }
 };
 
@@ -107,7 +107,7 @@ struct Component {
 ///
 /// Invariant: modes.size() is the number of modes that was asked for, and every component has the
 /// length of the signal.
-struct EemdResult {
+struct Result {
     std::vector<Component> modes;  ///< Modes, the fastest first; zero if no member had one left.
     Component residue;             ///< Rest after all modes were removed.
     double noise_level = 0.0;      ///< Std. deviation of the added noise, unit of the signal.
@@ -154,18 +154,18 @@ struct EemdResult {
 ///
 /// @param signal   (n) samples at constant rate without gaps, any unit, finite, |signal| < 1e300;
 ///                 any n, also 0.  NaN is refused.
-/// @param options  see EemdOptions; `progress` is called by the calling thread only.
+/// @param options  see Options; `progress` is called by the calling thread only.
 /// @return components of n samples each, in the unit of the signal.
 /// @throws std::invalid_argument  naming the argument, its value and its limit; a bad sample is
 ///                                named by its index.
-/// @throws EemdCancelled          if `options.progress` returned false.
+/// @throws Cancelled          if `options.progress` returned false.
 /// @throws std::bad_alloc, std::system_error  if memory or threads are not available.
 /// @throws  the exceptions of `options.progress`.
-[[nodiscard]] EemdResult eemd(std::span<const double> signal, const EemdOptions& options = {});
+[[nodiscard]] Result eemd(std::span<const double> signal, const Options& options = {});
 
 /// The slow part of a series.
 /// The values are the rest of the ensemble after `removed_modes` modes, averaged over the members.
-struct EemdTrend {
+struct Trend {
     std::vector<double> values;  ///< (n), unit of the signal.
     int removed_modes = 0;       ///< Number of modes removed from the signal.
 };
@@ -192,7 +192,7 @@ struct EemdTrend {
 /// @param options       as eemd(); mode_count limits the number of modes removed.
 /// @return the trend; no mode is removed if the mean of the members already has few extrema.
 /// @throws              as eemd().
-[[nodiscard]] EemdTrend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
-                                   const EemdOptions& options = {});
+[[nodiscard]] Trend eemd_trend(std::span<const double> signal, std::size_t most_extrema,
+                               const Options& options = {});
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -1,6 +1,6 @@
 #include "corrector/eemd/emd.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// Counts the consecutive sifts in which the number of extrema changed by at most one.
@@ -89,4 +89,4 @@ bool EmdWorkspace::has_extrema_of_correct_sign() const noexcept {
     return true;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

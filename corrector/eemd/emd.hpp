@@ -34,7 +34,7 @@
 #include "corrector/eemd/mean_envelope.hpp"
 #include "corrector/eemd/sift_kernels.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// Does the same number of sifts for every mode, so that the members of an ensemble are comparable.
 /// The time is predictable too.  Ten sifts act on white noise like a bank of octave filters
@@ -74,7 +74,7 @@ enum class FinishRule {
 };
 
 /// Options of one decomposition without noise.
-/// A default-constructed object has the defaults of EemdOptions.
+/// A default-constructed object has the defaults of Options.
 struct SiftOptions {
     /// Rule that ends a mode; FixedSifts::count and SNumber::repeats >= 1, which is not checked.
     StoppingRule stopping = FixedSifts{};
@@ -141,4 +141,4 @@ private:
     MeanEnvelope envelope_;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

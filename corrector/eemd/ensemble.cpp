@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 constexpr int kMembersPerBlock = 8;  // even, so that a block holds whole pairs
@@ -195,4 +195,4 @@ std::optional<EnsembleSums> sum_ensemble(const EnsemblePlan& plan, int threads,
     return total;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -25,7 +25,7 @@
 
 #include "corrector/eemd/emd.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// A decomposition of all members, and what to sum.
 ///
@@ -91,4 +91,4 @@ struct EnsembleSums {
 [[nodiscard]] std::optional<EnsembleSums> sum_ensemble(const EnsemblePlan& plan, int threads,
                                                        const std::function<bool(int)>& progress);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -1,6 +1,6 @@
 #include "corrector/eemd/extrema.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// Calls visit(first, last) for every interior extremum; first and last differ for a plateau.
@@ -32,4 +32,4 @@ std::vector<std::size_t> extremum_indices(std::span<const double> curve) {
     return indices;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

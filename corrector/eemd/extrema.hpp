@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// Returns the number of interior maxima and minima of `curve`.
 ///
@@ -33,4 +33,4 @@ namespace a351::corrector {
 /// @return  empty without extrema; 1 <= index <= n - 2 otherwise.
 [[nodiscard]] std::vector<std::size_t> extremum_indices(std::span<const double> curve);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

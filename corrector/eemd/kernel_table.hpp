@@ -16,7 +16,7 @@
 #include "corrector/eemd/sift_loops.hpp"
 #include "corrector/eemd/spline_loops.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// Four samples, or four partial sums.  A single sum would have to wait for every addition.
@@ -61,4 +61,4 @@ constexpr SiftKernels table_of_loops(const char* name) {
 }
 
 }  // namespace
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

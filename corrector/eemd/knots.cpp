@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 AlternatingKnots::AlternatingKnots(std::size_t sample_count)
     : positions_(sample_count + 2 * kMostAdded + 8),
@@ -88,4 +88,4 @@ void AlternatingKnots::mirror_right_end(double sample, double last_sample) noexc
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -19,13 +19,13 @@
 #include <span>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// Treatment of the envelopes at the ends of the record.  The errors of each: eemd.md, "Ends".
 ///
 /// Results with `line` compare with those of libeemd and of the literature.  The rule `mirror` has
 /// smaller errors at the ends; the trend of an occupation is made with it.  Neither makes up for a
-/// disturbed end: despike first, or use EemdOptions::reflect_ends.
+/// disturbed end: despike first, or use Options::reflect_ends.
 enum class EndRule {
     /// Both end samples are knots of both envelopes.  If an envelope has two extrema or more, the
     /// line through the two nearest an end replaces the end sample there if it is outside the data:
@@ -143,4 +143,4 @@ private:
     bool ends_at_last_sample_ = false;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -28,7 +28,7 @@
 #define A351_INDEPENDENT _Pragma("GCC ivdep")
 #endif
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// Number of doubles in a vector.  Reason: the width of the widest registers of the instruction
@@ -214,4 +214,4 @@ inline void keep_flagged(double* to, Lanes values, std::uint64_t flags) {
 #endif
 
 }  // namespace
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

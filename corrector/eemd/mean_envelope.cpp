@@ -1,6 +1,6 @@
 #include "corrector/eemd/mean_envelope.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 constexpr std::size_t kArrays = 12;
@@ -23,4 +23,4 @@ MeanEnvelope::MeanEnvelope(std::size_t most_knots)
                array(6), array(7), array(8), array(9), array(10), array(11)};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

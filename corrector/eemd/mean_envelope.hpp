@@ -21,7 +21,7 @@
 
 #include "corrector/eemd/aligned_buffer.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// Arrays with one number per knot; b and e may be overwritten after the mean is made.
 ///
@@ -70,4 +70,4 @@ private:
     SplineArrays arrays_;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -15,7 +15,7 @@
 
 #include "corrector/eemd/sift_kernels.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// Fills `noise` with independent Gaussian samples of mean 0 and variance 1.
 ///
@@ -43,4 +43,4 @@ inline void fill_white_noise(std::uint64_t seed, std::uint64_t member,
     fastest_kernels().fill_white_noise(seed, member, noise.data(), noise.size());
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -14,7 +14,7 @@
 
 #include "corrector/eemd/lanes.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// Pairs of samples per block.  Reason: the buffers fit into the first-level cache.
@@ -173,4 +173,4 @@ inline void fill_noise(std::uint64_t seed, std::uint64_t member, double* noise, 
 }
 
 }  // namespace
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

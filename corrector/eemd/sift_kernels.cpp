@@ -1,6 +1,6 @@
 #include "corrector/eemd/sift_kernels.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 std::vector<const SiftKernels*> available_kernels() {
     std::vector<const SiftKernels*> available = {&portable_kernels()};
@@ -16,4 +16,4 @@ const SiftKernels& fastest_kernels() noexcept {
     return portable_kernels();
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -20,7 +20,7 @@
 
 #include "corrector/eemd/mean_envelope.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 /// The loops of one instruction set.  Curves must have room up to a multiple of eight samples,
 /// which the loops may read and write.
@@ -98,4 +98,4 @@ struct SiftKernels {
 /// The result has at least one element, and no null pointer.
 [[nodiscard]] std::vector<const SiftKernels*> available_kernels();
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

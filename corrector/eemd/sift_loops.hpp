@@ -18,7 +18,7 @@
 #include "corrector/eemd/lanes.hpp"
 #include "corrector/eemd/mean_envelope.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// Returns an index as a double, exact below 2^53.  The way over a signed integer is one
@@ -204,4 +204,4 @@ inline void subtract_mean_envelope(const double* curve, double* out, std::size_t
 }
 
 }  // namespace
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -35,7 +35,7 @@
 #include "corrector/eemd/lanes.hpp"
 #include "corrector/eemd/mean_envelope.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// One row of each of the two envelopes.
@@ -333,4 +333,4 @@ inline void fit_mean_envelope(const double* x, const double* y, std::size_t n,
 }
 
 }  // namespace
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -6,13 +6,13 @@
 #include "corrector/figure/long_record_figures.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 /// Returns hours and deviations from the mean.  Neighbours are averaged so that the curve has at
 /// most kMostPoints.
 std::string curve_lines(const std::vector<double>& values, double step_s) {
-    const double mean = mean_of(values);
+    const double mean = correlation::mean_of(values);
     const std::size_t each = (values.size() + kMostPoints - 1) / kMostPoints;
     std::string lines;
     for (std::size_t first = 0; first + each <= values.size(); first += each) {
@@ -25,7 +25,7 @@ std::string curve_lines(const std::vector<double>& values, double step_s) {
     return lines;
 }
 
-Figure series_figure(const RecordResult& result) {
+Figure series_figure(const long_record::RecordResult& result) {
     FigureData data("before-after");
     std::string panels;
     const auto panel = [&](const std::string& title, const std::vector<double>& values,
@@ -38,7 +38,7 @@ Figure series_figure(const RecordResult& result) {
     };
     const std::vector<double>& before = result.segment().acceleration_mgal;
     const auto [low, high] = std::minmax_element(before.begin(), before.end());
-    const double mean = mean_of(before);
+    const double mean = correlation::mean_of(before);
     panel("Before", before, kGrey);
     panel("Parametric", result.applied->parametric_mgal, kBlue);
     panels += fmt::format("set xlabel 'Hours after {}'\n", to_rfc3339(result.segment().start));
@@ -51,9 +51,9 @@ Figure series_figure(const RecordResult& result) {
             datum(*low - mean - 1.0, 1), datum(*high - mean + 1.0, 1), panels));
 }
 
-Figure allan_figure(const RecordResult& result) {
+Figure allan_figure(const long_record::RecordResult& result) {
     std::string lines;
-    for (const AllanPoint& point : result.applied->allan)
+    for (const long_record::AllanPoint& point : result.applied->allan)
         lines += datum(point.averaging_s, 0) + datum(point.deviation_mgal.before, 5) +
                  datum(point.deviation_mgal.parametric, 5) +
                  datum(point.deviation_mgal.by_modes, 5) + '\n';
@@ -73,8 +73,8 @@ Figure allan_figure(const RecordResult& result) {
 
 }  // namespace
 
-std::vector<Figure> applied_figures(const RecordResult& result) {
+std::vector<Figure> applied_figures(const long_record::RecordResult& result) {
     return {series_figure(result), allan_figure(result)};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

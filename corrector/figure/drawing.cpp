@@ -12,7 +12,7 @@
 #include "corrector/figure/program_run.hpp"
 #include "protocol/text/text_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 /// Time limit of one run of gnuplot.  Reason: a hundred figures take some 5 s on a slow laptop.
@@ -137,4 +137,4 @@ Drawing draw(const std::vector<Figure>& figures, const std::vector<std::string>&
     return drawing;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

@@ -18,7 +18,7 @@
 #include "corrector/figure/figure.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
 /// Returns the formats of pictures other than SVG: "pdf", a vector format for papers, and "png",
 /// three times as wide and as high as the SVG in pixels.  The list lives as long as the program.
@@ -50,4 +50,4 @@ struct Drawing {
 [[nodiscard]] Drawing draw(const std::vector<Figure>& figures,
                            const std::vector<std::string>& formats);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

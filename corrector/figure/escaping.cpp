@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
@@ -83,4 +83,4 @@ std::string gnuplot_string(std::string_view text) {
     return quoted + "'";
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

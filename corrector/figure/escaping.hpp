@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
 /// Returns the text as UTF-8 that XML allows on one line.  Each control character and each byte
 /// that is not part of such a character becomes U+FFFD.
@@ -38,4 +38,4 @@ namespace a351::corrector {
 /// @return the text with its quotation marks; an empty text gives ''.
 [[nodiscard]] std::string gnuplot_string(std::string_view text);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

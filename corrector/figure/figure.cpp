@@ -6,7 +6,7 @@
 
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
 double round_step(double limit) {
     const double power = std::pow(10.0, std::floor(std::log10(limit)));
@@ -56,4 +56,4 @@ std::string plot_command(const std::vector<std::string>& clauses) {
     return fmt::format("plot {}\n", text::joined(clauses, ", \\\n     "));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

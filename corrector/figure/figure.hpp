@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
 /// A figure.  In the folder with its data, `gnuplot NAME.gp` writes NAME.svg, and
 /// `gnuplot -e "format='pdf'" NAME.gp` writes NAME.pdf (or png).
@@ -89,4 +89,4 @@ private:
 ///                 ones are above.
 [[nodiscard]] std::string plot_command(const std::vector<std::string>& clauses);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

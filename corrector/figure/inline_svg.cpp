@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 /// Adds the prefix to the ids, and to the references to them: id="X", xlink:href="#X" and
@@ -50,4 +50,4 @@ std::optional<std::string> inline_svg(const std::string& svg, const std::string&
     return out.str();
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

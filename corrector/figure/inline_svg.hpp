@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
 /// Converts a picture of gnuplot to an element of an HTML page, without declaration, description
 /// and size; it takes the width of its place.
@@ -23,4 +23,4 @@ namespace a351::corrector {
 [[nodiscard]] std::optional<std::string> inline_svg(const std::string& svg,
                                                     const std::string& prefix);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

@@ -8,7 +8,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 /// Most steps of a curve.  Reason: two to three per pixel.
@@ -45,7 +45,8 @@ std::string scatter_lines(const std::vector<double>& x, const std::vector<double
     return lines;
 }
 
-std::string line_lines(const std::vector<double>& x, const LineFit& fit, double offset) {
+std::string line_lines(const std::vector<double>& x, const correlation::LineFit& fit,
+                       double offset) {
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
     std::string lines;
     for (const double at : {*low, *high})
@@ -55,8 +56,8 @@ std::string line_lines(const std::vector<double>& x, const LineFit& fit, double 
 }
 
 /// Returns the mean acceleration rounded to whole mGal, so that the axis is easy to read.
-double reference_of(const RecordResult& result) {
-    return std::round(mean_of(result.segment().acceleration_mgal));
+double reference_of(const long_record::RecordResult& result) {
+    return std::round(correlation::mean_of(result.segment().acceleration_mgal));
 }
 
 std::string above(double reference) {
@@ -80,17 +81,18 @@ Figure two_panels(const FigureData& data, const std::string& caption, const std:
 }
 
 /// Returns the figure of the raw samples' ranges, in steps, of all stretches.
-Figure raw_figure(const RecordResult& result, double reference) {
+Figure raw_figure(const long_record::RecordResult& result, double reference) {
     const UtcTime start = result.record.stretches.front().times.front();
     std::string acceleration, temperature;
     std::size_t samples = 0;
-    for (const RecordStretch& stretch : result.record.stretches) samples += stretch.raw.size();
+    for (const long_record::RecordStretch& stretch : result.record.stretches)
+        samples += stretch.raw.size();
     const std::size_t each = (samples + kMostSteps - 1) / kMostSteps;
-    for (const RecordStretch& stretch : result.record.stretches) {
+    for (const long_record::RecordStretch& stretch : result.record.stretches) {
         for (std::size_t first = 0; first < stretch.raw.size(); first += each) {
-            RecordStretch::RawRange range = stretch.raw[first];
+            long_record::RecordStretch::RawRange range = stretch.raw[first];
             for (std::size_t i = first; i < std::min(stretch.raw.size(), first + each); ++i) {
-                const RecordStretch::RawRange& next = stretch.raw[i];
+                const long_record::RecordStretch::RawRange& next = stretch.raw[i];
                 range.acceleration_low_mgal =
                     std::fmin(range.acceleration_low_mgal, next.acceleration_low_mgal);
                 range.acceleration_high_mgal =
@@ -122,10 +124,10 @@ Figure raw_figure(const RecordResult& result, double reference) {
                       above(reference), {a + " notitle"}, start, {t + " notitle"});
 }
 
-Figure samples_figure(const RecordResult& result, double reference) {
+Figure samples_figure(const long_record::RecordResult& result, double reference) {
     const UtcTime start = result.record.stretches.front().times.front();
     std::string acceleration, temperature;
-    for (const RecordSegment& segment : result.parts.segments) {
+    for (const long_record::RecordSegment& segment : result.parts.segments) {
         const double first_h = seconds_between(start, segment.start) / kSecondsPerHour;
         const double step_h = result.record.step_s / kSecondsPerHour;
         acceleration +=
@@ -143,7 +145,7 @@ Figure samples_figure(const RecordResult& result, double reference) {
 
 Figure scatter_figure(const std::string& name, const std::string& caption,
                       const std::vector<double>& x, const std::vector<double>& y,
-                      const LineFit& fit, double offset, const std::string& ylabel) {
+                      const correlation::LineFit& fit, double offset, const std::string& ylabel) {
     FigureData data(name);
     const std::string points =
         data.add("temperature_degc acceleration_mgal", scatter_lines(x, y, offset));
@@ -163,8 +165,8 @@ Figure scatter_figure(const std::string& name, const std::string& caption,
 
 /// Returns the figure of the acceleration, sign reversed and moved earlier, above the temperature,
 /// each with its residue.
-Figure trend_figure(const RecordResult& result) {
-    const RecordSegment& segment = result.segment();
+Figure trend_figure(const long_record::RecordResult& result) {
+    const long_record::RecordSegment& segment = result.segment();
     const double step_h = result.record.step_s / kSecondsPerHour;
     const double moved_h = -result.options.shift_s / kSecondsPerHour;
     const double first = segment.acceleration_mgal.front();
@@ -199,8 +201,8 @@ struct ModePair {
     std::vector<double> turned;  ///< Acceleration, sign reversed, moved earlier by the shift.
 };
 
-ModePair mode_pair(const RecordResult& result) {
-    const RecordAnalysis& analysis = result.analysis;
+ModePair mode_pair(const long_record::RecordResult& result) {
+    const long_record::RecordAnalysis& analysis = result.analysis;
     const std::vector<double>& a =
         analysis.acceleration.modes[analysis.acceleration_mode->number - 1].values;
     const auto earlier =
@@ -212,7 +214,7 @@ ModePair mode_pair(const RecordResult& result) {
     return pair;
 }
 
-Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
+Figure overlay_figure(const long_record::RecordResult& result, const ModePair& pair) {
     const double step_h = result.record.step_s / kSecondsPerHour;
     const std::size_t count =
         std::min(pair.turned.size(), static_cast<std::size_t>(kOverlay_h / step_h));
@@ -245,8 +247,8 @@ Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
                              kVermilion)})));
 }
 
-Figure correlation_figure(const RecordResult& result) {
-    const auto lines = [](const CrossCorrelation& correlation) {
+Figure correlation_figure(const long_record::RecordResult& result) {
+    const auto lines = [](const correlation::CrossCorrelation& correlation) {
         std::string text;
         for (std::size_t i = 0; i < correlation.values.size(); ++i)
             text += datum(correlation.delays_s[i], 1) + datum(correlation.values[i], 5) + '\n';
@@ -270,13 +272,14 @@ Figure correlation_figure(const RecordResult& result) {
 
 }  // namespace
 
-std::vector<Figure> long_record_figures(const RecordResult& result) {
+std::vector<Figure> long_record_figures(const long_record::RecordResult& result) {
     const double reference = reference_of(result);
-    const RecordSegment& segment = result.segment();
+    const long_record::RecordSegment& segment = result.segment();
     std::vector<Figure> figures;
     const auto& stretches = result.record.stretches;
-    if (std::ranges::any_of(stretches,
-                            [](const RecordStretch& stretch) { return !stretch.raw.empty(); })) {
+    if (std::ranges::any_of(stretches, [](const long_record::RecordStretch& stretch) {
+            return !stretch.raw.empty();
+        })) {
         figures.push_back(raw_figure(result, reference));
     }
     figures.push_back(samples_figure(result, reference));
@@ -297,4 +300,4 @@ std::vector<Figure> long_record_figures(const RecordResult& result) {
     return figures;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

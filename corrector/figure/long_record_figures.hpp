@@ -14,7 +14,7 @@
 #include "corrector/figure/figure.hpp"
 #include "corrector/long_record/record_result.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
 /// Returns the publication's figures.  Of a long series the least and the greatest value of each of
 /// 1500 steps are drawn, of a long scatter at most kMostPoints points at equal distances.
@@ -25,7 +25,7 @@ namespace a351::corrector {
 /// - modes, scatter-modes and correlation are absent without RecordAnalysis::modes.
 /// - modes shows the middle 12 h of a longer segment.
 /// @param result  analysed, with at least one stretch.
-[[nodiscard]] std::vector<Figure> long_record_figures(const RecordResult& result);
+[[nodiscard]] std::vector<Figure> long_record_figures(const long_record::RecordResult& result);
 
 /// Returns the figure of gain and phase by period, from spectra and from modes, with the two-path
 /// fit.
@@ -33,7 +33,7 @@ namespace a351::corrector {
 /// Refused points are left out.  The fit is drawn from 240 s to the length of the segment, with its
 /// 95 % limits by linear propagation of the covariance.  Phase is positive if the acceleration
 /// leads.  Without any point the figure has the fit alone.
-[[nodiscard]] Figure response_figure(const RecordResult& result);
+[[nodiscard]] Figure response_figure(const long_record::RecordResult& result);
 
 /// Returns the figures of a record before and after a calibration was applied: the series, and
 /// their Allan deviations.
@@ -41,6 +41,6 @@ namespace a351::corrector {
 /// Both ways of correction are shown, parametric and by modes.  A long series is drawn as means of
 /// neighbours, at most kMostPoints of them, minus the mean of the whole.
 /// @pre result.applied
-[[nodiscard]] std::vector<Figure> applied_figures(const RecordResult& result);
+[[nodiscard]] std::vector<Figure> applied_figures(const long_record::RecordResult& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

@@ -9,7 +9,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 // Position of the plot within the SVG, from which the position of a label in pixels is computed.
@@ -159,11 +159,11 @@ std::string station_lines(const std::vector<const text::Site*>& stations, bool i
 
 }  // namespace
 
-std::optional<Figure> map_figure(const SurveyCorrection& result,
+std::optional<Figure> map_figure(const model::SurveyCorrection& result,
                                  const std::vector<text::Site>& sites) {
     std::vector<const text::Site*> stations;
     std::string absent;
-    for (const StationValue& station : result.stations) {
+    for (const model::StationValue& station : result.stations) {
         const text::Site* const site = text::find_site(sites, station.site);
         if (site != nullptr && site->is_placed) {
             stations.push_back(site);
@@ -220,4 +220,4 @@ std::optional<Figure> map_figure(const SurveyCorrection& result,
             plot_command(clauses)));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

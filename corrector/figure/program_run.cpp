@@ -15,7 +15,7 @@
 
 #include "protocol/text/text_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 void require(int error, const std::string& what) {
@@ -121,4 +121,4 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
     return run;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

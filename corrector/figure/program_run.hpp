@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
 /// The outcome of a run.
 ///
@@ -49,4 +49,4 @@ struct ProgramRun {
                                      const std::filesystem::path& directory,
                                      std::chrono::milliseconds limit);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

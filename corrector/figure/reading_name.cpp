@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
-std::string reading_name(const std::vector<CorrectedRow>& rows, std::size_t index) {
-    const SurveyRow& row = rows[index].row;
+std::string reading_name(const std::vector<model::CorrectedRow>& rows, std::size_t index) {
+    const reading::SurveyRow& row = rows[index].row;
     std::size_t before = 0;
     std::size_t in_all = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -22,4 +22,4 @@ std::string reading_name(const std::vector<CorrectedRow>& rows, std::size_t inde
     return fmt::format("{} ({}{})", row.site, row.occupation, set_up);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

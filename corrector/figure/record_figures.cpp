@@ -9,12 +9,12 @@
 #include "corrector/figure/survey_figures.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 double minutes_between(UtcTime from, UtcTime to) { return seconds_between(from, to) / 60.0; }
 
-double length_min(const RepresentativeValue& value) {
+double length_min(const reading::RepresentativeValue& value) {
     const auto end = value.series.time_of(static_cast<double>(value.series.size()));
     return minutes_between(value.series.start(), end);
 }
@@ -22,7 +22,7 @@ double length_min(const RepresentativeValue& value) {
 std::string figure_name(std::size_t row) { return fmt::format("reading-{:02}", row + 1); }
 
 /// Returns the index of the series' sample at which the trend begins.
-std::size_t curve_begin(const RepresentativeValue& value) {
+std::size_t curve_begin(const reading::RepresentativeValue& value) {
     const double seconds = seconds_between(value.series.start(), value.curve.start());
     return static_cast<std::size_t>(std::llround(seconds * value.series.rate().value()));
 }
@@ -31,7 +31,7 @@ double at_or_nan(const std::vector<double>& values, std::size_t i) {
     return i < values.size() ? values[i] : std::nan("");
 }
 
-std::string series_lines(const RepresentativeValue& value) {
+std::string series_lines(const reading::RepresentativeValue& value) {
     const std::size_t begin = curve_begin(value);
     std::string lines;
     for (std::size_t i = 0; i < value.series.size(); ++i) {
@@ -44,9 +44,9 @@ std::string series_lines(const RepresentativeValue& value) {
     return lines;
 }
 
-std::string extremum_lines(const RepresentativeValue& value) {
+std::string extremum_lines(const reading::RepresentativeValue& value) {
     std::string lines;
-    for (const std::size_t i : extremum_indices(value.curve.values())) {
+    for (const std::size_t i : eemd::extremum_indices(value.curve.values())) {
         const UtcTime time = value.curve.time_of(static_cast<double>(i));
         lines += datum(minutes_between(value.series.start(), time), 4) +
                  datum(value.curve.values()[i], 3) + '\n';
@@ -55,7 +55,7 @@ std::string extremum_lines(const RepresentativeValue& value) {
 }
 
 /// Returns the limits of the interval, with the values of the trend there.
-std::string limit_lines(const RepresentativeValue& value) {
+std::string limit_lines(const reading::RepresentativeValue& value) {
     std::string lines;
     for (const UtcTime limit : {value.interval_start, value.interval_end}) {
         const double place = seconds_between(value.curve.start(), limit);
@@ -84,8 +84,8 @@ double spread(const std::vector<double>& values, double centre, double share) {
 double half_range(double spread_of_98) { return std::max(1.2 * spread_of_98, 1e-3); }
 
 /// Returns a text on the part of the record that was averaged.
-std::string averaged_text(const CorrectedRow& row, double mean_mgal) {
-    const auto* const day = row.as<WholeDayRow>();
+std::string averaged_text(const model::CorrectedRow& row, double mean_mgal) {
+    const auto* const day = row.as<model::WholeDayRow>();
     if (day == nullptr)
         return fmt::format("mean over the interval {} mGal.", text::fixed(mean_mgal, 3));
     return fmt::format(
@@ -94,8 +94,8 @@ std::string averaged_text(const CorrectedRow& row, double mean_mgal) {
         text::fixed(day->averaged_s, 0), text::fixed(row.row.acceleration.value(), 3));
 }
 
-Figure reading_figure(const SurveyCorrection& result, const ReadingRecord& record) {
-    const RepresentativeValue& value = *record.value;
+Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord& record) {
+    const reading::RepresentativeValue& value = *record.value;
     FigureData data(figure_name(record.row));
     const std::string series =
         data.add("minutes acceleration_mgal trend_mgal temperature_degc", series_lines(value));
@@ -157,8 +157,8 @@ std::string inner_tics(double half) {
                        text::fixed(last, 5));
 }
 
-Figure panels_figure(const SurveyCorrection& result, const std::vector<ReadingRecord>& records,
-                     const Panels& panels) {
+Figure panels_figure(const model::SurveyCorrection& result,
+                     const std::vector<ReadingRecord>& records, const Panels& panels) {
     constexpr std::size_t kColumns = 5;
     const std::size_t n = records.size();
     const std::size_t lines = (n + kColumns - 1) / kColumns;
@@ -196,28 +196,29 @@ Figure panels_figure(const SurveyCorrection& result, const std::vector<ReadingRe
 
 }  // namespace
 
-std::vector<ReadingRecord> find_records(const SurveyCorrection& result,
-                                        const std::vector<RepresentativeValue>& values) {
+std::vector<ReadingRecord> find_records(const model::SurveyCorrection& result,
+                                        const std::vector<reading::RepresentativeValue>& values) {
     std::vector<ReadingRecord> records;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
-        const SurveyRow& row = result.rows[i].row;
-        const auto found = std::ranges::find_if(values, [&row](const RepresentativeValue& value) {
-            return row.start && row.end && *row.start < value.interval_end &&
-                   value.interval_start < *row.end;
-        });
+        const reading::SurveyRow& row = result.rows[i].row;
+        const auto found =
+            std::ranges::find_if(values, [&row](const reading::RepresentativeValue& value) {
+                return row.start && row.end && *row.start < value.interval_end &&
+                       value.interval_start < *row.end;
+            });
         if (found != values.end()) records.push_back({i, &*found});
     }
     return records;
 }
 
-std::vector<Figure> reading_figures(const SurveyCorrection& result,
+std::vector<Figure> reading_figures(const model::SurveyCorrection& result,
                                     const std::vector<ReadingRecord>& records) {
     std::vector<Figure> figures;
     for (const ReadingRecord& record : records) figures.push_back(reading_figure(result, record));
     return figures;
 }
 
-std::vector<Figure> panel_figures(const SurveyCorrection& result,
+std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
                                   const std::vector<ReadingRecord>& records) {
     if (records.empty()) return {};
     Panels acceleration{"records-acceleration",
@@ -239,8 +240,8 @@ std::vector<Figure> panel_figures(const SurveyCorrection& result,
                        {},
                        3};
     for (const ReadingRecord& record : records) {
-        const RepresentativeValue& value = *record.value;
-        const SurveyRow& row = result.rows[record.row].row;
+        const reading::RepresentativeValue& value = *record.value;
+        const reading::SurveyRow& row = result.rows[record.row].row;
         acceleration.means.push_back(row.acceleration.value());
         temperature.means.push_back(row.temperature.value());
         acceleration.half =
@@ -254,4 +255,4 @@ std::vector<Figure> panel_figures(const SurveyCorrection& result,
             panels_figure(result, records, temperature)};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

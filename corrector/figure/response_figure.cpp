@@ -10,12 +10,12 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
-std::string point_lines(const std::vector<ResponsePoint>& points) {
+std::string point_lines(const std::vector<long_record::ResponsePoint>& points) {
     std::string lines;
-    for (const ResponsePoint& point : points) {
+    for (const long_record::ResponsePoint& point : points) {
         if (!point.refusal.empty()) continue;
         lines += datum(point.period_s, 1) + datum(point.gain.value, 2) + datum(point.gain.low, 2) +
                  datum(point.gain.high, 2) + datum(point.phase_deg.value, 2) +
@@ -24,34 +24,36 @@ std::string point_lines(const std::vector<ResponsePoint>& points) {
     return lines;
 }
 
-using Parameters = std::array<double, kTwoPathTerms>;
+using Parameters = std::array<double, long_record::kTwoPathTerms>;
 
-double at(const Parameters& parameters, TwoPathTerm term) {
+double at(const Parameters& parameters, long_record::TwoPathTerm term) {
     return parameters.at(static_cast<std::size_t>(term));
 }
 
 /// Returns the logarithm of the fit's transfer function; the lags are given by their logarithms.
 std::complex<double> log_response(const Parameters& parameters, double period_s) {
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi / period_s);
-    return std::log(at(parameters, TwoPathTerm::level) +
-                    at(parameters, TwoPathTerm::fast) * kSecondsPerHour * s /
-                        (1.0 + s * std::exp(at(parameters, TwoPathTerm::fast_lag))) +
-                    at(parameters, TwoPathTerm::slow) /
-                        (1.0 + s * std::exp(at(parameters, TwoPathTerm::slow_lag))));
+    return std::log(at(parameters, long_record::TwoPathTerm::level) +
+                    at(parameters, long_record::TwoPathTerm::fast) * kSecondsPerHour * s /
+                        (1.0 + s * std::exp(at(parameters, long_record::TwoPathTerm::fast_lag))) +
+                    at(parameters, long_record::TwoPathTerm::slow) /
+                        (1.0 + s * std::exp(at(parameters, long_record::TwoPathTerm::slow_lag))));
 }
 
 /// Returns period, gain, its 95 % limits, phase, its 95 % limits; the limits are linearised.
-std::string fit_line(const TwoPathFit& fit, double period_s) {
+std::string fit_line(const long_record::TwoPathFit& fit, double period_s) {
     Parameters parameters{};
-    for (std::size_t k = 0; k < kTwoPathTerms; ++k) parameters.at(k) = fit.parameters.at(k).value;
-    for (const TwoPathTerm lag :
-         {TwoPathTerm::fast_lag, TwoPathTerm::slow_lag, TwoPathTerm::warm_up_time}) {
+    for (std::size_t k = 0; k < long_record::kTwoPathTerms; ++k)
+        parameters.at(k) = fit.parameters.at(k).value;
+    for (const long_record::TwoPathTerm lag :
+         {long_record::TwoPathTerm::fast_lag, long_record::TwoPathTerm::slow_lag,
+          long_record::TwoPathTerm::warm_up_time}) {
         double& value = parameters.at(static_cast<std::size_t>(lag));
         value = std::log(value);
     }
     const std::complex<double> here = log_response(parameters, period_s);
-    Eigen::VectorXcd slope(static_cast<Eigen::Index>(kTwoPathTerms));
-    for (std::size_t k = 0; k < kTwoPathTerms; ++k) {
+    Eigen::VectorXcd slope(static_cast<Eigen::Index>(long_record::kTwoPathTerms));
+    for (std::size_t k = 0; k < long_record::kTwoPathTerms; ++k) {
         constexpr double kStep = 1e-4;
         Parameters more = parameters;
         more.at(k) += kStep;
@@ -69,7 +71,7 @@ std::string fit_line(const TwoPathFit& fit, double period_s) {
 }
 
 /// Returns the lines of the fit from its shortest period to the length of the record.
-std::string fit_lines(const RecordResult& result) {
+std::string fit_lines(const long_record::RecordResult& result) {
     constexpr double kShortest_s = 240.0, kStep = 1.05;
     const double longest_s = static_cast<double>(result.segment().size()) * result.record.step_s;
     std::string lines;
@@ -80,11 +82,11 @@ std::string fit_lines(const RecordResult& result) {
 
 }  // namespace
 
-Figure response_figure(const RecordResult& result) {
+Figure response_figure(const long_record::RecordResult& result) {
     FigureData data("response");
     std::vector<std::string> gain, phase;
-    const auto add = [&](const std::vector<ResponsePoint>& points, const std::string& style,
-                         const std::string& title) {
+    const auto add = [&](const std::vector<long_record::ResponsePoint>& points,
+                         const std::string& style, const std::string& title) {
         const std::string source =
             data.add(title + ": period_s gain low high phase_deg low high", point_lines(points));
         if (source.empty()) return;
@@ -111,4 +113,4 @@ Figure response_figure(const RecordResult& result) {
                     plot_command(gain), plot_command(phase)));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

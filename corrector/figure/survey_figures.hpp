@@ -23,7 +23,7 @@
 #include "corrector/reading/temperature_course.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 
 /// Returns the figure of acceleration over reference, with line and R2.  Rows without a reference
 /// are not in it.
@@ -32,23 +32,23 @@ namespace a351::corrector {
 /// absent if there are fewer than three of them or if all have one reference.  The published lines
 /// are reproduced (figures_test.cpp).
 /// @return std::nullopt if no row has a reference; so do the next two.
-[[nodiscard]] std::optional<Figure> acceleration_figure(const SurveyCorrection& result);
+[[nodiscard]] std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result);
 
 /// Returns the figure of difference over temperature, with line and R2.  The difference is
 /// acceleration - reference - tide.  The line is that of temperature alone, whatever model was
 /// applied.
-[[nodiscard]] std::optional<Figure> difference_figure(const SurveyCorrection& result);
+[[nodiscard]] std::optional<Figure> difference_figure(const model::SurveyCorrection& result);
 
 /// Returns the figure of corrected value over reference, with the line y = x.  R2 is that of the
 /// rows in the fit about their own line, and is in sample.
-[[nodiscard]] std::optional<Figure> corrected_figure(const SurveyCorrection& result);
+[[nodiscard]] std::optional<Figure> corrected_figure(const model::SurveyCorrection& result);
 
 /// Returns the figure of residual over time, with the standard uncertainty of a new station.
 ///
 /// The bars are CorrectedRow::u_corrected, 0 if there is none.  For `day` they belong to the
 /// prediction without the row's station, for `network` to a single reading; the caption says so.
 /// @return std::nullopt if no row has a residual.
-[[nodiscard]] std::optional<Figure> residual_figure(const SurveyCorrection& result);
+[[nodiscard]] std::optional<Figure> residual_figure(const model::SurveyCorrection& result);
 
 /// Returns the figure of the day's temperature with the readings; without a course, of the readings
 /// only.
@@ -56,8 +56,8 @@ namespace a351::corrector {
 /// Averaged intervals are shaded.  The curve is interrupted between minutes that are not neighbours
 /// (figures_test.cpp).
 /// @param course  in order of time; may be empty.
-[[nodiscard]] Figure temperature_figure(const SurveyCorrection& result,
-                                        const std::vector<MinuteTemperature>& course);
+[[nodiscard]] Figure temperature_figure(const model::SurveyCorrection& result,
+                                        const std::vector<reading::MinuteTemperature>& course);
 
 /// Returns a map of the stations in longitude and latitude with their heights.  The scale is the
 /// same in both directions (by the cosine of the mean latitude) and is shown by a bar of a round
@@ -69,14 +69,14 @@ namespace a351::corrector {
 /// 360.
 /// @param sites  those that are no station of the survey are not shown.
 /// @return std::nullopt if no station of the survey has a position in `sites`.
-[[nodiscard]] std::optional<Figure> map_figure(const SurveyCorrection& result,
+[[nodiscard]] std::optional<Figure> map_figure(const model::SurveyCorrection& result,
                                                const std::vector<text::Site>& sites);
 
 /// The record of a row.  The pointer is into the values given to find_records(), which must outlive
 /// it; it is null only in a default-constructed object.
 struct ReadingRecord {
     std::size_t row = 0;  ///< Index into the survey's rows.
-    const RepresentativeValue* value = nullptr;
+    const reading::RepresentativeValue* value = nullptr;
 };
 
 /// Finds the record of each row by its interval, in the order of the rows; rows without one are
@@ -86,7 +86,7 @@ struct ReadingRecord {
 /// without an interval, as from a table of averages, have no record.
 /// @param values  in any order; must outlive the returned pointers.
 [[nodiscard]] std::vector<ReadingRecord> find_records(
-    const SurveyCorrection& result, const std::vector<RepresentativeValue>& values);
+    const model::SurveyCorrection& result, const std::vector<reading::RepresentativeValue>& values);
 
 /// Returns one figure per record: the 2 s series, its trend, the extrema and the limits of the
 /// interval.
@@ -94,7 +94,7 @@ struct ReadingRecord {
 /// The name is reading-NN with the number of the row from 1.  The range of the axis has 98 of 100
 /// samples of the series and the whole trend, so that a knock does not flatten the rest.  The
 /// caption has the mean over the interval; for `day` it has the averaged time and the value.
-[[nodiscard]] std::vector<Figure> reading_figures(const SurveyCorrection& result,
+[[nodiscard]] std::vector<Figure> reading_figures(const model::SurveyCorrection& result,
                                                   const std::vector<ReadingRecord>& records);
 
 /// Returns two figures of all records side by side at one scale: accelerations and temperatures.
@@ -102,7 +102,7 @@ struct ReadingRecord {
 ///
 /// These data files must therefore be in the same folder.  Five panels are in a line.  The scale is
 /// common to all panels, each about the value of its own reading.  No records give no figures.
-[[nodiscard]] std::vector<Figure> panel_figures(const SurveyCorrection& result,
+[[nodiscard]] std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
                                                 const std::vector<ReadingRecord>& records);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

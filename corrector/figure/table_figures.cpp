@@ -11,24 +11,25 @@
 #include "corrector/model/linear_fit.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::figure {
 namespace {
 
 /// A group of rows and its mark in a figure.
 struct Mark {
     std::string title;
-    std::function<bool(const CorrectedRow&)> takes;
+    std::function<bool(const model::CorrectedRow&)> takes;
     std::string style;
 };
 
 const std::vector<Mark>& marks() {
     static const std::vector<Mark> all{
-        {"in the fit", [](const CorrectedRow& row) { return row.is_used && !row.row.is_flagged; },
+        {"in the fit",
+         [](const model::CorrectedRow& row) { return row.is_used && !row.row.is_flagged; },
          "pt 7 ps 0.6 lc rgb " + kBlue},
         {"marked by the operator, in the fit",
-         [](const CorrectedRow& row) { return row.is_used && row.row.is_flagged; },
+         [](const model::CorrectedRow& row) { return row.is_used && row.row.is_flagged; },
          "pt 6 ps 0.7 lw 1.5 lc rgb " + kBlue},
-        {"left out of the fit", [](const CorrectedRow& row) { return !row.is_used; },
+        {"left out of the fit", [](const model::CorrectedRow& row) { return !row.is_used; },
          "pt 2 ps 0.7 lw 1.5 lc rgb " + kVermilion},
     };
     return all;
@@ -39,18 +40,18 @@ struct Point {
     double y = 0.0;
 };
 /// Function that returns the point of a row; std::nullopt if the row is not in the figure.
-using PointOf = std::function<std::optional<Point>(const CorrectedRow&)>;
+using PointOf = std::function<std::optional<Point>(const model::CorrectedRow&)>;
 
 /// The line y = intercept + slope x through the rows in the fit.
 struct Line {
-    LinearFit fit;
+    model::LinearFit fit;
     double least_x = 0.0;
     double greatest_x = 0.0;
 };
 
-std::optional<Line> line_through(const SurveyCorrection& result, const PointOf& point_of) {
+std::optional<Line> line_through(const model::SurveyCorrection& result, const PointOf& point_of) {
     std::vector<double> all_x, x, y;
-    for (const CorrectedRow& row : result.rows) {
+    for (const model::CorrectedRow& row : result.rows) {
         const auto point = point_of(row);
         if (!point) continue;
         all_x.push_back(point->x);
@@ -60,7 +61,7 @@ std::optional<Line> line_through(const SurveyCorrection& result, const PointOf& 
     }
     const auto n = static_cast<Eigen::Index>(x.size());
     const Eigen::MatrixXd columns = Eigen::Map<const Eigen::VectorXd>(x.data(), n);
-    auto fit = fit_linear(columns, Eigen::Map<const Eigen::VectorXd>(y.data(), n));
+    auto fit = model::fit_linear(columns, Eigen::Map<const Eigen::VectorXd>(y.data(), n));
     if (!fit || n < 3) return std::nullopt;
     const auto [least, greatest] = std::ranges::minmax(all_x);
     return Line{std::move(*fit), least, greatest};
@@ -81,7 +82,7 @@ std::string line_title(const Line& line) {
 }
 
 /// Returns the comment of a row in data: its reading.
-std::string comment(const SurveyCorrection& result, std::size_t row) {
+std::string comment(const model::SurveyCorrection& result, std::size_t row) {
     return fmt::format("# {}\n", clean_utf8(reading_name(result.rows, row)));
 }
 
@@ -91,8 +92,8 @@ struct Scatter {
 };
 
 /// Returns one clause per group of rows with points; none if no row has a point.
-std::vector<std::string> scatter_clauses(const SurveyCorrection& result, const Scatter& scatter,
-                                         FigureData& data) {
+std::vector<std::string> scatter_clauses(const model::SurveyCorrection& result,
+                                         const Scatter& scatter, FigureData& data) {
     std::vector<std::string> clauses;
     for (const Mark& mark : marks()) {
         std::string lines;
@@ -119,8 +120,8 @@ Figure scatter_plot(const FigureData& data, const Scatter& scatter, const std::s
                                    scatter.x_label, scatter.y_label, plot_command(clauses)));
 }
 
-std::optional<Figure> figure_with_line(const SurveyCorrection& result, const Scatter& scatter,
-                                       const std::string& caption) {
+std::optional<Figure> figure_with_line(const model::SurveyCorrection& result,
+                                       const Scatter& scatter, const std::string& caption) {
     FigureData data(scatter.name);
     std::vector<std::string> clauses = scatter_clauses(result, scatter, data);
     if (clauses.empty()) return std::nullopt;
@@ -133,10 +134,10 @@ std::optional<Figure> figure_with_line(const SurveyCorrection& result, const Sca
     return scatter_plot(data, scatter, caption, clauses);
 }
 
-std::string residual_lines(const SurveyCorrection& result, const Mark& mark) {
+std::string residual_lines(const model::SurveyCorrection& result, const Mark& mark) {
     std::string lines;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
-        const CorrectedRow& row = result.rows[i];
+        const model::CorrectedRow& row = result.rows[i];
         if (!row.residual || !mark.takes(row)) continue;
         lines += fmt::format("{} {}{}{}", to_rfc3339(row.row.time), datum(row.residual->value(), 4),
                              datum(row.u_corrected ? row.u_corrected->value() : 0.0, 4),
@@ -147,10 +148,10 @@ std::string residual_lines(const SurveyCorrection& result, const Mark& mark) {
 
 /// Returns script lines for data whose first column is an instant in RFC 3339.  UTC is below the
 /// figure; the stays are above it, at the instants of their first readings.
-std::string time_axis(const std::vector<CorrectedRow>& rows) {
+std::string time_axis(const std::vector<model::CorrectedRow>& rows) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const SurveyRow& row = rows[i].row;
+        const reading::SurveyRow& row = rows[i].row;
         const bool is_further_set_up = i > 0 && rows[i - 1].row.site == row.site &&
                                        rows[i - 1].row.occupation == row.occupation;
         if (is_further_set_up) continue;
@@ -175,10 +176,11 @@ std::string time_axis(const std::vector<CorrectedRow>& rows) {
 
 }  // namespace
 
-std::optional<Figure> acceleration_figure(const SurveyCorrection& result) {
+std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result) {
     const Scatter scatter{
         "acceleration", "Reference gravity (mGal)", "Acceleration (mGal)",
-        "reference_mgal acceleration_mgal", [](const CorrectedRow& row) -> std::optional<Point> {
+        "reference_mgal acceleration_mgal",
+        [](const model::CorrectedRow& row) -> std::optional<Point> {
             if (!row.row.reference) return std::nullopt;
             return Point{row.row.reference->value(), row.row.acceleration.value()};
         }};
@@ -187,23 +189,24 @@ std::optional<Figure> acceleration_figure(const SurveyCorrection& result) {
                             "least-squares line through the readings in the fit.");
 }
 
-std::optional<Figure> difference_figure(const SurveyCorrection& result) {
-    const Scatter scatter{
-        "difference", "Temperature (°C)", "Acceleration - reference - tide (mGal)",
-        "temperature_degc difference_mgal", [](const CorrectedRow& row) -> std::optional<Point> {
-            if (!row.difference) return std::nullopt;
-            return Point{row.row.temperature.value(), row.difference->value()};
-        }};
+std::optional<Figure> difference_figure(const model::SurveyCorrection& result) {
+    const Scatter scatter{"difference", "Temperature (°C)",
+                          "Acceleration - reference - tide (mGal)",
+                          "temperature_degc difference_mgal",
+                          [](const model::CorrectedRow& row) -> std::optional<Point> {
+                              if (!row.difference) return std::nullopt;
+                              return Point{row.row.temperature.value(), row.difference->value()};
+                          }};
     return figure_with_line(result, scatter,
                             "Difference between the reading, tide removed, and reference gravity "
                             "over temperature; least-squares line through the readings in the "
                             "fit (temperature alone, whatever model was applied).");
 }
 
-std::optional<Figure> corrected_figure(const SurveyCorrection& result) {
+std::optional<Figure> corrected_figure(const model::SurveyCorrection& result) {
     const Scatter scatter{"corrected", "Reference gravity (mGal)", "Corrected gravity (mGal)",
                           "reference_mgal corrected_mgal",
-                          [](const CorrectedRow& row) -> std::optional<Point> {
+                          [](const model::CorrectedRow& row) -> std::optional<Point> {
                               if (!row.row.reference) return std::nullopt;
                               return Point{row.row.reference->value(), row.corrected.value()};
                           }};
@@ -221,7 +224,7 @@ std::optional<Figure> corrected_figure(const SurveyCorrection& result) {
                         clauses);
 }
 
-std::optional<Figure> residual_figure(const SurveyCorrection& result) {
+std::optional<Figure> residual_figure(const model::SurveyCorrection& result) {
     FigureData data("residuals");
     std::vector<std::string> clauses{"0 with lines lw 1 lc rgb " + kGrey + " notitle"};
     for (const Mark& mark : marks()) {
@@ -237,9 +240,9 @@ std::optional<Figure> residual_figure(const SurveyCorrection& result) {
     return data.figure(
         fmt::format("Residuals (reference minus corrected) in time, in sample; bars: standard "
                     "uncertainty {}",
-                    result.as<WholeDayPart>() != nullptr
+                    result.as<model::WholeDayPart>() != nullptr
                         ? "of the prediction without the reading's station."
-                    : result.as<NetworkAdjustment>() != nullptr
+                    : result.as<model::NetworkAdjustment>() != nullptr
                         ? "of a single reading, a priori."
                         : "as of a new station, from the scatter in sample."),
         900, 430,
@@ -248,8 +251,8 @@ std::optional<Figure> residual_figure(const SurveyCorrection& result) {
                     time_axis(result.rows), plot_command(clauses)));
 }
 
-Figure temperature_figure(const SurveyCorrection& result,
-                          const std::vector<MinuteTemperature>& course) {
+Figure temperature_figure(const model::SurveyCorrection& result,
+                          const std::vector<reading::MinuteTemperature>& course) {
     std::string course_lines, reading_lines, intervals;
     for (std::size_t i = 0; i < course.size(); ++i) {
         const bool is_gap =
@@ -258,7 +261,7 @@ Figure temperature_figure(const SurveyCorrection& result,
                                     datum(course[i].mean.value(), 4));
     }
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
-        const SurveyRow& row = result.rows[i].row;
+        const reading::SurveyRow& row = result.rows[i].row;
         reading_lines += fmt::format("{} {}{}", to_rfc3339(row.time),
                                      datum(row.temperature.value(), 4), comment(result, i));
         if (!row.start || !row.end) continue;
@@ -288,4 +291,4 @@ Figure temperature_figure(const SurveyCorrection& result,
                     time_axis(result.rows), intervals, plot_command(clauses)));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::figure

@@ -6,7 +6,7 @@
 #include "corrector/reading/representative_value.hpp"
 #include "protocol/text/strict_toml.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::job {
 namespace {
 
 /// Limits of the gravimetric factors.  Reason: no model of the Earth is outside them.
@@ -46,25 +46,26 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.amendments = table.path_or_empty("amendments");
     survey.survey.base = table.string_or("base", "");
     survey.survey.datum = table.strings("datum");
-    survey.survey.model = table.choice_or("model", "auto", model_names());
+    survey.survey.model = table.choice_or("model", "auto", model::model_names());
     survey.survey.use_flags = table.choice_or("flags", "use", {"use", "ignore"}) == "use";
-    if (!set_tide_source(survey.tide, table.string_or("tide", "direct"), beside))
-        table.refuse("tide", "neither a source nor a file", kTideSources);
+    if (!tide::set_tide_source(survey.tide, table.string_or("tide", "direct"), beside))
+        table.refuse("tide", "neither a source nor a file", tide::kTideSources);
     survey.tide.factors.delta2 =
         table.number_or("delta2", survey.tide.factors.delta2, kLeastFactor, kGreatestFactor);
     survey.tide.factors.delta3 =
         table.number_or("delta3", survey.tide.factors.delta3, kLeastFactor, kGreatestFactor);
     const std::string curve = table.choice_or("curve", "", {"", "paper", "slow"});
-    if (!curve.empty()) survey.curve = curve == "paper" ? TrendCurve::paper : TrendCurve::slow;
+    if (!curve.empty())
+        survey.curve = curve == "paper" ? reading::TrendCurve::paper : reading::TrendCurve::slow;
     survey.trend = table.choice_or("trend", "eemd", {"eemd", "smoother"}) == "eemd"
-                       ? TrendMethod::eemd
-                       : TrendMethod::smoother;
-    survey.cutoff_s =
-        table.number_or("cutoff_s", survey.cutoff_s, kShortestCutoff_s, kLongestCutoff_s);
+                       ? reading::TrendMethod::eemd
+                       : reading::TrendMethod::smoother;
+    survey.cutoff_s = table.number_or("cutoff_s", survey.cutoff_s, reading::kShortestCutoff_s,
+                                      reading::kLongestCutoff_s);
     survey.norm = table.choice_or("norm", "decimate-first", {"decimate-first", "as-published"}) ==
                           "decimate-first"
-                      ? NormOrder::decimate_first
-                      : NormOrder::as_published;
+                      ? reading::NormOrder::decimate_first
+                      : reading::NormOrder::as_published;
     survey.seed = static_cast<std::uint64_t>(
         table.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
     if (const auto calibration = table.path_or_empty("calibration"); !calibration.empty()) {
@@ -73,19 +74,22 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
                          "a file of a351-correct calibrate, or empty");
         use_calibration(survey, calibration);
     }
-    survey.survey.priors.reading_sd_mgal = table.number_or(
-        "reading_sd_mgal", survey.survey.priors.reading_sd_mgal, kLeastSd_mgal, kGreatestSd_mgal);
-    survey.survey.network.datum_sd_mgal = table.number_or(
-        "datum_sd_mgal", survey.survey.network.datum_sd_mgal, kLeastSd_mgal, kGreatestSd_mgal);
+    survey.survey.priors.reading_sd_mgal =
+        table.number_or("reading_sd_mgal", survey.survey.priors.reading_sd_mgal,
+                        model::kLeastSd_mgal, model::kGreatestSd_mgal);
+    survey.survey.network.datum_sd_mgal =
+        table.number_or("datum_sd_mgal", survey.survey.network.datum_sd_mgal, model::kLeastSd_mgal,
+                        model::kGreatestSd_mgal);
     survey.survey.network.drift_degree = static_cast<int>(
         table.integer_or("drift_degree", survey.survey.network.drift_degree, 0, 2));
     std::vector<std::string> linear_models;
-    for (const LinearModel& model : kLinearModels) linear_models.emplace_back(model.name);
+    for (const model::LinearModel& model : model::kLinearModels)
+        linear_models.emplace_back(model.name);
     survey.survey.robust_terms =
         table.choice_or("robust_terms", survey.survey.robust_terms, linear_models);
     survey.survey.seed = survey.seed;
     table.require_all_read();
-    read_priors(survey.survey.priors, document.table("prior"));
+    model::read_priors(survey.survey.priors, document.table("prior"));
     document.require_all_read();
 
     if (!std::filesystem::is_directory(survey.root))
@@ -98,16 +102,16 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
 
 void use_calibration(SurveyFile& survey, const std::filesystem::path& file) {
     survey.calibration = file;
-    survey.survey.calibration = read_calibration(file);
+    survey.survey.calibration = unit::read_calibration(file);
 }
 
-TrendMethod trend_method_of(const SurveyFile& survey) noexcept {
-    return survey.survey.model == kPaper ? TrendMethod::eemd : survey.trend;
+reading::TrendMethod trend_method_of(const SurveyFile& survey) noexcept {
+    return survey.survey.model == model::kPaper ? reading::TrendMethod::eemd : survey.trend;
 }
 
-TrendCurve trend_curve_of(const SurveyFile& survey) {
-    if (survey.survey.model == kPaper) return TrendCurve::paper;
-    return survey.curve.value_or(RepresentativeOptions().curve);
+reading::TrendCurve trend_curve_of(const SurveyFile& survey) {
+    if (survey.survey.model == model::kPaper) return reading::TrendCurve::paper;
+    return survey.curve.value_or(reading::RepresentativeOptions().curve);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::job

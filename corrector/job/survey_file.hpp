@@ -18,7 +18,7 @@
 #include "corrector/reading/occupation_rows.hpp"
 #include "corrector/tide/tide_choice.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::job {
 
 /// One survey day, from table [survey] of its TOML file.  Paths in the file are relative to it.
 /// The options of the average are those below; read_survey() sets `averaging` from them.
@@ -34,16 +34,16 @@ namespace a351::corrector {
 /// - `seed`: also that of the bootstrap, survey.seed.  The same seed gives the same result.
 ///
 /// A default-constructed object has the defaults of the file, but no paths.
-struct SurveyFile : SurveySource {
+struct SurveyFile : reading::SurveySource {
     std::string name;                   ///< Name of the day; default: the file's stem.
     std::filesystem::path calibration;  ///< File of survey.calibration; empty: none.
-    SurveyOptions survey;
-    TideChoice tide;
-    std::optional<TrendCurve>
+    model::SurveyOptions survey;
+    tide::Choice tide;
+    std::optional<reading::TrendCurve>
         curve;  ///< Absent: the default of RepresentativeOptions, or of `paper`.
-    TrendMethod trend = TrendMethod::eemd;
+    reading::TrendMethod trend = reading::TrendMethod::eemd;
     double cutoff_s = 300.0;  ///< Cut-off period of the smoother's trend, s.
-    NormOrder norm = NormOrder::decimate_first;
+    reading::NormOrder norm = reading::NormOrder::decimate_first;
     std::uint64_t seed = 1;  ///< Seed of the decomposition's noise.
 };
 
@@ -66,11 +66,11 @@ void use_calibration(SurveyFile& survey, const std::filesystem::path& file);
 
 /// Returns the trend that is used: the publication's decomposition for model `paper`, else that of
 /// the file.  Use it instead of SurveyFile::trend in every output.
-[[nodiscard]] TrendMethod trend_method_of(const SurveyFile& survey) noexcept;
+[[nodiscard]] reading::TrendMethod trend_method_of(const SurveyFile& survey) noexcept;
 
 /// Returns the trend curve that is used: the publication's for model `paper`, else that of the file
 /// or the default.  With the smoother as trend it changes only eemd_mgal and the difference from
 /// it, which are for comparison.
-[[nodiscard]] TrendCurve trend_curve_of(const SurveyFile& survey);
+[[nodiscard]] reading::TrendCurve trend_curve_of(const SurveyFile& survey);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::job

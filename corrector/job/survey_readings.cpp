@@ -9,11 +9,11 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::job {
 namespace {
 
-SurveySource source_of(const SurveyFile& survey) {
-    SurveySource source = survey;
+reading::SurveySource source_of(const SurveyFile& survey) {
+    reading::SurveySource source = survey;
     source.averaging.norm = survey.norm;
     source.averaging.trend = trend_method_of(survey);
     source.averaging.cutoff_s = survey.cutoff_s;
@@ -39,24 +39,24 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) 
 
 }  // namespace
 
-OccupationRows read_survey(const SurveyFile& survey, const Progress& progress) {
-    const SurveySource source = source_of(survey);
-    const SurveyStays stays = read_survey_inputs(source);
+reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Progress& progress) {
+    const reading::SurveySource source = source_of(survey);
+    const reading::SurveyStays stays = reading::read_survey_inputs(source);
     std::vector<std::string> warnings;
     if (survey.survey.calibration)
         warnings = check_calibration(survey, stays.station.serial_number, stays.list.windows);
-    OccupationRows read = average_occupations(source, stays, progress);
+    reading::OccupationRows read = reading::average_occupations(source, stays, progress);
     read.warnings.insert(read.warnings.begin(), warnings.begin(), warnings.end());
-    apply_tide(read.rows, read.sites, survey.tide);
+    tide::apply_tide(read.rows, read.sites, survey.tide);
     add_inputs(read.inputs, survey);
     return read;
 }
 
-SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
+model::SurveyOptions with_sites_of(reading::OccupationRows& read, model::SurveyOptions options) {
     const auto is_absent = [&read](const std::string& site) {
-        return std::ranges::find(read.rows, site, &SurveyRow::site) == read.rows.end();
+        return std::ranges::find(read.rows, site, &reading::SurveyRow::site) == read.rows.end();
     };
-    if (!options.base.empty() && is_absent(options.base) && options.model != kPaper) {
+    if (!options.base.empty() && is_absent(options.base) && options.model != model::kPaper) {
         read.warnings.push_back("base " + options.base +
                                 " has no occupation with a value: the first site is used instead");
         options.base.clear();
@@ -73,8 +73,8 @@ SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options) {
 
 std::vector<std::string> check_calibration(const SurveyFile& survey,
                                            const std::string& serial_number,
-                                           const std::vector<OccupationWindow>& windows) {
-    const Calibration& calibration = survey.survey.calibration.value();
+                                           const std::vector<reading::OccupationWindow>& windows) {
+    const unit::Calibration& calibration = survey.survey.calibration.value();
     std::vector<std::string> warnings;
     if (serial_number.empty()) {
         warnings.push_back(
@@ -98,4 +98,4 @@ std::vector<std::string> check_calibration(const SurveyFile& survey,
     return warnings;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::job

@@ -19,7 +19,7 @@
 #include "corrector/job/survey_file.hpp"
 #include "corrector/reading/occupation_rows.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::job {
 
 /// Reads the record of a survey, averages every occupation and sets its tide.
 ///
@@ -33,7 +33,8 @@ namespace a351::corrector {
 /// @param progress  called with the occupations done and of all, from any thread, one at a time.
 /// @throws InputError  metadata or occupations cannot be read; no occupation has a value; the
 ///                     calibration is of another unit; the tide is not known for all readings.
-[[nodiscard]] OccupationRows read_survey(const SurveyFile& survey, const Progress& progress);
+[[nodiscard]] reading::OccupationRows read_survey(const SurveyFile& survey,
+                                                  const reading::Progress& progress);
 
 /// Removes the base and datum stations without a row from the options, with a warning for each.
 /// The base of `paper` is kept, because its drift step needs it.  The datum is kept if none of its
@@ -43,7 +44,8 @@ namespace a351::corrector {
 /// is removed, the correction takes the site of the first row.
 /// @param read     its warnings grow; nothing else changes.
 /// @param options  options of the survey file; the changed copy is returned.
-[[nodiscard]] SurveyOptions with_sites_of(OccupationRows& read, SurveyOptions options);
+[[nodiscard]] model::SurveyOptions with_sites_of(reading::OccupationRows& read,
+                                                 model::SurveyOptions options);
 
 /// Returns the doubts about the survey's calibration, one sentence each.
 ///
@@ -56,6 +58,6 @@ namespace a351::corrector {
 /// @throws InputError  the calibration is of another unit.
 [[nodiscard]] std::vector<std::string> check_calibration(
     const SurveyFile& survey, const std::string& serial_number,
-    const std::vector<OccupationWindow>& windows);
+    const std::vector<reading::OccupationWindow>& windows);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::job

@@ -8,7 +8,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -92,4 +92,4 @@ Json applied_json(const RecordResult& result) {
     return json;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -12,7 +12,7 @@
 
 #include "corrector/long_record/record_tables.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Returns the scatter by period band, before and after, mGal.  One row per band, the fastest
 /// first; the last band has no upper limit.
@@ -40,4 +40,4 @@ namespace a351::corrector {
 /// limit of the last band is infinite, which is null in the written JSON.
 [[nodiscard]] nlohmann::ordered_json applied_json(const RecordResult& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

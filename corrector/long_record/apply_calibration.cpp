@@ -13,7 +13,7 @@
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 // Half width of the smoothing window, samples.  15 samples of 20 s reduce white noise to 0.39 and
@@ -23,22 +23,23 @@ constexpr double kShortestPeriod_s = 39.0;  // two steps, with a margin for the 
 constexpr double kLeastRatioToError = 2.0;  // least ratio of a part to its error to be applied
 
 /// Returns the response with the parameters that are applied; the others are 0.
-ThermalEffect effect_of(const ThermalResponse& thermal, std::vector<std::string>& remarks) {
+unit::ThermalEffect effect_of(const unit::ThermalResponse& thermal,
+                              std::vector<std::string>& remarks) {
     using Vector = Eigen::Matrix<double, 5, 1>;
     using Matrix = Eigen::Matrix<double, 5, 5>;
     // Calibration and priors: inverse covariances and weighted values are added.
-    const Matrix information = Cholesky(thermal.covariance).inverse();
+    const Matrix information = linear_algebra::Cholesky(thermal.covariance).inverse();
     Matrix together = information;
     Vector weighted = information * thermal.values;
     for (Eigen::Index k = 0; k < 5; ++k) {
-        const ThermalPrior prior = record_prior(static_cast<ThermalTerm>(k));
+        const unit::ThermalPrior prior = unit::record_prior(static_cast<unit::ThermalTerm>(k));
         together(k, k) += 1.0 / (prior.deviation * prior.deviation);
         weighted(k) += prior.mean / (prior.deviation * prior.deviation);
     }
-    const Matrix covariance = Cholesky(together).inverse();
+    const Matrix covariance = linear_algebra::Cholesky(together).inverse();
     const Vector values = covariance * weighted;
 
-    ThermalEffect response;
+    unit::ThermalEffect response;
     response.fast_lag_s = std::exp(values(3));
     response.slow_lag_s = std::exp(values(4));
     const double slope = values(0) + values(1);
@@ -85,41 +86,41 @@ std::vector<double> smoothed(const std::vector<double>& values) {
     return result;
 }
 
-std::vector<double> by_two_paths(const RecordSegment& segment, const ThermalEffect& response,
+std::vector<double> by_two_paths(const RecordSegment& segment, const unit::ThermalEffect& response,
                                  double step_s) {
     const std::vector<double> temperature = smoothed(segment.temperature_degc);
     const TimeSeries<DegC> series({}, Hertz(1.0 / step_s), temperature);
-    const std::vector<double> effect = response.of(series, mean_of(temperature));
+    const std::vector<double> effect = response.of(series, correlation::mean_of(temperature));
     std::vector<double> corrected = segment.acceleration_mgal;
     for (std::size_t i = 0; i < corrected.size(); ++i) corrected[i] -= effect[i];
     return corrected;
 }
 
-bool is_short(const Component& mode, double step_s, double averaged_below_s) {
+bool is_short(const eemd::Component& mode, double step_s, double averaged_below_s) {
     return mode.mean_period_samples * step_s < averaged_below_s;
 }
 
 std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnalysis& analysis,
-                                 const ThermalEffect& response, double averaged_below_s) {
+                                 const unit::ThermalEffect& response, double averaged_below_s) {
     const double step_s = analysis.step_s;
     std::vector<double> corrected = segment.acceleration_mgal;
-    for (const Component& mode : analysis.acceleration.modes) {
+    for (const eemd::Component& mode : analysis.acceleration.modes) {
         if (!is_short(mode, step_s, averaged_below_s)) continue;
         for (std::size_t i = 0; i < corrected.size(); ++i) corrected[i] -= mode.values[i];
     }
     const double slope = response.level + response.slow;
-    const auto subtract_slow = [&](const Component& component) {
-        const double mean = mean_of(component.values);
+    const auto subtract_slow = [&](const eemd::Component& component) {
+        const double mean = correlation::mean_of(component.values);
         for (std::size_t i = 0; i < corrected.size(); ++i)
             corrected[i] -= slope * (component.values[i] - mean);
     };
-    for (const Component& mode : analysis.temperature.modes) {
+    for (const eemd::Component& mode : analysis.temperature.modes) {
         if (is_short(mode, step_s, averaged_below_s)) continue;
         if (!std::isfinite(mode.mean_period_samples)) {
             subtract_slow(mode);
             continue;
         }
-        const Spectrum turned = analytic_signal(mode.values);
+        const correlation::Spectrum turned = correlation::analytic_signal(mode.values);
         const std::complex<double> gain = response.at(mode.mean_period_samples * step_s);
         for (std::size_t i = 0; i < corrected.size(); ++i)
             corrected[i] -= (gain * turned[i]).real();
@@ -131,9 +132,9 @@ std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnaly
 /// Returns the mean squares by band, from the spectrum without a straight line.
 std::vector<double> band_squares(const std::vector<double>& values, double step_s,
                                  const std::vector<double>& edges_s) {
-    const std::vector<double> centred = without_line(values);
-    const std::size_t length = fast_length(centred.size());
-    const Spectrum spectrum = half_spectrum(centred, length);
+    const std::vector<double> centred = correlation::without_line(values);
+    const std::size_t length = correlation::fast_length(centred.size());
+    const correlation::Spectrum spectrum = correlation::half_spectrum(centred, length);
     std::vector<double> squares(edges_s.size() - 1, 0.0);
     for (std::size_t k = 1; k < spectrum.size(); ++k) {
         const double period_s = static_cast<double>(length) * step_s / static_cast<double>(k);
@@ -150,7 +151,7 @@ std::vector<double> band_squares(const std::vector<double>& values, double step_
 
 double allan_deviation(const std::vector<double>& values, std::size_t samples) {
     std::vector<double> sums(values.size() + 1, 0.0);
-    const double mean = mean_of(values);
+    const double mean = correlation::mean_of(values);
     for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
     // With cumulative sums s: sigma^2 = 1/2 mean ((s[i+2m] - 2 s[i+m] + s[i]) / m)^2
     const std::size_t count = values.size() - 2 * samples + 1;
@@ -163,10 +164,11 @@ double allan_deviation(const std::vector<double>& values, std::size_t samples) {
     return std::sqrt(0.5 * squares / static_cast<double>(count));
 }
 
-AppliedCalibration apply_calibration(const ThermalResponse& thermal, const RecordSegment& segment,
-                                     const RecordAnalysis& analysis, double averaged_below_s) {
+AppliedCalibration apply_calibration(const unit::ThermalResponse& thermal,
+                                     const RecordSegment& segment, const RecordAnalysis& analysis,
+                                     double averaged_below_s) {
     AppliedCalibration applied;
-    const ThermalEffect response = effect_of(thermal, applied.remarks);
+    const unit::ThermalEffect response = effect_of(thermal, applied.remarks);
     applied.averaged_below_s = averaged_below_s;
     applied.parametric_mgal = by_two_paths(segment, response, analysis.step_s);
     applied.by_modes_mgal = mode_by_mode(segment, analysis, response, averaged_below_s);
@@ -191,4 +193,4 @@ AppliedCalibration apply_calibration(const ThermalResponse& thermal, const Recor
     return applied;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

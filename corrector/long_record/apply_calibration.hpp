@@ -19,7 +19,7 @@
 #include "corrector/long_record/record_analysis.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// A number for one series: before correction, corrected by the two paths, corrected mode by mode.
 /// The name of the member that holds it has the unit.
@@ -80,7 +80,7 @@ struct AppliedCalibration {
 /// @param analysis          analysis of this segment.
 /// @param averaged_below_s  limit of the periods, s.
 /// @throws std::invalid_argument  if the covariance is not positive definite.
-[[nodiscard]] AppliedCalibration apply_calibration(const ThermalResponse& thermal,
+[[nodiscard]] AppliedCalibration apply_calibration(const unit::ThermalResponse& thermal,
                                                    const RecordSegment& segment,
                                                    const RecordAnalysis& analysis,
                                                    double averaged_below_s);
@@ -101,4 +101,4 @@ struct AppliedCalibration {
 /// 5.2.4.
 [[nodiscard]] double allan_deviation(const std::vector<double>& values, std::size_t samples);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

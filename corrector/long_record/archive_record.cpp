@@ -23,7 +23,7 @@
 #include "protocol/text/csv.hpp"
 #include "protocol/text/input_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 using std::chrono::days;
@@ -34,11 +34,11 @@ constexpr std::size_t kVertical = 2;
 constexpr std::int64_t kBlockSamples = 16384;  // so that a channel's block fits in the cache
 constexpr double kSameRate = 1e-3;             // relative; ten times the error of a sensor's clock
 
-using DayOfChannels = std::array<record::ChannelData, kChannels>;
+using DayOfChannels = std::array<archive::ChannelData, kChannels>;
 
 /// A segment with the number of its first sample in the stretch.
 struct Placed {
-    const record::Segment* segment;
+    const archive::Segment* segment;
     std::int64_t first;
     [[nodiscard]] std::int64_t behind() const {
         return first + static_cast<std::int64_t>(segment->counts.size());
@@ -62,7 +62,7 @@ public:
     /// Adds the samples of a day, or of an epoch's part of it, after those taken so far.
     void take(const DayOfChannels& day) {
         std::vector<Placed> run;
-        for (const record::Segment& segment : day[kVertical].segments) {
+        for (const archive::Segment& segment : day[kVertical].segments) {
             const UtcTime start = segment.time_of(0);
             if (rate_hz_ == 0.0) begin(segment.rate_hz);
             if (!has_rate(segment)) {
@@ -105,7 +105,7 @@ public:
     }
 
 private:
-    [[nodiscard]] bool has_rate(const record::Segment& segment) const {
+    [[nodiscard]] bool has_rate(const archive::Segment& segment) const {
         return std::abs(segment.rate_hz / rate_hz_ - 1.0) <= kSameRate;
     }
 
@@ -146,10 +146,10 @@ private:
 
     /// Returns the channel's segments, numbered like the samples of the vertical axis at the same
     /// times.
-    [[nodiscard]] std::vector<Placed> place(const record::ChannelData& channel,
+    [[nodiscard]] std::vector<Placed> place(const archive::ChannelData& channel,
                                             const std::vector<Placed>& run) const {
         std::vector<Placed> placed;
-        for (const record::Segment& segment : channel.segments) {
+        for (const archive::Segment& segment : channel.segments) {
             if (!has_rate(segment)) continue;
             const UtcTime start = segment.time_of(0);
             const Placed* beside = &run.front();
@@ -186,7 +186,7 @@ private:
               std::int64_t at, std::size_t count) const {
         values.assign(count, kNaN);
         const double unit = channel < kChannels - 1 ? kMilliGalPerMps2 : 1.0;
-        const record::ChannelScale& scale = epoch_->scales.at(channel);
+        const station::ChannelScale& scale = epoch_->scales.at(channel);
         const double gain = unit * scale.gain, offset = unit * scale.offset;
         const std::int64_t behind = at + static_cast<std::int64_t>(count);
         for (const Placed& part : placed) {
@@ -208,28 +208,28 @@ private:
     std::vector<std::vector<double>> block_{kChannels};
 };
 
-std::optional<TideStation> position_of(const std::filesystem::path& metadata) {
-    const auto document = record::load_station_document(metadata);
+std::optional<tide::Station> position_of(const std::filesystem::path& metadata) {
+    const auto document = station::load_station_document(metadata);
     const auto station = document.child("FDSNStationXML").child("Network").child("Station");
     if (!station.child("Latitude") || !station.child("Longitude")) return std::nullopt;
-    return TideStation{Degrees(station.child("Latitude").text().as_double()),
-                       Degrees(station.child("Longitude").text().as_double()),
-                       Metres(station.child("Elevation").text().as_double())};
+    return tide::Station{Degrees(station.child("Latitude").text().as_double()),
+                         Degrees(station.child("Longitude").text().as_double()),
+                         Metres(station.child("Elevation").text().as_double())};
 }
 
-void remove_tide(LongRecord& record, const TideStation& station) {
+void remove_tide(LongRecord& record, const tide::Station& station) {
     for (RecordStretch& stretch : record.stretches)
         for (std::size_t i = 0; i < stretch.size(); ++i)
-            stretch.acceleration_mgal[i] -= direct_tide(stretch.times[i], station).value();
+            stretch.acceleration_mgal[i] -= tide::direct_tide(stretch.times[i], station).value();
     record.is_tide_removed = true;
 }
 
 /// Returns the days in the window for which a channel has a file.
 std::set<Day> days_with_files(const std::filesystem::path& archive,
-                              const record::StationCodes& codes, const std::string& channel,
+                              const journal::StationCodes& codes, const std::string& channel,
                               const RecordWindow& window) {
     std::set<Day> found;
-    for (const auto& file : record::day_files(archive, codes, channel)) {
+    for (const auto& file : archive::day_files(archive, codes, channel)) {
         const std::string name = file.filename().string();  // ends with .YEAR.DAY in digits
         const char* const end = name.data() + name.size();
         int year = 0, day = 0;
@@ -250,22 +250,23 @@ void describe_inputs(LongRecord& record, const std::filesystem::path& root,
         for (const RecordEpoch& epoch : epochs) {
             for (const Day day : of_days) {
                 auto file =
-                    record::sds_file(root / "archive", epoch.codes, epoch.scales.at(k).code, day);
+                    archive::sds_file(root / "archive", epoch.codes, epoch.scales.at(k).code, day);
                 if (std::filesystem::exists(file) && std::ranges::find(files, file) == files.end())
                     files.push_back(std::move(file));
             }
         }
     }
     std::vector<text::InputFile> inputs(files.size());
-    on_all_cores(files.size(),
-                 [&](std::size_t i) { inputs[i] = text::describe_input("archive", files[i]); });
+    reading::on_all_cores(files.size(), [&](std::size_t i) {
+        inputs[i] = text::describe_input("archive", files[i]);
+    });
     record.inputs.insert(record.inputs.end(), inputs.begin(), inputs.end());
 }
 
 }  // namespace
 
 LongRecord read_archive_record(const std::filesystem::path& root, const RecordWindow& window,
-                               const Progress& progress) {
+                               const reading::Progress& progress) {
     const std::filesystem::path metadata = root / "metadata" / "station.xml";
     const std::filesystem::path archive = root / "archive";
     const std::vector<RecordEpoch> epochs = read_record_epochs(metadata);
@@ -285,11 +286,12 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
             if (from >= to) continue;
             const RecordEpoch& epoch = epochs[e];
             DayOfChannels samples;
-            on_all_cores(kChannels, [&](std::size_t k) {
+            reading::on_all_cores(kChannels, [&](std::size_t k) {
                 samples[k] =
-                    record::read_channel(archive, epoch.codes, epoch.scales.at(k).code, from, to);
+                    archive::read_channel(archive, epoch.codes, epoch.scales.at(k).code, from, to);
             });
-            for (const record::ChannelData& channel : samples) add_damage(record.warnings, channel);
+            for (const archive::ChannelData& channel : samples)
+                reading::add_damage(record.warnings, channel);
             from = to;
             if (samples[kVertical].segments.empty()) continue;
             stream.use(epoch);
@@ -312,4 +314,4 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     return record;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

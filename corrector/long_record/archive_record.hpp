@@ -13,7 +13,7 @@
 #include "corrector/long_record/long_record.hpp"
 #include "corrector/reading/on_all_cores.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// The part of a record that is read.  A default-constructed one is the whole record.
 ///
@@ -48,6 +48,7 @@ struct RecordWindow {
 ///                     axis in the window, if whole stages of 10 do not lead from its rate to 20 s
 ///                     within 10 %, or if a part would have another step than the rest.
 [[nodiscard]] LongRecord read_archive_record(const std::filesystem::path& root,
-                                             const RecordWindow& window, const Progress& progress);
+                                             const RecordWindow& window,
+                                             const reading::Progress& progress);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

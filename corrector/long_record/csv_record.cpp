@@ -15,7 +15,7 @@
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/text_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 constexpr std::size_t kBlockRows = 16384;
@@ -90,7 +90,7 @@ private:
         const std::string_view cell = reader_.cells()[column];
         if (cell.empty()) return kNaN;
         const auto number = text::parse_number(cell);
-        if (!number || std::abs(*number) > kLargestSample)
+        if (!number || std::abs(*number) > reading::kLargestSample)
             reader_.refuse(column, number ? "out of range" : "not a finite number",
                            "a number with a decimal point, or nothing for a missing sample");
         return *number;
@@ -161,7 +161,7 @@ private:
     }
 
     void check_step() {
-        const double step_s = median(std::move(steps_));
+        const double step_s = signal::median(std::move(steps_));
         if (std::abs(step_s / step_s_ - 1.0) > kStepTolerance)
             throw InputError(fmt::format(
                 "{}:{}: a row every {} s from about here on, every {} s elsewhere; allowed: one "
@@ -192,7 +192,7 @@ std::optional<int> record_stages(double step_s) {
 }
 
 LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow& window,
-                           const Progress& progress) {
+                           const reading::Progress& progress) {
     constexpr std::size_t kMegabyte = 1'000'000;
     Rows rows(file, window);
     std::vector<Row> first;
@@ -204,7 +204,7 @@ LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow
     std::vector<double> steps;
     for (std::size_t i = 1; i < first.size(); ++i)
         steps.push_back(seconds_between(first[i - 1].time, first[i].time));
-    const double step_s = median(std::move(steps));
+    const double step_s = signal::median(std::move(steps));
     const auto stages = record_stages(step_s);
     if (!stages)
         throw InputError(
@@ -227,4 +227,4 @@ LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow
     return record;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -13,7 +13,7 @@
 
 #include "corrector/long_record/archive_record.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Reads a long record from a CSV, row by row, and decimates it.
 ///
@@ -37,7 +37,8 @@ namespace a351::corrector {
 ///                     ascend, there are fewer than two rows, or rows have another step; with file
 ///                     and line.
 [[nodiscard]] LongRecord read_csv_record(const std::filesystem::path& file,
-                                         const RecordWindow& window, const Progress& progress);
+                                         const RecordWindow& window,
+                                         const reading::Progress& progress);
 
 /// Returns the number of decimation stages of 10 from a step to 20 s, 0 to kMostRecordStages: 3 for
 /// 0.02 s, 0 for 20 s.
@@ -45,4 +46,4 @@ namespace a351::corrector {
 /// @return std::nullopt if no number of stages leads there within 10 %.
 [[nodiscard]] std::optional<int> record_stages(double step_s);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -12,7 +12,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 constexpr double kSameStep = 1e-3;  // relative; ten times the error of a sensor's clock
@@ -107,4 +107,4 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
     return all;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

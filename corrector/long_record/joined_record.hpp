@@ -12,7 +12,7 @@
 
 #include "corrector/long_record/long_record.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Joins parts in order of time.
 ///
@@ -33,4 +33,4 @@ namespace a351::corrector {
 ///                     they do after the host's clock was set back.
 [[nodiscard]] LongRecord joined_record(std::vector<LongRecord> parts);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

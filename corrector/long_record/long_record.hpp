@@ -20,7 +20,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/input_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Time between samples, s.  Source: the publication's record, decimated from 50 Hz.
 inline constexpr double kRecordStep_s = 20.0;
@@ -78,4 +78,4 @@ struct LongRecord {
     std::vector<std::string> warnings;  ///< Skipped data, divisions and other facts, with reason.
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -11,7 +11,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 using Complex = std::complex<double>;
@@ -35,8 +35,8 @@ Complex without(const Sums& all, const Sums& block) {
 
 /// Returns the period (s) of the mean frequency of a mode's power; 0 for a constant.
 double period_of(std::span<const double> mode, double step_s) {
-    const std::size_t length = fast_length(mode.size());
-    const Spectrum spectrum = half_spectrum(mode, length);
+    const std::size_t length = correlation::fast_length(mode.size());
+    const correlation::Spectrum spectrum = correlation::half_spectrum(mode, length);
     double power = 0.0, frequency = 0.0;
     for (std::size_t k = 1; k < spectrum.size(); ++k) {
         power += std::norm(spectrum[k]);
@@ -45,8 +45,9 @@ double period_of(std::span<const double> mode, double step_s) {
     return frequency > 0.0 ? static_cast<double>(length) * step_s * power / frequency : 0.0;
 }
 
-std::vector<Sums> sums_of_blocks(const Spectrum& mode, const Spectrum& temperature,
-                                 const Spectrum& acceleration, std::size_t margin,
+std::vector<Sums> sums_of_blocks(const correlation::Spectrum& mode,
+                                 const correlation::Spectrum& temperature,
+                                 const correlation::Spectrum& acceleration, std::size_t margin,
                                  std::size_t blocks) {
     std::vector<Sums> sums(blocks);
     const std::size_t count = mode.size() - 2 * margin;
@@ -61,11 +62,12 @@ std::vector<Sums> sums_of_blocks(const Spectrum& mode, const Spectrum& temperatu
 /// from the rest a - H T of the acceleration, which is shifted around the record 40 times.
 /// Source of the quantile: as response_by_spectrum(), with independent shifts as degrees of
 /// freedom.
-double chance_gain(const Spectrum& mode, const Spectrum& temperature, const Spectrum& acceleration,
-                   Complex gain, std::size_t margin, double cycles) {
+double chance_gain(const correlation::Spectrum& mode, const correlation::Spectrum& temperature,
+                   const correlation::Spectrum& acceleration, Complex gain, std::size_t margin,
+                   double cycles) {
     constexpr std::size_t kShifts = 40;
     const std::size_t count = mode.size() - 2 * margin;
-    Spectrum rest(count);
+    correlation::Spectrum rest(count);
     double power = 0.0, square = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         rest[i] = acceleration[margin + i] - gain * temperature[margin + i];
@@ -115,7 +117,8 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, const Sums&
 }
 
 /// Returns |sum y x*|^2 / (sum |x|^2 sum |y|^2) without the margins; 0 for a constant.
-double squared_correlation(const Spectrum& x, const Spectrum& y, std::size_t margin) {
+double squared_correlation(const correlation::Spectrum& x, const correlation::Spectrum& y,
+                           std::size_t margin) {
     Complex xy = 0.0;
     double xx = 0.0, yy = 0.0;
     for (std::size_t i = margin; i + margin < x.size(); ++i) {
@@ -132,8 +135,10 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
                                              std::span<const double> temperature_degc,
                                              std::span<const double> acceleration_mgal,
                                              double step_s) {
-    const Spectrum temperature = analytic_signal(without_line(temperature_degc));
-    const Spectrum acceleration = analytic_signal(without_line(acceleration_mgal));
+    const correlation::Spectrum temperature =
+        correlation::analytic_signal(correlation::without_line(temperature_degc));
+    const correlation::Spectrum acceleration =
+        correlation::analytic_signal(correlation::without_line(acceleration_mgal));
     const double record_s = static_cast<double>(temperature_degc.size()) * step_s;
     std::vector<ResponsePoint> points;
     for (const std::vector<double>& mode : modes) {
@@ -143,7 +148,7 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
         point.period_s = period_s;
         point.shortest_s = point.period_s / std::numbers::sqrt2;
         point.longest_s = point.period_s * std::numbers::sqrt2;
-        point.temperature_rms_degc = std::sqrt(variance_of(mode));
+        point.temperature_rms_degc = std::sqrt(correlation::variance_of(mode));
         const auto margin = static_cast<std::size_t>(0.5 * point.period_s / step_s);
         const double cycles = record_s / point.period_s;
         const auto blocks = std::min(
@@ -155,7 +160,7 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
                 "a record of {} h", text::fixed(std::ceil(kNeeded * point.period_s / 3600.0), 0));
             continue;
         }
-        const Spectrum z = analytic_signal(mode);
+        const correlation::Spectrum z = correlation::analytic_signal(mode);
         const auto sums = sums_of_blocks(z, temperature, acceleration, margin, blocks);
         point.coherence = squared_correlation(z, acceleration, margin);
         Sums all;
@@ -176,4 +181,4 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
     return points;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

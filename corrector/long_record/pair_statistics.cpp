@@ -9,11 +9,13 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 /// Returns the peak-to-peak value of a sine with this standard deviation: 2 sqrt(2) times it.
-double swing(std::span<const double> values) { return 2.0 * std::sqrt(2.0 * variance_of(values)); }
+double swing(std::span<const double> values) {
+    return 2.0 * std::sqrt(2.0 * correlation::variance_of(values));
+}
 
 double zero_crossing_period_s(std::span<const double> values, double step_s) {
     std::size_t first = 0, last = 0, count = 0;
@@ -45,9 +47,10 @@ PairStatistics pair_statistics(std::span<const double> temperature_degc,
     for (double& value : turned) value = -value;
     // In a narrow band residuals keep their phase for several cycles.
     const auto correlated = static_cast<std::size_t>(std::llround(4.0 * cycle_s / step_s));
-    pair.moved = fit_line(temperature_degc.first(turned.size()), turned, correlated);
+    pair.moved = correlation::fit_line(temperature_degc.first(turned.size()), turned, correlated);
     const int half_cycle = std::max(2, static_cast<int>(0.5 * cycle_s / step_s));
-    pair.correlation = correlate(temperature_degc, acceleration_mgal, half_cycle, step_s);
+    pair.correlation =
+        correlation::correlate(temperature_degc, acceleration_mgal, half_cycle, step_s);
     return pair;
 }
 
@@ -63,7 +66,7 @@ double phase_of_peaks_deg(const PairStatistics& pair) {
 }
 
 double rate_coefficient(const PairStatistics& pair) {
-    const CorrelationPeak& negative = pair.correlation.negative;
+    const correlation::CorrelationPeak& negative = pair.correlation.negative;
     const double gain =
         std::abs(negative.value) * pair.acceleration_swing_mgal / pair.temperature_swing_degc;
     const double angular_hz = 2.0 * std::numbers::pi / pair.period_s;
@@ -72,12 +75,13 @@ double rate_coefficient(const PairStatistics& pair) {
 }
 
 std::string causal_reading(const PairStatistics& pair) {
-    const CorrelationPeak &negative = pair.correlation.negative,
-                          &positive = pair.correlation.positive;
+    const correlation::CorrelationPeak &negative = pair.correlation.negative,
+                                       &positive = pair.correlation.positive;
     const double ratio = std::abs(positive.value / negative.value);
     const double phase_deg = phase_of_peaks_deg(pair);
     constexpr double kEqual = 1.25;  // largest ratio of peaks of equal size
-    constexpr double kWeak = 0.3;    // least correlation of a response: it explains a tenth of the variance
+    constexpr double kWeak =
+        0.3;  // least correlation of a response: it explains a tenth of the variance
     constexpr double kQuadrature_deg = 45.0;
     if (std::max(std::abs(negative.value), std::abs(positive.value)) < kWeak)
         return "Neither peak exceeds chance: in this band the record shows no response to "
@@ -113,4 +117,4 @@ std::string causal_reading(const PairStatistics& pair) {
     return text;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

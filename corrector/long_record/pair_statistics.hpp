@@ -15,7 +15,7 @@
 
 #include "corrector/correlation/regression.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Statistics of two series in a narrow band, or of two modes.  A swing is 2 sqrt(2) standard
 /// deviations.
@@ -25,9 +25,11 @@ struct PairStatistics {
     /// Peak-to-peak value of a sine with the standard deviation of the temperature.
     double temperature_swing_degc = 0.0;
     double acceleration_swing_mgal = 0.0;  ///< Same for the acceleration.
-    LineFit moved;  ///< Acceleration, sign inverted and `shift_s` earlier, over temperature.
+    correlation::LineFit
+        moved;  ///< Acceleration, sign inverted and `shift_s` earlier, over temperature.
     double shift_s = 0.0;
-    CrossCorrelation correlation;  ///< Delays of the acceleration after the temperature.
+    correlation::CrossCorrelation
+        correlation;  ///< Delays of the acceleration after the temperature.
 };
 
 /// Computes the statistics of a pair of series.
@@ -73,4 +75,4 @@ struct PairStatistics {
 /// @param pair  with a period > 0.
 [[nodiscard]] std::string causal_reading(const PairStatistics& pair);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

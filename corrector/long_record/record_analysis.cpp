@@ -10,14 +10,14 @@
 #include "corrector/reading/band_pass.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 constexpr double kMostSplit = 0.2;  // largest energy of a neighbour, share of the mode's own
 
-EemdResult decompose(const std::vector<double>& values, const RecordAnalysisOptions& options,
-                     std::size_t before) {
-    EemdOptions eemd_options;
+eemd::Result decompose(const std::vector<double>& values, const RecordAnalysisOptions& options,
+                       std::size_t before) {
+    eemd::Options eemd_options;
     eemd_options.ensemble_size = options.ensemble_size;
     eemd_options.seed = options.seed;
     eemd_options.threads = options.threads;
@@ -27,13 +27,13 @@ EemdResult decompose(const std::vector<double>& values, const RecordAnalysisOpti
                              2 * static_cast<std::size_t>(members));
         return true;
     };
-    return eemd(values, eemd_options);
+    return eemd::eemd(values, eemd_options);
 }
 
 /// Returns the mode whose mean period is nearest to the cycle, by ratio, and within an octave of
 /// it.
-std::optional<ChosenMode> choose_mode(const EemdResult& result, double cycle_s, double step_s) {
-    const auto distance = [&](const Component& mode) {
+std::optional<ChosenMode> choose_mode(const eemd::Result& result, double cycle_s, double step_s) {
+    const auto distance = [&](const eemd::Component& mode) {
         return mode.extrema_count == 0
                    ? std::numeric_limits<double>::infinity()
                    : std::abs(std::log2(mode.mean_period_samples * step_s / cycle_s));
@@ -45,7 +45,7 @@ std::optional<ChosenMode> choose_mode(const EemdResult& result, double cycle_s, 
     chosen.number = static_cast<std::size_t>(best - modes.begin()) + 1;
     chosen.period_s = best->mean_period_samples * step_s;
     chosen.energy_share = best->energy_share;
-    const auto add_neighbour = [&](const Component& neighbour) {
+    const auto add_neighbour = [&](const eemd::Component& neighbour) {
         if (best->energy_share > 0.0)
             chosen.neighbour_share =
                 std::max(chosen.neighbour_share, neighbour.energy_share / best->energy_share);
@@ -122,21 +122,22 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     RecordAnalysis analysis;
     analysis.step_s = step_s;
     const auto correlated = static_cast<std::size_t>(4.0 * options.cycle_s / step_s);
-    analysis.raw = fit_line(temperature, acceleration, correlated);
+    analysis.raw = correlation::fit_line(temperature, acceleration, correlated);
     analysis.raw.mean_y += segment.acceleration_mgal.front();
 
     const double shortest_s = shortest_of_band_s(options.cycle_s),
                  longest_s = longest_of_band_s(options.cycle_s);
-    analysis.band = pair_statistics(band_pass(temperature, step_s, shortest_s, longest_s),
-                                    band_pass(acceleration, step_s, shortest_s, longest_s), step_s,
-                                    options.cycle_s, options.shift_s);
+    analysis.band = pair_statistics(reading::band_pass(temperature, step_s, shortest_s, longest_s),
+                                    reading::band_pass(acceleration, step_s, shortest_s, longest_s),
+                                    step_s, options.cycle_s, options.shift_s);
 
     analysis.temperature = decompose(temperature, options, 0);
     analysis.acceleration =
         decompose(acceleration, options, static_cast<std::size_t>(options.ensemble_size));
     const std::vector<double>&slow_temperature = analysis.temperature.residue.values,
           &slow_acceleration = analysis.acceleration.residue.values;
-    analysis.trend = fit_line(slow_temperature, slow_acceleration, slow_temperature.size() / 4);
+    analysis.trend =
+        correlation::fit_line(slow_temperature, slow_acceleration, slow_temperature.size() / 4);
     analysis.temperature_change_degc = change_of(slow_temperature);
     analysis.acceleration_change_mgal = change_of(slow_acceleration);
 
@@ -155,7 +156,7 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
         response_by_spectrum(temperature, acceleration, step_s, {.cycle_s = options.cycle_s});
     analysis.reading = reading_of(analysis, options.cycle_s);
     std::vector<std::vector<double>> modes;
-    for (const Component& mode : analysis.temperature.modes)
+    for (const eemd::Component& mode : analysis.temperature.modes)
         if (mode.extrema_count > 0) modes.push_back(mode.values);
     analysis.by_modes = response_by_modes(modes, temperature, acceleration, step_s);
     analysis.two_paths = fit_two_paths(temperature, acceleration, step_s, options.cycle_s);
@@ -163,4 +164,4 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     return analysis;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -23,7 +23,7 @@
 #include "corrector/long_record/response.hpp"
 #include "corrector/long_record/two_path_fit.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Options of analyse_record().  Cycle, shift and ensemble are those of the publication.
 ///
@@ -61,13 +61,13 @@ struct ChosenMode {
 /// - `by_spectrum`, `by_modes`: fastest first; refused points are among them.
 /// - `two_paths`: mGal, degC, s; see fit_two_paths().
 struct RecordAnalysis {
-    double step_s = 0.0;  ///< Time between samples.
-    LineFit raw;          ///< Acceleration over temperature, all samples.
-    LineFit trend;        ///< Residue of the acceleration over residue of the temperature.
+    double step_s = 0.0;         ///< Time between samples.
+    correlation::LineFit raw;    ///< Acceleration over temperature, all samples.
+    correlation::LineFit trend;  ///< Residue of the acceleration over residue of the temperature.
     /// Last minus first value of both residues.
     double temperature_change_degc = 0.0, acceleration_change_mgal = 0.0;
     PairStatistics band;  ///< Butterworth band pass from cycle / 1.5 to cycle x 5 / 3.
-    EemdResult temperature, acceleration;
+    eemd::Result temperature, acceleration;
     std::optional<ChosenMode> temperature_mode, acceleration_mode;  ///< Absent: no such mode.
     std::optional<PairStatistics> modes;               ///< Statistics of both chosen modes.
     std::vector<ResponsePoint> by_spectrum, by_modes;  ///< Response by period, in two ways.
@@ -104,4 +104,4 @@ struct RecordAnalysis {
 /// Returns the longest period of the band about a cycle, s: cycle x 5 / 3, 1500 for 900.
 [[nodiscard]] constexpr double longest_of_band_s(double cycle_s) { return cycle_s * 5.0 / 3.0; }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -11,11 +11,11 @@
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 using Index = Eigen::Index;
-constexpr int kCount = static_cast<int>(kThermalNames.size());
+constexpr int kCount = static_cast<int>(unit::kThermalNames.size());
 using Vector = Eigen::Matrix<double, kCount, 1>;
 using Matrix = Eigen::Matrix<double, kCount, kCount>;
 
@@ -37,7 +37,7 @@ TwoPathTerm term_of(Index k) { return kThermalOfTwoPath.at(static_cast<std::size
 std::pair<Vector, Vector> thermal_priors() {
     Vector means, deviations;
     for (Index k = 0; k < kCount; ++k) {
-        const ThermalPrior prior = record_prior(static_cast<ThermalTerm>(k));
+        const unit::ThermalPrior prior = unit::record_prior(static_cast<unit::ThermalTerm>(k));
         means(k) = prior.mean;
         deviations(k) = prior.deviation;
     }
@@ -58,14 +58,14 @@ Information information_of(const TwoPathFit& fit) {
                 (deviations(i) * deviations(j));
     }
     // The priors are independent, so that integrating out the other terms does not change theirs.
-    const Matrix posterior = Cholesky(covariance).inverse();
+    const Matrix posterior = linear_algebra::Cholesky(covariance).inverse();
     return {0.5 * (posterior + posterior.transpose()) - Matrix::Identity(), posterior * estimate};
 }
 
 /// Returns the part in directions with at least kLeastInformation, and the number of these
 /// directions.
 std::pair<Information, int> told(const Information& all) {
-    const SymmetricEigen axes = symmetric_eigen(all.matrix);
+    const linear_algebra::SymmetricEigen axes = linear_algebra::symmetric_eigen(all.matrix);
     Information part;
     int count = 0;
     for (Index k = 0; k < kCount; ++k) {
@@ -81,7 +81,7 @@ std::pair<Information, int> told(const Information& all) {
 /// Returns v' M^+ v (M^+ pseudoinverse of the matrix, v the vector) and the rank of M.
 std::pair<double, int> explained(const Information& part) {
     constexpr double kNothing = 1e-6;
-    const SymmetricEigen axes = symmetric_eigen(part.matrix);
+    const linear_algebra::SymmetricEigen axes = linear_algebra::symmetric_eigen(part.matrix);
     double sum = 0.0;
     int rank = 0;
     for (Index k = 0; k < kCount; ++k) {
@@ -110,12 +110,13 @@ double agreement(const std::vector<Information>& records) {
     if (dof == rank) return 1.0;
     const boost::math::chi_squared distribution(static_cast<double>(dof - rank));
     return boost::math::cdf(boost::math::complement(
-        distribution, std::max(0.0, sum - common) / (kThermalErrorFactor * kThermalErrorFactor)));
+        distribution,
+        std::max(0.0, sum - common) / (unit::kThermalErrorFactor * unit::kThermalErrorFactor)));
 }
 
 /// Returns the response for a calibration file; undetermined directions have kOpenDeviation.
-ThermalResponse response_for_file(const Information& all) {
-    const SymmetricEigen axes = symmetric_eigen(all.matrix);
+unit::ThermalResponse response_for_file(const Information& all) {
+    const linear_algebra::SymmetricEigen axes = linear_algebra::symmetric_eigen(all.matrix);
     Vector values = Vector::Zero();
     Matrix covariance = Matrix::Zero();
     for (Index k = 0; k < kCount; ++k) {
@@ -127,7 +128,7 @@ ThermalResponse response_for_file(const Information& all) {
                       axis.transpose();
     }
     const auto [means, deviations] = thermal_priors();
-    ThermalResponse response;
+    unit::ThermalResponse response;
     response.values = means + deviations.cwiseProduct(values);
     const Matrix scaled = deviations.asDiagonal() * covariance * deviations.asDiagonal();
     response.covariance = 0.5 * (scaled + scaled.transpose());
@@ -144,7 +145,7 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
         all.matrix += records.back().matrix;
         all.vector += records.back().vector;
     }
-    const Matrix covariance = Cholesky(all.matrix + Matrix::Identity()).inverse();
+    const Matrix covariance = linear_algebra::Cholesky(all.matrix + Matrix::Identity()).inverse();
     const Vector estimate = covariance * all.vector;
     const auto [means, deviations] = thermal_priors();
 
@@ -222,11 +223,11 @@ WarmUpReading warm_up_guidance(const TwoPathFit& fit, double begins_after_h, dou
                             "needed: {} h or more",
                             shown, text::fixed(within_mgal, 2), text::fixed(after_h, 1),
                             text::fixed(after_h, 0))};
-    return {WarmUpGuidance{within_mgal, begins_after_h + after_h},
+    return {unit::WarmUpGuidance{within_mgal, begins_after_h + after_h},
             fmt::format("{}: within {} mGal {} h after power-on, {} h with 95 % confidence", shown,
                         text::fixed(within_mgal, 2),
                         text::fixed(begins_after_h + std::max(0.0, time_h * ratio), 1),
                         text::fixed(begins_after_h + after_h, 1))};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -21,7 +21,7 @@
 #include "corrector/long_record/two_path_fit.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Thermal response from several records together.
 ///
@@ -30,7 +30,7 @@ namespace a351::corrector {
 struct PooledThermal {
     /// Response without the priors of the fits.  Absent: the records determine neither the fast
     /// path nor the static slope.
-    std::optional<ThermalResponse> response;
+    std::optional<unit::ThermalResponse> response;
     /// Parameters with the priors of the fits, in the order of kThermalNames; lags in seconds.
     /// `needed` is set if all records together do not determine the parameter.
     std::vector<FittedParameter> parameters;
@@ -71,7 +71,7 @@ struct PooledThermal {
 
 /// The warm-up in a record.  `words` is a text for people in any case, without a full stop.
 struct WarmUpReading {
-    std::optional<WarmUpGuidance> guidance;
+    std::optional<unit::WarmUpGuidance> guidance;
     /// Result in words; without guidance the reason, and the record that is needed.
     std::string words;
 };
@@ -94,4 +94,4 @@ struct WarmUpReading {
 [[nodiscard]] WarmUpReading warm_up_guidance(const TwoPathFit& fit, double begins_after_h,
                                              double length_h, double within_mgal);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

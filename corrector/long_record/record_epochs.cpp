@@ -5,18 +5,18 @@
 #include "corrector/reading/occupation_window.hpp"
 #include "protocol/station/station_document.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 std::vector<RecordEpoch> read_record_epochs(const std::filesystem::path& metadata) {
-    const auto document = record::load_station_document(metadata);
+    const auto document = station::load_station_document(metadata);
     std::set<UtcTime> starts;
     for (const auto& found : document.select_nodes("/FDSNStationXML/Network/Station/Channel"))
         starts.insert(
-            record::date_of(metadata, found.node(), "startDate").value_or(UtcTime::min()));
+            station::date_of(metadata, found.node(), "startDate").value_or(UtcTime::min()));
     std::vector<RecordEpoch> epochs;
     for (const UtcTime start : starts) {
-        const record::StationMetadata station = record::read_station_xml(metadata, start);
-        const SurveyChannels found = find_channels(station, metadata);
+        const station::Metadata station = station::read_station_xml(metadata, start);
+        const reading::SurveyChannels found = reading::find_channels(station, metadata);
         RecordEpoch epoch{start,
                           station.serial_number,
                           station.codes,
@@ -38,11 +38,11 @@ std::string epoch_change(const RecordEpoch& before, const RecordEpoch& after) {
         return change;
     if (!(before.codes == after.codes)) return "other channels";
     for (std::size_t k = 0; k < kRecordChannels; ++k) {
-        const record::ChannelScale &a = before.scales.at(k), &b = after.scales.at(k);
+        const station::ChannelScale &a = before.scales.at(k), &b = after.scales.at(k);
         if (a.code != b.code) return "other channels";
         if (a.gain != b.gain || a.offset != b.offset) return "another scale of " + b.code;
     }
     return {};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -17,7 +17,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/station/station_xml.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 inline constexpr std::size_t kRecordChannels = 4;  // x, y, z, temperature
 
@@ -29,8 +29,8 @@ inline constexpr std::size_t kRecordChannels = 4;  // x, y, z, temperature
 struct RecordEpoch {
     UtcTime start;
     std::string serial_number;  ///< Serial number of the sensor; empty: not known.
-    record::StationCodes codes;
-    std::array<record::ChannelScale, kRecordChannels> scales;
+    journal::StationCodes codes;
+    std::array<station::ChannelScale, kRecordChannels> scales;
 };
 
 /// Reads the epochs in order of time; neighbours differ.  Samples before the first belong to the
@@ -51,4 +51,4 @@ struct RecordEpoch {
 /// @return empty if both are the same, or if one is not known (empty).
 [[nodiscard]] std::string sensor_change(const std::string& before, const std::string& after);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -10,7 +10,7 @@
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -55,9 +55,9 @@ Json mode_json(const std::optional<ChosenMode>& mode) {
             {"neighbour_share", mode->neighbour_share}};
 }
 
-Json components_json(const EemdResult& result, double step_s) {
+Json components_json(const eemd::Result& result, double step_s) {
     Json list = Json::array();
-    const auto add = [&](const std::string& name, const Component& component) {
+    const auto add = [&](const std::string& name, const eemd::Component& component) {
         list.push_back(
             {{"component", name},
              {"period_s", component.mean_period_samples * step_s},
@@ -210,4 +210,4 @@ std::vector<text::NamedText> record_files(const RecordResult& result, const Json
             {"result.json", record_json(result, settings)}};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

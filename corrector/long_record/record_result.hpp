@@ -18,7 +18,7 @@
 #include "corrector/long_record/apply_calibration.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// A record that was read, divided into segments and analysed.
 ///
@@ -64,4 +64,4 @@ struct RecordStatistic {
 [[nodiscard]] std::vector<text::NamedText> record_files(const RecordResult& result,
                                                         const nlohmann::ordered_json& settings);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

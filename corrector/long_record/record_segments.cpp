@@ -10,7 +10,7 @@
 #include "protocol/signal/median.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 constexpr std::size_t kBeside = 9;  // samples of the median on either side of a step: 3 min
@@ -29,8 +29,8 @@ constexpr double kKnockThreshold = 8.0;  // threshold of find_disturbances()
 constexpr double kRestart_degc = 0.1;
 
 double median_of(const std::vector<double>& values, std::size_t first, std::size_t behind) {
-    return median({values.begin() + static_cast<std::ptrdiff_t>(first),
-                   values.begin() + static_cast<std::ptrdiff_t>(behind)});
+    return signal::median({values.begin() + static_cast<std::ptrdiff_t>(first),
+                           values.begin() + static_cast<std::ptrdiff_t>(behind)});
 }
 
 /// Valid samples of a stretch.
@@ -78,7 +78,7 @@ std::vector<double> find_steps(const std::vector<double>& values) {
         sizes.push_back(std::abs(rises[i]));
     }
     const double limit =
-        std::max(kStepThreshold * kGaussianPerMad * median(sizes), kLeastStep_mgal);
+        std::max(kStepThreshold * signal::kGaussianPerMad * signal::median(sizes), kLeastStep_mgal);
     // One step gives large differences of medians for several samples: they count as one step.
     for (std::size_t i = kBeside; i + kBeside <= count;) {
         if (std::abs(rises[i]) <= limit) {
@@ -129,7 +129,8 @@ private:
         const Valid valid = valid_samples(stretch, is_stuck);
         if (valid.size() == 0) return;
         const std::vector<double> steps = find_steps(valid.acceleration_mgal);
-        const Disturbances knocks = find_disturbances(valid.acceleration_mgal, kKnockThreshold);
+        const reading::Disturbances knocks =
+            reading::find_disturbances(valid.acceleration_mgal, kKnockThreshold);
         std::size_t first = 0;
         Begin begin = begin_of(stretch, valid);
         for (std::size_t i = 1; i <= valid.size(); ++i) {
@@ -203,7 +204,7 @@ private:
             level(valid, i) - median_of(valid.temperature_degc, i - std::min(i, kBeside), i));
     }
 
-    void add(const RecordStretch& stretch, const Valid& valid, const Disturbances& knocks,
+    void add(const RecordStretch& stretch, const Valid& valid, const reading::Disturbances& knocks,
              std::size_t first, std::size_t behind, const Begin& begin) {
         RecordSegment segment;
         segment.start = stretch.times[valid.places[first]];
@@ -267,4 +268,4 @@ RecordSegments divide_record(const LongRecord& record, const SegmentOptions& opt
     return Divider(record, options.shortest).divide();
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

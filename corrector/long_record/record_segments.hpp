@@ -14,7 +14,7 @@
 
 #include "corrector/long_record/long_record.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Longest gap that is bridged by a straight line, samples.  Reason: a third of a cycle of 15 min.
 inline constexpr std::size_t kLongestBridge = 15;
@@ -72,4 +72,4 @@ struct RecordSegments {
 [[nodiscard]] RecordSegments divide_record(const LongRecord& record,
                                            const SegmentOptions& options = {});
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

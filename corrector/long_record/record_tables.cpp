@@ -8,7 +8,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 std::string limits(const Limits& value) {
@@ -64,8 +64,8 @@ std::vector<RecordStatistic> record_statistics(const RecordResult& result) {
          analysis.acceleration_change_mgal, 2}};
     const auto add = [&list](const std::string& key, const std::string& name,
                              const PairStatistics& pair) {
-        const CorrelationPeak &negative = pair.correlation.negative,
-                              &positive = pair.correlation.positive;
+        const correlation::CorrelationPeak &negative = pair.correlation.negative,
+                                           &positive = pair.correlation.positive;
         const std::string moved = ", sign inverted, " + text::fixed(pair.shift_s, 0) + " s earlier";
         list.insert(
             list.end(),
@@ -189,4 +189,4 @@ std::string two_paths_reading(const RecordResult& result) {
     return text + ": the model is not enough, do not extrapolate it";
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

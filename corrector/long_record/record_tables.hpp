@@ -14,7 +14,7 @@
 
 #include "corrector/long_record/record_result.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Cells by row; the first row is the header.  All rows have the same length.
 using TextTable = std::vector<std::vector<std::string>>;
@@ -44,4 +44,4 @@ using TextTable = std::vector<std::vector<std::string>>;
 /// extrapolated, and the sentence says so.
 [[nodiscard]] std::string two_paths_reading(const RecordResult& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// A value with its confidence limits: low <= value <= high.
 struct Limits {
@@ -120,4 +120,4 @@ struct ThermometerSpectrum {
     const std::vector<std::vector<double>>& modes, std::span<const double> temperature_degc,
     std::span<const double> acceleration_mgal, double step_s);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

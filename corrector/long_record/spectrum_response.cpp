@@ -10,7 +10,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 constexpr std::size_t kFewestTapers = 3, kMostTapers = 15;
@@ -20,7 +20,7 @@ constexpr double kFewestCycles = 6.0;  // cycles of a period that the record mus
 
 /// Spectra of both series with each taper; white noise of variance 1 has the mean square 1.
 struct TaperedSpectra {
-    std::vector<Spectrum> temperature, acceleration;
+    std::vector<correlation::Spectrum> temperature, acceleration;
     double bin_hz = 0.0;    ///< Distance of the frequencies.
     double rayleigh = 0.0;  ///< Number of values within the resolution of the untapered record.
 
@@ -30,8 +30,9 @@ struct TaperedSpectra {
 TaperedSpectra tapered_spectra(std::span<const double> temperature,
                                std::span<const double> acceleration, double step_s) {
     const std::size_t count = temperature.size();
-    const std::size_t length = fast_length(count);
-    const std::vector<double> t = without_line(temperature), a = without_line(acceleration);
+    const std::size_t length = correlation::fast_length(count);
+    const std::vector<double> t = correlation::without_line(temperature),
+                              a = correlation::without_line(acceleration);
     TaperedSpectra result;
     result.bin_hz = 1.0 / (static_cast<double>(length) * step_s);
     result.rayleigh = static_cast<double>(length) / static_cast<double>(count);
@@ -47,8 +48,8 @@ TaperedSpectra tapered_spectra(std::span<const double> temperature,
             tapered_t[i] = weight * t[i];
             tapered_a[i] = weight * a[i];
         }
-        result.temperature.push_back(half_spectrum(tapered_t, length));
-        result.acceleration.push_back(half_spectrum(tapered_a, length));
+        result.temperature.push_back(correlation::half_spectrum(tapered_t, length));
+        result.acceleration.push_back(correlation::half_spectrum(tapered_a, length));
     }
     return result;
 }
@@ -192,4 +193,4 @@ std::vector<ResponsePoint> response_by_spectrum(std::span<const double> temperat
     return points;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

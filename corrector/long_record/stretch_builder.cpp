@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 double norm_at(const std::vector<std::vector<double>>& channels, std::size_t i) {
@@ -24,7 +24,8 @@ void widen(double& low, double& high, double value) {
 StretchBuilder::StretchBuilder(int stages, std::size_t axes) : outputs_(axes + 1) {
     for (int stage = 0; stage < stages; ++stage) inputs_per_sample_ *= kRecordFactor;
     if (stages > 0)
-        decimators_.assign(axes + 1, Decimator(design_decimation(kRecordFactor), stages));
+        decimators_.assign(axes + 1,
+                           signal::Decimator(signal::design_decimation(kRecordFactor), stages));
 }
 
 void StretchBuilder::push(const std::vector<std::vector<double>>& channels) {
@@ -76,4 +77,4 @@ RecordStretch StretchBuilder::finish(double step_s) {
     return stretch;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

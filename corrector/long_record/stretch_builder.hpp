@@ -18,7 +18,7 @@
 #include "corrector/long_record/long_record.hpp"
 #include "protocol/signal/decimator.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Builds a stretch from samples of three axes (or their norm) and temperature.
 ///
@@ -68,11 +68,11 @@ private:
     void add_to_ranges(const std::vector<std::vector<double>>& channels);
 
     std::int64_t inputs_per_sample_ = 1;
-    std::vector<Decimator> decimators_;         ///< One per channel; empty without stages.
-    std::vector<std::vector<double>> outputs_;  ///< One per channel.
+    std::vector<signal::Decimator> decimators_;  ///< One per channel; empty without stages.
+    std::vector<std::vector<double>> outputs_;   ///< One per channel.
     std::vector<RecordStretch::RawRange> raw_;
     std::vector<std::optional<UtcTime>> times_;
     std::int64_t input_count_ = 0;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

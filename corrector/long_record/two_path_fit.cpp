@@ -12,7 +12,7 @@
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 namespace {
 
 using Index = Eigen::Index;
@@ -26,11 +26,11 @@ constexpr double kWarmUpDeviation_mgal = 60.0;  // more than the warm-up of the 
 constexpr double kWarmUpTimeFactor = 1.5;
 /// Priors of the linear terms; their means are 0.
 constexpr std::array<double, kLinear> kPriorDeviation{
-    kDriftDeviation_mgal_per_h, kWarmUpDeviation_mgal, kRecordSlopeDeviation_mgal_per_degc,
-    kRecordFastDeviation_mgal_per_degc_per_h, kRecordSlopeDeviation_mgal_per_degc};
-constexpr Lags kLagMedian_s{kTypicalUnit.fast_lag_s, kTypicalUnit.slow_lag_s,
-                            kTypicalUnit.warm_up_h* kSecondsPerHour};
-constexpr Lags kLagFactor{kRecordLagFactor, kRecordLagFactor, kWarmUpTimeFactor};
+    kDriftDeviation_mgal_per_h, kWarmUpDeviation_mgal, unit::kRecordSlopeDeviation_mgal_per_degc,
+    unit::kRecordFastDeviation_mgal_per_degc_per_h, unit::kRecordSlopeDeviation_mgal_per_degc};
+constexpr Lags kLagMedian_s{unit::kTypicalUnit.fast_lag_s, unit::kTypicalUnit.slow_lag_s,
+                            unit::kTypicalUnit.warm_up_h* kSecondsPerHour};
+constexpr Lags kLagFactor{unit::kRecordLagFactor, unit::kRecordLagFactor, kWarmUpTimeFactor};
 
 /// Returns lag k at the point u, s: median x factor^u.
 double lag_s(const Lags& u, std::size_t k) {
@@ -52,7 +52,7 @@ public:
                      static_cast<Index>(count_ / 2));
         readings_ = transformed(
             {acceleration.begin(), acceleration.begin() + static_cast<std::ptrdiff_t>(count_)});
-        mean_degc_ = mean_of(temperature_.values());
+        mean_degc_ = correlation::mean_of(temperature_.values());
         numbers_.resize(count_);
         std::iota(numbers_.begin(), numbers_.end(), 0.0);
         ramp_ = transformed(numbers_);
@@ -66,8 +66,8 @@ public:
                                                            const Lags& u) const {
         const std::vector<double>& t = temperature.values();
         std::vector<std::vector<double>> all(kLinear, std::vector<double>(t.size()));
-        all[3] = fast_rate_degc_per_h(temperature, lag_s(u, 0));
-        all[4] = lagged(temperature, lag_s(u, 1));
+        all[3] = unit::fast_rate_degc_per_h(temperature, lag_s(u, 0));
+        all[4] = unit::lagged(temperature, lag_s(u, 1));
         for (std::size_t i = 0; i < t.size(); ++i) {
             const double time_h = static_cast<double>(i) * step_s_ / kSecondsPerHour;
             all[0][i] = time_h;
@@ -87,7 +87,8 @@ public:
             const auto place = static_cast<std::size_t>(k);
             Eigen::VectorXd column = transformed(all[place]);
             if (place >= static_cast<std::size_t>(TwoPathTerm::level))
-                column = trusted(std::move(column), fit_line(numbers_, all[place]).slope);
+                column =
+                    trusted(std::move(column), correlation::fit_line(numbers_, all[place]).slope);
             x.col(k) = kPriorDeviation.at(place) * whitened(std::move(column));
         }
         return x;
@@ -101,7 +102,7 @@ public:
     [[nodiscard]] double cost(const Lags& u) const {
         const Eigen::MatrixXd x = design(u);
         const Eigen::VectorXd y = readings();
-        const Cholesky factor(normal_matrix(x));
+        const linear_algebra::Cholesky factor(linear_algebra::normal_matrix(x));
         if (!factor.is_positive_definite()) return HUGE_VAL;  // overflow
         const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
         // 2 cost = ln det(X'X + 1) + y'y - |L^-1 X'y|^2 + |u|^2, with L L' = X'X + 1
@@ -112,7 +113,7 @@ public:
 
     /// Returns the lags of least cost.
     [[nodiscard]] Lags most_likely(const Lags& start, bool is_nearby) const {
-        return least_cost_point(
+        return whole_day::least_cost_point(
             [this](const Lags& u) { return cost(u); }, start, is_nearby,
             {.farthest = 5.0, .first_step = 0.3, .tolerance = 0.01, .most_costs = 120});
     }
@@ -121,7 +122,8 @@ public:
     /// (X'X + I)^-1 X'y with X = design(u), y = readings().
     [[nodiscard]] Eigen::VectorXd coefficients(const Lags& u) const {
         const Eigen::MatrixXd x = design(u);
-        return Cholesky(normal_matrix(x)).solve(x.transpose() * readings());
+        return linear_algebra::Cholesky(linear_algebra::normal_matrix(x))
+            .solve(x.transpose() * readings());
     }
 
     /// Returns the covariance of coefficients and lags, in deviations of their priors:
@@ -137,7 +139,7 @@ public:
             jacobian.col(kLinear + static_cast<Index>(k)) =
                 (design(more) - design(less)) * beta / (2.0 * kStep);
         }
-        return Cholesky(normal_matrix(jacobian)).inverse();
+        return linear_algebra::Cholesky(linear_algebra::normal_matrix(jacobian)).inverse();
     }
 
     /// Sets the noise from the residuals.
@@ -150,7 +152,7 @@ public:
 
 private:
     static std::size_t fast_length_within(std::size_t n) {
-        while (fast_length(n) != n) --n;
+        while (correlation::fast_length(n) != n) --n;
         return n;
     }
 
@@ -180,10 +182,10 @@ private:
 
     /// Returns the spectrum of a series minus its mean (2 frequencies), real above imaginary parts.
     [[nodiscard]] Eigen::VectorXd transformed(const std::vector<double>& values) const {
-        const double mean = mean_of(values);
+        const double mean = correlation::mean_of(values);
         std::vector<double> centred = values;
         for (double& value : centred) value -= mean;
-        const Spectrum spectrum = half_spectrum(centred, centred.size());
+        const correlation::Spectrum spectrum = correlation::half_spectrum(centred, centred.size());
         Eigen::VectorXd parts(2 * frequencies_);
         for (Index k = 0; k < frequencies_; ++k) {
             parts(k) = spectrum[static_cast<std::size_t>(k + 1)].real();
@@ -304,9 +306,9 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
     for (std::size_t i = 0; i < fit.residual_mgal.size(); ++i)
         for (std::size_t k = 0; k < columns.size(); ++k)
             fit.residual_mgal[i] -= fit.parameters.at(k).value * columns[k][i];
-    const double mean = mean_of(fit.residual_mgal);
+    const double mean = correlation::mean_of(fit.residual_mgal);
     for (double& value : fit.residual_mgal) value -= mean;
-    fit.residual_rms_mgal = std::sqrt(variance_of(fit.residual_mgal));
+    fit.residual_rms_mgal = std::sqrt(correlation::variance_of(fit.residual_mgal));
 
     for (ResponsePoint& point : response_by_spectrum(temperature_degc, fit.residual_mgal, step_s,
                                                      {.cycle_s = cycle_s, .is_joint = true}))
@@ -314,4 +316,4 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
     return fit;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

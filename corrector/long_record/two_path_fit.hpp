@@ -27,7 +27,7 @@
 #include "corrector/long_record/response.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Parameters d, w, rA, rF, rS, tF, tS, tW, in the order of TwoPathFit::parameters and its
 /// covariance.
@@ -39,7 +39,7 @@ enum class TwoPathTerm { drift, warm_up, level, fast, slow, fast_lag, slow_lag, 
 inline constexpr std::size_t kTwoPathTerms = 8;
 
 /// Parameters that a calibration keeps, in the order of ThermalTerm.
-inline constexpr std::array<TwoPathTerm, kThermalTerms> kThermalOfTwoPath{
+inline constexpr std::array<TwoPathTerm, unit::kThermalTerms> kThermalOfTwoPath{
     TwoPathTerm::level, TwoPathTerm::slow, TwoPathTerm::fast, TwoPathTerm::fast_lag,
     TwoPathTerm::slow_lag};
 
@@ -119,4 +119,4 @@ struct TwoPathFit {
                                        const std::vector<double>& acceleration_mgal, double step_s,
                                        double cycle_s);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -8,12 +8,12 @@
 
 #include "corrector/model/outlier_tests.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 std::variant<AppliedFit, Refusal> apply_model(const LinearModel& model,
                                               const SurveyProblem& problem, const RowChoice& choice,
-                                              const ModelPriors& priors) {
-    const std::vector<SurveyRow> used = chosen_rows(problem.rows, choice.in_use);
+                                              const Priors& priors) {
+    const std::vector<reading::SurveyRow> used = chosen_rows(problem.rows, choice.in_use);
     auto fit = fit_model(model, used, problem.origin(), priors);
     if (!fit)
         return Refusal{fmt::format("{} rows with a reference do not determine it", used.size()),
@@ -33,7 +33,7 @@ void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t r
     if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
 }
 
-void correct_rows(ModelFit& result, const LinearModel& model, const AppliedFit& applied) {
+void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied) {
     const LinearFit& fit = applied.fit;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
@@ -65,8 +65,7 @@ void correct_rows(ModelFit& result, const LinearModel& model, const AppliedFit& 
     }
 }
 
-std::vector<StationValue> average_stations(const ModelFit& result,
-                                           const std::vector<bool>& accepted,
+std::vector<StationValue> average_stations(const Fit& result, const std::vector<bool>& accepted,
                                            const AppliedFit& applied,
                                            std::optional<double> s_mgal) {
     const std::vector<CorrectedRow>& rows = result.rows;
@@ -104,4 +103,4 @@ std::vector<StationValue> average_stations(const ModelFit& result,
     return stations;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

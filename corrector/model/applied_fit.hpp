@@ -22,7 +22,7 @@
 
 #include "corrector/model/model.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// A fit with the regressors of all rows, in use or not.
 ///
@@ -51,7 +51,7 @@ struct AppliedFit {
 [[nodiscard]] std::variant<AppliedFit, Refusal> apply_model(const LinearModel& model,
                                                             const SurveyProblem& problem,
                                                             const RowChoice& choice,
-                                                            const ModelPriors& priors);
+                                                            const Priors& priors);
 
 /// Sets leverage and u_corrected = s sqrt(1 + leverage), that of a station that is not in the fit.
 ///
@@ -70,7 +70,7 @@ void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t r
 /// @param result  with the rows of uncorrected(), one per row of `applied`; coefficients are added
 ///                to those that it has.
 /// @param model   model of the fit.
-void correct_rows(ModelFit& result, const LinearModel& model, const AppliedFit& applied);
+void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied);
 
 /// Returns the values of the stations: means of their accepted rows, or of all their rows if none
 /// is accepted.  u = s sqrt(1/n + leverage of the mean of these rows).
@@ -81,9 +81,9 @@ void correct_rows(ModelFit& result, const LinearModel& model, const AppliedFit& 
 /// @param result    after correct_rows(), or with corrected values and leverages of a model's own.
 /// @param accepted  (n) RowChoice::accepted.
 /// @param s_mgal    standard deviation of a row; without it there is no u.
-[[nodiscard]] std::vector<StationValue> average_stations(const ModelFit& result,
+[[nodiscard]] std::vector<StationValue> average_stations(const Fit& result,
                                                          const std::vector<bool>& accepted,
                                                          const AppliedFit& applied,
                                                          std::optional<double> s_mgal);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

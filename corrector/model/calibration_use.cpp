@@ -11,19 +11,20 @@
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<Eigen::Index> kAxisPlaces{DayPriors::place_of(DayTerm::x),
-                                            DayPriors::place_of(DayTerm::y)};
+const std::vector<Eigen::Index> kAxisPlaces{whole_day::DayPriors::place_of(whole_day::DayTerm::x),
+                                            whole_day::DayPriors::place_of(whole_day::DayTerm::y)};
 // In the order of kThermalNames: rA, rS, rF, then the lags, which are first in DayPriors.
-const std::vector<Eigen::Index> kThermalPlaces{DayPriors::place_of(DayTerm::level),
-                                               DayPriors::place_of(DayTerm::slow),
-                                               DayPriors::place_of(DayTerm::fast), 0, 1};
+const std::vector<Eigen::Index> kThermalPlaces{
+    whole_day::DayPriors::place_of(whole_day::DayTerm::level),
+    whole_day::DayPriors::place_of(whole_day::DayTerm::slow),
+    whole_day::DayPriors::place_of(whole_day::DayTerm::fast), 0, 1};
 
-MilliGal tilt_effect(const SurveyRow& row, const std::optional<AxisBias>& bias) {
+MilliGal tilt_effect(const reading::SurveyRow& row, const std::optional<unit::AxisBias>& bias) {
     if (!bias) return MilliGal(0.0);
     return MilliGal(bias->values(0) * row.axes_for("calibration").x.mean.value() +
                     bias->values(1) * row.axes_for("calibration").y.mean.value());
@@ -33,17 +34,17 @@ bool is_contradicted(const std::optional<Disagreement>& test) {
     return test && test->p < kContradictionP;
 }
 
-bool is_harmful(const CalibrationUse& use, const ModelScore& score) {
+bool is_harmful(const CalibrationUse& use, const Score& score) {
     return use.loso_without_mgal && score.loso_mgal &&
            *score.loso_mgal > (1.0 + kHarm) * *use.loso_without_mgal;
 }
 
-std::string name_of(const Calibration& calibration) {
+std::string name_of(const unit::Calibration& calibration) {
     return fmt::format("calibration of unit {} ({}, from {})", calibration.serial_number,
                        calibration.program, to_rfc3339(calibration.valid_from));
 }
 
-void remark_test(ModelFit& result, const char* part, const std::optional<Disagreement>& test) {
+void remark_test(Fit& result, const char* part, const std::optional<Disagreement>& test) {
     if (!test)
         result.remarks.push_back(fmt::format(
             "the calibration's {} not tested: the readings contain no information about this part",
@@ -67,24 +68,24 @@ Json part_json(bool is_there, const char* use, const std::optional<Disagreement>
 
 }  // namespace
 
-bool helps_to_correct_day(const std::optional<Calibration>& calibration) {
+bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration) {
     return calibration && (calibration->axis_bias || calibration->thermal);
 }
 
-DayPriors day_priors_of(const std::optional<Calibration>& calibration) {
-    DayPriors priors = usual_day_priors();
+whole_day::DayPriors day_priors_of(const std::optional<unit::Calibration>& calibration) {
+    whole_day::DayPriors priors = whole_day::usual_day_priors();
     if (!calibration) return priors;
     if (const auto& bias = calibration->axis_bias)
         priors.observe(kAxisPlaces, bias->values, bias->covariance);
     if (const auto& thermal = calibration->thermal)
         priors.observe(kThermalPlaces, thermal->values,
-                       kThermalErrorFactor * kThermalErrorFactor * thermal->covariance);
+                       unit::kThermalErrorFactor * unit::kThermalErrorFactor * thermal->covariance);
     return priors;
 }
 
 // If the prior is true, the shift (the posterior mean) scatters about 0 with the covariance
 // D = 1 - posterior covariance.  In directions in which D is 0 the day contains no information.
-std::optional<Disagreement> disagreement(const DayFit& fit,
+std::optional<Disagreement> disagreement(const whole_day::DayFit& fit,
                                          const std::vector<Eigen::Index>& places) {
     // Least D of a direction that is tested.  A tight and wrong prior makes D small, because the
     // noise takes the disagreement.  Terms are solved for: their limit is rounding.  Lags are
@@ -93,12 +94,13 @@ std::optional<Disagreement> disagreement(const DayFit& fit,
     const auto count = static_cast<Eigen::Index>(places.size());
     Eigen::VectorXd scale(count);
     for (Eigen::Index k = 0; k < count; ++k) {
-        const bool is_lag = places[static_cast<std::size_t>(k)] < Eigen::Index{kDayLags};
+        const bool is_lag = places[static_cast<std::size_t>(k)] < Eigen::Index{whole_day::kDayLags};
         scale(k) = 1.0 / std::sqrt(is_lag ? kLeastOfLag : kLeastOfTerm);
     }
     const Eigen::MatrixXd gained = Eigen::MatrixXd::Identity(count, count) -
                                    Eigen::MatrixXd(fit.shift_covariance(places, places));
-    const SymmetricEigen axes = symmetric_eigen(scale.asDiagonal() * gained * scale.asDiagonal());
+    const linear_algebra::SymmetricEigen axes =
+        linear_algebra::symmetric_eigen(scale.asDiagonal() * gained * scale.asDiagonal());
     const Eigen::VectorXd along =
         axes.vectors.transpose() * scale.cwiseProduct(Eigen::VectorXd(fit.shift(places)));
     Disagreement test;
@@ -114,8 +116,9 @@ std::optional<Disagreement> disagreement(const DayFit& fit,
     return test;
 }
 
-void report_prior_use(ModelFit& result, const Calibration& calibration, const DayFit& fit,
-                      const DayFit& without, const std::optional<double>& without_loso_mgal) {
+void report_prior_use(Fit& result, const unit::Calibration& calibration,
+                      const whole_day::DayFit& fit, const whole_day::DayFit& without,
+                      const std::optional<double>& without_loso_mgal) {
     CalibrationUse use;
     use.is_prior = true;
     if (calibration.axis_bias) use.axis_bias = disagreement(fit, kAxisPlaces);
@@ -145,12 +148,13 @@ void report_prior_use(ModelFit& result, const Calibration& calibration, const Da
     result.calibration = use;
 }
 
-SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
-                                          const SurveyOptions& options, const DayRecord* day) {
+SurveyCorrection correct_with_calibration(const std::vector<reading::SurveyRow>& rows,
+                                          const SurveyOptions& options,
+                                          const reading::DayRecord* day) {
     if (!options.calibration) return correct_survey(rows, options, day);
-    const Calibration& calibration = *options.calibration;
-    std::vector<SurveyRow> freed = rows;
-    for (SurveyRow& row : freed)
+    const unit::Calibration& calibration = *options.calibration;
+    std::vector<reading::SurveyRow> freed = rows;
+    for (reading::SurveyRow& row : freed)
         row.acceleration = row.acceleration - tilt_effect(row, calibration.axis_bias);
     SurveyCorrection result = correct_survey(freed, options, day);
     if (result.as<WholeDayPart>() != nullptr) return result;
@@ -182,8 +186,8 @@ SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
     return result;
 }
 
-std::string_view calibration_in(const SurveyCorrection& result, const ModelScore& score) {
-    const std::optional<Calibration>& calibration = result.options.calibration;
+std::string_view calibration_in(const SurveyCorrection& result, const Score& score) {
+    const std::optional<unit::Calibration>& calibration = result.options.calibration;
     if (!helps_to_correct_day(calibration)) return "none";
     if (score.model == kWholeDay) return "prior";
     return calibration->axis_bias ? "fixed" : "none";
@@ -191,7 +195,7 @@ std::string_view calibration_in(const SurveyCorrection& result, const ModelScore
 
 Json calibration_json(const SurveyCorrection& result) {
     if (!result.calibration) return nullptr;
-    const Calibration& calibration = result.options.calibration.value();
+    const unit::Calibration& calibration = result.options.calibration.value();
     const CalibrationUse& use = *result.calibration;
     const auto& valid_to = calibration.valid_to;
     const bool is_compared = use.loso_without_mgal.has_value();
@@ -208,4 +212,4 @@ Json calibration_json(const SurveyCorrection& result) {
             {"worse_with_it", is_compared ? Json(is_harmful(use, result.score)) : Json(nullptr)}};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -21,7 +21,7 @@
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/whole_day/day_model.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Probability below which the readings contradict the calibration: such a difference occurs by
 /// chance once in a hundred surveys.
@@ -30,7 +30,7 @@ inline constexpr double kContradictionP = 0.01;
 /// Returns true if the calibration has axis biases or a thermal response.  A warm-up time alone
 /// does not help to correct a day.  If true, the whole-day model needs one row with a reference
 /// instead of six.
-[[nodiscard]] bool helps_to_correct_day(const std::optional<Calibration>& calibration);
+[[nodiscard]] bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration);
 
 /// Returns the usual priors, combined with the calibration: axis biases with their covariance, the
 /// thermal response with kThermalErrorFactor^2 times its covariance.
@@ -38,7 +38,8 @@ inline constexpr double kContradictionP = 0.01;
 /// The result is narrower than either: for a single coefficient the inverse variances add up.
 /// Without a calibration it is usual_day_priors().
 /// @throws std::invalid_argument  as DayPriors::observe().
-[[nodiscard]] DayPriors day_priors_of(const std::optional<Calibration>& calibration);
+[[nodiscard]] whole_day::DayPriors day_priors_of(
+    const std::optional<unit::Calibration>& calibration);
 
 /// Tests how far the day moved some lags and terms from their priors.
 ///
@@ -53,7 +54,7 @@ inline constexpr double kContradictionP = 0.01;
 /// @param fit     fit with these priors.
 /// @param places  places in DayPriors; their priors must be independent of those of other places.
 /// @return std::nullopt if the day contains no information about them (dof = 0).
-[[nodiscard]] std::optional<Disagreement> disagreement(const DayFit& fit,
+[[nodiscard]] std::optional<Disagreement> disagreement(const whole_day::DayFit& fit,
                                                        const std::vector<Eigen::Index>& places);
 
 /// Relative increase of the leave-one-station-out error above which the calibration is reported as
@@ -62,7 +63,7 @@ inline constexpr double kContradictionP = 0.01;
 /// are reported too.
 inline constexpr double kHarm = 0.03;
 
-/// Sets ModelFit::calibration and adds remarks on the calibration as prior of the whole-day model.
+/// Sets Fit::calibration and adds remarks on the calibration as prior of the whole-day model.
 ///
 /// There is always one remark on the use and its effect.  Others follow if a part is contradicted,
 /// if it could not be tested, or if LOSO is worse by more than kHarm.
@@ -71,8 +72,9 @@ inline constexpr double kHarm = 0.03;
 /// @param fit                fit with day_priors_of().
 /// @param without            fit of the same rows with the usual priors.
 /// @param without_loso_mgal  LOSO with the usual priors; absent if there is none.
-void report_prior_use(ModelFit& result, const Calibration& calibration, const DayFit& fit,
-                      const DayFit& without, const std::optional<double>& without_loso_mgal);
+void report_prior_use(Fit& result, const unit::Calibration& calibration,
+                      const whole_day::DayFit& fit, const whole_day::DayFit& without,
+                      const std::optional<double>& without_loso_mgal);
 
 /// Corrects a survey with the calibration of the options, if there is one.
 ///
@@ -86,16 +88,15 @@ void report_prior_use(ModelFit& result, const Calibration& calibration, const Da
 /// @param rows, options, day  as correct_survey().
 /// @throws InputError  as correct_survey(), and if there are axis biases and a row has no means of
 ///                     the axes.
-[[nodiscard]] SurveyCorrection correct_with_calibration(const std::vector<SurveyRow>& rows,
+[[nodiscard]] SurveyCorrection correct_with_calibration(const std::vector<reading::SurveyRow>& rows,
                                                         const SurveyOptions& options,
-                                                        const DayRecord* day);
+                                                        const reading::DayRecord* day);
 
 /// Returns the use of the calibration in a score: "prior", "fixed" (axis bias x tilt was subtracted
 /// from the readings) or "none".
 /// @param result  result of correct_with_calibration().
 /// @param score   one of its scores.
-[[nodiscard]] std::string_view calibration_in(const SurveyCorrection& result,
-                                              const ModelScore& score);
+[[nodiscard]] std::string_view calibration_in(const SurveyCorrection& result, const Score& score);
 
 /// Returns the part `calibration` of result.json; null without a calibration.
 ///
@@ -104,4 +105,4 @@ void report_prior_use(ModelFit& result, const Calibration& calibration, const Da
 /// @param result  result of correct_with_calibration().
 [[nodiscard]] nlohmann::ordered_json calibration_json(const SurveyCorrection& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

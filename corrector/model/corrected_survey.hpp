@@ -30,7 +30,7 @@
 #include "corrector/reading/survey_row.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Options of a correction.
 ///
@@ -48,10 +48,10 @@ struct SurveyOptions {
     std::uint64_t seed = 1;  ///< Seed of the bootstrap over stations.
     /// Priors of the linear models, `robust` and the network; `paper` uses none, and `day` refuses
     /// them.
-    ModelPriors priors;
+    Priors priors;
     /// Calibration of the unit.  correct_survey() uses it only as prior of `day`; for other models
     /// call correct_with_calibration().
-    std::optional<Calibration> calibration;
+    std::optional<unit::Calibration> calibration;
 };
 
 /// Values of a row that only `paper` gives: in every row.
@@ -80,7 +80,7 @@ struct WholeDayRow {
 /// The constant contains the bias of the sensor, up to thousands of mGal.  Only differences of the
 /// temperature correction between rows show the effect of the temperature.
 struct CorrectedRow {
-    SurveyRow row;                       ///< Reading; for `day` with means over its bins.
+    reading::SurveyRow row;              ///< Reading; for `day` with means over its bins.
     bool is_used = false;                ///< True for a row in the fit.
     std::optional<MilliGal> difference;  ///< acceleration - reference - tide.
     MilliGal temperature_correction;
@@ -123,7 +123,7 @@ struct CorrectedRow {
 /// The value of a station.
 ///
 /// For a station with a reference in the fit, `gravity` is in sample: the fit has seen the
-/// reference.  The error to expect at an unknown station is ModelScore::loso_mgal.
+/// reference.  The error to expect at an unknown station is Score::loso_mgal.
 struct StationValue {
     std::string site;              ///< Name of the station.
     std::size_t row_count = 0;     ///< Number of rows averaged; `network`: readings adjusted.
@@ -184,14 +184,14 @@ struct PaperPart {};
 struct WholeDayPart {};
 
 /// A model fitted to a survey.
-struct ModelFit {
+struct Fit {
     /// All rows in order of time, in use or not, except those in `left_out`.
     std::vector<CorrectedRow> rows;
     /// Occupations that have no row, or that cannot be corrected.
-    std::vector<LeftOut> left_out;
+    std::vector<reading::LeftOut> left_out;
     std::vector<StationValue> stations;     ///< In order of their first row.
     std::vector<Coefficient> coefficients;  ///< In the order of the model.
-    ModelScore score;                       ///< Score on the rows of the fit.
+    Score score;                            ///< Score on the rows of the fit.
     std::vector<std::string> remarks;       ///< Further facts for the user, in sentences.
     /// Present if the options have a calibration and the model is `day`, or the fit is that of
     /// correct_with_calibration().
@@ -209,7 +209,7 @@ struct ModelFit {
 };
 
 /// Returns the 95 % limits of LOO; absent unless a linear model was fitted.
-[[nodiscard]] inline std::optional<Interval> loo_interval_mgal(const ModelFit& result) {
+[[nodiscard]] inline std::optional<Interval> loo_interval_mgal(const Fit& result) {
     const auto* const linear = result.as<LinearPart>();
     return linear != nullptr ? linear->loo_interval_mgal : std::nullopt;
 }
@@ -218,18 +218,18 @@ struct ModelFit {
 struct ScoredRowSet {
     std::string rows;  ///< "used": rows that are not flagged; "all": flagged rows too.
     /// Scores in the order of models().  The applied model is last, unless it is always scored.
-    std::vector<ModelScore> scores;
+    std::vector<Score> scores;
 };
 
 /// Result of correct_survey(): a fit, and how its model was chosen.
 ///
 /// Compare models within one row set only: scores of different rows are not comparable.
-struct SurveyCorrection : ModelFit {
+struct SurveyCorrection : Fit {
     SurveyOptions options;                   ///< Options as applied; `base` is filled in.
     std::string model;                       ///< Name of the model; with `auto` the chosen one.
     std::vector<ScoredRowSet> row_sets;      ///< Two sets: used, all.
-    std::optional<ModelChoice> choice;       ///< `auto` only, if not the whole-day model.
+    std::optional<Choice> choice;            ///< `auto` only, if not the whole-day model.
     std::optional<double> choice_loso_mgal;  ///< `auto` only: LOSO of choosing and fitting.
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -5,7 +5,7 @@
 
 #include "protocol/linear_algebra/pivoted_qr.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 double LinearFit::at(const Eigen::Ref<const Eigen::VectorXd>& x) const {
     // Centred, because the constant b0 contains the rounding of large x.
@@ -55,7 +55,7 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
             rows.row(row) = priors.weights(k) * Eigen::RowVectorXd::Unit(q, k);
             right(row++) = priors.weights(k) * priors.values(k);
         }
-        const PivotedQr qr(rows);
+        const linear_algebra::PivotedQr qr(rows);
         // Centring is exact to about 1e-16 of the values; the rest of a constant column is noise.
         const double noise =
             1e-12 * (1.0 + columns.cwiseAbs().maxCoeff()) * std::sqrt(static_cast<double>(n));
@@ -84,4 +84,4 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
     return fit;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

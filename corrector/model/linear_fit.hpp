@@ -16,7 +16,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Result of a fit of y = b0 + X b + noise, with n rows and p coefficients.
 ///
@@ -96,4 +96,4 @@ struct SlopePriors {
                                                   const Eigen::Ref<const Eigen::VectorXd>& y,
                                                   const SlopePriors& priors = {});
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -4,12 +4,12 @@
 #include "corrector/model/model.hpp"
 #include "corrector/model/row_doubts.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 /// Returns the 95 % interval of the LOO, from the leave-one-out errors r / (1 - h), which are exact
 /// for least squares.
-std::optional<Interval> loo_interval(const ModelFit& result, std::uint64_t seed) {
+std::optional<Interval> loo_interval(const Fit& result, std::uint64_t seed) {
     if (!result.score.loo_mgal) return std::nullopt;
     std::vector<double> errors;
     std::vector<std::string> stations;
@@ -21,17 +21,17 @@ std::optional<Interval> loo_interval(const ModelFit& result, std::uint64_t seed)
     return bootstrap_rms_interval(errors, stations, seed);
 }
 
-ModelScore score(const LinearModel& terms, const SurveyProblem& problem, const RowChoice& choice) {
+Score score(const LinearModel& terms, const SurveyProblem& problem, const RowChoice& choice) {
     return score_linear_model(terms, chosen_rows(problem.rows, choice.in_use), problem.origin(),
                               problem.options.priors);
 }
 
 FitResult fit(const LinearModel& terms, const SurveyProblem& problem, const RowChoice& choice) {
-    const ModelPriors& priors = problem.options.priors;
+    const Priors& priors = problem.options.priors;
     auto applied = apply_model(terms, problem, choice, priors);
     if (auto* const refusal = std::get_if<Refusal>(&applied)) return std::move(*refusal);
     const auto& linear = std::get<AppliedFit>(applied);
-    ModelFit result;
+    Fit result;
     result.rows = uncorrected(problem, choice);
     result.score = score(terms, problem, choice);
     correct_rows(result, terms, linear);
@@ -54,4 +54,4 @@ std::vector<Model> linear_models() {
     return list;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

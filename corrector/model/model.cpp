@@ -4,7 +4,7 @@
 
 #include "corrector/model/whole_day_model.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 const std::vector<Model>& models() {
     static const std::vector<Model> all = [] {
@@ -39,4 +39,4 @@ std::vector<CorrectedRow> uncorrected(const SurveyProblem& problem, const RowCho
     return rows;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

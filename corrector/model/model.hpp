@@ -3,7 +3,7 @@
 /// The interface of all models of the instrument, and their list.
 ///
 /// A new model is a Model in a file of its own, with a function in this header or its own, and a
-/// line in models().  Values that it alone gives are a new type of CorrectedRow::own or ModelFit::own.
+/// line in models().  Values that it alone gives are a new type of CorrectedRow::own or Fit::own.
 ///
 /// Programs call correct_survey(), which chooses the rows, fits and scores.  Use this interface to
 /// treat all models alike:
@@ -26,15 +26,15 @@
 #include "corrector/model/refusal.hpp"
 #include "corrector/reading/day_record.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// A survey to be corrected.
 ///
 /// The members refer to objects of the caller, which must exist as long as this one.
 struct SurveyProblem {
-    const std::vector<SurveyRow>& rows;  ///< (n) At least one, in strictly ascending time.
-    const SurveyOptions& options;        ///< `base` is filled in.
-    const DayRecord* day;                ///< Record of the rows; null: there are only averages.
+    const std::vector<reading::SurveyRow>& rows;  ///< (n) At least one, in strictly ascending time.
+    const SurveyOptions& options;                 ///< `base` is filled in.
+    const reading::DayRecord* day;  ///< Record of the rows; null: there are only averages.
 
     /// Returns the instant at which t = 0.
     ///
@@ -54,7 +54,7 @@ struct RowChoice {
 };
 
 /// A fit, or the reason why the rows do not allow one.
-using FitResult = std::variant<ModelFit, Refusal>;
+using FitResult = std::variant<Fit, Refusal>;
 
 /// A model of the instrument.
 struct Model {
@@ -64,7 +64,7 @@ struct Model {
     /// Fits the model and corrects all rows.  The studentised residuals are tested row by row
     /// (row_doubts.hpp); physical doubts are not set.
     ///
-    /// The score is that of score() for the same rows.  ModelFit::calibration is set by `day` only.
+    /// The score is that of score() for the same rows.  Fit::calibration is set by `day` only.
     /// @throws InputError  the model needs the means of the axes and a row has none.
     std::function<FitResult(const SurveyProblem&, const RowChoice&)> fit;
 
@@ -73,7 +73,7 @@ struct Model {
     /// A score without rms_mgal means that the rows do not determine the model, or that it refuses
     /// them.  The cost is up to one fit without each station and one without each row.
     /// @throws InputError  as fit().
-    std::function<std::optional<ModelScore>(const SurveyProblem&, const RowChoice&)> score;
+    std::function<std::optional<Score>(const SurveyProblem&, const RowChoice&)> score;
 };
 
 /// Returns all models, in the order of model_names().
@@ -139,9 +139,9 @@ inline constexpr std::string_view kPaper = "paper", kWholeDay = "day";
 /// - Rows of a loop without a reading in the network cannot be corrected: they are in left_out,
 ///   with a remark.
 /// - NetworkAdjustment::term_columns and is_tied count all rows of the problem, also those in
-///   left_out, which ModelFit::rows does not have.
+///   left_out, which Fit::rows does not have.
 ///
 /// It refuses as adjust_network().
 [[nodiscard]] Model network_model();
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -12,7 +12,7 @@
 #include "corrector/model/paper_correction.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 Eigen::VectorXd as_vector(const std::vector<double>& values) {
@@ -20,17 +20,17 @@ Eigen::VectorXd as_vector(const std::vector<double>& values) {
                                              static_cast<Eigen::Index>(values.size()));
 }
 
-using ModelOf = std::function<const LinearModel*(const std::vector<SurveyRow>&)>;
+using ModelOf = std::function<const LinearModel*(const std::vector<reading::SurveyRow>&)>;
 
 /// Returns the leave-one-station-out error (mGal) of the model that `model_of` chooses for the
 /// remaining rows.
 std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
-                                             const std::vector<SurveyRow>& rows, UtcTime origin,
-                                             const ModelPriors& priors) {
+                                             const std::vector<reading::SurveyRow>& rows,
+                                             UtcTime origin, const Priors& priors) {
     double sum = 0.0;
     for (const std::string& station : station_names(rows)) {
-        std::vector<SurveyRow> others = rows;
-        std::erase_if(others, [&](const SurveyRow& row) { return row.site == station; });
+        std::vector<reading::SurveyRow> others = rows;
+        std::erase_if(others, [&](const reading::SurveyRow& row) { return row.site == station; });
         const LinearModel* const model = model_of(others);
         if (model == nullptr) return std::nullopt;
         const auto fit = fit_model(*model, others, origin, priors);
@@ -48,10 +48,10 @@ std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
 }
 
 /// Returns Error (2) of row `left_out`; line and drift are computed without this row.
-std::optional<double> left_out_paper_error_mgal(std::vector<SurveyRow> rows,
+std::optional<double> left_out_paper_error_mgal(std::vector<reading::SurveyRow> rows,
                                                 std::vector<bool> in_use, std::size_t left_out,
                                                 std::string_view base) {
-    const SurveyRow row = rows[left_out];
+    const reading::SurveyRow row = rows[left_out];
     rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(left_out));
     in_use.erase(in_use.begin() + static_cast<std::ptrdiff_t>(left_out));
     const auto line = fit_temperature_line(rows, in_use);
@@ -63,30 +63,30 @@ std::optional<double> left_out_paper_error_mgal(std::vector<SurveyRow> rows,
     return errors_mgal({row}, drift_corrected_mgal({row}, corrected1, *step.drift)).front();
 }
 
-bool takes_part(const LinearModel& model, const std::vector<SurveyRow>& rows,
+bool takes_part(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
                 std::string_view base) {
     constexpr std::size_t kFewestBaseStays = 3;
     constexpr std::size_t kEnoughRows = 12;
     if (!(model.has_rate && model.has_time)) return true;
     std::set<int> base_stays;
-    for (const SurveyRow& row : rows)
+    for (const reading::SurveyRow& row : rows)
         if (row.site == base) base_stays.insert(row.occupation);
     return base_stays.size() >= kFewestBaseStays || rows.size() >= kEnoughRows;
 }
 
 }  // namespace
 
-std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
-                                   const std::vector<bool>& chosen) {
-    std::vector<SurveyRow> result;
+std::vector<reading::SurveyRow> chosen_rows(const std::vector<reading::SurveyRow>& rows,
+                                            const std::vector<bool>& chosen) {
+    std::vector<reading::SurveyRow> result;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (chosen[i]) result.push_back(rows[i]);
     return result;
 }
 
-std::vector<std::string> station_names(const std::vector<SurveyRow>& rows) {
+std::vector<std::string> station_names(const std::vector<reading::SurveyRow>& rows) {
     std::vector<std::string> names;
-    for (const SurveyRow& row : rows)
+    for (const reading::SurveyRow& row : rows)
         if (std::ranges::find(names, row.site) == names.end()) names.push_back(row.site);
     return names;
 }
@@ -99,12 +99,12 @@ const LinearModel* find_linear_model(std::string_view name) {
     return nullptr;
 }
 
-Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<SurveyRow>& rows,
+Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
                               UtcTime origin) {
     Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()),
                             static_cast<Eigen::Index>(model.parameter_count()) - 1);
     for (Eigen::Index i = 0; i < columns.rows(); ++i) {
-        const SurveyRow& row = rows[static_cast<std::size_t>(i)];
+        const reading::SurveyRow& row = rows[static_cast<std::size_t>(i)];
         Eigen::Index k = 0;
         if (model.has_temperature)
             columns(i, k++) = (row.temperature - kReferenceTemperature).value();
@@ -113,7 +113,8 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<Survey
             columns(i, k++) =
                 seconds_between(origin, row.time) / kSecondsPerHour - kReferenceTime_h;
         if (model.has_axes) {
-            const RecordSummary& axes = row.axes_for(fmt::format("model = {}", model.name));
+            const reading::RecordSummary& axes =
+                row.axes_for(fmt::format("model = {}", model.name));
             columns(i, k++) = axes.x.mean.value();
             columns(i, k) = axes.y.mean.value();
         }
@@ -130,7 +131,7 @@ std::vector<std::string> coefficient_names(const LinearModel& model) {
     return names;
 }
 
-SlopePriors slope_priors(const LinearModel& model, const ModelPriors& priors) {
+SlopePriors slope_priors(const LinearModel& model, const Priors& priors) {
     const std::vector<std::string> names = coefficient_names(model);
     const auto slope_count = static_cast<Eigen::Index>(names.size()) - 1;
     SlopePriors slopes{Eigen::VectorXd::Zero(slope_count), Eigen::VectorXd::Zero(slope_count)};
@@ -143,16 +144,17 @@ SlopePriors slope_priors(const LinearModel& model, const ModelPriors& priors) {
     return slopes;
 }
 
-std::optional<LinearFit> fit_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
-                                   UtcTime origin, const ModelPriors& priors) {
+std::optional<LinearFit> fit_model(const LinearModel& model,
+                                   const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+                                   const Priors& priors) {
     if (rows.empty()) return std::nullopt;
     return fit_linear(model_columns(model, rows, origin), as_vector(differences_mgal(rows)),
                       slope_priors(model, priors));
 }
 
-ModelScore score_linear_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
-                              UtcTime origin, const ModelPriors& priors) {
-    ModelScore score;
+Score score_linear_model(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
+                         UtcTime origin, const Priors& priors) {
+    Score score;
     score.model = model.name;
     score.row_count = rows.size();
     score.parameter_count = model.parameter_count();
@@ -178,9 +180,9 @@ ModelScore score_linear_model(const LinearModel& model, const std::vector<Survey
     return score;
 }
 
-ModelScore score_paper_model(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
-                             std::string_view base) {
-    ModelScore score;
+Score score_paper_model(const std::vector<reading::SurveyRow>& rows,
+                        const std::vector<bool>& in_use, std::string_view base) {
+    Score score;
     score.model = "paper";
     score.row_count = static_cast<std::size_t>(std::ranges::count(in_use, true));
     score.parameter_count = 4;  // slope, intercept, and the errors at both ends of the drift
@@ -244,35 +246,36 @@ std::optional<Interval> bootstrap_rms_interval(const std::vector<double>& errors
     return Interval{values[kTail], values[values.size() - 1 - kTail]};
 }
 
-std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows, UtcTime origin,
-                                        std::string_view base, const ModelPriors& priors) {
-    std::vector<ModelScore> scores;
+std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+                                   std::string_view base, const Priors& priors) {
+    std::vector<Score> scores;
     for (const LinearModel& model : kLinearModels) {
         if (!takes_part(model, rows, base)) continue;
-        ModelScore score = score_linear_model(model, rows, origin, priors);
+        Score score = score_linear_model(model, rows, origin, priors);
         if (score.loso_mgal && score.row_count > score.parameter_count) scores.push_back(score);
     }
     if (scores.empty()) return std::nullopt;
-    const ModelScore& best = *std::ranges::min_element(scores, {}, &ModelScore::loso_mgal);
+    const Score& best = *std::ranges::min_element(scores, {}, &Score::loso_mgal);
     // Limit: LOSO (1 + 1 / sqrt(2 (n - p))).
     const auto dof = static_cast<double>(best.row_count - best.parameter_count);
     const double limit = *best.loso_mgal * (1.0 + 1.0 / std::sqrt(2.0 * dof));
-    const auto rank = [](const ModelScore& score) {
+    const auto rank = [](const Score& score) {
         return std::pair(score.parameter_count, *score.loso_mgal);
     };
-    const ModelScore* chosen = &best;
-    for (const ModelScore& score : scores)
+    const Score* chosen = &best;
+    for (const Score& score : scores)
         if (*score.loso_mgal <= limit && rank(score) < rank(*chosen)) chosen = &score;
-    return ModelChoice{chosen->model, limit};
+    return Choice{chosen->model, limit};
 }
 
-std::optional<double> choice_loso_mgal(const std::vector<SurveyRow>& rows, UtcTime origin,
-                                       std::string_view base, const ModelPriors& priors) {
-    const ModelOf chosen = [&](const std::vector<SurveyRow>& others) -> const LinearModel* {
+std::optional<double> choice_loso_mgal(const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+                                       std::string_view base, const Priors& priors) {
+    const ModelOf chosen =
+        [&](const std::vector<reading::SurveyRow>& others) -> const LinearModel* {
         const auto choice = choose_model(others, origin, base, priors);
         return choice ? find_linear_model(choice->model) : nullptr;
     };
     return left_out_stations_mgal(chosen, rows, origin, priors);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

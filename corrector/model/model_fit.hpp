@@ -15,7 +15,7 @@
 ///     const auto choice = choose_model(rows, origin, base);
 ///     const LinearModel& model = *find_linear_model(choice->model);
 ///     const auto fit = fit_model(model, rows, origin);           // fit->coefficients
-///     const ModelScore score = score_linear_model(model, rows, origin);
+///     const Score score = score_linear_model(model, rows, origin);
 ///
 /// The same origin must be given to all calls for one survey, because it is part of t0.  All
 /// functions are pure and deterministic.
@@ -34,7 +34,7 @@
 #include "corrector/model/prior.hpp"
 #include "corrector/reading/survey_row.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// T0, degC.  Reason: near the oven's set point.  The whole-day model has its own T0, 42.5 degC, so
 /// the constants of both differ.
@@ -82,11 +82,11 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 
 /// Returns copies of the chosen rows, in their order.
 /// @param chosen  (n) one flag per row; the number is not checked.
-[[nodiscard]] std::vector<SurveyRow> chosen_rows(const std::vector<SurveyRow>& rows,
-                                                 const std::vector<bool>& chosen);
+[[nodiscard]] std::vector<reading::SurveyRow> chosen_rows(
+    const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& chosen);
 
 /// Returns the names of the rows' stations, in order of their first row.
-[[nodiscard]] std::vector<std::string> station_names(const std::vector<SurveyRow>& rows);
+[[nodiscard]] std::vector<std::string> station_names(const std::vector<reading::SurveyRow>& rows);
 
 /// Returns the model of this name from kLinearModels or kModelsOnRequest; null if there is none.
 [[nodiscard]] const LinearModel* find_linear_model(std::string_view name);
@@ -100,7 +100,8 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 /// @param origin  instant at which t = 0.
 /// @throws InputError  if the model has axes and a row has no means of them.
 [[nodiscard]] Eigen::MatrixXd model_columns(const LinearModel& model,
-                                            const std::vector<SurveyRow>& rows, UtcTime origin);
+                                            const std::vector<reading::SurveyRow>& rows,
+                                            UtcTime origin);
 
 /// Returns the names of the coefficients with their units (p): the constant, then one per column.
 ///
@@ -109,7 +110,7 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 
 /// Returns the priors on the slopes of a model, in the order of its columns (p - 1).  A weight is
 /// reading_sd / sd; 0 for a slope without prior.  Priors of terms that the model lacks are ignored.
-[[nodiscard]] SlopePriors slope_priors(const LinearModel& model, const ModelPriors& priors);
+[[nodiscard]] SlopePriors slope_priors(const LinearModel& model, const Priors& priors);
 
 /// Fits a model to D (mGal) by fit_linear().
 ///
@@ -121,15 +122,15 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 /// @return std::nullopt if there are no rows, or if rows and priors do not determine the model.
 /// @throws InputError  as model_columns().
 [[nodiscard]] std::optional<LinearFit> fit_model(const LinearModel& model,
-                                                 const std::vector<SurveyRow>& rows, UtcTime origin,
-                                                 const ModelPriors& priors = {});
+                                                 const std::vector<reading::SurveyRow>& rows,
+                                                 UtcTime origin, const Priors& priors = {});
 
 /// Root mean square errors of a model, mGal.  A score is absent if it is not defined for so few
 /// rows, or for this model.
 ///
 /// `rms_mgal` and `s_mgal` are in sample: the fit has seen these rows.  `loso_mgal` is the error to
 /// expect at a station of unknown gravity; compare models by it.
-struct ModelScore {
+struct Score {
     std::string model;                ///< Name of the model.
     std::size_t row_count = 0;        ///< Number of rows n.
     std::size_t parameter_count = 0;  ///< Number of coefficients p.
@@ -162,9 +163,9 @@ struct ModelScore {
 /// @param priors  priors on the slopes.
 /// @return only row_count and parameter_count are set if the fit is not determined.
 /// @throws InputError  as model_columns().
-[[nodiscard]] ModelScore score_linear_model(const LinearModel& model,
-                                            const std::vector<SurveyRow>& rows, UtcTime origin,
-                                            const ModelPriors& priors = {});
+[[nodiscard]] Score score_linear_model(const LinearModel& model,
+                                       const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+                                       const Priors& priors = {});
 
 /// Returns the scores of the publication's correction (paper_correction.hpp).
 ///
@@ -181,8 +182,8 @@ struct ModelScore {
 /// @param in_use  (n), true only for rows with a reference.
 /// @param base    name of the base station.
 /// @return rms_before_drift_mgal only if the drift step is refused; no score without a line.
-[[nodiscard]] ModelScore score_paper_model(const std::vector<SurveyRow>& rows,
-                                           const std::vector<bool>& in_use, std::string_view base);
+[[nodiscard]] Score score_paper_model(const std::vector<reading::SurveyRow>& rows,
+                                      const std::vector<bool>& in_use, std::string_view base);
 
 /// Limits of a confidence interval, in the unit of the quantity.
 struct Interval {
@@ -211,7 +212,7 @@ inline constexpr int kBootstrapDraws = 1000;
     std::uint64_t seed);
 
 /// The model that was chosen, and the limit that it had to meet.
-struct ModelChoice {
+struct Choice {
     std::string model;        ///< Name of the model.
     double limit_mgal = 0.0;  ///< Least LOSO plus its standard error.
 };
@@ -229,9 +230,9 @@ struct ModelChoice {
 /// @param base    name of the base station.
 /// @param priors  priors on the slopes.
 /// @return std::nullopt if no model has a LOSO and more rows than coefficients.
-[[nodiscard]] std::optional<ModelChoice> choose_model(const std::vector<SurveyRow>& rows,
-                                                      UtcTime origin, std::string_view base,
-                                                      const ModelPriors& priors = {});
+[[nodiscard]] std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows,
+                                                 UtcTime origin, std::string_view base,
+                                                 const Priors& priors = {});
 
 /// Returns the LOSO (mGal) of choosing and fitting together: the choice is repeated without each
 /// station.  Absent if one of these choices or fits is impossible.
@@ -239,8 +240,8 @@ struct ModelChoice {
 /// It is usually larger than the LOSO of the chosen model.  Cost: choose_model() once for each
 /// station.
 /// @param rows, origin, base, priors  as choose_model().
-[[nodiscard]] std::optional<double> choice_loso_mgal(const std::vector<SurveyRow>& rows,
+[[nodiscard]] std::optional<double> choice_loso_mgal(const std::vector<reading::SurveyRow>& rows,
                                                      UtcTime origin, std::string_view base,
-                                                     const ModelPriors& priors = {});
+                                                     const Priors& priors = {});
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -14,7 +14,7 @@
 #include "protocol/linear_algebra/pivoted_qr.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 std::string named(const NetworkReadings& readings, const std::set<std::size_t>& stations) {
@@ -119,7 +119,7 @@ void solve(NetworkAdjustment& network, const NetworkSystem& system) {
     Eigen::MatrixXd a = weights.asDiagonal() * system.a;
     const Eigen::VectorXd scale = a.colwise().norm().transpose().cwiseInverse();
     a = a * scale.asDiagonal();
-    const PivotedQr qr(a);
+    const linear_algebra::PivotedQr qr(a);
     const Eigen::Index p = a.cols();
     network.unknowns = scale.asDiagonal() * qr.solve(weights.asDiagonal() * system.y);
     // Q_xx = (A^T W A)^-1
@@ -212,9 +212,9 @@ double NetworkAdjustment::effect_mgal(std::size_t row, std::size_t term) const {
            unknowns(static_cast<Eigen::Index>(stations.size() + term));
 }
 
-NetworkResult adjust_network(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
-                             const std::vector<std::string>& datum, const ModelPriors& priors,
-                             const NetworkOptions& options) {
+NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,
+                             const std::vector<bool>& in_use, const std::vector<std::string>& datum,
+                             const Priors& priors, const NetworkOptions& options) {
     const NetworkReadings readings = find_stations(rows, in_use, datum);
     for (std::size_t k = 0; k < readings.stations.size(); ++k) {
         const std::string& name = readings.stations[k];
@@ -246,4 +246,4 @@ NetworkResult adjust_network(const std::vector<SurveyRow>& rows, const std::vect
     return {std::move(network), {}};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

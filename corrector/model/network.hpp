@@ -39,7 +39,7 @@
 #include "corrector/model/refusal.hpp"
 #include "corrector/reading/survey_row.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Pause between two readings that begins a new loop, h.  Reason: no survey day has so long a
 /// pause; after it the instrument was switched off and on again and has a new constant.
@@ -145,10 +145,9 @@ struct NetworkResult {
 /// @return a refusal if no reading is in use, if no station is held, if a listed station has no
 ///         reference, if stations have no connection with a datum, or if the readings do not
 ///         determine an unknown.
-[[nodiscard]] NetworkResult adjust_network(const std::vector<SurveyRow>& rows,
+[[nodiscard]] NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,
                                            const std::vector<bool>& in_use,
                                            const std::vector<std::string>& datum,
-                                           const ModelPriors& priors,
-                                           const NetworkOptions& options);
+                                           const Priors& priors, const NetworkOptions& options);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

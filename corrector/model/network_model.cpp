@@ -7,13 +7,13 @@
 #include "corrector/model/row_doubts.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 constexpr const char* kName = "network";
 
-ModelScore score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
-    ModelScore score;
+Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
+    Score score;
     score.model = kName;
     score.row_count = network.reading_count;
     score.parameter_count = static_cast<std::size_t>(network.unknowns.size());
@@ -42,7 +42,7 @@ double effect_variance(const NetworkAdjustment& network, const Eigen::RowVectorX
     return (line * network.covariance.bottomRightCorner(k, k)).dot(line);
 }
 
-void set_rows(ModelFit& result, const NetworkAdjustment& network, const std::vector<bool>& in_use,
+void set_rows(Fit& result, const NetworkAdjustment& network, const std::vector<bool>& in_use,
               double sd) {
     std::size_t reading = 0;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
@@ -73,8 +73,7 @@ void set_rows(ModelFit& result, const NetworkAdjustment& network, const std::vec
     }
 }
 
-StationValue adjusted_station(const ModelFit& result, const NetworkAdjustment& network,
-                              std::size_t k) {
+StationValue adjusted_station(const Fit& result, const NetworkAdjustment& network, std::size_t k) {
     const auto at = static_cast<Eigen::Index>(k);
     StationValue station;
     station.site = network.stations[k];
@@ -96,7 +95,7 @@ StationValue adjusted_station(const ModelFit& result, const NetworkAdjustment& n
 }
 
 /// Returns the value of a station that occurs in flagged rows only.
-StationValue flagged_station(const ModelFit& result, const NetworkAdjustment& network, double sd,
+StationValue flagged_station(const Fit& result, const NetworkAdjustment& network, double sd,
                              const std::string& site) {
     StationValue station;
     station.site = site;
@@ -118,11 +117,11 @@ StationValue flagged_station(const ModelFit& result, const NetworkAdjustment& ne
 }
 
 /// Moves rows whose loop has no constant to left_out, with a remark.
-void leave_out_untied(ModelFit& result, const NetworkAdjustment& network) {
+void leave_out_untied(Fit& result, const NetworkAdjustment& network) {
     std::vector<CorrectedRow> rows;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
-        const SurveyRow& row = result.rows[i].row;
+        const reading::SurveyRow& row = result.rows[i].row;
         if (network.is_tied[i]) {
             rows.push_back(std::move(result.rows[i]));
             continue;
@@ -139,7 +138,7 @@ void leave_out_untied(ModelFit& result, const NetworkAdjustment& network) {
                     std::lround(kLoopPause_h), text::joined(names)));
 }
 
-void set_stations(ModelFit& result, const NetworkAdjustment& network, double sd) {
+void set_stations(Fit& result, const NetworkAdjustment& network, double sd) {
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const std::string& site = result.rows[i].row.site;
         if (!network.is_tied[i] ||
@@ -156,7 +155,7 @@ void set_stations(ModelFit& result, const NetworkAdjustment& network, double sd)
     }
 }
 
-NetworkResult adjust(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
+NetworkResult adjust(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use,
                      const SurveyOptions& options) {
     return adjust_network(rows, in_use, options.datum, options.priors, options.network);
 }
@@ -167,7 +166,7 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     NetworkResult adjusted = adjust(problem.rows, choice.accepted, options);
     if (!adjusted.adjustment) return std::move(adjusted.refusal);
     const NetworkAdjustment& network = *adjusted.adjustment;
-    ModelFit result;
+    Fit result;
     result.rows = uncorrected(problem, choice);
     result.score = score_of(network, sd);
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
@@ -180,7 +179,7 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     leave_out_untied(result, network);
     result.remarks.insert(result.remarks.end(), network.remarks.begin(), network.remarks.end());
     doubt_in_turn(result.rows,
-                  [&](const std::vector<SurveyRow>& rows,
+                  [&](const std::vector<reading::SurveyRow>& rows,
                       const std::vector<bool>& in_use) -> std::optional<StudentisedRows> {
                       const NetworkResult other = adjust(rows, in_use, options);
                       if (!other.adjustment) return std::nullopt;
@@ -196,11 +195,11 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     return result;
 }
 
-ModelScore score_network(const SurveyProblem& problem, const RowChoice& choice) {
+Score score_network(const SurveyProblem& problem, const RowChoice& choice) {
     const NetworkResult adjusted = adjust(problem.rows, choice.accepted, problem.options);
     if (adjusted.adjustment)
         return score_of(*adjusted.adjustment, problem.options.priors.reading_sd_mgal);
-    ModelScore none;
+    Score none;
     none.model = kName;
     return none;
 }
@@ -209,4 +208,4 @@ ModelScore score_network(const SurveyProblem& problem, const RowChoice& choice) 
 
 Model network_model() { return {kName, false, fit_network, score_network}; }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -8,7 +8,7 @@
 #include "corrector/model/model_fit.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 /// Loops that have a reading in use.
@@ -17,7 +17,7 @@ struct Loops {
     std::size_t count = 0;
 };
 
-Loops find_loops(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use) {
+Loops find_loops(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use) {
     Loops loops;
     for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
         bool is_used = false;
@@ -31,7 +31,8 @@ Loops find_loops(const std::vector<SurveyRow>& rows, const std::vector<bool>& in
     return loops;
 }
 
-bool temperature_varies(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use) {
+bool temperature_varies(const std::vector<reading::SurveyRow>& rows,
+                        const std::vector<bool>& in_use) {
     std::optional<DegC> first;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!in_use[i]) continue;
@@ -55,8 +56,8 @@ Eigen::MatrixXd::RowXpr add_row(NetworkSystem& system, NetworkAdjustment& networ
 
 }  // namespace
 
-void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
-               const std::vector<bool>& in_use, const ModelPriors& priors, int drift_degree) {
+void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows,
+               const std::vector<bool>& in_use, const Priors& priors, int drift_degree) {
     const Loops loops = find_loops(rows, in_use);
     for (std::size_t loop = 0; loop < loops.count; ++loop) {
         // From the second loop on, the names have the number of the loop.
@@ -97,7 +98,8 @@ void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
     }
 }
 
-NetworkReadings find_stations(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
+NetworkReadings find_stations(const std::vector<reading::SurveyRow>& rows,
+                              const std::vector<bool>& in_use,
                               const std::vector<std::string>& datum) {
     NetworkReadings readings;
     auto& [stations, is_held, station_of, loop_of, references] = readings;
@@ -117,9 +119,9 @@ NetworkReadings find_stations(const std::vector<SurveyRow>& rows, const std::vec
     return readings;
 }
 
-NetworkSystem build_system(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
+NetworkSystem build_system(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows,
                            const std::vector<bool>& in_use, const NetworkReadings& readings,
-                           const ModelPriors& priors, const NetworkOptions& options) {
+                           const Priors& priors, const NetworkOptions& options) {
     const auto& is_held = readings.is_held;
     const auto first_held = std::ranges::find(is_held, true) - is_held.begin();
     network.origin = readings.references[static_cast<std::size_t>(first_held)];
@@ -128,7 +130,7 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<SurveyR
     NetworkSystem system{Eigen::MatrixXd(0, station_count + term_count), Eigen::VectorXd(0)};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!in_use[i]) continue;
-        const SurveyRow& row = rows[i];
+        const reading::SurveyRow& row = rows[i];
         const std::size_t station = readings.station_of[network.reading_count++];
         auto line =
             add_row(system, network, fmt::format("{} ({})", row.site, row.occupation),
@@ -154,4 +156,4 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<SurveyR
     return system;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

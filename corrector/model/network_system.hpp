@@ -19,7 +19,7 @@
 
 #include "corrector/model/network.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// The readings of a network: station and loop of each.
 struct NetworkReadings {
@@ -37,7 +37,7 @@ struct NetworkReadings {
 /// station is held if it has a reference and `datum` is empty or contains its name.  Nothing is
 /// refused here.
 /// @param rows, in_use, datum  as adjust_network().
-[[nodiscard]] NetworkReadings find_stations(const std::vector<SurveyRow>& rows,
+[[nodiscard]] NetworkReadings find_stations(const std::vector<reading::SurveyRow>& rows,
                                             const std::vector<bool>& in_use,
                                             const std::vector<std::string>& datum);
 
@@ -51,8 +51,8 @@ struct NetworkReadings {
 /// rate, which all loops have in common.  Rows of a loop without a reading in use have zeros.
 /// @param rows, in_use, priors  as adjust_network().
 /// @param drift_degree          0 to 2.
-void set_terms(NetworkAdjustment& network, const std::vector<SurveyRow>& rows,
-               const std::vector<bool>& in_use, const ModelPriors& priors, int drift_degree);
+void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows,
+               const std::vector<bool>& in_use, const Priors& priors, int drift_degree);
 
 /// The unweighted system A x = y.  Labels and standard deviations of its rows:
 /// NetworkAdjustment::rows.  A row is weighted by 1 / sd^2.
@@ -70,9 +70,9 @@ struct NetworkSystem {
 /// @param readings  find_stations() of the same rows.
 /// @param rows, in_use, priors, options  as adjust_network().
 [[nodiscard]] NetworkSystem build_system(NetworkAdjustment& network,
-                                         const std::vector<SurveyRow>& rows,
+                                         const std::vector<reading::SurveyRow>& rows,
                                          const std::vector<bool>& in_use,
-                                         const NetworkReadings& readings, const ModelPriors& priors,
+                                         const NetworkReadings& readings, const Priors& priors,
                                          const NetworkOptions& options);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -7,22 +7,22 @@
 
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
-std::string temperature_doubt(const SurveyRow& row) {
+namespace a351::corrector::model {
+std::string temperature_doubt(const reading::SurveyRow& row) {
     std::vector<std::string> reasons;
     if (std::abs(row.rate_degc_per_h) > kGreatestRate_degc_per_h)
         reasons.push_back(fmt::format("rate {} degC/h", text::fixed(row.rate_degc_per_h, 3)));
     if (row.record && row.record->temperature_range.value() > kGreatestRange_degc) {
         const std::string range = text::fixed(row.record->temperature_range.value(), 3);
-        if (row.record->temperature_shape == TemperatureShape::monotone)
+        if (row.record->temperature_shape == reading::TemperatureShape::monotone)
             reasons.push_back(fmt::format("monotone over {} degC", range));
-        else if (row.record->temperature_shape == TemperatureShape::half_wave)
+        else if (row.record->temperature_shape == reading::TemperatureShape::half_wave)
             reasons.push_back(fmt::format("half a wave of {} degC", range));
     }
     return text::joined(reasons, ";");
 }
 
-std::string physical_doubt(const SurveyRow& row) {
+std::string physical_doubt(const reading::SurveyRow& row) {
     std::string reasons = temperature_doubt(row);
     for (const std::string& note : row.notes)
         if (note == "fallback" || note == "pulse") reasons += (reasons.empty() ? "" : ";") + note;
@@ -51,4 +51,4 @@ double studentised_limit(std::size_t n, double dof) {
         boost::math::complement(distribution, kOutlierAlpha / (2.0 * static_cast<double>(n))));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -17,7 +17,7 @@
 #include "corrector/model/linear_fit.hpp"
 #include "corrector/reading/survey_row.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Probability that at least one row of a clean survey is doubted.  Reason: the usual 5 %.
 inline constexpr double kOutlierAlpha = 0.05;
@@ -38,13 +38,13 @@ inline constexpr double kGreatestRange_degc = 0.05;
 /// that is monotone or half a wave with a range above kGreatestRange_degc.  A value equal to its
 /// limit, or NaN, is no reason.  The text has the values, for example
 /// `rate -0.201 degC/h;monotone over 0.060 degC`.
-[[nodiscard]] std::string temperature_doubt(const SurveyRow& row);
+[[nodiscard]] std::string temperature_doubt(const reading::SurveyRow& row);
 
 /// Returns the reasons to doubt a row without use of gravity, joined by `;`: temperature_doubt()
 /// and the notes fallback and pulse.
 ///
 /// Other notes of a row are no reasons here.
-[[nodiscard]] std::string physical_doubt(const SurveyRow& row);
+[[nodiscard]] std::string physical_doubt(const reading::SurveyRow& row);
 
 /// Returns the external studentised residual t of a row: its residual divided by its standard
 /// deviation, with the variance from the other rows only.
@@ -76,4 +76,4 @@ inline constexpr double kGreatestRange_degc = 0.05;
 /// @param dof  degrees of freedom of the variance, > 0.
 [[nodiscard]] double studentised_limit(std::size_t n, double dof);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -8,17 +8,17 @@
 #include "corrector/model/applied_fit.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-ModelScore score_paper(const SurveyProblem& problem, const RowChoice& choice) {
+Score score_paper(const SurveyProblem& problem, const RowChoice& choice) {
     return score_paper_model(problem.rows, choice.in_use, problem.options.base);
 }
 
 FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
-    const std::vector<SurveyRow>& rows = problem.rows;
+    const std::vector<reading::SurveyRow>& rows = problem.rows;
     // The publication's line has no priors.
     auto line_fit = apply_model(kLinearModels.front(), problem, choice, {});
     if (auto* const refusal = std::get_if<Refusal>(&line_fit)) return std::move(*refusal);
@@ -31,7 +31,7 @@ FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
         return Refusal{"the drift step is refused, " + step.refusal,
                        "another base, or a model of auto, t, t-rate, t-drift, t-rate-drift"};
     const std::vector<double> corrected2 = drift_corrected_mgal(rows, corrected1, *step.drift);
-    ModelFit result;
+    Fit result;
     result.own = PaperPart{};
     result.rows = uncorrected(problem, choice);
     result.score = score_paper(problem, choice);
@@ -62,15 +62,15 @@ FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
 
 }  // namespace
 
-std::vector<double> differences_mgal(const std::vector<SurveyRow>& rows) {
+std::vector<double> differences_mgal(const std::vector<reading::SurveyRow>& rows) {
     std::vector<double> differences;
-    for (const SurveyRow& row : rows)
+    for (const reading::SurveyRow& row : rows)
         differences.push_back(row.reference ? (row.acceleration - *row.reference - row.tide).value()
                                             : kUnknown);
     return differences;
 }
 
-std::optional<TemperatureLine> fit_temperature_line(const std::vector<SurveyRow>& rows,
+std::optional<TemperatureLine> fit_temperature_line(const std::vector<reading::SurveyRow>& rows,
                                                     const std::vector<bool>& in_use) {
     const std::vector<double> differences = differences_mgal(rows);
     std::vector<double> x, y;
@@ -86,10 +86,10 @@ std::optional<TemperatureLine> fit_temperature_line(const std::vector<SurveyRow>
     return TemperatureLine{fit->coefficients(1), MilliGal(fit->coefficients(0)), fit->r_squared};
 }
 
-std::vector<double> temperature_corrected_mgal(const std::vector<SurveyRow>& rows,
+std::vector<double> temperature_corrected_mgal(const std::vector<reading::SurveyRow>& rows,
                                                const TemperatureLine& line) {
     std::vector<double> corrected;
-    for (const SurveyRow& row : rows) {
+    for (const reading::SurveyRow& row : rows) {
         const double temperature_effect =
             line.slope_mgal_per_degc * row.temperature.value() + line.intercept.value();
         corrected.push_back((row.acceleration - row.tide).value() - temperature_effect);
@@ -97,7 +97,7 @@ std::vector<double> temperature_corrected_mgal(const std::vector<SurveyRow>& row
     return corrected;
 }
 
-std::vector<double> errors_mgal(const std::vector<SurveyRow>& rows,
+std::vector<double> errors_mgal(const std::vector<reading::SurveyRow>& rows,
                                 const std::vector<double>& corrected_mgal) {
     std::vector<double> errors;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -114,7 +114,8 @@ MilliGal EndPointDrift::at(UtcTime time) const {
     return first_error + (seconds_between(first, time) / seconds_between(first, last)) * total();
 }
 
-DriftStep find_end_point_drift(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
+DriftStep find_end_point_drift(const std::vector<reading::SurveyRow>& rows,
+                               const std::vector<bool>& in_use,
                                const std::vector<double>& corrected1_mgal, std::string_view base) {
     const auto refuse = [base](const char* why) {
         return DriftStep{std::nullopt, fmt::format("base {} {}", base, why)};
@@ -135,7 +136,7 @@ DriftStep find_end_point_drift(const std::vector<SurveyRow>& rows, const std::ve
     return {EndPointDrift{rows[first].time, rows[last].time, error(first), error(last)}, ""};
 }
 
-std::vector<double> drift_corrected_mgal(const std::vector<SurveyRow>& rows,
+std::vector<double> drift_corrected_mgal(const std::vector<reading::SurveyRow>& rows,
                                          const std::vector<double>& corrected1_mgal,
                                          const EndPointDrift& drift) {
     std::vector<double> corrected;
@@ -157,4 +158,4 @@ MilliGal rms(const std::vector<double>& errors_mgal, const std::vector<bool>& in
 
 Model paper_model() { return {kPaper, true, fit_paper, score_paper}; }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

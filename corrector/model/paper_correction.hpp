@@ -35,7 +35,7 @@
 
 #include "corrector/reading/survey_row.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// The line D = a T + b.  It is the effect on the reading, which is subtracted.
 struct TemperatureLine {
@@ -46,7 +46,7 @@ struct TemperatureLine {
 };
 
 /// Returns the Difference D_i = G_i - g_i - tide_i of every row (n), mGal; NaN without a reference.
-[[nodiscard]] std::vector<double> differences_mgal(const std::vector<SurveyRow>& rows);
+[[nodiscard]] std::vector<double> differences_mgal(const std::vector<reading::SurveyRow>& rows);
 
 /// Fits D = a T + b by least squares.
 ///
@@ -55,16 +55,16 @@ struct TemperatureLine {
 /// @param in_use  (n) rows of the fit; rows without a reference are left out as well.
 /// @return std::nullopt with fewer than two such rows or a constant temperature.
 [[nodiscard]] std::optional<TemperatureLine> fit_temperature_line(
-    const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use);
+    const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use);
 
 /// Returns Corrected (1) of every row (n): G1_i = G_i - tide_i - (a T_i + b), mGal.  No reference
 /// is needed.
-[[nodiscard]] std::vector<double> temperature_corrected_mgal(const std::vector<SurveyRow>& rows,
-                                                             const TemperatureLine& line);
+[[nodiscard]] std::vector<double> temperature_corrected_mgal(
+    const std::vector<reading::SurveyRow>& rows, const TemperatureLine& line);
 
 /// Returns the errors reference - corrected of every row (n), mGal; NaN without a reference.
 /// @param corrected_mgal  (n) corrected values.
-[[nodiscard]] std::vector<double> errors_mgal(const std::vector<SurveyRow>& rows,
+[[nodiscard]] std::vector<double> errors_mgal(const std::vector<reading::SurveyRow>& rows,
                                               const std::vector<double>& corrected_mgal);
 
 /// The straight line between the errors e1 of the first and the last row of the base.
@@ -100,14 +100,14 @@ struct DriftStep {
 /// @param in_use           (n)
 /// @param corrected1_mgal  (n) Corrected (1).
 /// @param base             name of the base station.
-[[nodiscard]] DriftStep find_end_point_drift(const std::vector<SurveyRow>& rows,
+[[nodiscard]] DriftStep find_end_point_drift(const std::vector<reading::SurveyRow>& rows,
                                              const std::vector<bool>& in_use,
                                              const std::vector<double>& corrected1_mgal,
                                              std::string_view base);
 
 /// Returns Corrected (2) of every row (n): G2_i = G1_i + drift at t_i, mGal.  Rows before the first
 /// and after the last row of the base are extrapolated.
-[[nodiscard]] std::vector<double> drift_corrected_mgal(const std::vector<SurveyRow>& rows,
+[[nodiscard]] std::vector<double> drift_corrected_mgal(const std::vector<reading::SurveyRow>& rows,
                                                        const std::vector<double>& corrected1_mgal,
                                                        const EndPointDrift& drift);
 
@@ -117,4 +117,4 @@ struct DriftStep {
 /// @return NaN without such rows.
 [[nodiscard]] MilliGal rms(const std::vector<double>& errors_mgal, const std::vector<bool>& in_use);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -9,7 +9,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 std::string allowed_range() {
@@ -24,14 +24,14 @@ bool is_in_range(const Prior& prior) {
 
 }  // namespace
 
-const Prior* ModelPriors::find(std::string_view name) const {
+const Prior* Priors::find(std::string_view name) const {
     const auto* const at = std::find(kPriorNames.begin(), kPriorNames.end(), name);
     if (at == kPriorNames.end()) return nullptr;
     const auto& value = values[static_cast<std::size_t>(at - kPriorNames.begin())];
     return value ? &*value : nullptr;
 }
 
-void set_prior(ModelPriors& priors, std::string_view origin, std::string_view name, Prior prior) {
+void set_prior(Priors& priors, std::string_view origin, std::string_view name, Prior prior) {
     const auto* const at = std::find(kPriorNames.begin(), kPriorNames.end(), name);
     if (at == kPriorNames.end())
         throw InputError(fmt::format(
@@ -44,7 +44,7 @@ void set_prior(ModelPriors& priors, std::string_view origin, std::string_view na
     priors.values[static_cast<std::size_t>(at - kPriorNames.begin())] = prior;
 }
 
-void read_priors(ModelPriors& priors, text::TomlTable table) {
+void read_priors(Priors& priors, text::TomlTable table) {
     for (std::size_t k = 0; k < kPriorNames.size(); ++k) {
         const auto numbers = table.numbers(kPriorNames[k], -kGreatestPrior, kGreatestPrior);
         if (!table.has(kPriorNames[k])) continue;
@@ -57,4 +57,4 @@ void read_priors(ModelPriors& priors, text::TomlTable table) {
     table.require_all_read();
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

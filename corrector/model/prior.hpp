@@ -8,7 +8,7 @@
 /// Use one for a coefficient that is known from elsewhere and that the rows determine badly.  A
 /// small sd holds the coefficient.  One far above the error without a prior has hardly any effect.
 ///
-///     ModelPriors priors;
+///     Priors priors;
 ///     set_prior(priors, "--prior", "rate_mgal_per_degc_per_h", {11.2, 0.5});
 ///
 /// The whole-day model has priors of its own (day_model.hpp) and refuses these.
@@ -19,7 +19,7 @@
 
 #include "protocol/text/strict_toml.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// A normal prior, in the unit of its coefficient.
 struct Prior {
@@ -50,7 +50,7 @@ inline constexpr double kGreatestSd_mgal = 1000.0;
 ///
 /// A default-constructed object has no prior.  Priors of terms that a model does not have are
 /// ignored.
-struct ModelPriors {
+struct Priors {
     /// Priors in the order of kPriorNames.
     std::array<std::optional<Prior>, kPriorNames.size()> values;
 
@@ -68,11 +68,11 @@ struct ModelPriors {
 /// @param origin  option or key that gives the prior, for messages.
 /// @throws InputError  if the name is unknown, or mean or standard deviation is out of range (or
 ///                     NaN).
-void set_prior(ModelPriors& priors, std::string_view origin, std::string_view name, Prior prior);
+void set_prior(Priors& priors, std::string_view origin, std::string_view name, Prior prior);
 
 /// Reads `name = [mean, sd]` for each of kPriorNames; absent keys leave the prior as it is.
 /// @param table  table `prior` of a survey file; may be empty.
 /// @throws InputError  if there is another key, not exactly two numbers, or a number out of range.
-void read_priors(ModelPriors& priors, text::TomlTable table);
+void read_priors(Priors& priors, text::TomlTable table);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Reason why a model cannot be fitted to the rows of a survey.
 ///
@@ -20,4 +20,4 @@ struct Refusal {
     std::string allowed;  ///< Remedy: conditions that would make the fit possible.
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

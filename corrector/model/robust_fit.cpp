@@ -9,7 +9,7 @@
 #include "protocol/linear_algebra/pivoted_qr.hpp"
 #include "protocol/signal/median.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 constexpr Eigen::Index kExhaustiveRows = 25;  // 12650 subsets of four rows
@@ -42,7 +42,7 @@ struct Problem {
         rows.bottomRows(prior_design.rows()) = prior_design;
         right.tail(prior_y.size()) = prior_y;
         if (rows.rows() < p) return std::nullopt;
-        const PivotedQr qr(rows);
+        const linear_algebra::PivotedQr qr(rows);
         // Temperatures are printed to 0.01 degC: smaller pivots come from equal rows.
         constexpr double kLeastPivot = 1e-9;
         if (!(qr.pivots()(p - 1) > kLeastPivot)) return std::nullopt;
@@ -186,15 +186,15 @@ double covariance_scale(const RobustFit& robust) {
 /// Returns the root mean square error (mGal) of predicting each row from the rows that `is_other`
 /// keeps for it.
 template <class IsOther>
-std::optional<double> left_out_mgal(const LinearModel& model, const std::vector<SurveyRow>& rows,
-                                    UtcTime origin, const ModelPriors& priors,
-                                    const IsOther& is_other) {
+std::optional<double> left_out_mgal(const LinearModel& model,
+                                    const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+                                    const Priors& priors, const IsOther& is_other) {
     const Eigen::MatrixXd columns = model_columns(model, rows, origin);
     const std::vector<double> differences = differences_mgal(rows);
     std::vector<std::optional<double>> errors(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (errors[i]) continue;
-        std::vector<SurveyRow> others;
+        std::vector<reading::SurveyRow> others;
         std::vector<std::size_t> left_out;
         for (std::size_t k = 0; k < rows.size(); ++k) {
             if (is_other(k, i))
@@ -232,7 +232,7 @@ std::optional<RobustFit> fit_robust(const Eigen::Ref<const Eigen::MatrixXd>& col
     Eigen::VectorXd b = *start;
     // scale = 1.4826 (1 + 5 / (n - p)) median |r|   (Rousseeuw and Leroy 1987)
     robust.start_scale =
-        std::max(kLeastScale, kGaussianPerMad * (1.0 + 5.0 / static_cast<double>(n - p)) *
+        std::max(kLeastScale, signal::kGaussianPerMad * (1.0 + 5.0 / static_cast<double>(n - p)) *
                                   median_size(problem.residuals(b)));
     for (int step = 0; step < kMostSteps; ++step) {
         robust.weights = bisquare_weights(problem.residuals(b), robust.start_scale);
@@ -254,8 +254,8 @@ std::optional<RobustFit> fit_robust(const Eigen::Ref<const Eigen::MatrixXd>& col
 }
 
 std::optional<RobustFit> fit_robust_model(const LinearModel& model,
-                                          const std::vector<SurveyRow>& rows, UtcTime origin,
-                                          const ModelPriors& priors) {
+                                          const std::vector<reading::SurveyRow>& rows,
+                                          UtcTime origin, const Priors& priors) {
     if (rows.empty()) return std::nullopt;
     const std::vector<double> differences = differences_mgal(rows);
     const Eigen::Map<const Eigen::VectorXd> y(differences.data(),
@@ -263,9 +263,9 @@ std::optional<RobustFit> fit_robust_model(const LinearModel& model,
     return fit_robust(model_columns(model, rows, origin), y, slope_priors(model, priors));
 }
 
-ModelScore score_robust_model(const LinearModel& model, const std::vector<SurveyRow>& rows,
-                              UtcTime origin, const ModelPriors& priors) {
-    ModelScore score;
+Score score_robust_model(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
+                         UtcTime origin, const Priors& priors) {
+    Score score;
     score.model = "robust";
     score.row_count = rows.size();
     score.parameter_count = model.parameter_count();
@@ -282,4 +282,4 @@ ModelScore score_robust_model(const LinearModel& model, const std::vector<Survey
     return score;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -21,7 +21,7 @@
 
 #include "corrector/model/model_fit.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Tuning constant c of the bisquare, in units of the scale.  Reason: 95 % efficient for normal
 /// errors.
@@ -71,8 +71,8 @@ struct RobustFit {
 /// @return std::nullopt without rows, or as fit_robust().
 /// @throws InputError  as model_columns().
 [[nodiscard]] std::optional<RobustFit> fit_robust_model(const LinearModel& model,
-                                                        const std::vector<SurveyRow>& rows,
-                                                        UtcTime origin, const ModelPriors& priors);
+                                                        const std::vector<reading::SurveyRow>& rows,
+                                                        UtcTime origin, const Priors& priors);
 
 /// Returns the scores of the robust fit, under the name `robust`.  LOO and LOSO repeat the whole
 /// fit without each row or station; they are absent if one of these fits is not determined.  There
@@ -82,8 +82,8 @@ struct RobustFit {
 /// fit is good.  If the fit is not determined, only row_count and parameter_count are set.
 /// Cost: n fits and one for each station.
 /// @param model, rows, origin, priors  as fit_robust_model().
-[[nodiscard]] ModelScore score_robust_model(const LinearModel& model,
-                                            const std::vector<SurveyRow>& rows, UtcTime origin,
-                                            const ModelPriors& priors);
+[[nodiscard]] Score score_robust_model(const LinearModel& model,
+                                       const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+                                       const Priors& priors);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

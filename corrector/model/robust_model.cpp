@@ -7,25 +7,25 @@
 #include "corrector/model/robust_fit.hpp"
 #include "corrector/model/row_doubts.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 const LinearModel& terms_of(const SurveyProblem& problem) {
     return *find_linear_model(problem.options.robust_terms);
 }
 
-ModelScore score_robust(const SurveyProblem& problem, const RowChoice& choice) {
+Score score_robust(const SurveyProblem& problem, const RowChoice& choice) {
     return score_robust_model(terms_of(problem), chosen_rows(problem.rows, choice.in_use),
                               problem.origin(), problem.options.priors);
 }
 
 FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice) {
     const LinearModel& terms = terms_of(problem);
-    const ModelPriors& priors = problem.options.priors;
+    const Priors& priors = problem.options.priors;
     auto applied = apply_model(terms, problem, choice, priors);
     if (auto* const refusal = std::get_if<Refusal>(&applied))
         return Refusal{fmt::format("terms {}: {}", terms.name, refusal->trouble), refusal->allowed};
-    const std::vector<SurveyRow> used = chosen_rows(problem.rows, choice.in_use);
+    const std::vector<reading::SurveyRow> used = chosen_rows(problem.rows, choice.in_use);
     const auto robust = fit_robust_model(terms, used, problem.origin(), priors);
     if (!robust)
         return Refusal{fmt::format("{} rows with a reference are too few for {}, or too many of "
@@ -35,7 +35,7 @@ FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice)
     auto& fit = std::get<AppliedFit>(applied);
     fit.fit = robust->fit;
     fit.s_mgal = robust->s;
-    ModelFit result;
+    Fit result;
     result.own = RobustPart{std::string(terms.name)};
     result.rows = uncorrected(problem, choice);
     result.score = score_robust(problem, choice);
@@ -58,4 +58,4 @@ FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice)
 
 Model robust_model() { return {"robust", false, fit_robust_rows, score_robust}; }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

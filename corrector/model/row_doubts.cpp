@@ -8,13 +8,12 @@
 #include "corrector/model/outlier_tests.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 std::optional<StudentisedRows> refit_linear(const LinearModel& model,
-                                            const std::vector<SurveyRow>& rows,
-                                            const ModelPriors& priors,
-                                            const std::vector<bool>& in_use) {
+                                            const std::vector<reading::SurveyRow>& rows,
+                                            const Priors& priors, const std::vector<bool>& in_use) {
     const UtcTime origin = rows.front().time;
     const auto fit = fit_model(model, chosen_rows(rows, in_use), origin, priors);
     if (!fit) return std::nullopt;
@@ -39,7 +38,7 @@ std::string statistical_doubt(double studentised, double limit) {
 }  // namespace
 
 void doubt_in_turn(std::vector<CorrectedRow>& rows, const Refit& refit) {
-    std::vector<SurveyRow> survey_rows;
+    std::vector<reading::SurveyRow> survey_rows;
     std::vector<bool> in_use_at_first;
     for (const CorrectedRow& row : rows) {
         survey_rows.push_back(row.row);
@@ -72,14 +71,15 @@ void doubt_in_turn(std::vector<CorrectedRow>& rows, const Refit& refit) {
 }
 
 void doubt_by_linear_fit(std::vector<CorrectedRow>& rows, const LinearModel& model,
-                         const ModelPriors& priors) {
-    doubt_in_turn(rows, [&](const std::vector<SurveyRow>& all, const std::vector<bool>& in_use) {
-        return refit_linear(model, all, priors, in_use);
-    });
+                         const Priors& priors) {
+    doubt_in_turn(rows,
+                  [&](const std::vector<reading::SurveyRow>& all, const std::vector<bool>& in_use) {
+                      return refit_linear(model, all, priors, in_use);
+                  });
 }
 
-void doubt_by_prediction(ModelFit& result) {
-    const ModelScore& score = result.score;
+void doubt_by_prediction(Fit& result) {
+    const Score& score = result.score;
     if (score.dof == 0) return;
     const double limit = studentised_limit(score.row_count, static_cast<double>(score.dof));
     for (CorrectedRow& row : result.rows)
@@ -101,4 +101,4 @@ std::string doubts_text(const SurveyCorrection& result) {
     return "doubtful readings (none is left out because of this):\n" + text;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

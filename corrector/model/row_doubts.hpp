@@ -16,7 +16,7 @@
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Residuals of a fit to some rows.
 struct StudentisedRows {
@@ -28,8 +28,8 @@ struct StudentisedRows {
 /// Fits some of the rows again; std::nullopt if they do not determine the fit.
 ///
 /// It gets all rows (n), and for each (n) whether it is in use.  It must return n values.
-using Refit = std::function<std::optional<StudentisedRows>(const std::vector<SurveyRow>& rows,
-                                                           const std::vector<bool>& in_use)>;
+using Refit = std::function<std::optional<StudentisedRows>(
+    const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use)>;
 
 /// Sets doubt_statistical by a search for one bad row after another.
 ///
@@ -52,7 +52,7 @@ void doubt_in_turn(std::vector<CorrectedRow>& rows, const Refit& refit);
 /// @param model   model of the fit.
 /// @param priors  priors on its slopes, as in the fit.
 void doubt_by_linear_fit(std::vector<CorrectedRow>& rows, const LinearModel& model,
-                         const ModelPriors& priors);
+                         const Priors& priors);
 
 /// Sets doubt_statistical where the studentised residual of the prediction without the row's
 /// station is above studentised_limit() with the degrees of freedom of the score.  Here one bad row
@@ -60,7 +60,7 @@ void doubt_by_linear_fit(std::vector<CorrectedRow>& rows, const LinearModel& mod
 ///
 /// Nothing is tested if these degrees of freedom are 0.
 /// @param result  with score and studentised residuals; its rows are changed.
-void doubt_by_prediction(ModelFit& result);
+void doubt_by_prediction(Fit& result);
 
 /// Returns the doubtful rows with their reasons, one per line, or a line that there are none.
 ///
@@ -68,4 +68,4 @@ void doubt_by_prediction(ModelFit& result);
 /// @param result  with doubts set, as correct_survey() returns it.
 [[nodiscard]] std::string doubts_text(const SurveyCorrection& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -9,20 +9,21 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
-void require_row_of(const std::vector<SurveyRow>& rows, const std::string& site, const char* role) {
+void require_row_of(const std::vector<reading::SurveyRow>& rows, const std::string& site,
+                    const char* role) {
     const std::vector<std::string> known = station_names(rows);
     if (std::ranges::find(known, site) == known.end())
         throw InputError(fmt::format("{} = {}: no occupation of this site; allowed: {}", role, site,
                                      text::joined(known)));
 }
 
-RowChoice choose_rows(const std::vector<SurveyRow>& rows, const std::vector<std::string>& datum,
-                      bool use_flags) {
+RowChoice choose_rows(const std::vector<reading::SurveyRow>& rows,
+                      const std::vector<std::string>& datum, bool use_flags) {
     RowChoice choice;
-    for (const SurveyRow& row : rows) {
+    for (const reading::SurveyRow& row : rows) {
         const bool is_datum =
             row.reference && (datum.empty() || std::ranges::find(datum, row.site) != datum.end());
         choice.accepted.push_back(!row.is_excluded && !(use_flags && row.is_flagged));
@@ -35,7 +36,7 @@ RowChoice choose_rows(const std::vector<SurveyRow>& rows, const std::vector<std:
 struct Chosen {
     const Model* model = nullptr;
     FitResult fit;
-    std::optional<ModelChoice> choice;
+    std::optional<Choice> choice;
     std::optional<double> choice_loso_mgal;
     std::vector<std::string> remarks;
 };
@@ -54,7 +55,7 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     if (refusal == nullptr) return chosen;
     if (problem.day != nullptr)
         chosen.remarks.push_back("not the whole-day model: " + refusal->trouble);
-    const std::vector<SurveyRow> used = chosen_rows(problem.rows, rows.in_use);
+    const std::vector<reading::SurveyRow> used = chosen_rows(problem.rows, rows.in_use);
     chosen.choice = choose_model(used, problem.origin(), options.base, options.priors);
     chosen.choice_loso_mgal =
         choice_loso_mgal(used, problem.origin(), options.base, options.priors);
@@ -67,14 +68,14 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
 
 }  // namespace
 
-void add_left_out(SurveyCorrection& result, const std::vector<LeftOut>& occupations) {
+void add_left_out(SurveyCorrection& result, const std::vector<reading::LeftOut>& occupations) {
     auto& all = result.left_out;
     all.insert(all.end(), occupations.begin(), occupations.end());
-    std::ranges::stable_sort(all, {}, &LeftOut::start);
+    std::ranges::stable_sort(all, {}, &reading::LeftOut::start);
 }
 
-SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const SurveyOptions& options,
-                                const DayRecord* day) {
+SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
+                                const SurveyOptions& options, const reading::DayRecord* day) {
     if (options.model != kAutomatic && find_model(options.model) == nullptr)
         throw InputError(fmt::format("model = {}: unknown; allowed: {}", options.model,
                                      text::joined(model_names())));
@@ -93,7 +94,7 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
         throw InputError(fmt::format("model = {}: {}; allowed: {}", chosen.model->name,
                                      refusal->trouble, refusal->allowed));
     SurveyCorrection result;
-    static_cast<ModelFit&>(result) = std::get<ModelFit>(std::move(chosen.fit));
+    static_cast<Fit&>(result) = std::get<Fit>(std::move(chosen.fit));
     result.model = chosen.model->name;
     result.choice = chosen.choice;
     result.choice_loso_mgal = chosen.choice_loso_mgal;
@@ -118,4 +119,4 @@ SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows, const Survey
     return result;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

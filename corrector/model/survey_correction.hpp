@@ -18,13 +18,13 @@
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/day_record.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Adds occupations that have no row, and sorts them by start.
 ///
 /// Occupations that the model itself left out remain, and are sorted among them.  No value of the
 /// correction changes.
-void add_left_out(SurveyCorrection& result, const std::vector<LeftOut>& occupations);
+void add_left_out(SurveyCorrection& result, const std::vector<reading::LeftOut>& occupations);
 
 /// Corrects a survey by the model of the options.
 ///
@@ -49,8 +49,8 @@ void add_left_out(SurveyCorrection& result, const std::vector<LeftOut>& occupati
 /// @param day      record of these rows, for the model `day`; null: there are only averages.
 /// @throws InputError  if a base or datum station has no row, the model is unknown or refuses the
 ///                     rows, or there are no rows.
-[[nodiscard]] SurveyCorrection correct_survey(const std::vector<SurveyRow>& rows,
+[[nodiscard]] SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
                                               const SurveyOptions& options,
-                                              const DayRecord* day = nullptr);
+                                              const reading::DayRecord* day = nullptr);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -13,7 +13,7 @@
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 // Number of set-ups: level, four tilts, level again.
@@ -25,7 +25,7 @@ constexpr double kLeastTilt_deg = 0.5;
 // the fit may leave a tenth.
 constexpr double kGreatestRange_degc = 0.3;
 
-bool is_in_series(const SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
+bool is_in_series(const reading::SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
 
 [[noreturn]] void refuse(const std::string& origin, const std::string& trouble,
                          const std::string& allowed) {
@@ -37,11 +37,11 @@ double tilt_deg(StandardGravity along) {
 }
 
 /// Returns the tilts of the horizontal axes of all bins in use, degrees (bins, 2).
-Eigen::MatrixXd tilts_deg(const OccupationRows& read) {
-    const std::vector<DayBin>& bins = read.day->bins;
+Eigen::MatrixXd tilts_deg(const reading::OccupationRows& read) {
+    const std::vector<reading::DayBin>& bins = read.day->bins;
     Eigen::MatrixXd all(static_cast<Eigen::Index>(bins.size()), 2);
     Eigen::Index count = 0;
-    for (const DayBin& bin : bins)
+    for (const reading::DayBin& bin : bins)
         if (is_in_series(read.rows[bin.set_up]))
             all.row(count++) << tilt_deg(bin.x), tilt_deg(bin.y);
     return all.topRows(count);
@@ -60,8 +60,8 @@ void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) 
                allowed);
     }
     const Eigen::MatrixXd centred = tilts.rowwise() - tilts.colwise().mean();
-    const SymmetricEigen axes =
-        symmetric_eigen(centred.transpose() * centred / static_cast<double>(tilts.rows()));
+    const linear_algebra::SymmetricEigen axes = linear_algebra::symmetric_eigen(
+        centred.transpose() * centred / static_cast<double>(tilts.rows()));
     const double across = std::sqrt(std::max(0.0, axes.values(0)));
     if (across < kLeastTilt_deg / 2.0)
         refuse(origin,
@@ -71,9 +71,9 @@ void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) 
                allowed);
 }
 
-double temperature_range_degc(const OccupationRows& read) {
+double temperature_range_degc(const reading::OccupationRows& read) {
     double least = HUGE_VAL, greatest = -HUGE_VAL;
-    for (const SurveyRow& row : read.rows) {
+    for (const reading::SurveyRow& row : read.rows) {
         if (!is_in_series(row)) continue;
         least = std::min(least, row.temperature.value());
         greatest = std::max(greatest, row.temperature.value());
@@ -81,9 +81,9 @@ double temperature_range_degc(const OccupationRows& read) {
     return greatest - least;
 }
 
-void require_tilt_series(const OccupationRows& read, const TiltSeries& series,
+void require_tilt_series(const reading::OccupationRows& read, const TiltSeries& series,
                          const std::string& origin) {
-    for (const SurveyRow& row : read.rows)
+    for (const reading::SurveyRow& row : read.rows)
         if (row.site != read.rows.front().site)
             refuse(origin, fmt::format("set-ups at {} and {}", read.rows.front().site, row.site),
                    "one point");
@@ -95,7 +95,7 @@ void require_tilt_series(const OccupationRows& read, const TiltSeries& series,
                fmt::format("the temperature moved by {} degC between set-ups",
                            text::fixed(series.temperature_range_degc, 2)),
                text::fixed(kGreatestRange_degc, 1) + " degC");
-    const DayRecord* const day = read.day ? &*read.day : nullptr;
+    const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
     const auto refusal =
         day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day, false);
     if (refusal) refuse(origin, *refusal, "a record without this");
@@ -103,9 +103,10 @@ void require_tilt_series(const OccupationRows& read, const TiltSeries& series,
 }
 
 /// Returns the bins with the reading |mean vector - biases|, biases in mGal.
-std::vector<DayBin> freed_from(const std::vector<DayBin>& bins, const Eigen::Vector3d& biases) {
-    std::vector<DayBin> freed = bins;
-    for (DayBin& bin : freed) {
+std::vector<reading::DayBin> freed_from(const std::vector<reading::DayBin>& bins,
+                                        const Eigen::Vector3d& biases) {
+    std::vector<reading::DayBin> freed = bins;
+    for (reading::DayBin& bin : freed) {
         const double x = bin.x.value() * kMilliGalPerStandardGravity;
         const double y = bin.y.value() * kMilliGalPerStandardGravity;
         const double norm = bin.reading.value();
@@ -117,7 +118,7 @@ std::vector<DayBin> freed_from(const std::vector<DayBin>& bins, const Eigen::Vec
 
 }  // namespace
 
-TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& origin) {
+TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::string& origin) {
     TiltSeries series;
     series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_series));
     series.temperature_range_degc = temperature_range_degc(read);
@@ -133,27 +134,28 @@ TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& orig
     // effect is even in the tilt.
     const MilliGal gravity =
         read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
-    std::vector<DayStation> stations;
+    std::vector<whole_day::DayStation> stations;
     for (std::size_t i = 0; i < read.rows.size(); ++i) {
-        DayStation station{read.rows[i].tide, gravity, 0};
+        whole_day::DayStation station{read.rows[i].tide, gravity, 0};
         if (!is_in_series(read.rows[i])) station = {read.rows[i].tide, std::nullopt, i};
         stations.push_back(station);
     }
     double mean = 0.0;
-    for (const DayBin& bin : read.day->bins)
+    for (const reading::DayBin& bin : read.day->bins)
         if (is_in_series(read.rows[bin.set_up]))
             mean += (bin.reading - gravity).value() / static_cast<double>(tilts.rows());
 
     Eigen::Vector3d biases(0.0, 0.0, mean);
     constexpr int kRounds = 3;  // each round leaves about 1e-3 of the change of the round before
-    DayRecord day = *read.day;
-    const DayPriors priors = usual_day_priors();
+    reading::DayRecord day = *read.day;
+    const whole_day::DayPriors priors = whole_day::usual_day_priors();
     for (int round = 0; round < kRounds; ++round) {
         day.bins = freed_from(read.day->bins, biases);
-        const DayFit fit = fit_day(day, stations, nullptr, priors).value();
-        const auto x = DayPriors::place_of(DayTerm::x), y = DayPriors::place_of(DayTerm::y);
-        const DayPriors::Vector change = priors.factor * fit.shift;
-        const DayPriors::Matrix covariance =
+        const whole_day::DayFit fit = whole_day::fit_day(day, stations, nullptr, priors).value();
+        const auto x = whole_day::DayPriors::place_of(whole_day::DayTerm::x),
+                   y = whole_day::DayPriors::place_of(whole_day::DayTerm::y);
+        const whole_day::DayPriors::Vector change = priors.factor * fit.shift;
+        const whole_day::DayPriors::Matrix covariance =
             priors.factor * fit.shift_covariance * priors.factor.transpose();
         biases.head<2>() += Eigen::Vector2d(change(x), change(y));
         series.bias.values = biases.head<2>();
@@ -164,20 +166,20 @@ TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& orig
     return series;
 }
 
-AxisBias combine(const std::vector<TiltSeries>& series) {
+unit::AxisBias combine(const std::vector<TiltSeries>& series) {
     if (series.size() == 1) return series.front().bias;
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     Eigen::Vector2d weighted = Eigen::Vector2d::Zero();
     for (const TiltSeries& one : series) {
-        const Eigen::Matrix2d inverse = Cholesky(one.bias.covariance).inverse();
+        const Eigen::Matrix2d inverse = linear_algebra::Cholesky(one.bias.covariance).inverse();
         information += inverse;
         weighted += inverse * one.bias.values;
     }
-    AxisBias bias;
-    const Eigen::Matrix2d covariance = Cholesky(information).inverse();
+    unit::AxisBias bias;
+    const Eigen::Matrix2d covariance = linear_algebra::Cholesky(information).inverse();
     bias.covariance << covariance(0, 0), covariance(0, 1), covariance(0, 1), covariance(1, 1);
     bias.values = covariance * weighted;
     return bias;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -16,12 +16,12 @@
 #include "corrector/reading/occupation_rows.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Axis biases from one series, and the facts about the series.  Tilts and temperatures are those
 /// of the set-ups used.
 struct TiltSeries {
-    AxisBias bias;            ///< Biases of x and y, mGal/g, with their covariance.
+    unit::AxisBias bias;      ///< Biases of x and y, mGal/g, with their covariance.
     std::size_t set_ups = 0;  ///< Number of set-ups used.
     std::array<double, 2> least_tilt_deg{}, greatest_tilt_deg{};  ///< Tilts about x and y.
     double temperature_range_degc = 0.0;  ///< Range of the set-ups' temperatures.
@@ -48,7 +48,8 @@ struct TiltSeries {
 ///                     between set-ups varies by more than 0.3 degC, if day_refusal() has a reason,
 ///                     if an axis is not tilted by 0.5 deg to both sides, or if both axes are only
 ///                     tilted together.
-[[nodiscard]] TiltSeries measure_axis_bias(const OccupationRows& read, const std::string& origin);
+[[nodiscard]] TiltSeries measure_axis_bias(const reading::OccupationRows& read,
+                                           const std::string& origin);
 
 /// Returns the weighted mean of independent measurements: weights are the inverse covariances, and
 /// the covariance is the inverse of their sum.
@@ -56,6 +57,6 @@ struct TiltSeries {
 /// A single series is returned as it is.  Series that disagree do not enlarge the covariance.
 /// @param series  at least one, with positive definite covariances.
 /// @throws std::invalid_argument  one of several covariances is not positive definite.
-[[nodiscard]] AxisBias combine(const std::vector<TiltSeries>& series);
+[[nodiscard]] unit::AxisBias combine(const std::vector<TiltSeries>& series);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -6,7 +6,7 @@
 
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 std::string trend_comparison_text(const SurveyCorrection& result) {
     double sum = 0.0, squares = 0.0, largest = 0.0, count = 0.0;
@@ -27,4 +27,4 @@ std::string trend_comparison_text(const SurveyCorrection& result) {
                        text::fixed(largest, 3), where);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -11,7 +11,7 @@
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Returns one line with mean, rms and largest value of the difference between the two trends of
 /// the occupations' records (occupations.csv, smoother_minus_eemd_mgal); empty without rows from
@@ -22,4 +22,4 @@ namespace a351::corrector {
 /// @param result  a corrected survey; the corrections have no effect here.
 [[nodiscard]] std::string trend_comparison_text(const SurveyCorrection& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

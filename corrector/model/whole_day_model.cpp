@@ -12,7 +12,7 @@
 #include "corrector/reading/on_all_cores.hpp"
 #include "corrector/whole_day/day_model.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 namespace {
 
 constexpr std::size_t kFewestRows = 6;    // fewer add little to the priors
@@ -26,16 +26,17 @@ std::size_t count_of(const std::vector<bool>& rows) {
 /// Returns the stations of a fit.  Held is the reference of rows in use, except those of
 /// `left_out`.  Unknown is one value for each other station, and one for each row that stands
 /// alone.
-std::vector<DayStation> stations_of(const std::vector<SurveyRow>& rows, const RowChoice& choice,
-                                    const std::string& left_out) {
-    std::vector<DayStation> stations;
+std::vector<whole_day::DayStation> stations_of(const std::vector<reading::SurveyRow>& rows,
+                                               const RowChoice& choice,
+                                               const std::string& left_out) {
+    std::vector<whole_day::DayStation> stations;
     std::map<std::string, std::size_t> unknowns;
     const auto number_of = [&](const std::string& name) {
         return unknowns.emplace(name, unknowns.size()).first->second;
     };
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const SurveyRow& row = rows[i];
-        DayStation station{row.tide, std::nullopt, 0};
+        const reading::SurveyRow& row = rows[i];
+        whole_day::DayStation station{row.tide, std::nullopt, 0};
         if (choice.in_use[i] && row.site != left_out)
             station.gravity = row.reference;
         else if (!choice.accepted[i])
@@ -49,11 +50,11 @@ std::vector<DayStation> stations_of(const std::vector<SurveyRow>& rows, const Ro
 
 /// A fit and its stations, one per row.
 struct Fitted {
-    std::vector<DayStation> stations;
-    DayFit fit;
+    std::vector<whole_day::DayStation> stations;
+    whole_day::DayFit fit;
 
     /// Returns gravity of the unknown of a row, with its standard error.
-    [[nodiscard]] const Estimate& unknown_of(std::size_t row) const {
+    [[nodiscard]] const whole_day::Estimate& unknown_of(std::size_t row) const {
         return fit.unknown_mgal[stations[row].unknown];
     }
 };
@@ -72,9 +73,9 @@ struct DayFits {
 };
 
 DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choice,
-                             const DayPriors& priors) {
-    const std::vector<SurveyRow>& rows = problem.rows;
-    const DayRecord& day = *problem.day;
+                             const whole_day::DayPriors& priors) {
+    const std::vector<reading::SurveyRow>& rows = problem.rows;
+    const reading::DayRecord& day = *problem.day;
     DayFits fits;
     fits.all.stations = stations_of(rows, choice, "");
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -86,19 +87,19 @@ DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choi
         fits.left_out.clear();  // without the only one, no station would be held
     for (const std::string& site : fits.left_out)
         fits.others.push_back({stations_of(rows, choice, site), {}});
-    fits.all.fit = fit_day(day, fits.all.stations, nullptr, priors).value();
-    on_all_cores(fits.others.size(), [&](std::size_t k) {
+    fits.all.fit = whole_day::fit_day(day, fits.all.stations, nullptr, priors).value();
+    reading::on_all_cores(fits.others.size(), [&](std::size_t k) {
         Fitted& other = fits.others[k];
-        other.fit = fit_day(day, other.stations, &fits.all.fit, priors).value();
+        other.fit = whole_day::fit_day(day, other.stations, &fits.all.fit, priors).value();
     });
     return fits;
 }
 
-ModelScore score_of(const std::vector<SurveyRow>& rows, const std::vector<bool>& in_use,
-                    const DayFits& fits) {
-    ModelScore score;
+Score score_of(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use,
+               const DayFits& fits) {
+    Score score;
     score.model = kWholeDay;
-    score.parameter_count = kDayTerms;
+    score.parameter_count = whole_day::kDayTerms;
     double in_sample = 0.0, left_out = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!in_use[i]) continue;
@@ -115,10 +116,10 @@ ModelScore score_of(const std::vector<SurveyRow>& rows, const std::vector<bool>&
     return score;
 }
 
-std::vector<Coefficient> coefficients_of(const DayFit& fit) {
+std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit) {
     std::vector<Coefficient> list;
-    for (std::size_t k = 0; k < kDayTerms; ++k)
-        list.push_back({std::string(kDayTermNames.at(k)), fit.coefficients.at(k).value,
+    for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
+        list.push_back({std::string(whole_day::kDayTermNames.at(k)), fit.coefficients.at(k).value,
                         fit.coefficients.at(k).standard_error});
     list.push_back({"fast_lag_s", fit.fast_lag_s, std::nullopt});
     list.push_back({"slow_lag_s", fit.slow_lag_s, std::nullopt});
@@ -133,7 +134,7 @@ std::vector<Coefficient> coefficients_of(const DayFit& fit) {
 /// placement error and the mean over the `count` set-ups that share the unknown.
 MilliGal row_uncertainty(const Fitted& fitted, std::size_t row) {
     double count = 0.0;
-    for (const DayStation& station : fitted.stations)
+    for (const whole_day::DayStation& station : fitted.stations)
         if (!station.gravity && station.unknown == fitted.stations[row].unknown) count += 1.0;
     const double own = fitted.fit.noise.placement_mgal * std::sqrt(1.0 - 1.0 / count);
     const double error = fitted.unknown_of(row).standard_error;
@@ -150,8 +151,8 @@ double duration_s(const std::vector<UtcTime>& times) {
 
 void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
                  const std::vector<UtcTime>& averaged) {
-    const DaySetUp& set_up = fits.all.fit.set_ups[i];
-    const auto effect = [&](DayTerm term) {
+    const whole_day::DaySetUp& set_up = fits.all.fit.set_ups[i];
+    const auto effect = [&](whole_day::DayTerm term) {
         return MilliGal(set_up.effect_mgal.at(static_cast<std::size_t>(term)));
     };
     out.row.start = averaged.front();
@@ -159,10 +160,12 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
     out.row.acceleration = set_up.reading;
     out.row.temperature = set_up.temperature;
     out.temperature_correction =
-        -(effect(DayTerm::constant) + effect(DayTerm::level) + effect(DayTerm::slow));
-    out.rate_correction = -effect(DayTerm::fast);
-    out.drift_correction = -(effect(DayTerm::drift) + effect(DayTerm::warm_up));
-    out.tilt_correction = -(effect(DayTerm::x) + effect(DayTerm::y));
+        -(effect(whole_day::DayTerm::constant) + effect(whole_day::DayTerm::level) +
+          effect(whole_day::DayTerm::slow));
+    out.rate_correction = -effect(whole_day::DayTerm::fast);
+    out.drift_correction =
+        -(effect(whole_day::DayTerm::drift) + effect(whole_day::DayTerm::warm_up));
+    out.tilt_correction = -(effect(whole_day::DayTerm::x) + effect(whole_day::DayTerm::y));
     out.corrected = set_up.corrected;
     auto& own =
         out.own.emplace<WholeDayRow>(WholeDayRow{.averaged_s = duration_s(averaged),
@@ -236,7 +239,7 @@ std::optional<std::string> refusal_of(const SurveyProblem& problem, const RowCho
     return refusal;
 }
 
-std::optional<ModelScore> score_day(const SurveyProblem& problem, const RowChoice& choice) {
+std::optional<Score> score_day(const SurveyProblem& problem, const RowChoice& choice) {
     if (refusal_of(problem, choice)) return std::nullopt;
     return score_of(
         problem.rows, choice.in_use,
@@ -245,22 +248,22 @@ std::optional<ModelScore> score_day(const SurveyProblem& problem, const RowChoic
 
 FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     if (const auto refusal = refusal_of(problem, choice)) return Refusal{*refusal, "another model"};
-    const std::vector<SurveyRow>& rows = problem.rows;
+    const std::vector<reading::SurveyRow>& rows = problem.rows;
     const SurveyOptions& options = problem.options;
-    const DayRecord& day = *problem.day;
+    const reading::DayRecord& day = *problem.day;
     const DayFits fits = fit_with_and_without(problem, choice, day_priors_of(options.calibration));
-    ModelFit result;
+    Fit result;
     result.own = WholeDayPart{};
     result.rows = uncorrected(problem, choice);
     result.score = score_of(rows, choice.in_use, fits);
     std::vector<std::vector<UtcTime>> averaged(rows.size());  // times of the samples in the bins
-    for (const DayBin& bin : day.bins)
+    for (const reading::DayBin& bin : day.bins)
         averaged[bin.set_up].insert(averaged[bin.set_up].end(), bin.times.begin(), bin.times.end());
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
     result.coefficients = coefficients_of(fits.all.fit);
     result.stations = station_values(result.rows, fits, choice);
     if (options.calibration) {
-        const DayFits usual = fit_with_and_without(problem, choice, usual_day_priors());
+        const DayFits usual = fit_with_and_without(problem, choice, whole_day::usual_day_priors());
         report_prior_use(result, *options.calibration, fits.all.fit, usual.all.fit,
                          score_of(rows, choice.in_use, usual).loso_mgal);
     }
@@ -276,9 +279,9 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
 
 }  // namespace
 
-std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
-                                       const std::vector<bool>& in_use, const DayRecord* day,
-                                       bool is_calibrated) {
+std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& rows,
+                                       const std::vector<bool>& in_use,
+                                       const reading::DayRecord* day, bool is_calibrated) {
     if (day == nullptr) return "needs the record of the day's temperature";
     const std::size_t used = count_of(in_use);
     const std::size_t fewest = is_calibrated ? 1 : kFewestRows;
@@ -289,7 +292,7 @@ std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
                            std::lround(day->temperature.longest_gap_s / 60.0),
                            std::lround(kLongestGap_s / 60.0));
     std::vector<bool> has_bins(rows.size(), false);
-    for (const DayBin& bin : day->bins) has_bins[bin.set_up] = true;
+    for (const reading::DayBin& bin : day->bins) has_bins[bin.set_up] = true;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (!has_bins[i])
             return fmt::format("{} ({}) has no half minute without a disturbance", rows[i].site,
@@ -299,4 +302,4 @@ std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
 
 Model whole_day_model() { return {kWholeDay, false, fit_whole_day, score_day}; }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

@@ -11,7 +11,7 @@
 
 #include "corrector/model/model.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Returns the reason why the whole-day model cannot be fitted to these rows; std::nullopt if it
 /// can.
@@ -26,9 +26,10 @@ namespace a351::corrector {
 /// @param day            record of these rows; null: there is none.
 /// @param is_calibrated  helps_to_correct_day(): terms that few rows cannot determine are
 ///                       calibrated.
-[[nodiscard]] std::optional<std::string> day_refusal(const std::vector<SurveyRow>& rows,
+[[nodiscard]] std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& rows,
                                                      const std::vector<bool>& in_use,
-                                                     const DayRecord* day, bool is_calibrated);
+                                                     const reading::DayRecord* day,
+                                                     bool is_calibrated);
 
 /// The whole-day model:
 ///
@@ -60,4 +61,4 @@ namespace a351::corrector {
 /// for all rows; twice as much with a calibration.
 [[nodiscard]] Model whole_day_model();
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

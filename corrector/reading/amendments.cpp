@@ -11,7 +11,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/strict_toml.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 using Windows = std::vector<OccupationWindow>;
@@ -207,4 +207,4 @@ nlohmann::ordered_json amendments_json(const std::vector<Amendment>& amendments)
     return list;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -29,7 +29,7 @@
 
 #include "corrector/reading/occupation_list.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// An amendment that was carried out.
 struct Amendment {
@@ -77,4 +77,4 @@ std::vector<Amendment> amend(std::vector<OccupationWindow>& windows,
 /// occupation, set_up (null for all), change and reason.
 [[nodiscard]] nlohmann::ordered_json amendments_json(const std::vector<Amendment>& amendments);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 using Complex = std::complex<double>;
@@ -73,4 +73,4 @@ std::vector<double> band_pass(const std::vector<double>& values, double step_s,
     return {first, first + static_cast<std::ptrdiff_t>(values.size())};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Filters a series with a second-order Butterworth band pass between two periods.
 ///
@@ -37,4 +37,4 @@ namespace a351::corrector {
 [[nodiscard]] std::vector<double> band_pass(const std::vector<double>& values, double step_s,
                                             double shorter_period_s, double longer_period_s);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -8,7 +8,7 @@
 #include "corrector/reading/smoother.hpp"
 #include "protocol/signal/decimation.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 /// Reach of both decimation filters in samples of 2 s: 41 + 10 x 41 samples of 0.02 s, rounded up.
@@ -65,7 +65,7 @@ void bridge(std::vector<double>& values, std::size_t before, std::size_t after) 
 }  // namespace
 
 std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, double threshold) {
-    const TimeSeries<StandardGravity> size = norm(axes.x, axes.y, axes.z);
+    const TimeSeries<StandardGravity> size = signal::norm(axes.x, axes.y, axes.z);
     const std::vector<bool> is_quiet = quiet_samples(size.values(), threshold);
 
     std::vector<DayBin> bins;
@@ -96,7 +96,7 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, do
 
 std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
     const TimeSeries<DegC> decimated =
-        decimate(raw, design_decimation(kDecimationFactor), kDecimationStages);
+        signal::decimate(raw, signal::design_decimation(kDecimationFactor), kDecimationStages);
     const double cutoff = kCutoff_s * decimated.rate().value();
     std::vector<double> values = decimated.values();
     const std::vector<Stretch> runs =
@@ -128,4 +128,4 @@ std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
                           static_cast<double>(longest_gap) / decimated.rate().value()};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

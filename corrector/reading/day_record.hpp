@@ -22,7 +22,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Means over the undisturbed samples of 50 s, the period of the ripple that the publication saw.
 /// Invariant of a bin from bin_set_up(): eight to kBinSamples samples, and no NaN.  A
@@ -91,4 +91,4 @@ struct DayRecord {
     std::vector<DayBin> bins;  ///< Bins in order of set-up and time.
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

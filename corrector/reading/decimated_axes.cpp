@@ -1,6 +1,6 @@
 #include "corrector/reading/decimated_axes.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 TimeSeries<MilliGal> in_milligal(const TimeSeries<StandardGravity>& series) {
@@ -12,17 +12,19 @@ TimeSeries<MilliGal> in_milligal(const TimeSeries<StandardGravity>& series) {
 }  // namespace
 
 DecimatedAxes decimate_axes(const OccupationRecord& record) {
-    const DecimationFilter filter = design_decimation(kDecimationFactor);
-    return {decimate(record.x, filter, kDecimationStages),
-            decimate(record.y, filter, kDecimationStages),
-            decimate(record.z, filter, kDecimationStages)};
+    const signal::DecimationFilter filter = signal::design_decimation(kDecimationFactor);
+    return {signal::decimate(record.x, filter, kDecimationStages),
+            signal::decimate(record.y, filter, kDecimationStages),
+            signal::decimate(record.z, filter, kDecimationStages)};
 }
 
 TimeSeries<MilliGal> gravity_series(const OccupationRecord& record, const DecimatedAxes& axes,
                                     NormOrder order) {
-    if (order == NormOrder::decimate_first) return in_milligal(norm(axes.x, axes.y, axes.z));
-    return in_milligal(decimate(norm(record.x, record.y, record.z),
-                                design_decimation(kDecimationFactor), kDecimationStages));
+    if (order == NormOrder::decimate_first)
+        return in_milligal(signal::norm(axes.x, axes.y, axes.z));
+    return in_milligal(signal::decimate(signal::norm(record.x, record.y, record.z),
+                                        signal::design_decimation(kDecimationFactor),
+                                        kDecimationStages));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -18,7 +18,7 @@
 #include "protocol/signal/decimation.hpp"
 #include "protocol/signal/norm.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Decimation before an average: two stages by 10, one value per 100 samples (2 s at 50 Hz).
 /// Source of the factor 10: decimation.md.
@@ -71,4 +71,4 @@ enum class NormOrder {
 [[nodiscard]] TimeSeries<MilliGal> gravity_series(const OccupationRecord& record,
                                                   const DecimatedAxes& axes, NormOrder order);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

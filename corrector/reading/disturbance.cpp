@@ -7,14 +7,14 @@
 
 #include "protocol/signal/median.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 /// Samples on either side of the centre of the running median; 61 in all.
 constexpr std::size_t kHalfWindow = 30;
 
 double median_of(std::span<const double> values) {
-    return median(std::vector<double>(values.begin(), values.end()));
+    return signal::median(std::vector<double>(values.begin(), values.end()));
 }
 
 /// Returns the slope per sample: the median over all pairs of samples half the length apart.
@@ -23,7 +23,7 @@ double median_slope(std::span<const double> series) {
     std::vector<double> slopes;
     for (std::size_t j = 0; j + half < series.size(); ++j)
         slopes.push_back((series[j + half] - series[j]) / static_cast<double>(half));
-    return half == 0 ? 0.0 : median(std::move(slopes));
+    return half == 0 ? 0.0 : signal::median(std::move(slopes));
 }
 
 /// Returns the line through the first sample with the slope of the whole series.  Without it a
@@ -73,11 +73,12 @@ Disturbances find_disturbances(std::span<const double> series, double threshold)
         deviation[i] = level[i] - middle[i];
         baseline[i] += middle[i];
     }
-    const double centre = median(deviation);
+    const double centre = signal::median(deviation);
     std::vector<double> magnitude(n);
     for (std::size_t i = 0; i < n; ++i) magnitude[i] = std::abs(deviation[i] - centre);
-    const double limit = std::max(threshold * kGaussianPerMad * median(std::move(magnitude)),
-                                  kSampleRounding * largest);
+    const double limit =
+        std::max(threshold * signal::kGaussianPerMad * signal::median(std::move(magnitude)),
+                 kSampleRounding * largest);
     std::vector<bool> disturbed(n);
     for (std::size_t i = 0; i < n; ++i) disturbed[i] = std::abs(deviation[i]) > limit;
     return {std::move(disturbed), std::move(baseline)};
@@ -92,4 +93,4 @@ std::vector<double> despike(std::span<const double> series, const Disturbances& 
     return samples;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Smallest deviation that counts, as a fraction of the largest sample.  Reason: smaller
 /// differences are rounding, not noise.
@@ -71,4 +71,4 @@ struct Disturbances {
 [[nodiscard]] std::vector<double> despike(std::span<const double> series,
                                           const Disturbances& found);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -5,7 +5,7 @@
 
 #include "corrector/eemd/extrema.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 Part choose_part(const std::vector<bool>& disturbed, std::size_t margin) {
     assert(!disturbed.empty());
@@ -39,7 +39,7 @@ Part choose_part(const std::vector<bool>& disturbed, std::size_t margin) {
 
 Interval choose_interval(std::span<const double> curve, bool disturbed_first, bool disturbed_last) {
     assert(!curve.empty());
-    const std::vector<std::size_t> extrema = extremum_indices(curve);
+    const std::vector<std::size_t> extrema = eemd::extremum_indices(curve);
     const std::size_t count = extrema.size();
     Interval interval{0, curve.size() - 1, (disturbed_first || disturbed_last) && count < 2};
     if (count > 0 && disturbed_first) interval.first = extrema[count == 1 ? 0 : 1];
@@ -52,4 +52,4 @@ Interval choose_interval(std::span<const double> curve, bool disturbed_first, bo
     return interval;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

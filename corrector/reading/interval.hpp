@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Samples first..last, both included.  No pulse (see choose_part()) is between them.
 /// Indices are those of the vector given to choose_part(); first <= last.
@@ -79,4 +79,4 @@ struct Interval {
 [[nodiscard]] Interval choose_interval(std::span<const double> curve, bool disturbed_first,
                                        bool disturbed_last);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

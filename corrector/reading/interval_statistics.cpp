@@ -7,7 +7,7 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 constexpr double kShapeBlockSeconds = 60.0;
@@ -119,4 +119,4 @@ AxisSummary summarise_axis(const TimeSeries<StandardGravity>& raw,
     return {StandardGravity(mean(samples)), to_milligal(StandardGravity(rms))};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -16,7 +16,7 @@
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Returns the arithmetic mean of (n) values, any unit; NaN for an empty span or if a value is NaN.
 /// Differences from the first value are summed, which keeps rounding small near 980 000 mGal.
@@ -109,4 +109,4 @@ struct AxisSummary {
                                          const TimeSeries<StandardGravity>& trend,
                                          std::size_t ratio, std::size_t first, std::size_t last);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -10,7 +10,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 std::string named(const OccupationWindow& window) {
@@ -81,12 +81,12 @@ void keep_between(std::vector<OccupationWindow>& windows, const std::optional<Ut
 }
 
 /// Keeps the occupations of the last survey day, with a warning if there are others.
-void keep_last_day(std::vector<record::Occupation>& occupations, OccupationList& list,
+void keep_last_day(std::vector<events::Occupation>& occupations, OccupationList& list,
                    const std::filesystem::path& origin) {
     if (occupations.empty()) return;
     const std::size_t all = occupations.size();
     const UtcTime last = occupations.back().set_ups.back().start;
-    occupations = record::survey_day(std::move(occupations), last);
+    occupations = events::survey_day(std::move(occupations), last);
     if (occupations.size() == all) return;
     list.warnings.push_back(fmt::format(
         "{}: only the last day is used, from {} on; occupations of earlier days: {}; use from_utc "
@@ -138,17 +138,17 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
 OccupationList read_logged_occupations(const std::filesystem::path& events,
                                        const std::optional<UtcTime>& from,
                                        const std::optional<UtcTime>& to) {
-    const record::EventLog log = record::read_events(events);
+    const events::EventLog log = events::read_events(events);
     OccupationList list;
-    for (const record::EventDamage& damage : log.damage) {
+    for (const events::EventDamage& damage : log.damage) {
         list.warnings.push_back(fmt::format("{}:{}: not an event, skipped",
                                             damage.file.filename().string(), damage.line));
     }
-    const record::OccupationReplay replay(log.events);
+    const events::OccupationReplay replay(log.events);
     auto occupations = replay.finished();
     if (!from && !to) keep_last_day(occupations, list, events);
-    for (const record::Occupation& occupation : occupations) {
-        for (const record::Occupation::SetUp& set_up : occupation.set_ups)
+    for (const events::Occupation& occupation : occupations) {
+        for (const events::Occupation::SetUp& set_up : occupation.set_ups)
             list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end});
         if (!occupation.is_stopped) list.windows.back().notes.emplace_back("no-stop");
     }
@@ -201,4 +201,4 @@ void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warning
     warnings.push_back(fmt::format("{} is left out: {}{}", named(window), reason, detail));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -21,7 +21,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// One set-up of the sensor at a benchmark, from its start to its end.
 ///
@@ -74,7 +74,7 @@ struct OccupationList {
 /// are not checked here.  With `to` there is no warning about a last occupation without a stop.
 ///
 /// @param from, to  only occupations that start at or after `from` and before `to`.  If neither is
-///                  given: the last survey day (record::kSurveyNight), with a warning if there are
+///                  given: the last survey day (events::kSurveyNight), with a warning if there are
 ///                  others.
 /// @throws InputError  the log has occupations, but none in that time.
 [[nodiscard]] OccupationList read_logged_occupations(const std::filesystem::path& events,
@@ -108,4 +108,4 @@ void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warning
                const OccupationWindow& window, const std::string& reason,
                const std::string& detail = "");
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -11,7 +11,7 @@
 #include "protocol/archive/sds.hpp"
 #include "protocol/core/input_error.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 constexpr std::chrono::minutes kMargin(1);  // reach of the temperature's filters, 9 s, and more
@@ -23,11 +23,11 @@ UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows)
 
 /// Returns every file that read_samples() reads.
 std::vector<std::filesystem::path> archive_files(const SurveySource& source,
-                                                 const record::StationCodes& codes,
+                                                 const journal::StationCodes& codes,
                                                  const SurveyChannels& channels,
                                                  const std::vector<OccupationWindow>& windows) {
     std::vector<std::string> names{channels.temperature.code};
-    for (const record::ChannelScale& axis : channels.axes) names.push_back(axis.code);
+    for (const station::ChannelScale& axis : channels.axes) names.push_back(axis.code);
     std::sort(names.begin(), names.end());
     std::vector<std::filesystem::path> files;
     using std::chrono::days;
@@ -37,7 +37,7 @@ std::vector<std::filesystem::path> archive_files(const SurveySource& source,
         const bool is_axis = channel != channels.temperature.code;
         for (auto day = floor<days>(first_sample(is_axis, windows)); day <= last_day;
              day += days(1)) {
-            const auto file = record::sds_file(source.root / "archive", codes, channel, day);
+            const auto file = archive::sds_file(source.root / "archive", codes, channel, day);
             if (std::filesystem::exists(file)) files.push_back(file);
         }
     }
@@ -47,7 +47,7 @@ std::vector<std::filesystem::path> archive_files(const SurveySource& source,
 
 /// Reads all samples from the first window to the last, and the temperature before.  Each channel
 /// is read once.
-SurveySamples read_samples(const SurveySource& source, const record::StationCodes& codes,
+SurveySamples read_samples(const SurveySource& source, const journal::StationCodes& codes,
                            const SurveyChannels& channels,
                            const std::vector<OccupationWindow>& windows) {
     const UtcTime to = windows.back().end + kMargin;
@@ -55,9 +55,9 @@ SurveySamples read_samples(const SurveySource& source, const record::StationCode
     const auto read = [&](std::size_t k) {
         const bool is_axis = k < samples.axes.size();
         (is_axis ? samples.axes[k] : samples.temperature) =
-            record::read_channel(source.root / "archive", codes,
-                                 is_axis ? channels.axes[k].code : channels.temperature.code,
-                                 first_sample(is_axis, windows), to);
+            archive::read_channel(source.root / "archive", codes,
+                                  is_axis ? channels.axes[k].code : channels.temperature.code,
+                                  first_sample(is_axis, windows), to);
     };
     on_all_cores(samples.axes.size() + 1, read);
     return samples;
@@ -140,7 +140,7 @@ SurveyStays read_survey_inputs(const SurveySource& source) {
     stays.sites = text::read_sites(source.sites);
     std::tie(stays.list, stays.amendments) = read_occupations(source, stays.sites);
     stays.metadata = source.root / "metadata" / "station.xml";
-    stays.station = record::read_station_xml(stays.metadata, stays.list.windows.front().start);
+    stays.station = station::read_station_xml(stays.metadata, stays.list.windows.front().start);
     stays.channels = find_channels(stays.station, stays.metadata);
     return stays;
 }
@@ -183,7 +183,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     result.warnings = list.warnings;
     result.amendments = amendments;
     result.sites = sites;
-    for (const record::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
+    for (const archive::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
     add_damage(result.warnings, samples.temperature);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const OccupationWindow& window = list.windows[i];
@@ -214,4 +214,4 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     return result;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -30,7 +30,7 @@
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Files of a survey's readings, and the options of their average.
 /// Only `root` and `sites` must be set.  Paths are used as they are; relative ones refer to the
@@ -58,7 +58,7 @@ struct SurveyStays {
     OccupationList list;                ///< Possible set-ups, amended.
     std::vector<Amendment> amendments;  ///< Amendments carried out; empty without a file.
     std::filesystem::path metadata;     ///< StationXML that was read.
-    record::StationMetadata station;    ///< Epochs in force at the first set-up.
+    station::Metadata station;          ///< Epochs in force at the first set-up.
     SurveyChannels channels;            ///< Channels of axes and temperature.
 };
 
@@ -111,4 +111,4 @@ struct OccupationRows {
                                                  const SurveyStays& stays,
                                                  const Progress& progress);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

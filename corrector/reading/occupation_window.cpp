@@ -9,7 +9,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 /// Samples of temperature beyond each end.  Reason: more than the reach of both decimation filters,
@@ -21,7 +21,7 @@ constexpr std::size_t kTemperatureMargin = 500;
 constexpr double kShortestForRate_s = 60.0;
 
 /// Returns the offset of the first sample at or after `time`; the size if there is none.
-std::size_t first_at_or_after(const record::Segment& segment, UtcTime time) {
+std::size_t first_at_or_after(const archive::Segment& segment, UtcTime time) {
     std::size_t low = 0;
     std::size_t high = segment.counts.size();
     while (low < high) {
@@ -36,10 +36,10 @@ std::size_t first_at_or_after(const record::Segment& segment, UtcTime time) {
 }
 
 /// Returns the rate between the first and the last time stamp of samples [first, behind).
-double observed_rate_hz(const record::Segment& segment, std::size_t first, std::size_t behind) {
-    const record::Segment::Anchor* earliest = nullptr;
-    const record::Segment::Anchor* latest = nullptr;
-    for (const record::Segment::Anchor& anchor : segment.anchors) {
+double observed_rate_hz(const archive::Segment& segment, std::size_t first, std::size_t behind) {
+    const archive::Segment::Anchor* earliest = nullptr;
+    const archive::Segment::Anchor* latest = nullptr;
+    for (const archive::Segment::Anchor& anchor : segment.anchors) {
         if (anchor.offset < first || anchor.offset >= behind) continue;
         if (earliest == nullptr) earliest = &anchor;
         latest = &anchor;
@@ -60,10 +60,10 @@ TimeSeries<StandardGravity> axis_series(const std::vector<double>& values_mps2,
     return {grid.origin, Hertz(grid.rate_hz), std::move(values_g)};
 }
 
-record::ChannelScale channel_with(const record::StationMetadata& station, const std::string& ending,
-                                  const std::string& unit, const std::filesystem::path& file) {
+station::ChannelScale channel_with(const station::Metadata& station, const std::string& ending,
+                                   const std::string& unit, const std::filesystem::path& file) {
     std::vector<std::string> codes;
-    for (const record::ChannelScale& channel : station.channels) {
+    for (const station::ChannelScale& channel : station.channels) {
         codes.push_back(channel.code);
         if (channel.code.size() != 3 || channel.code.substr(1) != ending) continue;
         if (channel.code.front() == 'L') continue;  // derived, 1 Hz
@@ -77,12 +77,12 @@ record::ChannelScale channel_with(const record::StationMetadata& station, const 
 
 }  // namespace
 
-std::optional<SampleGrid> sampling_grid(const std::vector<record::Segment>& segments, UtcTime start,
-                                        UtcTime end) {
+std::optional<SampleGrid> sampling_grid(const std::vector<archive::Segment>& segments,
+                                        UtcTime start, UtcTime end) {
     std::optional<UtcTime> origin;
     double rate_hz = 0.0;
     std::size_t longest = 0;
-    for (const record::Segment& segment : segments) {
+    for (const archive::Segment& segment : segments) {
         const std::size_t first = first_at_or_after(segment, start);
         const std::size_t behind = first_at_or_after(segment, end);
         if (first == behind) continue;
@@ -98,11 +98,11 @@ std::optional<SampleGrid> sampling_grid(const std::vector<record::Segment>& segm
     return SampleGrid{*origin, rate_hz, static_cast<std::size_t>(std::max(count, 1.0))};
 }
 
-std::vector<double> place_on_grid(const std::vector<record::Segment>& segments,
-                                  const record::ChannelScale& scale, const SampleGrid& grid) {
+std::vector<double> place_on_grid(const std::vector<archive::Segment>& segments,
+                                  const station::ChannelScale& scale, const SampleGrid& grid) {
     std::vector<double> values(grid.count, std::numeric_limits<double>::quiet_NaN());
     const UtcTime earliest = grid.origin - from_seconds(0.5 / grid.rate_hz);
-    for (const record::Segment& segment : segments) {
+    for (const archive::Segment& segment : segments) {
         const std::size_t first = first_at_or_after(segment, earliest);
         if (first == segment.counts.size()) continue;
         const long long place =
@@ -118,8 +118,7 @@ std::vector<double> place_on_grid(const std::vector<record::Segment>& segments,
     return values;
 }
 
-SurveyChannels find_channels(const record::StationMetadata& station,
-                             const std::filesystem::path& file) {
+SurveyChannels find_channels(const station::Metadata& station, const std::filesystem::path& file) {
     SurveyChannels channels;
     for (std::size_t k = 0; k < channels.axes.size(); ++k)
         channels.axes[k] = channel_with(station, "N" + station.codes.axes[k], "m/s**2", file);
@@ -127,8 +126,9 @@ SurveyChannels find_channels(const record::StationMetadata& station,
     return channels;
 }
 
-void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel) {
-    for (const record::ArchiveDamage& damage : channel.damage) warnings.push_back(to_text(damage));
+void add_damage(std::vector<std::string>& warnings, const archive::ChannelData& channel) {
+    for (const archive::Damage& damage : channel.damage)
+        warnings.push_back(archive::to_text(damage));
 }
 
 std::optional<OccupationRecord> cut_occupation(const SurveySamples& samples,
@@ -149,4 +149,4 @@ std::optional<OccupationRecord> cut_occupation(const SurveySamples& samples,
                          place_on_grid(samples.temperature.segments, channels.temperature, wider))};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

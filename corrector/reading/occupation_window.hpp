@@ -7,7 +7,7 @@
 /// interpolated.  Order of use:
 ///
 ///     const SurveyChannels channels = find_channels(station, metadata_file);
-///     SurveySamples samples;    // read once for the whole survey, with record::read_channel()
+///     SurveySamples samples;    // read once for the whole survey, with archive::read_channel()
 ///     const auto record = cut_occupation(samples, channels, window.start, window.end);
 ///     if (!record) leave_out(...);
 ///
@@ -26,7 +26,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/station/station_xml.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// The instants origin + i / rate, i = 0 ... count - 1.
 /// A default-constructed grid is empty and must not be used.
@@ -48,7 +48,7 @@ struct SampleGrid {
 /// @param start, end  window [start, end); start <= end, which is not checked.
 /// @return the grid up to `end`; std::nullopt without a sample in the window.  The last instant is
 ///         0.5 to 1.5 samples before `end`, so that rounded stamps do not change the count.
-[[nodiscard]] std::optional<SampleGrid> sampling_grid(const std::vector<record::Segment>& segments,
+[[nodiscard]] std::optional<SampleGrid> sampling_grid(const std::vector<archive::Segment>& segments,
                                                       UtcTime start, UtcTime end);
 
 /// Puts segments on the grid, value = offset + gain x count; NaN if there is no sample.  A segment
@@ -64,14 +64,14 @@ struct SampleGrid {
 /// @param segments  of one channel, in order of time.
 /// @param scale     gain and offset of the channel.
 /// @return (grid.count) values in the unit of the scale.
-[[nodiscard]] std::vector<double> place_on_grid(const std::vector<record::Segment>& segments,
-                                                const record::ChannelScale& scale,
+[[nodiscard]] std::vector<double> place_on_grid(const std::vector<archive::Segment>& segments,
+                                                const station::ChannelScale& scale,
                                                 const SampleGrid& grid);
 
 /// The channels of a station that the corrector needs.
 struct SurveyChannels {
-    std::array<record::ChannelScale, 3> axes;  ///< x, y, z in m/s2.
-    record::ChannelScale temperature;          ///< degC, at the rate of the axes.
+    std::array<station::ChannelScale, 3> axes;  ///< x, y, z in m/s2.
+    station::ChannelScale temperature;          ///< degC, at the rate of the axes.
 };
 
 /// Finds the channels of the axes and of the temperature.
@@ -80,22 +80,22 @@ struct SurveyChannels {
 /// (StationCodes::axes).  The code of the temperature ends in K1.  Channels that begin with L, of 1
 /// Hz, are derived and left out.  If several channels fit, the first is taken.
 ///
-/// @param station  from record::read_station_xml().
+/// @param station  from station::read_station_xml().
 /// @param file  name of the metadata, for messages.
 /// @throws InputError  a channel is missing or has another unit than m/s**2 or degC; the message
 ///                     has the channels that there are.
-[[nodiscard]] SurveyChannels find_channels(const record::StationMetadata& station,
+[[nodiscard]] SurveyChannels find_channels(const station::Metadata& station,
                                            const std::filesystem::path& file);
 
 /// Adds a warning for each piece of the channel's files that could not be read.  The text is that
 /// of record::to_text(); earlier warnings are kept.
-void add_damage(std::vector<std::string>& warnings, const record::ChannelData& channel);
+void add_damage(std::vector<std::string>& warnings, const archive::ChannelData& channel);
 
 /// The samples of all channels over a survey.
 /// The temperature should begin earlier than the axes, for the whole-day model.
 struct SurveySamples {
-    std::array<record::ChannelData, 3> axes;  ///< x, y, z.
-    record::ChannelData temperature;
+    std::array<archive::ChannelData, 3> axes;  ///< x, y, z.
+    archive::ChannelData temperature;
 };
 
 /// Returns the record of one occupation, axes in g.  The temperature extends 10 s (500 samples at
@@ -110,4 +110,4 @@ struct SurveySamples {
                                                              const SurveyChannels& channels,
                                                              UtcTime start, UtcTime end);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

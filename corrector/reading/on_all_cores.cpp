@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& work,
                   const Progress& progress) {
@@ -37,4 +37,4 @@ void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& wor
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Called after each piece of work with the number of pieces done and of all pieces.  Calls come
 /// from any thread, but never from two at once.  Must not throw.
@@ -36,4 +36,4 @@ void on_all_cores(
     std::size_t count, const std::function<void(std::size_t)>& work,
     const Progress& progress = [](std::size_t, std::size_t) {});
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

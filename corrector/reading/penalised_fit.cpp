@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 /// Largest relative error of a fitted straight line.  Reason: one refinement reduces it to its
@@ -123,4 +123,4 @@ std::vector<double> PenalisedFit::inverse_diagonal() const {
     return inverse;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

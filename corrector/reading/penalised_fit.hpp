@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Returns the penalty that halves a sine of period P samples in a fit to complete data:
 ///
@@ -96,4 +96,4 @@ private:
     std::vector<double> below2_;    ///< L[i + 2][i]
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -13,7 +13,7 @@
 #include "corrector/reading/interval.hpp"
 #include "corrector/reading/smoother.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 constexpr std::size_t kShortestRun = 16;  // decimated samples, 32 s at 50 Hz
@@ -24,7 +24,7 @@ constexpr double kBlockSeconds = 60.0;    // blocks of the standard error
 constexpr double kEndMargin_s = 60.0;
 
 /// Returns the half-width of both decimation stages together, raw samples: 41 + 10 x 41 = 451.
-std::size_t reach_of(const DecimationFilter& filter) {
+std::size_t reach_of(const signal::DecimationFilter& filter) {
     return filter.half_width() * (1 + filter.factor);
 }
 
@@ -78,7 +78,7 @@ SampleCounts count_samples(const std::vector<std::size_t>& present, std::size_t 
 /// Returns the decimated temperature on the grid of the decimated axes.  Uses the temperature
 /// recorded beyond the axes.
 TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
-                                      const DecimationFilter& filter) {
+                                      const signal::DecimationFilter& filter) {
     const TimeSeries<DegC>& all = record.temperature;
     if (all.rate() != record.x.rate())
         throw std::invalid_argument("representative_value: temperature and axes differ in rate");
@@ -98,8 +98,8 @@ TimeSeries<DegC> decimate_temperature(const OccupationRecord& record,
             around[i] = all.values()[static_cast<std::size_t>(source)];
     }
     const TimeSeries<DegC> decimated =
-        decimate(TimeSeries<DegC>(record.x.start(), all.rate(), std::move(around)), filter,
-                 kDecimationStages);
+        signal::decimate(TimeSeries<DegC>(record.x.start(), all.rate(), std::move(around)), filter,
+                         kDecimationStages);
     const std::size_t count = (record.x.size() + kDecimationRatio - 1) / kDecimationRatio;
     const auto begin = decimated.values().begin() + static_cast<std::ptrdiff_t>(lead);
     return {record.x.start(), decimated.rate(),
@@ -138,7 +138,7 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
         throw std::invalid_argument(fmt::format(
             "representative_value: cutoff_s = {:f}, must be 20 to 500", options.cutoff_s));
     }
-    const DecimationFilter filter = design_decimation(kDecimationFactor);
+    const signal::DecimationFilter filter = signal::design_decimation(kDecimationFactor);
     TimeSeries<MilliGal> series = gravity_series(record, axes, options.norm);
     const TimeSeries<DegC> temperature = decimate_temperature(record, filter);
     const Run run = longest_valid_run(series.values());
@@ -149,9 +149,9 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     const std::size_t part_size = part.last - part.first + 1;
     if (part_size < kShortestRun) return std::nullopt;
 
-    EemdOptions decomposition;
+    eemd::Options decomposition;
     decomposition.seed = options.seed;
-    if (options.curve != TrendCurve::paper) decomposition.ends = EndRule::mirror;
+    if (options.curve != TrendCurve::paper) decomposition.ends = eemd::EndRule::mirror;
     const std::vector<double> despiked = despike(valid, found);
     const auto quiet = std::span(despiked).subspan(part.first, part_size);
     const std::vector<double> trend = trend_curve(quiet, decomposition, options.curve);
@@ -189,7 +189,8 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     summary.x = summarise(record.x, axes.x);
     summary.y = summarise(record.y, axes.y);
     summary.z = summarise(record.z, axes.z);
-    summary.rectification = rectification_bias(summary.x.rms, summary.y.rms, summary.series_mean);
+    summary.rectification =
+        signal::rectification_bias(summary.x.rms, summary.y.rms, summary.series_mean);
     return RepresentativeValue{
         summary,
         degc,
@@ -202,4 +203,4 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
         temperature};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

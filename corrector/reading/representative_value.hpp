@@ -25,7 +25,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Limits of the smoother's cut-off, s.  Reason: a shorter one gives no trend.  A longer one
 /// distorts the waves of an occupation, and would be too many samples for the smoother at 10 Hz.
@@ -163,4 +163,4 @@ struct RepresentativeValue : RecordSummary {
     const OccupationRecord& record, const DecimatedAxes& axes,
     const RepresentativeOptions& options = {});
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

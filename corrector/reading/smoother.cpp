@@ -11,7 +11,7 @@
 #include "corrector/reading/disturbance.hpp"
 #include "protocol/signal/median.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 /// Largest residual of full weight, and smallest of no weight, standard deviations.  Reason: one
@@ -58,7 +58,8 @@ std::vector<double> weights_about(std::span<const double> series, std::span<cons
     for (std::size_t i = 0; i < series.size(); ++i) {
         if (std::isfinite(series[i])) magnitudes.push_back(std::abs(series[i] - curve[i]));
     }
-    const double deviation = std::max(kGaussianPerMad * median(std::move(magnitudes)), rounding);
+    const double deviation =
+        std::max(signal::kGaussianPerMad * signal::median(std::move(magnitudes)), rounding);
     std::vector<double> weights(series.size());
     for (std::size_t i = 0; i < series.size(); ++i) {
         if (std::isfinite(series[i])) weights[i] = weight_of(series[i] - curve[i], deviation);
@@ -154,4 +155,4 @@ SmoothTrend smooth(std::span<const double> series, double cutoff_period) {
     return trend;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -16,7 +16,7 @@
 
 #include "corrector/reading/penalised_fit.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Limits of the cut-off period, samples.  Reason: a shorter one smooths nothing.  With a longer
 /// one rounding becomes visible (penalised_fit.hpp); decimate first.  Both limits are permitted.
@@ -104,4 +104,4 @@ struct SmoothTrend {
 /// section 2.6 (redescending).  Different here: the bisquare flank.
 [[nodiscard]] SmoothTrend smooth(std::span<const double> series, double cutoff_period);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -10,7 +10,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 using std::chrono::minutes;
@@ -120,4 +120,4 @@ std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
     return warnings;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -20,7 +20,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// The averages of one occupation, or one set-up of it, over an interval without disturbance.
 /// The set-ups of one stay share `site` and `occupation` and differ in `time`.  In a
@@ -100,4 +100,4 @@ void set_backward_rates(std::vector<SurveyRow>& rows);
 [[nodiscard]] std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
                                                          const std::vector<text::Site>& sites);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 struct Sum {
@@ -14,7 +14,7 @@ struct Sum {
 using MinuteSums = std::map<std::chrono::sys_time<std::chrono::minutes>, Sum>;
 
 /// Adds the samples [begin, end) of a segment; `time` is the time stamp of sample `begin`.
-void add_record(MinuteSums& sums, const record::Segment& segment, std::size_t begin,
+void add_record(MinuteSums& sums, const archive::Segment& segment, std::size_t begin,
                 std::size_t end, UtcTime time) {
     for (std::size_t i = begin; i < end; ++i) {
         const UtcTime at = time + from_seconds(static_cast<double>(i - begin) / segment.rate_hz);
@@ -26,10 +26,10 @@ void add_record(MinuteSums& sums, const record::Segment& segment, std::size_t be
 
 }  // namespace
 
-std::vector<MinuteTemperature> temperature_course(const std::vector<record::Segment>& segments,
-                                                  const record::ChannelScale& scale) {
+std::vector<MinuteTemperature> temperature_course(const std::vector<archive::Segment>& segments,
+                                                  const station::ChannelScale& scale) {
     MinuteSums sums;
-    for (const record::Segment& segment : segments) {
+    for (const archive::Segment& segment : segments) {
         for (std::size_t k = 0; k < segment.anchors.size(); ++k) {
             const bool is_last = k + 1 == segment.anchors.size();
             add_record(sums, segment, segment.anchors[k].offset,
@@ -46,4 +46,4 @@ std::vector<MinuteTemperature> temperature_course(const std::vector<record::Segm
     return course;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -12,7 +12,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/station/station_xml.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// The mean temperature of one minute.
 /// It has at least one sample.
@@ -36,6 +36,6 @@ struct MinuteTemperature {
 /// @param scale     degC = offset + gain x count.
 /// @return one mean for each minute with a sample; empty without samples.
 [[nodiscard]] std::vector<MinuteTemperature> temperature_course(
-    const std::vector<record::Segment>& segments, const record::ChannelScale& scale);
+    const std::vector<archive::Segment>& segments, const station::ChannelScale& scale);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 /// Largest number of extrema of the slow curve.  Reason: the interval needs four, two from either
@@ -12,9 +12,9 @@ constexpr std::size_t kMostExtrema = 7;
 
 }  // namespace
 
-std::vector<double> paper_curve(const EemdResult& components) {
-    const Component* slowest = nullptr;
-    for (const Component& mode : components.modes) {
+std::vector<double> paper_curve(const eemd::Result& components) {
+    const eemd::Component* slowest = nullptr;
+    for (const eemd::Component& mode : components.modes) {
         if (std::ranges::all_of(mode.values, [](double value) { return value == 0.0; })) continue;
         if (slowest == nullptr || mode.mean_period_samples >= slowest->mean_period_samples)
             slowest = &mode;
@@ -25,10 +25,10 @@ std::vector<double> paper_curve(const EemdResult& components) {
     return curve;
 }
 
-std::vector<double> trend_curve(std::span<const double> signal, const EemdOptions& decomposition,
+std::vector<double> trend_curve(std::span<const double> signal, const eemd::Options& decomposition,
                                 TrendCurve choice) {
-    if (choice == TrendCurve::paper) return paper_curve(eemd(signal, decomposition));
-    return eemd_trend(signal, kMostExtrema, decomposition).values;
+    if (choice == TrendCurve::paper) return paper_curve(eemd::eemd(signal, decomposition));
+    return eemd::eemd_trend(signal, kMostExtrema, decomposition).values;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -10,7 +10,7 @@
 
 #include "corrector/eemd/eemd.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 /// Method of an occupation's trend; the other one is computed too, for comparison.
 enum class TrendMethod {
@@ -31,7 +31,7 @@ enum class TrendCurve {
 /// taken.  A mode is zero only if all its values are exactly 0.
 /// @param components  from eemd(); all modes have the length of the residue, which is not checked.
 /// @return (n), unit of the components.
-[[nodiscard]] std::vector<double> paper_curve(const EemdResult& components);
+[[nodiscard]] std::vector<double> paper_curve(const eemd::Result& components);
 
 /// Returns the trend curve of a series.
 ///
@@ -50,6 +50,7 @@ enum class TrendCurve {
 /// @return (n), unit of the signal.
 /// @throws               as eemd().
 [[nodiscard]] std::vector<double> trend_curve(std::span<const double> signal,
-                                              const EemdOptions& decomposition, TrendCurve choice);
+                                              const eemd::Options& decomposition,
+                                              TrendCurve choice);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -4,12 +4,13 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 namespace {
 
-Closure close_pair(const std::vector<CorrectedRow>& rows, std::size_t earlier, std::size_t later) {
-    const CorrectedRow& a = rows[earlier];
-    const CorrectedRow& b = rows[later];
+Closure close_pair(const std::vector<model::CorrectedRow>& rows, std::size_t earlier,
+                   std::size_t later) {
+    const model::CorrectedRow& a = rows[earlier];
+    const model::CorrectedRow& b = rows[later];
     Closure pair;
     pair.earlier = earlier;
     pair.later = later;
@@ -37,10 +38,10 @@ MilliGal rms_of(const std::vector<Closure>& closures, MilliGal Closure::*differe
 
 }  // namespace
 
-std::vector<Closure> close_stations(const SurveyCorrection& result) {
-    const std::vector<CorrectedRow>& rows = result.rows;
+std::vector<Closure> close_stations(const model::SurveyCorrection& result) {
+    const std::vector<model::CorrectedRow>& rows = result.rows;
     std::vector<Closure> closures;
-    for (const StationValue& station : result.stations) {
+    for (const model::StationValue& station : result.stations) {
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].row.site != station.site) continue;
             for (std::size_t j = i + 1; j < rows.size(); ++j) {
@@ -59,4 +60,4 @@ std::optional<ClosureRms> rms_of(const std::vector<Closure>& closures) {
                       rms_of(closures, &Closure::after_all)};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

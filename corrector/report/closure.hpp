@@ -17,7 +17,7 @@
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 
 /// The difference `later` minus `earlier` of two readings of one station, after each correction.
 ///
@@ -42,7 +42,7 @@ struct Closure {
 /// All rows take part, in the fit or not.  A station of m readings gives m (m - 1) / 2 pairs; one
 /// that was read once gives none.
 /// @param result  rows in strictly ascending time.
-[[nodiscard]] std::vector<Closure> close_stations(const SurveyCorrection& result);
+[[nodiscard]] std::vector<Closure> close_stations(const model::SurveyCorrection& result);
 
 /// Root mean squares of the differences after every step, about 0; the divisor is the number of
 /// pairs.
@@ -54,4 +54,4 @@ struct ClosureRms {
 /// share readings, so a station that was read often has a large weight.
 [[nodiscard]] std::optional<ClosureRms> rms_of(const std::vector<Closure>& closures);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

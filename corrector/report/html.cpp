@@ -7,7 +7,7 @@
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/inline_svg.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 namespace {
 
 constexpr std::string_view kStyle = R"(
@@ -59,7 +59,7 @@ code { font-size: .95em; }
 std::string cell(std::string_view tag, char alignment, std::string_view text) {
     return fmt::format("<{0}{1}>{2}</{0}>", tag,
                        alignment == 'l' ? "" : fmt::format(" class=\"{}\"", alignment),
-                       html_text(text));
+                       figure::html_text(text));
 }
 
 std::string line(std::string_view tag, std::string_view alignment, const HtmlCells& cells) {
@@ -68,15 +68,15 @@ std::string line(std::string_view tag, std::string_view alignment, const HtmlCel
     return html + "</tr>\n";
 }
 
-std::string figure_html(const Figure& figure, const Drawing& drawing) {
+std::string figure_html(const figure::Figure& figure, const figure::Drawing& drawing) {
     const auto picture =
         std::ranges::find(drawing.pictures, figure.name + ".svg", &text::NamedText::first);
     const auto svg = picture == drawing.pictures.end()
                          ? std::nullopt
-                         : inline_svg(picture->second, figure.name + "-");
+                         : figure::inline_svg(picture->second, figure.name + "-");
     return fmt::format("<figure>\n{}\n<figcaption>{} <code>{}.gp</code></figcaption>\n</figure>\n",
                        svg.value_or("<p><em>This figure is missing.</em></p>"),
-                       html_text(figure.caption), figure.name);
+                       figure::html_text(figure.caption), figure.name);
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ std::string html_table(std::string_view alignment, const HtmlCells& header,
     return html + "</tbody></table></div>\n";
 }
 
-std::string html_table(const Table& table) {
+std::string html_table(const result::Table& table) {
     HtmlCells headings = table.headings;
     for (std::string& heading : headings)
         if (const auto at = heading.find("degC"); at != std::string::npos)
@@ -99,23 +99,27 @@ std::string html_table(const Table& table) {
     return html_table(table.alignment, headings, table.rows);
 }
 
-std::string html_paragraph(std::string_view text) { return "<p>" + html_text(text) + "</p>\n"; }
+std::string html_paragraph(std::string_view text) {
+    return "<p>" + figure::html_text(text) + "</p>\n";
+}
 
 std::string html_list(const std::vector<std::string>& items) {
     std::string html;
-    for (const std::string& item : items) html += fmt::format("<li>{}</li>\n", html_text(item));
+    for (const std::string& item : items)
+        html += fmt::format("<li>{}</li>\n", figure::html_text(item));
     return html.empty() ? html : fmt::format("<ul>\n{}</ul>\n", html);
 }
 
-std::string figures_html(const std::vector<Figure>& figures, const Drawing& drawing) {
+std::string figures_html(const std::vector<figure::Figure>& figures,
+                         const figure::Drawing& drawing) {
     std::string large, small;
-    for (const Figure& figure : figures)
+    for (const figure::Figure& figure : figures)
         (figure.is_small ? small : large) += figure_html(figure, drawing);
     return large + (small.empty() ? "" : "<div class=\"small\">\n" + small + "</div>\n");
 }
 
 std::string section(std::string_view title, std::string_view html) {
-    return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", html_text(title), html);
+    return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", figure::html_text(title), html);
 }
 
 std::string html_page(std::string_view title, std::string_view body) {
@@ -124,19 +128,19 @@ std::string html_page(std::string_view title, std::string_view body) {
         "<meta charset=\"utf-8\"/>\n"
         "<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>{}</title>\n"
         "<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-        html_text(title), kStyle, body);
+        figure::html_text(title), kStyle, body);
 }
 
 std::vector<std::string> missing_lines(const std::vector<std::string>& troubles) {
     if (troubles.empty()) return {};
     const std::size_t others = troubles.size() - 1;
-    return {fmt::format("figures are missing: {}{}", clean_utf8(troubles.front()),
+    return {fmt::format("figures are missing: {}{}", figure::clean_utf8(troubles.front()),
                         others == 0 ? "" : fmt::format("; {} more such", others))};
 }
 
-void add_figure_files(std::vector<text::NamedText>& files, const std::vector<Figure>& figures,
-                      Drawing& drawing) {
-    for (const Figure& figure : figures) {
+void add_figure_files(std::vector<text::NamedText>& files,
+                      const std::vector<figure::Figure>& figures, figure::Drawing& drawing) {
+    for (const figure::Figure& figure : figures) {
         files.emplace_back("figures/" + figure.name + ".gp", figure.script);
         if (!figure.data.empty())
             files.emplace_back("figures/" + figure.name + ".dat", figure.data);
@@ -145,4 +149,4 @@ void add_figure_files(std::vector<text::NamedText>& files, const std::vector<Fig
         files.emplace_back("figures/" + picture.first, std::move(picture.second));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

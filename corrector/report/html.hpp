@@ -20,7 +20,7 @@
 #include "corrector/result/table.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 
 /// Cells of a line of a table, as plain text.
 using HtmlCells = std::vector<std::string>;
@@ -35,7 +35,7 @@ using HtmlCells = std::vector<std::string>;
 
 /// Returns a table for people, with degC as the degree sign and C.  This change concerns headings
 /// only, once in each.
-[[nodiscard]] std::string html_table(const Table& table);
+[[nodiscard]] std::string html_table(const result::Table& table);
 
 /// Returns a paragraph.
 [[nodiscard]] std::string html_paragraph(std::string_view text);
@@ -48,7 +48,8 @@ using HtmlCells = std::vector<std::string>;
 /// name of the script, so that a reader finds it.
 /// @param drawing  result of draw() for these and possibly other figures.  Call this function
 ///                 before add_figure_files(), which empties it.
-[[nodiscard]] std::string figures_html(const std::vector<Figure>& figures, const Drawing& drawing);
+[[nodiscard]] std::string figures_html(const std::vector<figure::Figure>& figures,
+                                       const figure::Drawing& drawing);
 
 /// Returns a section of a page, with its title as a heading of second order.
 /// @param html  content, not escaped here.
@@ -68,7 +69,7 @@ using HtmlCells = std::vector<std::string>;
 ///
 /// Afterwards the pictures in `drawing` must not be used.  A figure without data gets no .dat.
 /// @param files  grows at its end; for text::write_together().
-void add_figure_files(std::vector<text::NamedText>& files, const std::vector<Figure>& figures,
-                      Drawing& drawing);
+void add_figure_files(std::vector<text::NamedText>& files,
+                      const std::vector<figure::Figure>& figures, figure::Drawing& drawing);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

@@ -10,7 +10,7 @@
 #include "corrector/result/joint_table.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 namespace {
 
 /// Returns a name as a part of a relative address (RFC 3986; unreserved characters are not
@@ -29,8 +29,9 @@ std::string address_part(const std::string& name) {
     return text;
 }
 
-const StationValue* find_station(const SurveyCorrection& day, const std::string& site) {
-    const auto found = std::ranges::find(day.stations, site, &StationValue::site);
+const model::StationValue* find_station(const model::SurveyCorrection& day,
+                                        const std::string& site) {
+    const auto found = std::ranges::find(day.stations, site, &model::StationValue::site);
     return found == day.stations.end() ? nullptr : &*found;
 }
 
@@ -43,7 +44,7 @@ std::string days_table(const std::vector<JointDay>& days) {
             cells[1] = "not corrected";
             continue;
         }
-        const SurveyCorrection& result = *day.result;
+        const model::SurveyCorrection& result = *day.result;
         cells[1] = to_rfc3339(result.rows.front().row.time);
         cells[2] = to_rfc3339(result.rows.back().row.time);
         cells[3] = result.model;
@@ -63,23 +64,23 @@ std::string links(const std::vector<JointDay>& days) {
         if (day.result == nullptr) continue;
         html +=
             fmt::format("{}<a href=\"{}/report.html\">{}</a>", html.empty() ? "<p>Reports: " : ", ",
-                        address_part(day.folder), html_text(day.name));
+                        address_part(day.folder), figure::html_text(day.name));
     }
     return html.empty() ? html : html + ".</p>\n";
 }
 
 std::string stations_table(const std::vector<JointDay>& days,
-                           const std::vector<SurveyCorrection>& results) {
-    const std::vector<JointStation> stations = join_days(results);
-    Table table = table_of(joint_columns(), stations);
+                           const std::vector<model::SurveyCorrection>& results) {
+    const std::vector<result::JointStation> stations = result::join_days(results);
+    result::Table table = result::table_of(result::joint_columns(), stations);
     for (const JointDay& day : days) {
         if (day.result == nullptr) continue;
         table.alignment += 'r';
         table.headings.push_back(day.name + " - joint");
     }
     for (std::size_t i = 0; i < stations.size(); ++i) {
-        for (const SurveyCorrection& result : results) {
-            const StationValue* const value = find_station(result, stations[i].site);
+        for (const model::SurveyCorrection& result : results) {
+            const model::StationValue* const value = find_station(result, stations[i].site);
             table.rows[i].push_back(
                 value == nullptr ? "-"
                                  : text::fixed((value->gravity - stations[i].gravity).value(), 3) +
@@ -89,7 +90,7 @@ std::string stations_table(const std::vector<JointDay>& days,
     return html_table(table.alignment, table.headings, table.rows);
 }
 
-std::string scatter_sentence(const std::vector<SurveyCorrection>& results) {
+std::string scatter_sentence(const std::vector<model::SurveyCorrection>& results) {
     const auto scatter = scatter_of_days(results);
     if (!scatter) return "No station was measured on two days, so the days cannot be compared.";
     const std::string expected = text::fixed_or(scatter->expected_mgal, 2, "");
@@ -105,16 +106,16 @@ std::string scatter_sentence(const std::vector<SurveyCorrection>& results) {
 
 }  // namespace
 
-std::optional<DayScatter> scatter_of_days(const std::vector<SurveyCorrection>& days) {
+std::optional<DayScatter> scatter_of_days(const std::vector<model::SurveyCorrection>& days) {
     DayScatter scatter;
     double squares = 0.0, expected = 0.0;
     std::size_t count = 0;
     bool has_all_u = true;
-    for (const JointStation& station : join_days(days)) {
+    for (const result::JointStation& station : result::join_days(days)) {
         if (station.day_count < 2) continue;
         std::vector<double> values;
-        for (const SurveyCorrection& day : days) {
-            const StationValue* const value = find_station(day, station.site);
+        for (const model::SurveyCorrection& day : days) {
+            const model::StationValue* const value = find_station(day, station.site);
             if (value == nullptr) continue;
             values.push_back((value->gravity - station.gravity).value());
             has_all_u = has_all_u && value->u_gravity;
@@ -133,7 +134,7 @@ std::optional<DayScatter> scatter_of_days(const std::vector<SurveyCorrection>& d
 }
 
 std::string joint_html(const std::vector<JointDay>& days) {
-    std::vector<SurveyCorrection> results;
+    std::vector<model::SurveyCorrection> results;
     std::vector<std::string> troubles;
     for (const JointDay& day : days) {
         if (day.result != nullptr) {
@@ -148,8 +149,8 @@ std::string joint_html(const std::vector<JointDay>& days) {
     return html_page(
         title,
         fmt::format(
-            "<h1>{}</h1>\n{}{}<h2>Days</h2>\n{}{}<h2>Stations</h2>\n{}{}{}", html_text(title),
-            absent, html_list(troubles), days_table(days), links(days),
+            "<h1>{}</h1>\n{}{}<h2>Days</h2>\n{}{}<h2>Stations</h2>\n{}{}{}",
+            figure::html_text(title), absent, html_list(troubles), days_table(days), links(days),
             stations_table(days, results),
             html_paragraph(
                 "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no "
@@ -159,4 +160,4 @@ std::string joint_html(const std::vector<JointDay>& days) {
             html_paragraph(scatter_sentence(results))));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

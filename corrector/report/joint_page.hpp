@@ -10,17 +10,17 @@
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 
 /// One day of the survey: its result, or the reason why there is none.
 ///
 /// The result is not owned and must live during the call of joint_html().  It has at least one row.
 /// `name` may be any text.  `folder` is a plain name; the page encodes it in the address.
 struct JointDay {
-    std::string name;                          ///< Name of the day, as in its survey file.
-    std::string folder;                        ///< Folder of its result, next to the page.
-    const SurveyCorrection* result = nullptr;  ///< Result; null if not corrected.
-    std::string trouble = {};                  ///< Reason if not corrected.
+    std::string name;                                 ///< Name of the day, as in its survey file.
+    std::string folder;                               ///< Folder of its result, next to the page.
+    const model::SurveyCorrection* result = nullptr;  ///< Result; null if not corrected.
+    std::string trouble = {};                         ///< Reason if not corrected.
 };
 
 /// Scatter from day to day of stations measured on several days.
@@ -40,7 +40,8 @@ struct DayScatter {
 /// The means are not weighted.  Stations of one day have no influence.  A day of a station counts
 /// even if all its rows are flagged.
 /// @return std::nullopt if no station was measured on two days.
-[[nodiscard]] std::optional<DayScatter> scatter_of_days(const std::vector<SurveyCorrection>& days);
+[[nodiscard]] std::optional<DayScatter> scatter_of_days(
+    const std::vector<model::SurveyCorrection>& days);
 
 /// Returns the page: days with their scores and links to their reports, and the joint stations with
 /// the difference of each day.  It needs no other file.
@@ -51,4 +52,4 @@ struct DayScatter {
 /// @param days  in the order of the page.
 [[nodiscard]] std::string joint_html(const std::vector<JointDay>& days);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

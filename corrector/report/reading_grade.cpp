@@ -12,7 +12,7 @@
 #include "corrector/report/closure.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 namespace {
 
 // Limits of |error| / u.  Reason: one in 22 Gaussian errors is above the first, one in 370 above
@@ -72,8 +72,8 @@ void add_note(ReadingGrade& reading, const std::string& note, bool is_day) {
     }
 }
 
-void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool corrects_rate) {
-    std::string doubt = temperature_doubt(row.row);
+void add_temperature(ReadingGrade& reading, const model::CorrectedRow& row, bool corrects_rate) {
+    std::string doubt = model::temperature_doubt(row.row);
     if (doubt.empty()) return;
     if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
     add(reading, corrects_rate ? Grade::care : Grade::repeat,
@@ -86,7 +86,7 @@ void add_temperature(ReadingGrade& reading, const CorrectedRow& row, bool correc
 
 /// Adds a reason if the residual is large.
 /// @param is_left_out  u is that of the prediction without the row's station, not of the residual.
-void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_out) {
+void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is_left_out) {
     if (!row.residual || !row.u_corrected || !(row.u_corrected->value() > 0.0)) return;
     const double ratio = is_left_out ? row.studentised_residual.value_or(0.0)
                                      : row.residual->value() / row.u_corrected->value();
@@ -98,7 +98,7 @@ void add_residual(ReadingGrade& reading, const CorrectedRow& row, bool is_left_o
                     text::fixed(std::abs(ratio), 1)));
 }
 
-void add_trends(ReadingGrade& reading, const SurveyRow& row) {
+void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {
     if (!row.record) return;
     const double difference = row.record->smoother_minus_eemd().value();
     if (std::abs(difference) <= kTrendDifference_mgal) return;
@@ -113,13 +113,13 @@ struct ReadingScatter {
     double mgal = 0.0;
 };
 
-std::optional<ReadingScatter> scatter_of(const SurveyCorrection& result) {
-    if (result.as<WholeDayPart>() == nullptr) {
+std::optional<ReadingScatter> scatter_of(const model::SurveyCorrection& result) {
+    if (result.as<model::WholeDayPart>() == nullptr) {
         if (!result.score.s_mgal) return std::nullopt;
         return ReadingScatter{"s", *result.score.s_mgal};
     }
     // The readings are corrected for all other terms of this model.
-    for (const Coefficient& coefficient : result.coefficients) {
+    for (const model::Coefficient& coefficient : result.coefficients) {
         if (coefficient.name == "placement_mgal")
             return ReadingScatter{"placement", coefficient.value};
     }
@@ -128,7 +128,7 @@ std::optional<ReadingScatter> scatter_of(const SurveyCorrection& result) {
 
 /// Adds reasons to readings of one station that disagree.  Readings to be repeated are not
 /// compared.
-void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& result) {
+void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrection& result) {
     const auto scatter = scatter_of(result);
     if (!scatter || !(scatter->mgal > 0.0)) return;
     const double expected_mgal = std::sqrt(2.0) * scatter->mgal;
@@ -140,7 +140,7 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
         const auto text = [&](std::size_t other) {
             return fmt::format("differs by {} mGal from {}, {} times the value expected from {}",
                                text::fixed(std::abs(pair.after_all.value()), 1),
-                               reading_name(result.rows, other), text::fixed(ratio, 1),
+                               figure::reading_name(result.rows, other), text::fixed(ratio, 1),
                                scatter->name);
         };
         add(readings[pair.earlier], Grade::care, text(pair.later));
@@ -150,12 +150,13 @@ void add_repeats(std::vector<ReadingGrade>& readings, const SurveyCorrection& re
 
 }  // namespace
 
-std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result) {
-    const bool corrects_rate = std::ranges::any_of(
-        result.rows, [](const CorrectedRow& row) { return row.rate_correction != MilliGal(0.0); });
-    const bool is_day = result.as<WholeDayPart>() != nullptr;
+std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) {
+    const bool corrects_rate = std::ranges::any_of(result.rows, [](const model::CorrectedRow& row) {
+        return row.rate_correction != MilliGal(0.0);
+    });
+    const bool is_day = result.as<model::WholeDayPart>() != nullptr;
     std::vector<ReadingGrade> readings;
-    for (const CorrectedRow& row : result.rows) {
+    for (const model::CorrectedRow& row : result.rows) {
         ReadingGrade& reading = readings.emplace_back();
         if (row.row.is_flagged) {
             add(reading, row.is_used ? Grade::care : Grade::repeat,
@@ -171,12 +172,12 @@ std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result) {
     return readings;
 }
 
-bool has_trusted_reading(const SurveyCorrection& result, const std::vector<ReadingGrade>& grades,
-                         const std::string& site) {
+bool has_trusted_reading(const model::SurveyCorrection& result,
+                         const std::vector<ReadingGrade>& grades, const std::string& site) {
     for (std::size_t i = 0; i < grades.size(); ++i) {
         if (result.rows[i].row.site == site && grades[i].grade == Grade::trust) return true;
     }
     return false;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

@@ -15,7 +15,7 @@
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 
 /// Advice on a reading, from the best to the worst.  The grade of a reading is the worst that any
 /// of its reasons gives.
@@ -50,12 +50,12 @@ struct ReadingGrade {
 /// A value exactly at its limit is trusted (reading_grade_test.cpp).
 /// @param result  rows in ascending time, with coefficients, score and stations.
 /// @return (n) in the order of the rows; an empty list without rows.
-[[nodiscard]] std::vector<ReadingGrade> grade_readings(const SurveyCorrection& result);
+[[nodiscard]] std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result);
 
 /// Returns true if a reading of this station is graded `trust`.
 /// @param grades  from grade_readings() of this result.
-[[nodiscard]] bool has_trusted_reading(const SurveyCorrection& result,
+[[nodiscard]] bool has_trusted_reading(const model::SurveyCorrection& result,
                                        const std::vector<ReadingGrade>& grades,
                                        const std::string& site);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

@@ -11,37 +11,42 @@
 #include "corrector/report/result_tables.hpp"
 #include "corrector/report/summary.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 namespace {
 
 /// Returns the figures of the results, not of the records.
-std::vector<Figure> result_figures(const SurveyCorrection& result, const ReportSources& sources) {
-    std::vector<Figure> figures;
+std::vector<figure::Figure> result_figures(const model::SurveyCorrection& result,
+                                           const ReportSources& sources) {
+    std::vector<figure::Figure> figures;
     for (auto& figure :
-         {corrected_figure(result), residual_figure(result), difference_figure(result),
-          acceleration_figure(result), map_figure(result, sources.sites),
-          std::optional(temperature_figure(result, sources.temperature_course))}) {
+         {figure::corrected_figure(result), figure::residual_figure(result),
+          figure::difference_figure(result), figure::acceleration_figure(result),
+          figure::map_figure(result, sources.sites),
+          std::optional(figure::temperature_figure(result, sources.temperature_course))}) {
         if (figure) figures.push_back(*figure);
     }
     return figures;
 }
 
-std::vector<Figure> record_figures(const SurveyCorrection& result, const ReportSources& sources) {
-    const std::vector<ReadingRecord> records = find_records(result, sources.records);
-    std::vector<Figure> figures = panel_figures(result, records);
-    for (Figure& figure : reading_figures(result, records)) figures.push_back(std::move(figure));
+std::vector<figure::Figure> record_figures(const model::SurveyCorrection& result,
+                                           const ReportSources& sources) {
+    const std::vector<figure::ReadingRecord> records =
+        figure::find_records(result, sources.records);
+    std::vector<figure::Figure> figures = figure::panel_figures(result, records);
+    for (figure::Figure& figure : figure::reading_figures(result, records))
+        figures.push_back(std::move(figure));
     return figures;
 }
 
 }  // namespace
 
-Report make_report(const SurveyCorrection& result, const nlohmann::ordered_json& settings,
+Report make_report(const model::SurveyCorrection& result, const nlohmann::ordered_json& settings,
                    const ReportSources& sources) {
-    const std::vector<Figure> of_results = result_figures(result, sources);
-    const std::vector<Figure> of_records = record_figures(result, sources);
-    std::vector<Figure> all = of_results;
+    const std::vector<figure::Figure> of_results = result_figures(result, sources);
+    const std::vector<figure::Figure> of_records = record_figures(result, sources);
+    std::vector<figure::Figure> all = of_results;
     all.insert(all.end(), of_records.begin(), of_records.end());
-    Drawing drawing = draw(all, sources.picture_formats);
+    figure::Drawing drawing = figure::draw(all, sources.picture_formats);
     Report report;
     report.warnings = missing_lines(drawing.troubles);
 
@@ -49,8 +54,8 @@ Report make_report(const SurveyCorrection& result, const nlohmann::ordered_json&
     warnings.insert(warnings.end(), result.remarks.begin(), result.remarks.end());
     const std::string title = "Gravity survey " + sources.title;
     std::string body =
-        fmt::format("<section class=\"first\">\n<h1>{}</h1>\n{}</section>\n", html_text(title),
-                    summary_html(result, warnings, report.warnings));
+        fmt::format("<section class=\"first\">\n<h1>{}</h1>\n{}</section>\n",
+                    figure::html_text(title), summary_html(result, warnings, report.warnings));
     body += section("Stations", stations_html(result));
     body += section("Figures", figures_html(of_results, drawing));
     body += section("Repeated stations", closures_html(result));
@@ -64,4 +69,4 @@ Report make_report(const SurveyCorrection& result, const nlohmann::ordered_json&
     return report;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

@@ -25,7 +25,7 @@
 #include "protocol/text/sites.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 
 /// Input of a report other than the corrected survey; parts without input are left out.
 ///
@@ -35,8 +35,8 @@ namespace a351::corrector {
 struct ReportSources {
     std::string title;
     std::vector<text::Site> sites;
-    std::vector<RepresentativeValue> records;           ///< Records of the rows.
-    std::vector<MinuteTemperature> temperature_course;  ///< Temperature of the sensor.
+    std::vector<reading::RepresentativeValue> records;           ///< Records of the rows.
+    std::vector<reading::MinuteTemperature> temperature_course;  ///< Temperature of the sensor.
     std::vector<text::InputFile> inputs;
     /// Entries skipped or left out, with reasons; the report adds the remarks of the result.
     std::vector<std::string> warnings;
@@ -61,7 +61,7 @@ struct Report {
 /// @param result    at least one row, as correct_survey() gives it.
 /// @param settings  object with every option of the run.  Its key `warnings` is not shown.
 /// @param sources   see ReportSources.
-[[nodiscard]] Report make_report(const SurveyCorrection& result,
+[[nodiscard]] Report make_report(const model::SurveyCorrection& result,
                                  const nlohmann::ordered_json& settings,
                                  const ReportSources& sources);
 
@@ -73,8 +73,8 @@ struct Report {
 /// @param result           analysed, with at least one stretch and one segment.
 /// @param settings         object with every option of the run.
 /// @param picture_formats  formats other than SVG, from picture_formats().
-[[nodiscard]] Report make_long_record_page(const RecordResult& result,
+[[nodiscard]] Report make_long_record_page(const long_record::RecordResult& result,
                                            const nlohmann::ordered_json& settings,
                                            const std::vector<std::string>& picture_formats);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

@@ -13,7 +13,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/input_file.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 namespace {
 
 template <class Value>
@@ -33,16 +33,16 @@ std::string between(UtcTime start, UtcTime end) {
 }
 
 /// Returns the instants between which a row was averaged, and the duration in seconds of what was.
-HtmlCells averaged(const SurveyRow& row) {
+HtmlCells averaged(const reading::SurveyRow& row) {
     if (!row.start || !row.end) return {"-", "-"};
     return {between(*row.start, *row.end), text::fixed(seconds_between(*row.start, *row.end), 0)};
 }
 
 /// Returns the columns that follow the name and the time of a reading.
-std::vector<Column<CorrectedRow>> columns_of(const SurveyCorrection& result) {
-    const bool is_day = result.as<WholeDayPart>() != nullptr;
-    return with_keys(
-        occupation_columns(result),
+std::vector<result::Column<model::CorrectedRow>> columns_of(const model::SurveyCorrection& result) {
+    const bool is_day = result.as<model::WholeDayPart>() != nullptr;
+    return result::with_keys(
+        result::occupation_columns(result),
         {"used", "acceleration_mgal", "temperature_degc",
          is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal",
          "temperature_correction_mgal", "rate_correction_mgal", "drift_correction_mgal",
@@ -50,15 +50,16 @@ std::vector<Column<CorrectedRow>> columns_of(const SurveyCorrection& result) {
          "residual_mgal", "left_out_mgal", "u_corrected_mgal", "studentised_residual", "flags"});
 }
 
-std::string explanation(const SurveyCorrection& result) {
+std::string explanation(const model::SurveyCorrection& result) {
     const std::string text =
         "Accelerations, gravity, corrections, residuals and u in mGal. Corrected = acceleration - "
         "tide + corrections; residual = reference - corrected (in sample where the reading is in "
         "the fit). ";
-    if (result.as<WholeDayPart>() == nullptr)
-        return fmt::format(
-            "{}u is that of a {}; t is the studentised residual.", text,
-            result.as<NetworkAdjustment>() != nullptr ? "single reading, a priori" : "new station");
+    if (result.as<model::WholeDayPart>() == nullptr)
+        return fmt::format("{}u is that of a {}; t is the studentised residual.", text,
+                           result.as<model::NetworkAdjustment>() != nullptr
+                               ? "single reading, a priori"
+                               : "new station");
     return text +
            "The model day averages all undisturbed samples between the two instants; column s is "
            "their duration in seconds. °C/h is the rate that its fast term uses. The residual is "
@@ -69,41 +70,41 @@ std::string explanation(const SurveyCorrection& result) {
 
 }  // namespace
 
-std::string stations_html(const SurveyCorrection& result) {
-    return html_table(stations_table(result)) +
+std::string stations_html(const model::SurveyCorrection& result) {
+    return html_table(result::stations_table(result)) +
            html_paragraph(fmt::format(
                "Residuals are in sample. u is a standard uncertainty, {}.{}",
-               result.as<WholeDayPart>() != nullptr        ? "as if the station were unknown"
-               : result.as<NetworkAdjustment>() != nullptr ? "a priori"
-                                                           : "from the scatter in sample",
-               std::ranges::any_of(result.stations, &StationValue::is_flagged_only)
+               result.as<model::WholeDayPart>() != nullptr        ? "as if the station were unknown"
+               : result.as<model::NetworkAdjustment>() != nullptr ? "a priori"
+                                                                  : "from the scatter in sample",
+               std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only)
                    ? " Flagged only: only readings that were left out of the fit."
                    : ""));
 }
 
-std::string occupations_html(const SurveyCorrection& result) {
-    const std::vector<Column<CorrectedRow>> columns = columns_of(result);
+std::string occupations_html(const model::SurveyCorrection& result) {
+    const std::vector<result::Column<model::CorrectedRow>> columns = columns_of(result);
     const bool is_recorded = result.rows.front().row.start.has_value();
     const std::size_t first = is_recorded ? 3 : 2;  // columns before those of the declaration
-    Table table = empty_table(columns);
+    result::Table table = result::empty_table(columns);
     const HtmlCells leading =
         is_recorded ? HtmlCells{"Reading", "Averaged UTC", "s"} : HtmlCells{"Reading", "Time UTC"};
     table.headings.insert(table.headings.begin(), leading.begin(), leading.end());
     table.alignment.insert(0, is_recorded ? "nnr" : "nn");
     const auto add_row = [&](std::size_t i) {
-        const CorrectedRow& row = result.rows[i];
-        HtmlCells cells{reading_name(result.rows, i), to_rfc3339(row.row.time)};
+        const model::CorrectedRow& row = result.rows[i];
+        HtmlCells cells{figure::reading_name(result.rows, i), to_rfc3339(row.row.time)};
         if (is_recorded) {
             const HtmlCells times = averaged(row.row);
             cells[1] = times[0];
-            const auto* const day = row.as<WholeDayRow>();
+            const auto* const day = row.as<model::WholeDayRow>();
             cells.push_back(day != nullptr ? text::fixed(day->averaged_s, 0) : times[1]);
         }
-        const HtmlCells rest = shown_row(columns, row);
+        const HtmlCells rest = result::shown_row(columns, row);
         cells.insert(cells.end(), rest.begin(), rest.end());
         table.rows.push_back(std::move(cells));
     };
-    in_order_of_time(result, add_row, [&](const LeftOut& stay) {
+    result::in_order_of_time(result, add_row, [&](const reading::LeftOut& stay) {
         HtmlCells& cells = table.rows.emplace_back(first + columns.size(), "-");
         cells.front() = fmt::format("{} ({})", stay.site, stay.occupation);
         cells[1] = is_recorded ? between(stay.start, stay.end) : to_rfc3339(stay.start);
@@ -112,7 +113,7 @@ std::string occupations_html(const SurveyCorrection& result) {
     return html_table(table) + html_paragraph(explanation(result));
 }
 
-std::string closures_html(const SurveyCorrection& result) {
+std::string closures_html(const model::SurveyCorrection& result) {
     const std::vector<Closure> closures = close_stations(result);
     if (closures.empty()) {
         return html_paragraph(
@@ -121,8 +122,8 @@ std::string closures_html(const SurveyCorrection& result) {
     }
     std::vector<HtmlCells> rows;
     for (const Closure& pair : closures) {
-        rows.push_back({reading_name(result.rows, pair.earlier),
-                        reading_name(result.rows, pair.later), text::fixed(pair.hours, 2),
+        rows.push_back({figure::reading_name(result.rows, pair.earlier),
+                        figure::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2),
                         number(pair.before), number(pair.after_tide),
                         number(pair.after_temperature), number(pair.after_rate),
                         number(pair.after_all), cell(pair.drift_mgal_per_h, 3)});
@@ -141,9 +142,9 @@ std::string closures_html(const SurveyCorrection& result) {
                "sample, because the coefficients were fitted to the same readings.");
 }
 
-std::string models_html(const SurveyCorrection& result) {
+std::string models_html(const model::SurveyCorrection& result) {
     std::string html =
-        html_table(models_table(result)) +
+        html_table(result::models_table(result)) +
         html_paragraph(
             "LOO: RMS error of a reading predicted without it (leave-one-out). LOSO: "
             "RMS error of the readings of a station predicted without them "
@@ -155,7 +156,7 @@ std::string models_html(const SurveyCorrection& result) {
             text::fixed(result.choice->limit_mgal, 3)));
     }
     std::vector<HtmlCells> coefficients;
-    for (const Coefficient& c : result.coefficients) {
+    for (const model::Coefficient& c : result.coefficients) {
         coefficients.push_back({c.name, text::fixed(c.value, 4), cell(c.standard_error, 4)});
     }
     return fmt::format("{}<h3>Coefficients of {}</h3>\n{}", html, result.model,
@@ -186,4 +187,4 @@ std::string provenance_html(const nlohmann::ordered_json& settings,
            html_table("llrr", {"Role", "File", "Bytes", "CRC-32"}, files);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

@@ -12,25 +12,25 @@
 #include "corrector/report/html.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 namespace {
 
 constexpr std::array<const char*, 3> kGradeTexts{"trust", "with care", "repeat"};
 
 /// Returns the error of the value to which u belongs.  For the model day this is the value without
 /// the reading's station.
-std::optional<double> error_of(const CorrectedRow& row) {
+std::optional<double> error_of(const model::CorrectedRow& row) {
     if (!row.residual) return std::nullopt;
-    const auto* const day = row.as<WholeDayRow>();
+    const auto* const day = row.as<model::WholeDayRow>();
     if (day != nullptr && day->left_out) return (*row.row.reference - *day->left_out).value();
     return row.residual->value();
 }
 
 /// Returns the occupations without a value for each reason, in order of time.
 std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason(
-    const SurveyCorrection& result) {
+    const model::SurveyCorrection& result) {
     std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
-    for (const LeftOut& stay : result.left_out) {
+    for (const reading::LeftOut& stay : result.left_out) {
         auto known = std::ranges::find_if(
             reasons, [&](const auto& entry) { return entry.first == stay.reason; });
         if (known == reasons.end()) known = reasons.insert(known, {stay.reason, {}});
@@ -40,13 +40,14 @@ std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason
 }
 
 /// Returns the table of readings with reasons, the doubtful ones first.
-std::string reading_table(const SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
-    const bool is_day = result.as<WholeDayPart>() != nullptr;
+std::string reading_table(const model::SurveyCorrection& result,
+                          const std::vector<ReadingGrade>& grades) {
+    const bool is_day = result.as<model::WholeDayPart>() != nullptr;
     std::vector<HtmlCells> rows;
     for (const Grade grade : {Grade::repeat, Grade::care, Grade::trust}) {
         for (std::size_t i = 0; i < grades.size(); ++i) {
             if (grades[i].grade != grade || grades[i].reasons.empty()) continue;
-            rows.push_back({reading_name(result.rows, i),
+            rows.push_back({figure::reading_name(result.rows, i),
                             kGradeTexts.at(static_cast<std::size_t>(grade)),
                             text::fixed_or(error_of(result.rows[i]), 2, "-"),
                             text::fixed_or(result.rows[i].u_corrected, 2, "-"),
@@ -60,8 +61,8 @@ std::string reading_table(const SurveyCorrection& result, const std::vector<Read
                       rows);
 }
 
-std::string accuracy_table(const SurveyCorrection& result) {
-    const ModelScore& score = result.score;
+std::string accuracy_table(const model::SurveyCorrection& result) {
+    const model::Score& score = result.score;
     std::vector<HtmlCells> rows;
     const auto add = [&rows](const std::string& quantity, const std::optional<double>& value,
                              const std::string& error, const std::string& kind) {
@@ -83,12 +84,12 @@ std::string counted(std::size_t count, const std::string& what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-std::string headline(const SurveyCorrection& result) {
-    const char* const chosen = result.options.model != kAutomatic ? ""
-                               : result.as<WholeDayPart>() != nullptr
+std::string headline(const model::SurveyCorrection& result) {
+    const char* const chosen = result.options.model != model::kAutomatic ? ""
+                               : result.as<model::WholeDayPart>() != nullptr
                                    ? " (chosen because the whole day was recorded)"
                                    : " (chosen by the error of stations left out)";
-    const auto* const network = result.as<NetworkAdjustment>();
+    const auto* const network = result.as<model::NetworkAdjustment>();
     return fmt::format(
         "{} to {}: {} of {}, base {}. Model {}{}; {} in the fit, {}{}, {} degrees of freedom.",
         to_rfc3339(result.rows.front().row.time), to_rfc3339(result.rows.back().row.time),
@@ -104,11 +105,11 @@ std::string headline(const SurveyCorrection& result) {
 
 }  // namespace
 
-std::vector<std::string> actions(const SurveyCorrection& result,
+std::vector<std::string> actions(const model::SurveyCorrection& result,
                                  const std::vector<ReadingGrade>& grades) {
     std::vector<std::string> urgent, optional, care, trusted;
     for (std::size_t i = 0; i < grades.size(); ++i) {
-        const std::string name = reading_name(result.rows, i);
+        const std::string name = figure::reading_name(result.rows, i);
         if (grades[i].grade == Grade::trust) {
             trusted.push_back(name);
         } else if (grades[i].grade == Grade::care) {
@@ -133,10 +134,10 @@ std::vector<std::string> actions(const SurveyCorrection& result,
     return list;
 }
 
-std::vector<std::string> limits_of(const SurveyCorrection& result) {
+std::vector<std::string> limits_of(const model::SurveyCorrection& result) {
     constexpr std::size_t kFewestBaseReadings = 3;  // two cannot separate drift from a bad reading
-    const auto base_count =
-        static_cast<std::size_t>(std::ranges::count_if(result.rows, [&](const CorrectedRow& row) {
+    const auto base_count = static_cast<std::size_t>(
+        std::ranges::count_if(result.rows, [&](const model::CorrectedRow& row) {
             return row.row.site == result.options.base && row.is_used;
         }));
     std::vector<std::string> limits;
@@ -148,7 +149,7 @@ std::vector<std::string> limits_of(const SurveyCorrection& result) {
     }
     std::size_t single_count = 0;
     std::vector<std::string> unchecked;
-    for (const StationValue& station : result.stations) {
+    for (const model::StationValue& station : result.stations) {
         if (station.row_count > 1) continue;
         ++single_count;
         if (!station.reference) unchecked.push_back(station.site);
@@ -166,12 +167,12 @@ std::vector<std::string> limits_of(const SurveyCorrection& result) {
     return limits;
 }
 
-std::optional<double> standard_error_of_rms(const ModelScore& score) {
+std::optional<double> standard_error_of_rms(const model::Score& score) {
     if (!score.rms_mgal || score.dof == 0) return std::nullopt;
     return *score.rms_mgal / std::sqrt(2.0 * static_cast<double>(score.dof));
 }
 
-std::string scatter_sentence(const ModelScore& score) {
+std::string scatter_sentence(const model::Score& score) {
     const auto error = standard_error_of_rms(score);
     const std::string scatter =
         error ? fmt::format(
@@ -189,7 +190,8 @@ std::string scatter_sentence(const ModelScore& score) {
     return fmt::format("n = {}: {} For a new station quote {}", score.row_count, scatter, quote);
 }
 
-std::string summary_html(const SurveyCorrection& result, const std::vector<std::string>& warnings,
+std::string summary_html(const model::SurveyCorrection& result,
+                         const std::vector<std::string>& warnings,
                          const std::vector<std::string>& missing) {
     const std::vector<ReadingGrade> grades = grade_readings(result);
     std::vector<std::string> limits = limits_of(result);
@@ -205,4 +207,4 @@ std::string summary_html(const SurveyCorrection& result, const std::vector<std::
                        limits.empty() ? "" : "<h2>Limits</h2>\n", html_list(limits));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

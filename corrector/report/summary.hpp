@@ -12,7 +12,7 @@
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/report/reading_grade.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 
 /// Returns the actions for the readings, the most urgent first; readings to trust are last.
 ///
@@ -21,7 +21,7 @@ namespace a351::corrector {
 /// readings is left out.  If nothing is to be repeated, the first sentence says so.
 /// @param grades  from grade_readings() of this result.
 /// @return sentences in plain text; they name each reading once.
-[[nodiscard]] std::vector<std::string> actions(const SurveyCorrection& result,
+[[nodiscard]] std::vector<std::string> actions(const model::SurveyCorrection& result,
                                                const std::vector<ReadingGrade>& grades);
 
 /// Returns the limits of the survey as a whole: too few readings of the base, stations that nothing
@@ -30,18 +30,18 @@ namespace a351::corrector {
 /// The base needs three readings in the fit, because two cannot separate drift from a bad reading.
 /// Stations with one reading and no reference are listed by name.
 /// @return sentences in plain text; empty if there is no limit.
-[[nodiscard]] std::vector<std::string> limits_of(const SurveyCorrection& result);
+[[nodiscard]] std::vector<std::string> limits_of(const model::SurveyCorrection& result);
 
 /// Returns the standard error of an RMS, RMS / sqrt(2 dof), in mGal; std::nullopt without a degree
 /// of freedom or without an RMS.
 ///
 /// dof includes priors and datum; for a network it is that of the adjustment.  A smaller difference
 /// between the RMS of two models is not significant.
-[[nodiscard]] std::optional<double> standard_error_of_rms(const ModelScore& score);
+[[nodiscard]] std::optional<double> standard_error_of_rms(const model::Score& score);
 
 /// Returns a sentence on the uncertainty of the scatter, and the error to quote for a new station:
 /// the leave-one-station-out error, if the model has one.
-[[nodiscard]] std::string scatter_sentence(const ModelScore& score);
+[[nodiscard]] std::string scatter_sentence(const model::Score& score);
 
 /// Returns the HTML of the page: headline, actions, readings with reasons, accuracy, limits.
 ///
@@ -50,8 +50,8 @@ namespace a351::corrector {
 /// @param result    at least one row.
 /// @param warnings  about the input; only their number is shown, with a hint to the last section.
 /// @param missing   lines on missing figures.
-[[nodiscard]] std::string summary_html(const SurveyCorrection& result,
+[[nodiscard]] std::string summary_html(const model::SurveyCorrection& result,
                                        const std::vector<std::string>& warnings,
                                        const std::vector<std::string>& missing);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

@@ -2,7 +2,7 @@
 
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 namespace {
 
 template <class... Functions>
@@ -47,4 +47,4 @@ nlohmann::ordered_json json_value(const Cell& cell) {
         cell);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

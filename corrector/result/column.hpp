@@ -32,7 +32,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 
 /// Value of a cell; std::monostate if the row has none.
 ///
@@ -208,4 +208,4 @@ template <class Row>
     return array;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

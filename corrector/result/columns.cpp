@@ -2,30 +2,31 @@
 
 #include "corrector/model/calibration_use.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 namespace {
 
-using Columns = std::vector<Column<CorrectedRow>>;
+using Columns = std::vector<Column<model::CorrectedRow>>;
 
 void append(Columns& columns, Columns more) {
     columns.insert(columns.end(), std::make_move_iterator(more.begin()),
                    std::make_move_iterator(more.end()));
 }
 
-Column<CorrectedRow> of_record(std::string_view key, Cell (*value)(const RecordSummary&)) {
-    return {key, [value](const CorrectedRow& row) { return value(row.row.record.value()); }};
+Column<model::CorrectedRow> of_record(std::string_view key,
+                                      Cell (*value)(const reading::RecordSummary&)) {
+    return {key, [value](const model::CorrectedRow& row) { return value(row.row.record.value()); }};
 }
 
-Column<CorrectedRow> of_shape(std::string_view key, TemperatureShape shape) {
-    return {key, [shape](const CorrectedRow& row) {
+Column<model::CorrectedRow> of_shape(std::string_view key, reading::TemperatureShape shape) {
+    return {key, [shape](const model::CorrectedRow& row) {
                 return row.row.record.value().temperature_shape == shape ? 1.0 : 0.0;
             }};
 }
 
 /// Returns a column of what only one model gives; its cells are empty for other models.
 template <class Part, class Value>
-Column<CorrectedRow> of_model(std::string_view key, Value Part::*member, Shown shown = {}) {
-    const auto cell_of = [member](const CorrectedRow& row) {
+Column<model::CorrectedRow> of_model(std::string_view key, Value Part::*member, Shown shown = {}) {
+    const auto cell_of = [member](const model::CorrectedRow& row) {
         const auto* const own = row.as<Part>();
         return own != nullptr ? cell(own->*member) : Cell();
     };
@@ -33,15 +34,15 @@ Column<CorrectedRow> of_model(std::string_view key, Value Part::*member, Shown s
 }
 
 Columns columns_of_records() {
-    using R = const RecordSummary&;
+    using R = const reading::RecordSummary&;
     return {
         of_record("series_mean_mgal", [](R r) { return cell(r.series_mean); }),
         of_record("series_minus_curve_mgal",
                   [](R r) { return cell(r.series_mean - r.curve_mean); }),
         of_record("standard_error_mgal", [](R r) { return cell(r.standard_error); }),
         of_record("temperature_range_degc", [](R r) { return cell(r.temperature_range.value()); }),
-        of_shape("temperature_is_monotone", TemperatureShape::monotone),
-        of_shape("temperature_is_half_wave", TemperatureShape::half_wave),
+        of_shape("temperature_is_monotone", reading::TemperatureShape::monotone),
+        of_shape("temperature_is_half_wave", reading::TemperatureShape::half_wave),
         of_record("valid_samples", [](R r) { return cell(static_cast<double>(r.counts.valid)); }),
         of_record("partial_samples",
                   [](R r) { return cell(static_cast<double>(r.counts.partial)); }),
@@ -61,12 +62,12 @@ Columns columns_of_records() {
     };
 }
 
-Column<CorrectedRow> tilt_column() {
-    return {"tilt_correction_mgal", of(&CorrectedRow::tilt_correction), {"Tilt corr."}};
+Column<model::CorrectedRow> tilt_column() {
+    return {"tilt_correction_mgal", of(&model::CorrectedRow::tilt_correction), {"Tilt corr."}};
 }
 
 Columns columns_of_day() {
-    using Day = WholeDayRow;
+    using Day = model::WholeDayRow;
     return {of_model("averaged_s", &Day::averaged_s, {"s", 0}),
             of_model("fast_rate_degc_per_h", &Day::fast_rate_degc_per_h, {"degC/h"}), tilt_column(),
             of_model("flicker_correction_mgal", &Day::flicker_correction, {"Flicker corr."}),
@@ -75,8 +76,8 @@ Columns columns_of_day() {
 
 }  // namespace
 
-std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& result) {
-    using Row = const CorrectedRow&;
+std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyCorrection& result) {
+    using Row = const model::CorrectedRow&;
     Columns columns{
         {"site", [](Row row) { return row.row.site; }, {"Site", 0, 'n'}},
         {"occupation",
@@ -85,53 +86,55 @@ std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& res
         {"time_utc", [](Row row) { return cell(row.row.time); }, {"Time UTC", 0, 'n'}},
         {"start_utc", [](Row row) { return cell(row.row.start); }},
         {"end_utc", [](Row row) { return cell(row.row.end); }},
-        {"used", of(&CorrectedRow::is_used), {"In fit", 0, 'l'}},
+        {"used", of(&model::CorrectedRow::is_used), {"In fit", 0, 'l'}},
         {"flags", [&result](Row row) { return flags_of(row, result.options); }, {"Flags", 0, 'l'}},
         {"acceleration_mgal", [](Row row) { return cell(row.row.acceleration); }, {"Acceleration"}},
         {"temperature_degc", [](Row row) { return row.row.temperature.value(); }, {"T degC"}},
         {"rate_degc_per_h", [](Row row) { return row.row.rate_degc_per_h; }, {"degC/h"}},
         {"tide_mgal", [](Row row) { return cell(row.row.tide); }, {"Tide"}},
-        {"difference_mgal", of(&CorrectedRow::difference), {"Difference"}},
-        {"temperature_correction_mgal", of(&CorrectedRow::temperature_correction), {"T corr."}},
-        {"rate_correction_mgal", of(&CorrectedRow::rate_correction), {"Rate corr."}},
-        {"drift_correction_mgal", of(&CorrectedRow::drift_correction), {"Drift corr."}},
-        {"corrected_mgal", of(&CorrectedRow::corrected), {"Corrected"}},
+        {"difference_mgal", of(&model::CorrectedRow::difference), {"Difference"}},
+        {"temperature_correction_mgal",
+         of(&model::CorrectedRow::temperature_correction),
+         {"T corr."}},
+        {"rate_correction_mgal", of(&model::CorrectedRow::rate_correction), {"Rate corr."}},
+        {"drift_correction_mgal", of(&model::CorrectedRow::drift_correction), {"Drift corr."}},
+        {"corrected_mgal", of(&model::CorrectedRow::corrected), {"Corrected"}},
         {"reference_mgal", [](Row row) { return cell(row.row.reference); }, {"Reference"}},
-        {"residual_mgal", of(&CorrectedRow::residual), {"Residual"}},
-        {"leverage", of(&CorrectedRow::leverage)},
-        {"u_corrected_mgal", of(&CorrectedRow::u_corrected), {"u", 2}},
-        {"studentised_residual", of(&CorrectedRow::studentised_residual), {"t", 2}},
-        of_model("corrected1_mgal", &PaperRow::corrected1),
+        {"residual_mgal", of(&model::CorrectedRow::residual), {"Residual"}},
+        {"leverage", of(&model::CorrectedRow::leverage)},
+        {"u_corrected_mgal", of(&model::CorrectedRow::u_corrected), {"u", 2}},
+        {"studentised_residual", of(&model::CorrectedRow::studentised_residual), {"t", 2}},
+        of_model("corrected1_mgal", &model::PaperRow::corrected1),
         // The publication's Error (1) (Table 2); residual_mgal is its Error (2).
-        of_model("residual1_mgal", &PaperRow::residual1),
+        of_model("residual1_mgal", &model::PaperRow::residual1),
     };
-    const CorrectedRow& first = result.rows.front();
+    const model::CorrectedRow& first = result.rows.front();
     if (first.row.record) append(columns, columns_of_records());
-    if (first.as<WholeDayRow>() != nullptr)
+    if (first.as<model::WholeDayRow>() != nullptr)
         append(columns, columns_of_day());
     else if (first.tilt_correction)
         columns.push_back(tilt_column());
-    append(columns, {of_model("weight", &RobustRow::weight),
-                     {"doubt_physical", of(&CorrectedRow::doubt_physical)},
-                     {"doubt_statistical", of(&CorrectedRow::doubt_statistical)}});
+    append(columns, {of_model("weight", &model::RobustRow::weight),
+                     {"doubt_physical", of(&model::CorrectedRow::doubt_physical)},
+                     {"doubt_statistical", of(&model::CorrectedRow::doubt_statistical)}});
     return columns;
 }
 
-std::vector<Column<StationValue>> station_columns() {
+std::vector<Column<model::StationValue>> station_columns() {
     return {
-        {"site", of(&StationValue::site), {"Station", 0, 'n'}},
-        {"n", of(&StationValue::row_count), {"n"}},
-        {"gravity_mgal", of(&StationValue::gravity), {"Gravity mGal"}},
-        {"u_gravity_mgal", of(&StationValue::u_gravity), {"u mGal", 2}},
-        {"reference_mgal", of(&StationValue::reference), {"Reference mGal"}},
-        {"residual_mgal", of(&StationValue::residual), {"Residual mGal"}},
-        {"redundancy", of(&StationValue::redundancy), {"Redundancy", 2}},
-        {"flagged_only", of(&StationValue::is_flagged_only), {"Flagged only", 0, 'l'}},
-        {"u_a_posteriori_mgal", of(&StationValue::u_a_posteriori)},
+        {"site", of(&model::StationValue::site), {"Station", 0, 'n'}},
+        {"n", of(&model::StationValue::row_count), {"n"}},
+        {"gravity_mgal", of(&model::StationValue::gravity), {"Gravity mGal"}},
+        {"u_gravity_mgal", of(&model::StationValue::u_gravity), {"u mGal", 2}},
+        {"reference_mgal", of(&model::StationValue::reference), {"Reference mGal"}},
+        {"residual_mgal", of(&model::StationValue::residual), {"Residual mGal"}},
+        {"redundancy", of(&model::StationValue::redundancy), {"Redundancy", 2}},
+        {"flagged_only", of(&model::StationValue::is_flagged_only), {"Flagged only", 0, 'l'}},
+        {"u_a_posteriori_mgal", of(&model::StationValue::u_a_posteriori)},
     };
 }
 
-std::vector<Column<ScoreRow>> score_columns(const SurveyCorrection& result) {
+std::vector<Column<ScoreRow>> score_columns(const model::SurveyCorrection& result) {
     using Row = const ScoreRow&;
     return {
         {"model", [](Row row) { return row.score->model; }, {"Model", 0, 'n'}},
@@ -151,8 +154,8 @@ std::vector<Column<ScoreRow>> score_columns(const SurveyCorrection& result) {
         {"rms_before_drift_mgal", [](Row row) { return cell(row.score->rms_before_drift_mgal); }},
         {"dof", [](Row row) { return cell_of_count(row.score->dof); }, {"dof"}},
         {"calibration",
-         [&result](Row row) { return std::string(calibration_in(result, *row.score)); }},
+         [&result](Row row) { return std::string(model::calibration_in(result, *row.score)); }},
     };
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

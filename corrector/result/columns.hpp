@@ -16,7 +16,7 @@
 #include "corrector/result/column.hpp"
 #include "corrector/result/table_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 
 /// Returns the columns of occupations.csv.  An occupation without a value has only the first seven,
 /// from the site to the flags.  Rows from records and rows of the whole-day model have more
@@ -25,15 +25,16 @@ namespace a351::corrector {
 /// The first row of the result decides which columns there are (columns_test.cpp).  All rows must
 /// therefore be of one kind, as correct_survey() gives them.  Cells of other models are empty.
 /// @param result  must outlive the columns and have at least one row.
-[[nodiscard]] std::vector<Column<CorrectedRow>> occupation_columns(const SurveyCorrection& result);
+[[nodiscard]] std::vector<Column<model::CorrectedRow>> occupation_columns(
+    const model::SurveyCorrection& result);
 
 /// Returns the columns of stations.csv.  They are the same for every model; cells that a model does
 /// not give are empty.
-[[nodiscard]] std::vector<Column<StationValue>> station_columns();
+[[nodiscard]] std::vector<Column<model::StationValue>> station_columns();
 
 /// Returns the columns of models.csv, for the rows of score_rows().  The pointers in a row must not
 /// be null.
 /// @param result  must outlive the columns.
-[[nodiscard]] std::vector<Column<ScoreRow>> score_columns(const SurveyCorrection& result);
+[[nodiscard]] std::vector<Column<ScoreRow>> score_columns(const model::SurveyCorrection& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

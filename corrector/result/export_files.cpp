@@ -7,7 +7,7 @@
 
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -27,7 +27,7 @@ Json mgal(const std::optional<MilliGal>& value) {
     return value ? Json(std::round(value->value() * kSteps) / kSteps) : Json(nullptr);
 }
 
-Json feature(const StationValue& station, const text::Site& site) {
+Json feature(const model::StationValue& station, const text::Site& site) {
     Json json;
     json["type"] = "Feature";
     json["geometry"] = nullptr;
@@ -57,16 +57,17 @@ std::string gsadjust_name(std::string name) {
     return name;
 }
 
-std::string duration_s(const SurveyRow& row) {
+std::string duration_s(const reading::SurveyRow& row) {
     if (!row.start || !row.end) return "0";
     return text::fixed(seconds_between(*row.start, *row.end), 0);
 }
 
 }  // namespace
 
-std::string stations_geojson(const SurveyCorrection& result, const std::vector<text::Site>& sites) {
+std::string stations_geojson(const model::SurveyCorrection& result,
+                             const std::vector<text::Site>& sites) {
     std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
-    for (const StationValue& station : result.stations) {
+    for (const model::StationValue& station : result.stations) {
         const text::Site* const site = text::find_site(sites, station.site);
         if (site == nullptr) continue;
         text += (text.back() == '[' ? "\n" : ",\n") +
@@ -75,12 +76,13 @@ std::string stations_geojson(const SurveyCorrection& result, const std::vector<t
     return text + "\n]}\n";
 }
 
-std::string gsadjust_csv(const SurveyCorrection& result, const std::vector<text::Site>& sites) {
+std::string gsadjust_csv(const model::SurveyCorrection& result,
+                         const std::vector<text::Site>& sites) {
     std::string csv =
         "station,latitude_deg,longitude_deg,altitude_m,gravity_mgal,sd_mgal,tilt_x,tilt_y,"
         "temperature_degc,tide_correction_mgal,duration_s,rejected,time_utc,decimal_date,"
         "terrain_mgal,date_utc\n";
-    for (const CorrectedRow& row : result.rows) {
+    for (const model::CorrectedRow& row : result.rows) {
         const text::Site* const site = text::find_site(sites, row.row.site);
         if (site == nullptr) continue;
         const std::string time = to_rfc3339(row.row.time);
@@ -103,4 +105,4 @@ std::string gsadjust_csv(const SurveyCorrection& result, const std::vector<text:
     return csv;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

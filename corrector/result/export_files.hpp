@@ -15,7 +15,7 @@
 #include "corrector/model/corrected_survey.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 
 /// Returns the stations as GeoJSON (RFC 7946): one feature each, a point with altitude, or without
 /// geometry if the position is not known.
@@ -27,7 +27,7 @@ namespace a351::corrector {
 /// flagged_only, rounded to 1e-6 mGal; null if there is no value.  The text is UTF-8 with one line
 /// per feature.  Bytes of a name that are not UTF-8 become U+FFFD.
 /// @param sites  position of each station; Site::is_placed false: without geometry.
-[[nodiscard]] std::string stations_geojson(const SurveyCorrection& result,
+[[nodiscard]] std::string stations_geojson(const model::SurveyCorrection& result,
                                            const std::vector<text::Site>& sites);
 
 /// Returns the occupations as the CSV that GSadjust imports as "csv".
@@ -48,7 +48,7 @@ namespace a351::corrector {
 /// @param sites  position of each station, also an estimated one (Site::is_placed false).
 /// Source: GSadjust of the U.S. Geological Survey, 2022-01-18: gsadjust/file/read.py, read_csv(),
 /// for the columns; obstree/station.py, stdev(), and obstree/loop.py, populate(), for their use.
-[[nodiscard]] std::string gsadjust_csv(const SurveyCorrection& result,
+[[nodiscard]] std::string gsadjust_csv(const model::SurveyCorrection& result,
                                        const std::vector<text::Site>& sites);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 namespace {
 
-JointStation join(const std::string& site, const std::vector<StationValue>& days) {
-    const bool is_weighted = std::ranges::all_of(days, [](const StationValue& day) {
+JointStation join(const std::string& site, const std::vector<model::StationValue>& days) {
+    const bool is_weighted = std::ranges::all_of(days, [](const model::StationValue& day) {
         return day.u_gravity && day.u_gravity->value() > 0.0;
     });
     JointStation joint;
@@ -18,7 +18,7 @@ JointStation join(const std::string& site, const std::vector<StationValue>& days
     const MilliGal origin = days.front().gravity;
     double sum = 0.0;
     double weights = 0.0;
-    for (const StationValue& day : days) {
+    for (const model::StationValue& day : days) {
         const double u = is_weighted ? day.u_gravity->value() : 1.0;
         sum += (day.gravity - origin).value() / (u * u);
         weights += 1.0 / (u * u);
@@ -33,12 +33,12 @@ JointStation join(const std::string& site, const std::vector<StationValue>& days
 
 }  // namespace
 
-std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days) {
+std::vector<JointStation> join_days(const std::vector<model::SurveyCorrection>& days) {
     std::vector<std::string> sites;
-    std::map<std::string, std::vector<StationValue>> values;
-    for (const SurveyCorrection& day : days) {
-        for (const StationValue& station : day.stations) {
-            std::vector<StationValue>& of_site = values[station.site];
+    std::map<std::string, std::vector<model::StationValue>> values;
+    for (const model::SurveyCorrection& day : days) {
+        for (const model::StationValue& station : day.stations) {
+            std::vector<model::StationValue>& of_site = values[station.site];
             if (of_site.empty()) sites.push_back(station.site);
             of_site.push_back(station);
         }
@@ -61,4 +61,4 @@ const std::vector<Column<JointStation>>& joint_columns() {
     return columns;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

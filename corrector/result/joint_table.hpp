@@ -14,7 +14,7 @@
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/result/column.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 
 /// A station over several survey days.  `day_count` is the number of days that have a value of it,
 /// `row_count` the number of rows in these values.
@@ -38,9 +38,9 @@ struct JointStation {
 /// mean of its stations a plain one, and their u_gravity absent (joint_table_test.cpp).  Values
 /// near 980 000 mGal keep their last digits, because the sum is of differences from the first day.
 /// @param days  in any order; no days give no stations.
-[[nodiscard]] std::vector<JointStation> join_days(const std::vector<SurveyCorrection>& days);
+[[nodiscard]] std::vector<JointStation> join_days(const std::vector<model::SurveyCorrection>& days);
 
 /// Returns the columns of joint.csv.  The list is made once and lives as long as the program.
 [[nodiscard]] const std::vector<Column<JointStation>>& joint_columns();
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

@@ -8,7 +8,7 @@
 
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -19,11 +19,12 @@ struct ReferenceCheck {
     double rms_mgal = 0.0;
 };
 
-ReferenceCheck check_references(const SurveyCorrection& result, const NetworkAdjustment& network) {
+ReferenceCheck check_references(const model::SurveyCorrection& result,
+                                const model::NetworkAdjustment& network) {
     ReferenceCheck check;
     double squares = 0.0;
-    for (const StationValue& station : result.stations) {
-        const bool is_held = std::ranges::any_of(network.rows, [&](const NetworkRow& row) {
+    for (const model::StationValue& station : result.stations) {
+        const bool is_held = std::ranges::any_of(network.rows, [&](const model::NetworkRow& row) {
             return row.label == "datum " + station.site;
         });
         if (is_held || station.is_flagged_only || !station.residual) continue;
@@ -37,10 +38,10 @@ ReferenceCheck check_references(const SurveyCorrection& result, const NetworkAdj
 
 }  // namespace
 
-std::string network_text(const SurveyCorrection& result) {
-    const auto* const adjusted = result.as<NetworkAdjustment>();
+std::string network_text(const model::SurveyCorrection& result) {
+    const auto* const adjusted = result.as<model::NetworkAdjustment>();
     if (adjusted == nullptr) return {};
-    const NetworkAdjustment& network = *adjusted;
+    const model::NetworkAdjustment& network = *adjusted;
     std::string text = fmt::format(
         "network: {} rows ({} readings, {} datum of sd {} mGal), {} unknowns, dof = {}\n",
         network.rows.size(), network.reading_count, network.datum_count,
@@ -74,10 +75,10 @@ std::string network_text(const SurveyCorrection& result) {
     return text;
 }
 
-Json network_json(const SurveyCorrection& result) {
-    const auto* const adjusted = result.as<NetworkAdjustment>();
+Json network_json(const model::SurveyCorrection& result) {
+    const auto* const adjusted = result.as<model::NetworkAdjustment>();
     if (adjusted == nullptr) return nullptr;
-    const NetworkAdjustment& network = *adjusted;
+    const model::NetworkAdjustment& network = *adjusted;
     const auto passes = network.passes_global_test();
     const auto s0 = network.s0();
     const ReferenceCheck check = check_references(result, network);
@@ -87,7 +88,7 @@ Json network_json(const SurveyCorrection& result) {
     json["unknowns"] = network.unknowns.size();
     json["dof"] = network.dof;
     json["weighted_square"] = network.weighted_square;
-    json["global_test"] = {{"alpha", kGlobalTestAlpha},
+    json["global_test"] = {{"alpha", model::kGlobalTestAlpha},
                            {"low", network.chi_square_low},
                            {"high", network.chi_square_high},
                            {"passed", passes ? Json(*passes) : Json(nullptr)}};
@@ -97,7 +98,7 @@ Json network_json(const SurveyCorrection& result) {
         {"stations", check.station_count},
         {"rms_mgal", check.station_count > 0 ? Json(check.rms_mgal) : Json(nullptr)}};
     json["rows"] = Json::array();
-    for (const NetworkRow& row : network.rows) {
+    for (const model::NetworkRow& row : network.rows) {
         json["rows"].push_back({{"row", row.label},
                                 {"residual", row.residual},
                                 {"sd", row.sd},
@@ -106,4 +107,4 @@ Json network_json(const SurveyCorrection& result) {
     return json;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

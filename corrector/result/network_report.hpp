@@ -11,14 +11,14 @@
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 
 /// Returns the network's size, degrees of freedom and global test as text; empty for another model.
 ///
 /// Each line ends with LF.  Without a degree of freedom there is no line on the test.  If the test
 /// fails, the text has the reading_sd_mgal that agrees with the scatter.  Do not take it over at
 /// once: a failed test usually means a fault in a reading.
-[[nodiscard]] std::string network_text(const SurveyCorrection& result);
+[[nodiscard]] std::string network_text(const model::SurveyCorrection& result);
 
 /// Returns the same with the redundancy of each row as JSON; null for another model.
 ///
@@ -28,6 +28,6 @@ namespace a351::corrector {
 /// - `passed` and `s0` are null without a degree of freedom.
 /// - Residual and sd have the unit of their row: mGal for readings and datum, that of the
 ///   coefficient for priors.
-[[nodiscard]] nlohmann::ordered_json network_json(const SurveyCorrection& result);
+[[nodiscard]] nlohmann::ordered_json network_json(const model::SurveyCorrection& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

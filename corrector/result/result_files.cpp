@@ -9,21 +9,21 @@
 #include "corrector/result/export_files.hpp"
 #include "corrector/result/network_report.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-Json interval_json(const std::optional<Interval>& interval) {
+Json interval_json(const std::optional<model::Interval>& interval) {
     return interval ? Json{interval->low, interval->high} : Json(nullptr);
 }
 
-Json priors_json(const SurveyCorrection& result) {
+Json priors_json(const model::SurveyCorrection& result) {
     Json json{{"reading_sd_mgal", result.options.priors.reading_sd_mgal}};
-    for (const std::string_view name : kPriorNames) {
-        if (const Prior* const prior = result.options.priors.find(name)) {
+    for (const std::string_view name : model::kPriorNames) {
+        if (const model::Prior* const prior = result.options.priors.find(name)) {
             json[std::string(name)] = {{"mean", prior->mean}, {"sd", prior->sd}};
         }
     }
@@ -32,13 +32,13 @@ Json priors_json(const SurveyCorrection& result) {
 
 }  // namespace
 
-std::string occupations_csv(const SurveyCorrection& result) {
+std::string occupations_csv(const model::SurveyCorrection& result) {
     const auto columns = occupation_columns(result);
     std::string csv = csv_header(columns);
     const std::string rest(columns.size() - 7, ',');
     in_order_of_time(
         result, [&](std::size_t i) { csv += csv_line(columns, result.rows[i]); },
-        [&](const LeftOut& stay) {
+        [&](const reading::LeftOut& stay) {
             csv += fmt::format("{},{},,{},{},0,{}{}\n", stay.site, stay.occupation,
                                to_rfc3339(stay.start, 3), to_rfc3339(stay.end, 3), flag_of(stay),
                                rest);
@@ -46,15 +46,15 @@ std::string occupations_csv(const SurveyCorrection& result) {
     return csv;
 }
 
-std::string stations_csv(const SurveyCorrection& result) {
+std::string stations_csv(const model::SurveyCorrection& result) {
     return csv_table(station_columns(), result.stations);
 }
 
-std::string models_csv(const SurveyCorrection& result) {
+std::string models_csv(const model::SurveyCorrection& result) {
     return csv_table(score_columns(result), score_rows(result));
 }
 
-std::string result_json(const SurveyCorrection& result, const Json& settings,
+std::string result_json(const model::SurveyCorrection& result, const Json& settings,
                         const std::vector<text::InputFile>& inputs) {
     Json json;
     json["program"] = "a351-correct";
@@ -69,14 +69,15 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     }
     json["model"] = result.model;
     json["base"] = result.options.base;
-    if (result.as<WholeDayPart>() == nullptr) {
-        json["reference_temperature_degc"] = kReferenceTemperature.value();
-        json["reference_time_h_after_first_row"] = kReferenceTime_h;
+    if (result.as<model::WholeDayPart>() == nullptr) {
+        json["reference_temperature_degc"] = model::kReferenceTemperature.value();
+        json["reference_time_h_after_first_row"] = model::kReferenceTime_h;
     }
     json["priors"] = priors_json(result);
-    if (const auto* const robust = result.as<RobustPart>()) json["robust_terms"] = robust->terms;
+    if (const auto* const robust = result.as<model::RobustPart>())
+        json["robust_terms"] = robust->terms;
     json["coefficients"] = Json::array();
-    for (const Coefficient& c : result.coefficients) {
+    for (const model::Coefficient& c : result.coefficients) {
         json["coefficients"].push_back(
             {{"name", c.name}, {"value", c.value}, {"standard_error", json_of(c.standard_error)}});
     }
@@ -84,21 +85,22 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
                          {"rms_mgal", json_of(result.score.rms_mgal)},
                          {"s_mgal", json_of(result.score.s_mgal)},
                          {"rms_before_drift_mgal", json_of(result.score.rms_before_drift_mgal)}};
-    json["cross_validated"] = {{"loo_mgal", json_of(result.score.loo_mgal)},
-                               {"loso_mgal", json_of(result.score.loso_mgal)},
-                               {"choice_loso_mgal", json_of(result.choice_loso_mgal)},
-                               {"loo_interval_95_mgal", interval_json(loo_interval_mgal(result))},
-                               {"bootstrap_draws", kBootstrapDraws},
-                               {"bootstrap_seed", result.options.seed}};
+    json["cross_validated"] = {
+        {"loo_mgal", json_of(result.score.loo_mgal)},
+        {"loso_mgal", json_of(result.score.loso_mgal)},
+        {"choice_loso_mgal", json_of(result.choice_loso_mgal)},
+        {"loo_interval_95_mgal", interval_json(model::loo_interval_mgal(result))},
+        {"bootstrap_draws", model::kBootstrapDraws},
+        {"bootstrap_seed", result.options.seed}};
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);
     json["network"] = network_json(result);
-    json["calibration"] = calibration_json(result);
+    json["calibration"] = model::calibration_json(result);
     json["remarks"] = result.remarks;
     json["models"] = json_array(score_columns(result), score_rows(result));
     json["stations"] = json_array(station_columns(), result.stations);
     json["occupations"] = json_array(occupation_columns(result), result.rows);
     json["left_out"] = Json::array();
-    for (const LeftOut& occupation : result.left_out) {
+    for (const reading::LeftOut& occupation : result.left_out) {
         json["left_out"].push_back({{"site", occupation.site},
                                     {"occupation", occupation.occupation},
                                     {"start_utc", to_rfc3339(occupation.start, 3)},
@@ -109,7 +111,8 @@ std::string result_json(const SurveyCorrection& result, const Json& settings,
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-std::vector<text::NamedText> result_files(const SurveyCorrection& result, const Json& settings,
+std::vector<text::NamedText> result_files(const model::SurveyCorrection& result,
+                                          const Json& settings,
                                           const std::vector<text::InputFile>& inputs,
                                           const std::vector<text::Site>& sites) {
     return {{"occupations.csv", occupations_csv(result)},
@@ -120,4 +123,4 @@ std::vector<text::NamedText> result_files(const SurveyCorrection& result, const 
             {"gsadjust.csv", gsadjust_csv(result, sites)}};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

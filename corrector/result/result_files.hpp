@@ -18,18 +18,18 @@
 #include "protocol/text/sites.hpp"
 #include "protocol/text/write_together.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 
 /// Returns the content of occupations.csv: rows and occupations without a value, in order of time.
 /// An occupation without a value has its limits and its reason in `flags`; time_utc and all cells
 /// after `flags` are empty.
 /// @param result  at least one row; rows in order of time, left_out in order of start.
-[[nodiscard]] std::string occupations_csv(const SurveyCorrection& result);
+[[nodiscard]] std::string occupations_csv(const model::SurveyCorrection& result);
 /// Returns the content of stations.csv: a line per station of the result, in its order.
-[[nodiscard]] std::string stations_csv(const SurveyCorrection& result);
+[[nodiscard]] std::string stations_csv(const model::SurveyCorrection& result);
 /// Returns the content of models.csv: a line per model and set of rows.  One line has `selected` 1,
 /// that of the applied model on the rows of its fit.
-[[nodiscard]] std::string models_csv(const SurveyCorrection& result);
+[[nodiscard]] std::string models_csv(const model::SurveyCorrection& result);
 
 /// Returns the content of result.json: UTF-8, indented by two blanks, with a line end.
 ///
@@ -37,7 +37,7 @@ namespace a351::corrector {
 /// There is no time of the run in it, so that a repetition can be compared byte by byte.
 /// @param settings  object with every option of the run, in the order to write.
 /// @param inputs    files that were read; of their paths only the names are written.
-[[nodiscard]] std::string result_json(const SurveyCorrection& result,
+[[nodiscard]] std::string result_json(const model::SurveyCorrection& result,
                                       const nlohmann::ordered_json& settings,
                                       const std::vector<text::InputFile>& inputs);
 
@@ -47,9 +47,9 @@ namespace a351::corrector {
 /// @param inputs    as result_json().
 /// @param sites     sites of the stations, for the last two files.  A station that is absent here
 ///                  is missing in both.
-[[nodiscard]] std::vector<text::NamedText> result_files(const SurveyCorrection& result,
+[[nodiscard]] std::vector<text::NamedText> result_files(const model::SurveyCorrection& result,
                                                         const nlohmann::ordered_json& settings,
                                                         const std::vector<text::InputFile>& inputs,
                                                         const std::vector<text::Site>& sites);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

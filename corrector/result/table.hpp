@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 
 /// A table for people, with texts that are ready to be shown.
 ///
@@ -23,4 +23,4 @@ struct Table {
 /// for HTML.  Letters outside ASCII shift the columns after them (text::aligned()).
 [[nodiscard]] std::string aligned_text(const Table& table);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

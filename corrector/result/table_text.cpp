@@ -10,7 +10,7 @@
 #include "corrector/result/network_report.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 namespace {
 
 template <class Value>
@@ -18,7 +18,7 @@ std::string cell(const std::optional<Value>& value, int decimals) {
     return text::fixed_or(value, decimals, "-");
 }
 
-std::string occupations_text(const SurveyCorrection& result) {
+std::string occupations_text(const model::SurveyCorrection& result) {
     const auto columns = with_keys(
         occupation_columns(result),
         {"site", "occupation", "time_utc", "used", "acceleration_mgal", "temperature_degc",
@@ -27,7 +27,7 @@ std::string occupations_text(const SurveyCorrection& result) {
     Table table = empty_table(columns);
     in_order_of_time(
         result, [&](std::size_t i) { table.rows.push_back(shown_row(columns, result.rows[i])); },
-        [&](const LeftOut& stay) {
+        [&](const reading::LeftOut& stay) {
             std::vector<std::string>& cells = table.rows.emplace_back(columns.size(), "-");
             cells[0] = stay.site;
             cells[1] = std::to_string(stay.occupation);
@@ -37,13 +37,13 @@ std::string occupations_text(const SurveyCorrection& result) {
     return aligned_text(table);
 }
 
-std::string coefficients_text(const SurveyCorrection& result) {
+std::string coefficients_text(const model::SurveyCorrection& result) {
     std::string text;
-    for (const Coefficient& c : result.coefficients) {
+    for (const model::Coefficient& c : result.coefficients) {
         text += fmt::format("  {} = {}", c.name, text::fixed(c.value, 4));
         if (c.standard_error) text += " +- " + text::fixed(*c.standard_error, 4);
-        if (const Prior* const prior = result.options.priors.find(c.name);
-            prior != nullptr && result.as<PaperPart>() == nullptr) {
+        if (const model::Prior* const prior = result.options.priors.find(c.name);
+            prior != nullptr && result.as<model::PaperPart>() == nullptr) {
             text += fmt::format(" (prior {} +- {})", text::fixed(prior->mean, 4),
                                 text::fixed(prior->sd, 4));
         }
@@ -52,11 +52,11 @@ std::string coefficients_text(const SurveyCorrection& result) {
     return text;
 }
 
-std::string summary_text(const SurveyCorrection& result) {
-    const ModelScore& score = result.score;
+std::string summary_text(const model::SurveyCorrection& result) {
+    const model::Score& score = result.score;
     std::string text = "model " + result.model;
-    if (result.options.model == kAutomatic) {
-        text += result.as<WholeDayPart>() != nullptr
+    if (result.options.model == model::kAutomatic) {
+        text += result.as<model::WholeDayPart>() != nullptr
                     ? " (chosen because the whole day was recorded)"
                     : " (chosen by leave-one-station-out error)";
     }
@@ -69,7 +69,7 @@ std::string summary_text(const SurveyCorrection& result) {
     add(", ", score.loo_mgal, "(leave-one-out)");
     add(", ", score.loso_mgal, "(leave-one-station-out)");
     text += '\n';
-    if (const auto interval = loo_interval_mgal(result)) {
+    if (const auto interval = model::loo_interval_mgal(result)) {
         text += fmt::format("leave-one-out, 95 % interval by resampling stations: {} to {} mGal\n",
                             text::fixed(interval->low, 2), text::fixed(interval->high, 2));
     }
@@ -81,12 +81,12 @@ std::string summary_text(const SurveyCorrection& result) {
     return text;
 }
 
-std::string weights_text(const SurveyCorrection& result) {
-    const auto* const robust = result.as<RobustPart>();
+std::string weights_text(const model::SurveyCorrection& result) {
+    const auto* const robust = result.as<model::RobustPart>();
     if (robust == nullptr) return {};
     std::vector<std::string> weights;
-    for (const CorrectedRow& row : result.rows)
-        if (const auto* const own = row.as<RobustRow>())
+    for (const model::CorrectedRow& row : result.rows)
+        if (const auto* const own = row.as<model::RobustRow>())
             weights.push_back(fmt::format("{} ({}) {}", row.row.site, row.row.occupation,
                                           text::fixed(own->weight, 2)));
     return fmt::format("weights of the robust fit of {}: {}\n", robust->terms,
@@ -95,7 +95,7 @@ std::string weights_text(const SurveyCorrection& result) {
 
 }  // namespace
 
-std::string flags_of(const CorrectedRow& row, const SurveyOptions& options) {
+std::string flags_of(const model::CorrectedRow& row, const model::SurveyOptions& options) {
     std::vector<std::string> flags = row.row.notes;
     if (row.row.is_flagged) flags.insert(flags.begin(), "outlier");
     const auto& datum = options.datum;
@@ -107,14 +107,15 @@ std::string flags_of(const CorrectedRow& row, const SurveyOptions& options) {
     return text::joined(flags, ";");
 }
 
-std::string flag_of(const LeftOut& occupation) {
+std::string flag_of(const reading::LeftOut& occupation) {
     std::string flag = occupation.reason;
     std::replace(flag.begin(), flag.end(), ' ', '-');
     return flag;
 }
 
-void in_order_of_time(const SurveyCorrection& result, const std::function<void(std::size_t)>& row,
-                      const std::function<void(const LeftOut&)>& left_out) {
+void in_order_of_time(const model::SurveyCorrection& result,
+                      const std::function<void(std::size_t)>& row,
+                      const std::function<void(const reading::LeftOut&)>& left_out) {
     auto next = result.left_out.begin();
     for (std::size_t i = 0; i <= result.rows.size(); ++i) {
         const UtcTime time = i < result.rows.size() ? result.rows[i].row.time : UtcTime::max();
@@ -123,42 +124,42 @@ void in_order_of_time(const SurveyCorrection& result, const std::function<void(s
     }
 }
 
-std::vector<ScoreRow> score_rows(const SurveyCorrection& result) {
+std::vector<ScoreRow> score_rows(const model::SurveyCorrection& result) {
     std::vector<ScoreRow> rows;
-    for (const ScoredRowSet& set : result.row_sets)
-        for (const ModelScore& score : set.scores) rows.push_back({&set, &score});
+    for (const model::ScoredRowSet& set : result.row_sets)
+        for (const model::Score& score : set.scores) rows.push_back({&set, &score});
     return rows;
 }
 
-bool is_selected(const SurveyCorrection& result, const ScoreRow& row) {
+bool is_selected(const model::SurveyCorrection& result, const ScoreRow& row) {
     return row.score->model == result.model &&
            row.set->rows == (result.options.use_flags ? "used" : "all");
 }
 
-Table stations_table(const SurveyCorrection& result) {
+Table stations_table(const model::SurveyCorrection& result) {
     std::vector<std::string_view> keys{
         "site",          "n",         "gravity_mgal", "u_gravity_mgal", "reference_mgal",
         "residual_mgal", "redundancy"};
-    if (std::ranges::any_of(result.stations, &StationValue::is_flagged_only))
+    if (std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only))
         keys.emplace_back("flagged_only");
     return table_of(with_keys(station_columns(), keys), result.stations);
 }
 
-Table models_table(const SurveyCorrection& result) {
+Table models_table(const model::SurveyCorrection& result) {
     return table_of(
         with_keys(score_columns(result), {"model", "rows", "n", "p", "dof", "rms_mgal", "s_mgal",
                                           "loo_mgal", "loso_mgal", "aicc", "selected"}),
         score_rows(result));
 }
 
-std::string survey_text(const SurveyCorrection& result) {
+std::string survey_text(const model::SurveyCorrection& result) {
     std::string text = occupations_text(result) + '\n' + aligned_text(stations_table(result)) +
                        '\n' + aligned_text(models_table(result)) +
                        "LOO: leave-one-out. LOSO: leave-one-station-out.\n\n" +
                        summary_text(result) + coefficients_text(result) + network_text(result) +
-                       weights_text(result) + doubts_text(result);
+                       weights_text(result) + model::doubts_text(result);
     for (const std::string& remark : result.remarks) text += remark + '\n';
     return text;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

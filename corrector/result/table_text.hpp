@@ -13,17 +13,18 @@
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/result/column.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::result {
 
 /// Returns the reasons why a row is doubtful or not in the fit, joined by ';'.
 ///
 /// The order is "outlier" (marked by the operator), SurveyRow::notes, then "no-reference" or
 /// "not-datum".  The last one means that a list of datum stations is given and lacks the site.
 /// Empty: there is no reason.
-[[nodiscard]] std::string flags_of(const CorrectedRow& row, const SurveyOptions& options);
+[[nodiscard]] std::string flags_of(const model::CorrectedRow& row,
+                                   const model::SurveyOptions& options);
 
 /// Returns the reason as a flag, with '-' for each space: "no samples" gives "no-samples".
-[[nodiscard]] std::string flag_of(const LeftOut& occupation);
+[[nodiscard]] std::string flag_of(const reading::LeftOut& occupation);
 
 /// Calls `row` with the index of each row, and `left_out` with each occupation without a row, in
 /// order of time.
@@ -33,29 +34,30 @@ namespace a351::corrector {
 /// @param result    rows in ascending time; left_out sorted by start, as add_left_out() does.
 /// @param row       takes an index into result.rows.
 /// @param left_out  takes an element of result.left_out.
-void in_order_of_time(const SurveyCorrection& result, const std::function<void(std::size_t)>& row,
-                      const std::function<void(const LeftOut&)>& left_out);
+void in_order_of_time(const model::SurveyCorrection& result,
+                      const std::function<void(std::size_t)>& row,
+                      const std::function<void(const reading::LeftOut&)>& left_out);
 
 /// A model and the rows that it was fitted to.  The pointers are into a SurveyCorrection, which
 /// must outlive them; they are null only in a default-constructed object.
 struct ScoreRow {
-    const ScoredRowSet* set = nullptr;
-    const ModelScore* score = nullptr;
+    const model::ScoredRowSet* set = nullptr;
+    const model::Score* score = nullptr;
 };
 
 /// Returns the scores of all models, set by set: first the unflagged rows, then all rows.
 /// @param result  must outlive the returned pointers, and its row_sets must not change.
-[[nodiscard]] std::vector<ScoreRow> score_rows(const SurveyCorrection& result);
+[[nodiscard]] std::vector<ScoreRow> score_rows(const model::SurveyCorrection& result);
 
 /// Returns true if this score is that of the applied model on the rows of its fit.  These are the
 /// set "used" with SurveyOptions::use_flags, else "all".
-[[nodiscard]] bool is_selected(const SurveyCorrection& result, const ScoreRow& row);
+[[nodiscard]] bool is_selected(const model::SurveyCorrection& result, const ScoreRow& row);
 
 /// Returns the values of the stations; flagged_only is shown only if it is true for a station.
-[[nodiscard]] Table stations_table(const SurveyCorrection& result);
+[[nodiscard]] Table stations_table(const model::SurveyCorrection& result);
 
 /// Returns the scores of all models, without columns in which no model has a value.
-[[nodiscard]] Table models_table(const SurveyCorrection& result);
+[[nodiscard]] Table models_table(const model::SurveyCorrection& result);
 
 /// Returns aligned tables of occupations, stations and models.  Each root mean square is marked as
 /// in sample or cross-validated (result_files_test.cpp).
@@ -64,6 +66,6 @@ struct ScoreRow {
 /// weights of the robust fit, the doubtful rows and the remarks.  Parts that the model does not
 /// have are absent.  Each line ends with LF.
 /// @param result  at least one row; order as for in_order_of_time().
-[[nodiscard]] std::string survey_text(const SurveyCorrection& result);
+[[nodiscard]] std::string survey_text(const model::SurveyCorrection& result);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::result

@@ -5,7 +5,7 @@
 #include "corrector/tide/lunar_terms.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::tide {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -111,7 +111,7 @@ struct StationFrame {
     double radius_m = 0.0;  ///< r: distance from the Earth's centre.
 };
 
-StationFrame station_frame(const TideStation& station) {
+StationFrame station_frame(const Station& station) {
     const double sin_lat = sin_deg(station.latitude.value());
     const double cos_lat = cos_deg(station.latitude.value());
     const double sin_lon = sin_deg(station.longitude.value());
@@ -133,7 +133,7 @@ StationFrame station_frame(const TideStation& station) {
 /// A_k = GM/d^2 (r/d)^(k-1) [ (k P_k(c) - c P_k'(c)) (e.n) + P_k'(c) (u.n) ],   c = e.u
 /// @param gm, distance_m, u  GM, distance and direction of the body.
 double pull_mps2(double gm, double distance_m, const Vector& u, const StationFrame& at,
-                 TideFactors factors) {
+                 Factors factors) {
     const double c = dot(at.direction, u);
     const double e_n = dot(at.direction, at.normal);
     const double u_n = dot(u, at.normal);
@@ -149,7 +149,7 @@ double pull_mps2(double gm, double distance_m, const Vector& u, const StationFra
 
 }  // namespace
 
-MilliGal direct_tide(UtcTime time, const TideStation& station, TideFactors factors) {
+MilliGal direct_tide(UtcTime time, const Station& station, Factors factors) {
     const double utc_days = seconds_between(kJ2000, time) / kSecondsPerDay;
     const double t = (utc_days + kTtMinusUtc_s / kSecondsPerDay) / kDaysPerCentury;
     const double t_ut = utc_days / kDaysPerCentury;
@@ -169,11 +169,10 @@ MilliGal direct_tide(UtcTime time, const TideStation& station, TideFactors facto
                     (pull(kGmMoon, moon_position(t)) + pull(kGmSun, sun_position(t))));
 }
 
-MilliGal earth_tide(TideModel model, UtcTime time, const TideStation& station,
-                    TideFactors factors) {
-    if (model == TideModel::direct) return direct_tide(time, station, factors);
-    if (model == TideModel::longman) return longman_tide(time, station, factors);
+MilliGal earth_tide(Model model, UtcTime time, const Station& station, Factors factors) {
+    if (model == Model::direct) return direct_tide(time, station, factors);
+    if (model == Model::longman) return longman_tide(time, station, factors);
     return MilliGal(0.0);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::tide

@@ -7,9 +7,9 @@
 /// Not included: ocean loading, pole tide, air pressure (sizes: corrector/methods.md, "Tide").
 ///
 /// Use direct_tide() for corrections, and longman_tide() to compare with programs that use those
-/// formulas.  For a tide with ocean loading, or from another program, use TideSeries.
+/// formulas.  For a tide with ocean loading, or from another program, use Series.
 ///
-///     const TideStation station{Degrees(36.216), Degrees(140.123), Metres(532.0)};
+///     const Station station{Degrees(36.216), Degrees(140.123), Metres(532.0)};
 ///     const MilliGal corrected = reading - direct_tide(middle_of_the_reading, station);
 ///
 /// The magnitude is below 0.3 mGal everywhere.  All functions are pure: they allocate nothing,
@@ -18,12 +18,12 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::tide {
 
 /// A point on the Earth.
 /// A default-constructed station is at latitude and longitude 0 on the ellipsoid.  The ranges are
 /// not checked; angles are periodic.
-struct TideStation {
+struct Station {
     Degrees latitude;   ///< Geodetic latitude, WGS84, -90 to 90, north positive.
     Degrees longitude;  ///< Longitude, east positive; multiples of 360 degrees have no effect.
     /// Height above the ellipsoid.  A geoid height of 100 m changes the tide by less than 0.00001
@@ -36,17 +36,17 @@ struct TideStation {
 /// the potential.  The tide is linear in them (earth_tide_test.cpp).
 /// Source: V. Dehant, P. Defraigne and J. M. Wahr, J. Geophys. Res. 104, 1035-1058, 1999.
 /// Any finite factors are permitted, also 0; NaN gives NaN.
-struct TideFactors {
+struct Factors {
     double delta2 = 1.16;  ///< Wahr-Dehant-Zschau model, rounded; 1.20 was usual in Japan.
     double delta3 = 1.07;  ///< Same for degree 3.
 };
 
 /// Factors of a rigid Earth, without unit, for comparison with catalogues: attraction only.
-inline constexpr TideFactors kRigidEarth{1.0, 1.0};
+inline constexpr Factors kRigidEarth{1.0, 1.0};
 
 /// Factors of programs that follow Longman: 1 + h - 1.5 k with h = 0.612, k = 0.303.
 /// They have no unit and are the same for both degrees; h and k are Love numbers.
-inline constexpr TideFactors kLongmanFactors{1.1575, 1.1575};
+inline constexpr Factors kLongmanFactors{1.1575, 1.1575};
 
 /// Returns the tide from the positions of Moon and Sun: degrees 2 and 3 along the normal of the
 /// ellipsoid.
@@ -72,8 +72,7 @@ inline constexpr TideFactors kLongmanFactors{1.1575, 1.1575};
 /// @return mGal, positive if gravity is larger.
 /// Source of the positions: lunar_terms.hpp; J. Meeus, Astronomical Algorithms, 2nd ed.,
 /// Willmann-Bell 1998, ch. 12, 22, 25, 47.
-[[nodiscard]] MilliGal direct_tide(UtcTime time, const TideStation& station,
-                                   TideFactors factors = {});
+[[nodiscard]] MilliGal direct_tide(UtcTime time, const Station& station, Factors factors = {});
 
 /// Returns the tide by the closed formulas of I. M. Longman, J. Geophys. Res. 64, 2351-2355, 1959,
 /// along the geocentric radius.  The sign is inverted: Longman's is an upward pull.
@@ -90,20 +89,20 @@ inline constexpr TideFactors kLongmanFactors{1.1575, 1.1575};
 /// @param station  finite; NaN gives NaN.  The height is added to the radius of his ellipsoid.
 /// @param factors  gravimetric factors; the default is that of programs which follow Longman.
 /// @return mGal, positive if gravity is larger.
-[[nodiscard]] MilliGal longman_tide(UtcTime time, const TideStation& station,
-                                    TideFactors factors = kLongmanFactors);
+[[nodiscard]] MilliGal longman_tide(UtcTime time, const Station& station,
+                                    Factors factors = kLongmanFactors);
 
 /// Models of the tide that are computed.
 /// - `none`: no tide, 0 at all times, for readings that are corrected already.
 /// - `direct`: direct_tide(), the default of a survey.
 /// - `longman`: longman_tide(), for comparison; its error is up to 0.0025 mGal.
-enum class TideModel { none, direct, longman };
+enum class Model { none, direct, longman };
 
 /// Returns the tide by one of the models; 0 for `none`.
 /// @param time, station  as direct_tide().
 /// @param factors         of either model; no model replaces them by defaults of its own.
 /// @return mGal, positive if gravity is larger.
-[[nodiscard]] MilliGal earth_tide(TideModel model, UtcTime time, const TideStation& station,
-                                  TideFactors factors);
+[[nodiscard]] MilliGal earth_tide(Model model, UtcTime time, const Station& station,
+                                  Factors factors);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::tide

@@ -6,7 +6,7 @@
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::tide {
 namespace {
 
 constexpr double kSecondsPerCentury = 36525.0 * 86400.0;
@@ -29,7 +29,7 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
-MilliGal longman_tide(UtcTime time, const TideStation& station, TideFactors factors) {
+MilliGal longman_tide(UtcTime time, const Station& station, Factors factors) {
     using std::cos;
     using std::sin;
     const double t = seconds_between(kEpoch, time) / kSecondsPerCentury;
@@ -106,4 +106,4 @@ MilliGal longman_tide(UtcTime time, const TideStation& station, TideFactors fact
     return MilliGal(-kMilliGalPerGal * (factors.delta2 * degree2 + factors.delta3 * degree3));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::tide

@@ -20,7 +20,7 @@
 
 #include <array>
 
-namespace a351::corrector {
+namespace a351::corrector::tide {
 
 /// Multiples of the fundamental arguments in the argument of a term.  A term is multiplied by
 /// E^|m|.
@@ -90,4 +90,4 @@ inline constexpr std::array<LatitudeTerm, 14> kLatitudeTerms{{
     {{2, 1, 0, -1}, -3359.0},
 }};
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::tide

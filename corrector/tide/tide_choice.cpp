@@ -9,16 +9,16 @@
 #include "corrector/tide/tide_series.hpp"
 #include "protocol/core/input_error.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::tide {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 5> kNames{"given", "direct", "catalogue", "longman", "none"};
 
-void set_series_tide(std::vector<SurveyRow>& rows, const std::filesystem::path& file) {
-    const TideSeries series = TideSeries::read(file);
-    for (SurveyRow& row : rows) {
+void set_series_tide(std::vector<reading::SurveyRow>& rows, const std::filesystem::path& file) {
+    const Series series = Series::read(file);
+    for (reading::SurveyRow& row : rows) {
         const auto tide = series.at(row.time);
         if (!tide)
             throw InputError(fmt::format(
@@ -30,8 +30,8 @@ void set_series_tide(std::vector<SurveyRow>& rows, const std::filesystem::path& 
     }
 }
 
-void set_given_tide(std::vector<SurveyRow>& rows) {
-    for (SurveyRow& row : rows) {
+void set_given_tide(std::vector<reading::SurveyRow>& rows) {
+    for (reading::SurveyRow& row : rows) {
         if (!row.given_tide)
             throw InputError(
                 fmt::format("tide = given: {} has no earth_tide_mgal; allowed: direct, catalogue, "
@@ -41,18 +41,18 @@ void set_given_tide(std::vector<SurveyRow>& rows) {
     }
 }
 
-std::string_view model_text(const TideChoice& choice) {
+std::string_view model_text(const Choice& choice) {
     if (!choice.series.empty()) return "series of the file, cubic between its rows";
     if (choice.source == "given") return "column earth_tide_mgal";
-    const TideModel model = tide_model(choice.source);
-    if (model == TideModel::direct)
+    const Model model = tide_model(choice.source);
+    if (model == Model::direct)
         return "positions of Moon and Sun, degrees 2 and 3, along the ellipsoid's normal";
-    return model == TideModel::longman ? "Longman 1959, along the geocentric radius" : "none";
+    return model == Model::longman ? "Longman 1959, along the geocentric radius" : "none";
 }
 
 }  // namespace
 
-bool set_tide_source(TideChoice& choice, const std::string& text,
+bool set_tide_source(Choice& choice, const std::string& text,
                      const std::filesystem::path& directory) {
     const bool is_name = std::ranges::find(kNames, text) != kNames.end();
     const std::filesystem::path file = is_name ? std::filesystem::path() : directory / text;
@@ -62,26 +62,26 @@ bool set_tide_source(TideChoice& choice, const std::string& text,
     return true;
 }
 
-void set_tide_option(TideChoice& choice, const std::string& text) {
+void set_tide_option(Choice& choice, const std::string& text) {
     if (set_tide_source(choice, text, "")) return;
     throw InputError(
         fmt::format("--tide = {}: neither a source nor a file; allowed: {}", text, kTideSources));
 }
 
-TideModel tide_model(const std::string& source) {
+Model tide_model(const std::string& source) {
     // Both names use one model: it is within 0.0001 mGal of the harmonic catalogue (methods.md).
-    if (source == "direct" || source == "catalogue") return TideModel::direct;
-    if (source == "longman") return TideModel::longman;
-    if (source == "none") return TideModel::none;
+    if (source == "direct" || source == "catalogue") return Model::direct;
+    if (source == "longman") return Model::longman;
+    if (source == "none") return Model::none;
     throw InputError(fmt::format("tide = {}: unknown; allowed: {}", source, kTideSources));
 }
 
-void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites,
-                const TideChoice& choice) {
+void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
+                const Choice& choice) {
     if (!choice.series.empty()) return set_series_tide(rows, choice.series);
     if (choice.source == "given") return set_given_tide(rows);
-    const TideModel model = tide_model(choice.source);
-    for (SurveyRow& row : rows) {
+    const Model model = tide_model(choice.source);
+    for (reading::SurveyRow& row : rows) {
         const text::Site* const site = text::find_site(sites, row.site);
         if (site == nullptr)
             throw InputError(
@@ -91,7 +91,7 @@ void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sit
     }
 }
 
-void describe_tide(Json& settings, const TideChoice& choice) {
+void describe_tide(Json& settings, const Choice& choice) {
     settings["tide"] = choice.source;
     settings["tide_model"] = model_text(choice);
     settings["tide_sign"] = "effect on gravity: positive where gravity is larger; subtracted";
@@ -101,4 +101,4 @@ void describe_tide(Json& settings, const TideChoice& choice) {
     settings["delta3"] = is_computed ? Json(choice.factors.delta3) : Json(nullptr);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::tide

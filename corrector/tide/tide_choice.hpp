@@ -4,7 +4,7 @@
 ///
 /// A choice is made from the text of an option or a survey file, and then applied to all rows:
 ///
-///     TideChoice choice;                        // direct, factors 1.16 and 1.07
+///     Choice choice;                        // direct, factors 1.16 and 1.07
 ///     set_tide_option(choice, "tide.csv");      // or a name
 ///     apply_tide(rows, sites, choice);
 ///     describe_tide(settings, choice);          // what was done, for result.json
@@ -21,21 +21,20 @@
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/tide/earth_tide.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::tide {
 
 /// The source of a survey's tide.
 ///
 /// If `series` is not empty, it is used, and `source` is only its name in results.  Set both with
 /// the functions below, which keep them consistent.
-struct TideChoice {
+struct Choice {
     /// Name: given (column of the table), direct = catalogue, longman, none; or the file name of
     /// `series`.
     std::string source = "direct";
-    /// Factors of direct and longman; both begin with those of TideFactors.  Set kLongmanFactors
+    /// Factors of direct and longman; both begin with those of Factors.  Set kLongmanFactors
     /// here if those are wanted.  Other sources ignore them.
-    TideFactors factors;
-    std::filesystem::path
-        series;  ///< CSV for TideSeries::read(); empty: `source` is one of the names.
+    Factors factors;
+    std::filesystem::path series;  ///< CSV for Series::read(); empty: `source` is one of the names.
 };
 
 /// Allowed values of a tide, for messages and help.
@@ -51,19 +50,19 @@ inline constexpr std::string_view kTideSources =
 /// @param directory  directory of the file that contains `text`; empty: the current directory.
 /// @return false, and nothing is changed, if `text` is neither a name nor a regular file.
 /// @throws std::filesystem::filesystem_error  the file's type cannot be found out.
-[[nodiscard]] bool set_tide_source(TideChoice& choice, const std::string& text,
+[[nodiscard]] bool set_tide_source(Choice& choice, const std::string& text,
                                    const std::filesystem::path& directory);
 
 /// Sets the source from the text of the option --tide; files are relative to the current directory.
 /// @throws InputError  if `text` is neither a name nor a regular file.
 /// @throws std::filesystem::filesystem_error  as set_tide_source().
-void set_tide_option(TideChoice& choice, const std::string& text);
+void set_tide_option(Choice& choice, const std::string& text);
 
 /// Returns the model of a computed source: direct, catalogue, longman or none.
 /// `direct` and `catalogue` are one model: it agrees with the harmonic catalogue within 0.0001
 /// mGal.
 /// @throws InputError  if the source is another one; names those allowed.
-[[nodiscard]] TideModel tide_model(const std::string& source);
+[[nodiscard]] Model tide_model(const std::string& source);
 
 /// Sets the tide of every row from the chosen source.
 ///
@@ -75,16 +74,16 @@ void set_tide_option(TideChoice& choice, const std::string& text);
 ///
 /// @param rows  any order; may be empty.
 /// @param sites  table of the sites; not used for a series or for `given`.
-/// @throws InputError  as tide_model() or TideSeries::read(); if a row's site is not in `sites`, a
+/// @throws InputError  as tide_model() or Series::read(); if a row's site is not in `sites`, a
 ///                     row has no given tide, or the series does not cover a row.
-void apply_tide(std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites,
-                const TideChoice& choice);
+void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
+                const Choice& choice);
 
 /// Adds source, model, sign and factors of the tide to the settings of a result.  The factors are
 /// null if the tide is not computed.
 /// The keys are tide, tide_model, tide_sign, delta2 and delta3.  Keys that exist are overwritten.
 /// Example: tests/unit/tide/tide_series_test.cpp.
 /// @throws InputError  as tide_model(), without a series.
-void describe_tide(nlohmann::ordered_json& settings, const TideChoice& choice);
+void describe_tide(nlohmann::ordered_json& settings, const Choice& choice);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::tide

@@ -7,13 +7,13 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::tide {
 
 constexpr std::size_t kPoints = 4;  // points that determine a cubic
 
-TideSeries TideSeries::read(const std::filesystem::path& file) {
+Series Series::read(const std::filesystem::path& file) {
     const text::CsvTable table = text::read_csv(file);
-    TideSeries series;
+    Series series;
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         const auto time = parse_rfc3339(table.cell(row, "time"));
         if (!time) table.refuse(row, "time", "not an instant", "YYYY-MM-DDThh:mm:ss with zone");
@@ -29,7 +29,7 @@ TideSeries TideSeries::read(const std::filesystem::path& file) {
     return series;
 }
 
-std::optional<MilliGal> TideSeries::at(UtcTime time) const {
+std::optional<MilliGal> Series::at(UtcTime time) const {
     if (time < first() || time > last()) return std::nullopt;
     const auto behind = std::upper_bound(times_.begin(), times_.end(), time);
     const auto bracket = std::min(static_cast<std::size_t>(behind - times_.begin()) - 1,
@@ -41,7 +41,7 @@ std::optional<MilliGal> TideSeries::at(UtcTime time) const {
     return std::nullopt;
 }
 
-bool TideSeries::has_gap(std::size_t first) const {
+bool Series::has_gap(std::size_t first) const {
     for (std::size_t i = first + 1; i < first + kPoints; ++i)
         if (times_[i] - times_[i - 1] > kLongestTideStep) return true;
     return false;
@@ -49,7 +49,7 @@ bool TideSeries::has_gap(std::size_t first) const {
 
 /// Returns the cubic through four rows in Lagrange's form: sum_i y_i prod_(k != i) (t - t_k) / (t_i
 /// - t_k).
-MilliGal TideSeries::cubic(std::size_t first, UtcTime time) const {
+MilliGal Series::cubic(std::size_t first, UtcTime time) const {
     double sum = 0.0;
     for (std::size_t i = first; i < first + kPoints; ++i) {
         double weight = 1.0;
@@ -62,4 +62,4 @@ MilliGal TideSeries::cubic(std::size_t first, UtcTime time) const {
     return MilliGal(sum);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::tide

@@ -10,7 +10,7 @@
 ///     2017-07-16T00:10:00Z,0.0078
 ///     ...
 ///
-///     const TideSeries series = TideSeries::read("tide.csv");
+///     const Series series = Series::read("tide.csv");
 ///     const std::optional<MilliGal> tide = series.at(time);     // absent: not covered
 
 #include <filesystem>
@@ -20,7 +20,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::tide {
 
 /// Longest step between rows, s; a longer one is a gap.  Reason: with this step the interpolation
 /// error is below 0.0002 mGal (tide_series_test.cpp).
@@ -40,7 +40,7 @@ inline constexpr std::chrono::seconds kLongestTideStep{3600};
 /// Invariant of an object from read(): at least four rows, in strictly ascending time, all finite.
 /// A default-constructed object has no rows, and none of its functions may be called.  A constant
 /// object may be used by several threads.
-class TideSeries {
+class Series {
 public:
     /// Reads the columns `time` (RFC 3339 with zone, ascending) and `tide_mgal` (-1 to 1) of a CSV.
     /// Steps need not be equal.
@@ -49,7 +49,7 @@ public:
     /// @throws InputError  if there are fewer than four rows, a time is not valid or not after the
     ///                     row before it, or a tide is no number or beyond 1 mGal; with line and
     ///                     value.  Also if a column is missing or the file cannot be read.
-    [[nodiscard]] static TideSeries read(const std::filesystem::path& file);
+    [[nodiscard]] static Series read(const std::filesystem::path& file);
 
     /// Returns the value at a time.  At the first and last row it is defined.
     /// At a row it is the row's value, to rounding.  The last row before a gap counts as in the
@@ -71,4 +71,4 @@ private:
     std::vector<double> values_mgal_;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::tide

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 
-BinMeans::BinMeans(const TimeSeries<DegC>& grid, const std::vector<DayBin>& bins) {
+BinMeans::BinMeans(const TimeSeries<DegC>& grid, const std::vector<reading::DayBin>& bins) {
     const auto last = static_cast<double>(grid.size() - 1);
-    for (const DayBin& bin : bins) {
+    for (const reading::DayBin& bin : bins) {
         for (const UtcTime time : bin.times) {
             const double place =
                 std::clamp(seconds_between(grid.start(), time) * grid.rate().value(), 0.0, last);
@@ -34,4 +34,4 @@ Eigen::VectorXd BinMeans::of(const std::vector<double>& values) const {
     return means;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

@@ -15,7 +15,7 @@
 
 #include "corrector/reading/day_record.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 
 /// Means of a series on the day's grid over the samples of every bin.
 ///
@@ -29,7 +29,7 @@ public:
     /// Computes the positions of all samples of the bins on the grid.
     /// @param grid  series whose times are the grid, at least one sample; its values are not used.
     /// @param bins  (bins), each with at least one sample.
-    BinMeans(const TimeSeries<DegC>& grid, const std::vector<DayBin>& bins);
+    BinMeans(const TimeSeries<DegC>& grid, const std::vector<reading::DayBin>& bins);
 
     /// Returns the means over the bins (bins), in the unit of the values.
     ///
@@ -47,4 +47,4 @@ private:
     std::vector<std::size_t> ends_;  ///< End of each bin in places_.
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

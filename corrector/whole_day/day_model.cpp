@@ -7,7 +7,7 @@
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 namespace {
 
 using Index = Eigen::Index;
@@ -20,7 +20,7 @@ struct Estimates {
 
 /// Returns values by least squares at the fit's point, and errors with the lags as two more terms
 /// and with the expected noise; sets the shift and its covariance.
-Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size_t set_ups,
+Estimates estimate(const DayProblem& problem, const reading::DayRecord& record, std::size_t set_ups,
                    DayFit& fit) {
     const DayFit::Point& u = fit.point;
     const Index estimated = problem.estimated();
@@ -28,7 +28,8 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     whiten(record.bins, fit.noise, columns);
     const auto x = columns.rightCols(estimated);
     // (X'X + 1)^-1 X'y: least squares with priors of variance 1
-    const Eigen::VectorXd scaled = Cholesky(normal_matrix(x)).solve(x.transpose() * columns.col(0));
+    const Eigen::VectorXd scaled = linear_algebra::Cholesky(linear_algebra::normal_matrix(x))
+                                       .solve(x.transpose() * columns.col(0));
     const Eigen::VectorXd left = columns.col(0) - x * scaled;
 
     Estimates result;
@@ -38,7 +39,8 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
     all << problem.scaled(u), problem.lag_columns(u, result.values);
     whiten(record.bins, problem.expected_noise(u), all);
     const Eigen::MatrixXd covariance =
-        Cholesky(normal_matrix(all.rightCols(estimated + kLags))).inverse();
+        linear_algebra::Cholesky(linear_algebra::normal_matrix(all.rightCols(estimated + kLags)))
+            .inverse();
     const Eigen::MatrixXd unscaling = problem.unscaling();
     result.standard_errors =
         (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();
@@ -60,17 +62,17 @@ Estimates estimate(const DayProblem& problem, const DayRecord& record, std::size
 }
 
 /// Returns means over the bins of every set-up, weighted by their samples.
-std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const DayRecord& record,
+std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const reading::DayRecord& record,
                                        std::size_t set_ups, const DayProblem::Point& u,
                                        const Eigen::VectorXd& coefficients) {
     std::vector<DaySetUp> means(set_ups);
     std::vector<double> counts(set_ups);
-    for (const DayBin& bin : record.bins)
+    for (const reading::DayBin& bin : record.bins)
         counts[bin.set_up] += static_cast<double>(bin.times.size());
     const Eigen::MatrixXd x = problem.design(u);
     const Eigen::VectorXd temperature = problem.means().of(record.temperature.series.values());
     for (std::size_t i = 0; i < record.bins.size(); ++i) {
-        const DayBin& bin = record.bins[i];
+        const reading::DayBin& bin = record.bins[i];
         DaySetUp& mean = means[bin.set_up];
         const auto row = static_cast<Index>(i);
         const double weight = static_cast<double>(bin.times.size()) / counts[bin.set_up];
@@ -91,7 +93,8 @@ void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::Ve
                         const Eigen::MatrixXd& covariance) {
     const Matrix before = factor * factor.transpose();
     const Eigen::MatrixXd innovation = before(places, places) + covariance;
-    const Eigen::MatrixXd gain = Cholesky(innovation).solve(before(places, Eigen::all)).transpose();
+    const Eigen::MatrixXd gain =
+        linear_algebra::Cholesky(innovation).solve(before(places, Eigen::all)).transpose();
     // K = P H' (H P H' + R)^-1
     mean += gain * (values - Eigen::VectorXd(mean(places)));
     // Joseph's form, P = (1 - K H) P (1 - K H)' + K R K': the result remains a covariance, however
@@ -100,31 +103,33 @@ void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::Ve
     for (std::size_t k = 0; k < places.size(); ++k)
         left.col(places[k]) -= gain.col(static_cast<Eigen::Index>(k));
     const Matrix after = left * before * left.transpose() + gain * covariance * gain.transpose();
-    factor = Cholesky(0.5 * (after + after.transpose())).lower();
+    factor = linear_algebra::Cholesky(0.5 * (after + after.transpose())).lower();
 }
 
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 DayPriors usual_day_priors() {
     constexpr double kFreeDeviation_mgal = 1e4;
     constexpr double kDrift_mgal_per_h = 1.0, kBias_mgal_per_g = 2000.0;
-    const ThermalPrior fast_lag = day_prior(ThermalTerm::fast_lag),
-                       slow_lag = day_prior(ThermalTerm::slow_lag),
-                       level = day_prior(ThermalTerm::level), slow = day_prior(ThermalTerm::slow),
-                       fast = day_prior(ThermalTerm::fast);
+    const unit::ThermalPrior fast_lag = unit::day_prior(unit::ThermalTerm::fast_lag),
+                             slow_lag = unit::day_prior(unit::ThermalTerm::slow_lag),
+                             level = unit::day_prior(unit::ThermalTerm::level),
+                             slow = unit::day_prior(unit::ThermalTerm::slow),
+                             fast = unit::day_prior(unit::ThermalTerm::fast);
     DayPriors priors;
     priors.mean << fast_lag.mean, slow_lag.mean, 0.0, level.mean, slow.mean, fast.mean, 0.0, 0.0,
         0.0, 0.0;
     DayPriors::Vector deviations;
     deviations << fast_lag.deviation, slow_lag.deviation, kFreeDeviation_mgal, level.deviation,
-        slow.deviation, fast.deviation, kDrift_mgal_per_h, kTypicalUnit.warm_up_mgal,
+        slow.deviation, fast.deviation, kDrift_mgal_per_h, unit::kTypicalUnit.warm_up_mgal,
         kBias_mgal_per_g, kBias_mgal_per_g;
     priors.factor = deviations.asDiagonal();
     return priors;
 }
 
-std::optional<DayFit> fit_day(const DayRecord& record, const std::vector<DayStation>& stations,
-                              const DayFit* nearby, const DayPriors& priors) {
-    const auto is_held = [&](const DayBin& bin) {
+std::optional<DayFit> fit_day(const reading::DayRecord& record,
+                              const std::vector<DayStation>& stations, const DayFit* nearby,
+                              const DayPriors& priors) {
+    const auto is_held = [&](const reading::DayBin& bin) {
         return stations[bin.set_up].gravity.has_value();
     };
     if (std::ranges::none_of(record.bins, is_held)) return std::nullopt;
@@ -162,4 +167,4 @@ std::optional<DayFit> fit_day(const DayRecord& record, const std::vector<DayStat
     return fit;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

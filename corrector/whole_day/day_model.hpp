@@ -45,7 +45,7 @@
 #include "corrector/whole_day/day_noise.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 
 /// Terms of the model: c, rA, rS, rF, d, w, bx, by.
 ///
@@ -60,9 +60,9 @@ inline constexpr std::size_t kDayTerms = 8;
 /// Names of the terms with their units, as in result.json.
 inline constexpr std::array<std::string_view, kDayTerms> kDayTermNames{
     "constant_mgal",
-    kThermalNames[static_cast<std::size_t>(ThermalTerm::level)],
-    kThermalNames[static_cast<std::size_t>(ThermalTerm::slow)],
-    kThermalNames[static_cast<std::size_t>(ThermalTerm::fast)],
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::level)],
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::slow)],
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::fast)],
     "time_mgal_per_h",
     "warm_up_mgal",
     "x_mgal_per_g",
@@ -196,9 +196,9 @@ struct DayFit {
 /// C. E. Rasmussen and C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006,
 /// section 2.7 (explicit terms with priors).  Maximised by NLopt's Subplex (T. H. Rowan, thesis,
 /// Austin 1990) or, from nearby, BOBYQA (M. J. D. Powell, report NA2009/06, Cambridge).
-[[nodiscard]] std::optional<DayFit> fit_day(const DayRecord& record,
+[[nodiscard]] std::optional<DayFit> fit_day(const reading::DayRecord& record,
                                             const std::vector<DayStation>& stations,
                                             const DayFit* nearby = nullptr,
                                             const DayPriors& priors = usual_day_priors());
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

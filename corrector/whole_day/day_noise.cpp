@@ -3,9 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 
-double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::MatrixXd& columns) {
+double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
+              Eigen::MatrixXd& columns) {
     constexpr auto kFlicker = static_cast<Eigen::Index>(kFlickerPeriods_s.size());
     constexpr Eigen::Index kStates = kFlicker + 1;  // the last state is placement
     using State = Eigen::Matrix<double, kStates, 1>;
@@ -37,7 +38,7 @@ double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::Mat
         // Measurement: the reading is the sum of all states and white noise.
         const State gain = covariance.rowwise().sum();
         const double white = noise.white_mgal * noise.white_mgal *
-                             static_cast<double>(kBinSamples) /
+                             static_cast<double>(reading::kBinSamples) /
                              static_cast<double>(bins[i].times.size());
         const double variance = gain.sum() + white;
         const auto row = static_cast<Eigen::Index>(i);
@@ -51,4 +52,4 @@ double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::Mat
     return log_determinant;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

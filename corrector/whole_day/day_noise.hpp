@@ -17,7 +17,7 @@
 
 #include "corrector/reading/day_record.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 
 /// Three independent parts of the noise, as standard deviations in mGal.
 ///
@@ -57,6 +57,7 @@ inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,
 /// @return ln det of the covariance, in ln(mGal^2); 0 without bins.
 /// Source: A. C. Harvey, Forecasting, Structural Time Series Models and the Kalman Filter,
 /// Cambridge 1989, section 3.4 (regression by filtering every column).
-double whiten(const std::vector<DayBin>& bins, const DayNoise& noise, Eigen::MatrixXd& columns);
+double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
+              Eigen::MatrixXd& columns);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

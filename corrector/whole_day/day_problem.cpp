@@ -10,7 +10,7 @@
 #include "protocol/linear_algebra/normal_matrix.hpp"
 #include "protocol/signal/median.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 namespace {
 
 using Index = Eigen::Index;
@@ -31,18 +31,19 @@ std::size_t unknown_count(const std::vector<DayStation>& stations) {
 
 /// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
 /// at least 1e-3.  It is the median of the white noise's prior.
-double bin_scatter_mgal(const std::vector<DayBin>& bins) {
+double bin_scatter_mgal(const std::vector<reading::DayBin>& bins) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < bins.size(); ++i)
         if (bins[i].set_up == bins[i - 1].set_up)
             steps.push_back(std::abs((bins[i].reading - bins[i - 1].reading).value()));
     if (steps.empty()) return 1.0;
-    return std::max(kGaussianPerMad * median(std::move(steps)) / std::sqrt(2.0), 1e-3);
+    return std::max(signal::kGaussianPerMad * signal::median(std::move(steps)) / std::sqrt(2.0),
+                    1e-3);
 }
 
 }  // namespace
 
-DayProblem::DayProblem(const DayRecord& record, const std::vector<DayStation>& stations,
+DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
                        const DayPriors& priors)
     : record_(record),
       stations_(stations),
@@ -60,7 +61,7 @@ void DayProblem::set_readings() {
     double held_sum = 0.0, held_count = 0.0;
     std::vector<double> sums(static_cast<std::size_t>(unknowns_)), counts(sums.size());
     for (Index i = 0; i < count; ++i) {
-        const DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
+        const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
         const DayStation& station = stations_[bin.set_up];
         readings_mgal_(i) = (bin.reading - station.tide).value();
         if (station.gravity) {
@@ -93,10 +94,10 @@ void DayProblem::set_fixed_columns() {
     const UtcTime middle =
         record_.bins.front().time + (record_.bins.back().time - record_.bins.front().time) / 2;
     for (Index i = 0; i < count; ++i) {
-        const DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
+        const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
         column(DayTerm::drift)(i) = seconds_between(middle, bin.time) / kSecondsPerHour;
-        column(DayTerm::warm_up)(i) =
-            std::exp(-seconds_between(begin, bin.time) / kSecondsPerHour / kTypicalUnit.warm_up_h);
+        column(DayTerm::warm_up)(i) = std::exp(-seconds_between(begin, bin.time) / kSecondsPerHour /
+                                               unit::kTypicalUnit.warm_up_h);
         column(DayTerm::x)(i) = bin.x.value();
         column(DayTerm::y)(i) = bin.y.value();
         const DayStation& station = stations_[bin.set_up];
@@ -105,11 +106,11 @@ void DayProblem::set_fixed_columns() {
 }
 
 Eigen::VectorXd DayProblem::fast_column(double lag_s) const {
-    return means_.of(fast_rate_degc_per_h(record_.temperature.series, lag_s));
+    return means_.of(unit::fast_rate_degc_per_h(record_.temperature.series, lag_s));
 }
 
 Eigen::VectorXd DayProblem::slow_column(double lag_s) const {
-    return means_.of(lagged(record_.temperature.series, lag_s)).array() -
+    return means_.of(unit::lagged(record_.temperature.series, lag_s)).array() -
            kReferenceTemperature_degc;
 }
 
@@ -197,7 +198,7 @@ double DayProblem::cost(const Point& u) const {
     const double log_determinant = whiten(record_.bins, noise(u), columns);
     const auto y = columns.col(0);
     const auto x = columns.rightCols(estimated());
-    const Cholesky factor(normal_matrix(x));
+    const linear_algebra::Cholesky factor(linear_algebra::normal_matrix(x));
     if (!factor.is_positive_definite()) return HUGE_VAL;  // overflow, far from the priors
     const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
     // 2 cost = ln det C + ln det(X'C^-1 X + 1) + y'C^-1 y - |L^-1 X'C^-1 y|^2 + |u|^2,
@@ -213,4 +214,4 @@ DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) co
         {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000});
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

@@ -25,7 +25,7 @@
 #include "corrector/whole_day/day_columns.hpp"
 #include "corrector/whole_day/day_model.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 
 /// kDayLags and kDayTerms as sizes of matrices.
 inline constexpr auto kLags = static_cast<Eigen::Index>(kDayLags);
@@ -57,7 +57,7 @@ public:
 
     /// All arguments are kept by reference and must exist as long as this object.
     /// @param record, stations, priors  as fit_day(); at least one set-up that is held has a bin.
-    DayProblem(const DayRecord& record, const std::vector<DayStation>& stations,
+    DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
                const DayPriors& priors);
 
     /// Returns the number of terms and unknowns.
@@ -129,7 +129,7 @@ private:
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
     [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
 
-    const DayRecord& record_;
+    const reading::DayRecord& record_;
     const std::vector<DayStation>& stations_;
     const DayPriors& priors_;
     Eigen::Index unknowns_;
@@ -140,4 +140,4 @@ private:
     Eigen::MatrixXd fixed_;  ///< All columns of design(); 0 where one depends on the lags.
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

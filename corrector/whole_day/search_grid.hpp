@@ -24,7 +24,7 @@
 #include <cmath>
 #include <memory>
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 
 /// Rounds a parameter, in deviations of its prior, to a multiple of 2^-14.  This is a sixteenth of
 /// the smaller tolerance (same_sums_test.cpp).
@@ -86,4 +86,4 @@ std::array<double, kCount> least_cost_point(Cost cost, const std::array<double, 
     return u;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

@@ -11,7 +11,7 @@
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::config {
 namespace {
 
 using text::TomlTable;
@@ -49,8 +49,8 @@ std::array<std::string, 3> read_axes(TomlTable& table, const std::string& joined
     return axes;
 }
 
-record::StationDescription read_station(TomlTable table) {
-    record::StationDescription station;
+station::Description read_station(TomlTable table) {
+    station::Description station;
     station.codes.network =
         code_or_refuse(table, "network", "XX", 1, 2, "1 to 2 characters A-Z 0-9");
     station.codes.station =
@@ -87,7 +87,7 @@ int coded_value(TomlTable& table, std::string_view key, int fallback,
 
 /// Reads `VID:PID:SERIAL` (two hexadecimal numbers of four digits; the serial may contain colons).
 /// @return std::nullopt if the text has another form.
-std::optional<UsbAddress> parse_usb_address(std::string_view text) {
+std::optional<source::UsbAddress> parse_usb_address(std::string_view text) {
     constexpr std::size_t kDigits = 4, kSerialAt = 2 * (kDigits + 1);
     if (text.size() <= kSerialAt || text[kDigits] != ':' || text[kSerialAt - 1] != ':')
         return std::nullopt;
@@ -95,14 +95,14 @@ std::optional<UsbAddress> parse_usb_address(std::string_view text) {
         return std::from_chars(digits, digits + kDigits, value, 16).ptr == digits + kDigits &&
                value >= 0;
     };
-    UsbAddress address{.serial = std::string(text.substr(kSerialAt))};
+    source::UsbAddress address{.serial = std::string(text.substr(kSerialAt))};
     if (!read(text.data(), address.vendor) || !read(text.data() + kDigits + 1, address.product))
         return std::nullopt;
     return address;
 }
 
-PortAddress read_address(TomlTable& table) {
-    PortAddress address;
+source::PortAddress read_address(TomlTable& table) {
+    source::PortAddress address;
     address.path = table.path_or_empty("port");
     const std::string usb = table.string_or("usb", "");
     if (!usb.empty()) address.usb = parse_usb_address(usb);
@@ -118,7 +118,7 @@ PortAddress read_address(TomlTable& table) {
     return address;
 }
 
-void read_filter(TomlTable& table, LinkOptions& sensor, record::StationDescription& station) {
+void read_filter(TomlTable& table, source::LinkOptions& sensor, station::Description& station) {
     const int rate_hz = sensor.settings.output_rate_hz;
     station.filter = table.string_or("filter", "k512_fc9");
     const wire::FilterSpec* const filter = sensor.profile->filter_named(station.filter);
@@ -133,8 +133,8 @@ void read_filter(TomlTable& table, LinkOptions& sensor, record::StationDescripti
     station.group_delay = sensor.profile->group_delay(*filter);
 }
 
-LinkOptions read_sensor(TomlTable table, record::StationDescription& station) {
-    LinkOptions sensor;
+source::LinkOptions read_sensor(TomlTable table, station::Description& station) {
+    source::LinkOptions sensor;
     sensor.address = read_address(table);
     std::vector<std::string> profiles;
     for (const auto& profile : wire::all_profiles()) profiles.emplace_back(profile.name);
@@ -172,11 +172,12 @@ bool is_same_port(const std::filesystem::path& one, const std::filesystem::path&
 }
 
 /// Reads [oven].  The table is also checked if it is not enabled.
-std::optional<OvenLinkOptions> read_oven(TomlTable table, const PortAddress& sensor) {
+std::optional<source::OvenLinkOptions> read_oven(TomlTable table,
+                                                 const source::PortAddress& sensor) {
     // Rates that libmodbus can set and a line of 500 m can carry; controllers support some of them.
     constexpr std::array kBauds{1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200};
     const bool is_enabled = table.boolean_or("enabled", false);
-    OvenLinkOptions oven;
+    source::OvenLinkOptions oven;
     oven.line.port = table.path_or_empty("port");
     oven.line.baud = static_cast<int>(table.integer_or("baud", 9600, 1200, 115200));
     if (std::ranges::count(kBauds, oven.line.baud) == 0)
@@ -248,7 +249,7 @@ SurveyConfig read_survey(TomlTable table) {
     if (const auto file =
             file_at("calibration", "a calibration file written by a351-correct, or \"\"");
         !file.empty())
-        survey.calibration = corrector::read_calibration(file);
+        survey.calibration = unit::read_calibration(file);
     survey.planned = from_seconds(60.0 * table.number_or("occupation_min", 10.0, 1.0, 240.0));
     table.require_all_read();
     return survey;
@@ -269,13 +270,13 @@ Config read_config(const std::filesystem::path& file) {
     config.survey = read_survey(root.table("survey"));
     const auto& unit = config.survey.calibration;
     config.verdict =
-        read_verdict(root.table("verdict"), unit ? thresholds_for(*unit) : VerdictOptions{});
+        read_verdict(root.table("verdict"), unit ? thresholds_for(*unit) : verdict::Options{});
     root.require_all_read();
     return config;
 }
 
-record::JournalHeader journal_header(const Config& config, const HostClock& clock) {
-    record::JournalHeader header;
+journal::Header journal_header(const Config& config, const source::HostClock& clock) {
+    journal::Header header;
     header.boot_id = clock.boot_id();
     header.program_version = A351_VERSION;
     header.codes = config.station.codes;
@@ -285,8 +286,8 @@ record::JournalHeader journal_header(const Config& config, const HostClock& cloc
     header.burst_ctrl = config.sensor.settings.layout.burst_ctrl();
     header.baud = config.sensor.baud;
     header.declared_rate_hz = config.storage.declared_rate_hz;
-    if (config.oven) header.oven_interval = archived_interval(*config.oven, clock);
+    if (config.oven) header.oven_interval = source::archived_interval(*config.oven, clock);
     return header;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::config

@@ -17,7 +17,7 @@
 #include "protocol/text/sites.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::config {
 
 struct StorageConfig {
     std::filesystem::path root;
@@ -34,19 +34,19 @@ struct PageConfig {
 
 struct SurveyConfig {
     std::vector<text::Site> sites;  ///< Empty if no file is given.
-    std::optional<corrector::Calibration> calibration;
+    std::optional<unit::Calibration> calibration;
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of an occupation.
 };
 
 struct Config {
-    std::filesystem::path file;           ///< Path of the file.
-    record::StationDescription station;   ///< Device and times are added for each session.
-    LinkOptions sensor;                   ///< Header and known stream are added at the start.
-    std::optional<OvenLinkOptions> oven;  ///< Absent if not enabled.
+    std::filesystem::path file;    ///< Path of the file.
+    station::Description station;  ///< Device and times are added for each session.
+    source::LinkOptions sensor;    ///< Header and known stream are added at the start.
+    std::optional<source::OvenLinkOptions> oven;  ///< Absent if not enabled.
     StorageConfig storage;
     PageConfig page;
     SurveyConfig survey;
-    VerdictOptions verdict;
+    verdict::Options verdict;
 };
 
 /// Reads the file; paths in it are relative to its directory.
@@ -54,6 +54,6 @@ struct Config {
 [[nodiscard]] Config read_config(const std::filesystem::path& file);
 
 /// Makes the header of the journal; session and device are filled in by the sensor's link.
-[[nodiscard]] record::JournalHeader journal_header(const Config& config, const HostClock& clock);
+[[nodiscard]] journal::Header journal_header(const Config& config, const source::HostClock& clock);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::config

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace a351::daemon {
+namespace a351::daemon::config {
 namespace {
 
 constexpr std::size_t kShortestToken = 16;  // 96 bits in base 64 cannot be guessed over a network.
@@ -54,4 +54,4 @@ bool is_token(std::string_view text) {
            std::ranges::all_of(text, [](char c) { return c > ' ' && c < '\x7f'; });
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::config

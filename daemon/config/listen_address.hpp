@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace a351::daemon {
+namespace a351::daemon::config {
 
 struct ListenAddress {
     std::string ip = "127.0.0.1";  ///< Numeric, without brackets.
@@ -23,4 +23,4 @@ struct ListenAddress {
 /// Returns true if `text` can be a token: 16 or more visible ASCII characters.
 [[nodiscard]] bool is_token(std::string_view text);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::config

@@ -4,14 +4,15 @@
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::config {
 
 /// Returns the defaults of [verdict] for a calibrated unit.  Its own response to temperature
 /// replaces the published one, and its warm-up decays to within_mgal at after_power_on_h.
-[[nodiscard]] VerdictOptions thresholds_for(const corrector::Calibration& unit);
+[[nodiscard]] verdict::Options thresholds_for(const unit::Calibration& unit);
 
 /// Reads [verdict]: each threshold under its own name; absent ones are taken from `defaults`.
 /// @throws InputError  a value out of its range, or an unknown key.
-[[nodiscard]] VerdictOptions read_verdict(text::TomlTable table, const VerdictOptions& defaults);
+[[nodiscard]] verdict::Options read_verdict(text::TomlTable table,
+                                            const verdict::Options& defaults);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::config

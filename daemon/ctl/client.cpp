@@ -8,8 +8,14 @@
 #include "daemon/page/asio.hpp"
 #include "protocol/core/input_error.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::ctl {
 namespace {
+
+namespace asio = page::asio;
+namespace beast = page::beast;
+namespace http = page::http;
+using page::error_code;
+using page::into;
 
 // Time limit of a request.  It exceeds the daemon's own, whose message then arrives first.
 constexpr std::chrono::seconds kPatience{15};
@@ -106,4 +112,4 @@ Reply Client::post(const std::string& path, const std::string& json,
     return ask(url_, std::move(request));
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::ctl

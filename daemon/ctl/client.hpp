@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace a351::daemon {
+namespace a351::daemon::ctl {
 
 /// Thrown if nothing answers at the address, or the program that answers is not a351d.
 class NoDaemon : public std::runtime_error {
@@ -42,4 +42,4 @@ private:
     Url url_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::ctl

@@ -17,7 +17,7 @@
 namespace {
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::ctl;
 using nlohmann::json;
 
 constexpr int kDone = 0;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace a351::daemon {
+namespace a351::daemon::ctl {
 namespace {
 
 using nlohmann::json;
@@ -269,4 +269,4 @@ int plugin_status(const json& status) {
     return level == "good" ? 0 : level == "warning" ? 1 : level == "fault" ? 2 : 3;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::ctl

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace a351::daemon {
+namespace a351::daemon::ctl {
 
 /// Returns the answer of GET /api/status as one screen of text, with "-" for unknown values.
 /// Control characters in names and notes are shown as "?", because the terminal would execute them.
@@ -20,4 +20,4 @@ namespace a351::daemon {
 /// Replaces control characters by "?".
 [[nodiscard]] std::string printable(std::string_view text);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::ctl

@@ -9,7 +9,7 @@
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/archive/channel_code.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 namespace {
 
 constexpr Nanoseconds kPast = std::chrono::hours(24);  ///< Time loaded at 50 Hz and below.
@@ -20,18 +20,18 @@ constexpr double kDegcPerCount = 0.001;  ///< Scale of the oven's channels.
 /// Goes through a channel sample by sample.
 class Cursor {
 public:
-    explicit Cursor(record::ChannelData data) : data_(std::move(data)) {}
+    explicit Cursor(archive::ChannelData data) : data_(std::move(data)) {}
 
     [[nodiscard]] bool is_at_end() const { return segment_ == data_.segments.size(); }
     [[nodiscard]] std::int32_t counts() const { return data_.segments[segment_].counts[sample_]; }
     [[nodiscard]] UtcTime time() const {
-        const record::Segment& segment = data_.segments[segment_];
+        const archive::Segment& segment = data_.segments[segment_];
         const auto& anchor = segment.anchors[anchor_];
         return anchor.time +
                from_seconds(static_cast<double>(sample_ - anchor.offset) / segment.rate_hz);
     }
     void next() {
-        const record::Segment& segment = data_.segments[segment_];
+        const archive::Segment& segment = data_.segments[segment_];
         if (++sample_ == segment.counts.size()) {
             ++segment_;
             sample_ = anchor_ = 0;
@@ -49,15 +49,16 @@ public:
     }
 
 private:
-    record::ChannelData data_;
+    archive::ChannelData data_;
     std::size_t segment_ = 0, sample_ = 0, anchor_ = 0;
 };
 
-void take_samples(const std::filesystem::path& archive, const record::StationCodes& codes,
-                  UtcTime from, UtcTime to, LiveRecord& record) {
+void take_samples(const std::filesystem::path& archive, const journal::StationCodes& codes,
+                  UtcTime from, UtcTime to, Record& record) {
     const auto cursor = [&](const std::string& instrument_and_axis) {
-        return Cursor(record::read_channel(
-            archive, codes, record::channel_code(record.rate_hz(), instrument_and_axis), from, to));
+        return Cursor(archive::read_channel(
+            archive, codes, archive::channel_code(record.rate_hz(), instrument_and_axis), from,
+            to));
     };
     std::array cursors{cursor("N" + codes.axes[0]), cursor("N" + codes.axes[1]),
                        cursor("N" + codes.axes[2]), cursor("K1")};
@@ -74,12 +75,12 @@ void take_samples(const std::filesystem::path& archive, const record::StationCod
     }
 }
 
-void take_oven(const std::filesystem::path& archive, const record::StationCodes& codes,
-               UtcTime from, UtcTime to, LiveRecord& record) {
+void take_oven(const std::filesystem::path& archive, const journal::StationCodes& codes,
+               UtcTime from, UtcTime to, Record& record) {
     const auto cursor = [&](std::string_view channel) {
-        return Cursor(record::read_channel(archive, codes, std::string(channel), from, to));
+        return Cursor(archive::read_channel(archive, codes, std::string(channel), from, to));
     };
-    Cursor value = cursor(record::kOvenTemperature), set_point = cursor(record::kOvenSetPoint);
+    Cursor value = cursor(archive::kOvenTemperature), set_point = cursor(archive::kOvenSetPoint);
     for (; !set_point.is_at_end(); set_point.next()) {
         OvenPoint point{set_point.time(), std::nullopt, DegC(kDegcPerCount * set_point.counts())};
         if (value.find(point.time, std::chrono::milliseconds(500)))
@@ -90,8 +91,8 @@ void take_oven(const std::filesystem::path& archive, const record::StationCodes&
 
 }  // namespace
 
-void take_archived_past(const std::filesystem::path& archive, const record::StationCodes& codes,
-                        UtcTime now, LiveRecord& record) {
+void take_archived_past(const std::filesystem::path& archive, const journal::StationCodes& codes,
+                        UtcTime now, Record& record) {
     const Nanoseconds piece =
         kPast * kRateOfPast_hz / std::max(record.rate_hz(), kRateOfPast_hz) / kPieces;
     for (int left = kPieces; left > 0; --left)
@@ -100,4 +101,4 @@ void take_archived_past(const std::filesystem::path& archive, const record::Stat
     take_oven(archive, codes, now - kPast, now, record);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

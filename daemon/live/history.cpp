@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 namespace {
 
 constexpr Nanoseconds kBin = std::chrono::seconds(2);
@@ -31,7 +31,7 @@ bool RecentSamples::follows(std::size_t i) const {
     return sample.index == before.index + 1 && std::abs(step_s - interval_s_) < 0.5 * interval_s_;
 }
 
-std::optional<LiveBlock> RecentSamples::block_from(std::uint64_t& cursor, std::size_t most) const {
+std::optional<Block> RecentSamples::block_from(std::uint64_t& cursor, std::size_t most) const {
     const std::uint64_t oldest = end_ - samples_.size();
     cursor = std::clamp(cursor, oldest, end_);
     if (cursor == end_ || most == 0) return std::nullopt;
@@ -40,7 +40,7 @@ std::optional<LiveBlock> RecentSamples::block_from(std::uint64_t& cursor, std::s
     std::size_t end = begin + 1;
     while (end < limit && follows(end)) ++end;
 
-    LiveBlock block;
+    Block block;
     block.first_index = samples_[begin].index;
     block.first_time = samples_[begin].time;
     block.interval_s = interval_s_;
@@ -83,9 +83,9 @@ void History::take(UtcTime time, const std::array<float, kLiveChannelCount>& val
     }
 }
 
-std::vector<LiveEnvelope> History::envelopes(LiveChannel channel, UtcTime from, UtcTime to,
-                                             std::size_t points) const {
-    std::vector<LiveEnvelope> found;
+std::vector<Envelope> History::envelopes(Channel channel, UtcTime from, UtcTime to,
+                                         std::size_t points) const {
+    std::vector<Envelope> found;
     if (bins_.empty() || to <= from || points == 0) return found;
     const std::int64_t first = std::max(bin_of(from), bins_.front().number);
     const std::int64_t last = std::min(bin_of(to - Nanoseconds(1)), bins_.back().number);
@@ -112,4 +112,4 @@ std::vector<LiveEnvelope> History::envelopes(LiveChannel channel, UtcTime from, 
     return found;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

@@ -11,20 +11,20 @@
 
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 
 inline constexpr std::size_t kLiveChannelCount = 4;
-enum class LiveChannel : std::size_t { x, y, z, temperature };
+enum class Channel : std::size_t { x, y, z, temperature };
 
 /// A sample with its index and time.
 struct PlacedSample {
     std::int64_t index = 0;  ///< Index in its session; arbitrary if loaded from the archive.
     UtcTime time;
-    std::array<std::int32_t, kLiveChannelCount> counts{};  ///< In the order of LiveChannel.
+    std::array<std::int32_t, kLiveChannelCount> counts{};  ///< In the order of Channel.
 };
 
 /// Samples that follow each other without a gap.
-struct LiveBlock {
+struct Block {
     std::int64_t first_index = 0;
     UtcTime first_time;
     double interval_s = 0.0;
@@ -45,8 +45,7 @@ public:
 
     /// Returns up to `most` samples from `cursor` on, without a gap, moving `cursor` past them.
     /// A cursor older than the stored samples begins with the oldest.  std::nullopt: nothing new.
-    [[nodiscard]] std::optional<LiveBlock> block_from(std::uint64_t& cursor,
-                                                      std::size_t most) const;
+    [[nodiscard]] std::optional<Block> block_from(std::uint64_t& cursor, std::size_t most) const;
 
     /// Returns the mean counts of the last `count` samples; std::nullopt if there are fewer, or a
     /// gap is among them.
@@ -64,7 +63,7 @@ private:
 };
 
 /// Smallest and largest value within [time, time + interval).
-struct LiveEnvelope {
+struct Envelope {
     UtcTime time;
     double interval_s = 0.0;
     float low = 0.0F, high = 0.0F;
@@ -80,8 +79,8 @@ public:
 
     /// Returns the envelopes that touch [from, to).  Neighbours are joined so that at most `points`
     /// (>= 1) remain.  There is none where nothing was recorded.
-    [[nodiscard]] std::vector<LiveEnvelope> envelopes(LiveChannel channel, UtcTime from, UtcTime to,
-                                                      std::size_t points) const;
+    [[nodiscard]] std::vector<Envelope> envelopes(Channel channel, UtcTime from, UtcTime to,
+                                                  std::size_t points) const;
 
 private:
     struct Bin {
@@ -91,4 +90,4 @@ private:
     std::deque<Bin> bins_;  ///< Ascending.
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

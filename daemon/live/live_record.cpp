@@ -10,7 +10,7 @@
 #include "protocol/oven/controller_values.hpp"
 #include "protocol/signal/median.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 namespace {
 
 constexpr int kRecentSeconds = 90;  // The page shows 60.
@@ -33,14 +33,13 @@ void keep_a_day(std::deque<Point>& points) {
 
 }  // namespace
 
-std::optional<OvenPoint> oven_point(const record::OvenChunk& poll, UtcTime time) {
+std::optional<OvenPoint> oven_point(const journal::OvenChunk& poll, UtcTime time) {
     const auto values = oven::controller_values(poll.registers, poll.decimals);
     if (!values) return std::nullopt;
     return OvenPoint{time, values->process_value, values->set_point};
 }
 
-LiveRecord::LiveRecord(const wire::DeviceProfile& profile, int rate_hz,
-                       const VerdictOptions& options)
+Record::Record(const wire::DeviceProfile& profile, int rate_hz, const verdict::Options& options)
     : profile_(profile),
       rate_hz_(rate_hz),
       options_(options),
@@ -49,7 +48,7 @@ LiveRecord::LiveRecord(const wire::DeviceProfile& profile, int rate_hz,
       thinning_(profile, rate_hz),
       judge_(options) {}
 
-void LiveRecord::take(const PlacedSample& sample) {
+void Record::take(const PlacedSample& sample) {
     const std::lock_guard lock(mutex_);
     if (history_end_) {
         if (sample.time < *history_end_ + from_seconds(0.5 / rate_hz_)) return;
@@ -67,31 +66,31 @@ void LiveRecord::take(const PlacedSample& sample) {
 
     fresh_.clear();
     thinning_.take(sample, fresh_);
-    for (const LiveSample& one : fresh_) {
+    for (const verdict::LiveSample& one : fresh_) {
         thinned_.push_back(one);
         keep_a_day(thinned_);
         judge_.take(one);
     }
 }
 
-void LiveRecord::end_of_history() {
+void Record::end_of_history() {
     const std::lock_guard lock(mutex_);
     history_end_ = last_;
 }
 
 /// Removes the series from `time` on, and judges the rest again.
-void LiveRecord::forget_from(UtcTime time) {
+void Record::forget_from(UtcTime time) {
     if (thinned_.empty() || thinned_.back().time < time) return;
     while (!thinned_.empty() && thinned_.back().time >= time) thinned_.pop_back();
     judge_again();
 }
 
-void LiveRecord::judge_again() {
-    judge_ = VerdictJudge(options_);
-    for (const LiveSample& sample : thinned_) judge_.take(sample);
+void Record::judge_again() {
+    judge_ = verdict::Judge(options_);
+    for (const verdict::LiveSample& sample : thinned_) judge_.take(sample);
 }
 
-void LiveRecord::take(const OvenPoint& point) {
+void Record::take(const OvenPoint& point) {
     const std::lock_guard lock(mutex_);
     while (!oven_.empty() && oven_.back().time > point.time) oven_.pop_back();
     if (!oven_.empty() && point.time - oven_.back().time < kOvenStep) return;
@@ -99,24 +98,23 @@ void LiveRecord::take(const OvenPoint& point) {
     keep_a_day(oven_);
 }
 
-std::uint64_t LiveRecord::end() const {
+std::uint64_t Record::end() const {
     const std::lock_guard lock(mutex_);
     return recent_.end();
 }
 
-std::optional<LiveBlock> LiveRecord::block_from(std::uint64_t& cursor, std::size_t most) const {
+std::optional<Block> Record::block_from(std::uint64_t& cursor, std::size_t most) const {
     const std::lock_guard lock(mutex_);
     return recent_.block_from(cursor, most);
 }
 
-std::vector<LiveEnvelope> LiveRecord::history(LiveChannel channel, UtcTime from, UtcTime to,
-                                              std::size_t points) const {
+std::vector<Envelope> Record::history(Channel channel, UtcTime from, UtcTime to,
+                                      std::size_t points) const {
     const std::lock_guard lock(mutex_);
     return history_.envelopes(channel, from, to, points);
 }
 
-std::vector<OvenPoint> LiveRecord::oven_history(UtcTime from, UtcTime to,
-                                                std::size_t points) const {
+std::vector<OvenPoint> Record::oven_history(UtcTime from, UtcTime to, std::size_t points) const {
     const std::lock_guard lock(mutex_);
     std::vector<OvenPoint> found;
     for (const OvenPoint& point : oven_)
@@ -127,36 +125,36 @@ std::vector<OvenPoint> LiveRecord::oven_history(UtcTime from, UtcTime to,
     return found;
 }
 
-void LiveRecord::judge_by(const VerdictOptions& options) {
+void Record::judge_by(const verdict::Options& options) {
     const std::lock_guard lock(mutex_);
     options_ = options;
     judge_again();
 }
 
-Verdict LiveRecord::verdict(UtcTime now) const {
+verdict::Verdict Record::verdict(UtcTime now) const {
     const std::lock_guard lock(mutex_);
-    VerdictJudge asked = judge_;  // A copy, because asking must not change the stored state.
+    verdict::Judge asked = judge_;  // A copy, because asking must not change the stored state.
     return asked.at(now);
 }
 
-RunningReading LiveRecord::reading(UtcTime from, UtcTime to, MilliGal target) const {
+verdict::RunningReading Record::reading(UtcTime from, UtcTime to, MilliGal target) const {
     const std::lock_guard lock(mutex_);
-    RunningValue value(options_, from);
-    for (const LiveSample& sample : thinned_) {
+    verdict::RunningValue value(options_, from);
+    for (const verdict::LiveSample& sample : thinned_) {
         if (sample.time < from) continue;
-        if (seconds_between(sample.time, to) < kReachSeconds) break;
+        if (seconds_between(sample.time, to) < verdict::kReachSeconds) break;
         value.take(sample);
     }
     return value.reading(target, judge_.verdict().state);
 }
 
-std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
+std::optional<Level> Record::level_against(UtcTime from, UtcTime to) const {
     const std::lock_guard lock(mutex_);
     std::array<std::vector<double>, 2> stood_mgal;
-    for (const LiveSample& sample : thinned_) {
+    for (const verdict::LiveSample& sample : thinned_) {
         // Data from before the set-up must not reach in through the filters.
-        if (seconds_between(from, sample.time) < kReachSeconds) continue;
-        if (seconds_between(sample.time, to) < kReachSeconds) break;
+        if (seconds_between(from, sample.time) < verdict::kReachSeconds) continue;
+        if (seconds_between(sample.time, to) < verdict::kReachSeconds) break;
         const double x = sample.axes[0].value(), y = sample.axes[1].value();
         if (!std::isfinite(x + y)) continue;
         stood_mgal[0].push_back(x);
@@ -167,7 +165,7 @@ std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
     Level level;
     const double g_per_count = profile_.acceleration(1).value();
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        const MilliGal reference(corrector::median(std::move(stood_mgal[axis])));
+        const MilliGal reference(signal::median(std::move(stood_mgal[axis])));
         const double tilt = elevation_arcmin(StandardGravity(g_per_count * (*now)[axis])) -
                             elevation_arcmin(to_standard_gravity(reference));
         level.tilt_arcmin[axis] = tilt;
@@ -180,4 +178,4 @@ std::optional<Level> LiveRecord::level_against(UtcTime from, UtcTime to) const {
     return level;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

@@ -20,7 +20,7 @@
 #include "protocol/journal/journal.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 
 /// One answer of the oven's controller.
 struct OvenPoint {
@@ -30,7 +30,7 @@ struct OvenPoint {
 };
 
 /// Converts a poll of the oven; std::nullopt unless it was answered.
-[[nodiscard]] std::optional<OvenPoint> oven_point(const record::OvenChunk& poll, UtcTime time);
+[[nodiscard]] std::optional<OvenPoint> oven_point(const journal::OvenChunk& poll, UtcTime time);
 
 /// The tilt of the box relative to the day's first set-up.  If the horizontal axes read the same at
 /// each set-up, level or not, the effect of their biases on the norm is the same everywhere.
@@ -52,10 +52,10 @@ inline constexpr double kMostTiltArcmin = 1.2;
 
 /// Keeps 24 h of envelopes and of the 2 s series, and at least 90 s at full rate; 7 MB at 50 Hz.
 /// Thread-safe.
-class LiveRecord {
+class Record {
 public:
     /// `profile` must outlive this.
-    LiveRecord(const wire::DeviceProfile& profile, int rate_hz, const VerdictOptions& options);
+    Record(const wire::DeviceProfile& profile, int rate_hz, const verdict::Options& options);
 
     /// Takes a sample; samples come in the order of their times.  A sample earlier than the last
     /// one means that the clock was set back; later data are then removed.
@@ -69,24 +69,23 @@ public:
     /// @name See RecentSamples and History.
     /// @{
     [[nodiscard]] std::uint64_t end() const;
-    [[nodiscard]] std::optional<LiveBlock> block_from(std::uint64_t& cursor,
-                                                      std::size_t most) const;
-    [[nodiscard]] std::vector<LiveEnvelope> history(LiveChannel channel, UtcTime from, UtcTime to,
-                                                    std::size_t points) const;
+    [[nodiscard]] std::optional<Block> block_from(std::uint64_t& cursor, std::size_t most) const;
+    [[nodiscard]] std::vector<Envelope> history(Channel channel, UtcTime from, UtcTime to,
+                                                std::size_t points) const;
     /// @}
     /// Returns every n-th oven value in [from, to), so that at most `points` (>= 1) remain.
     [[nodiscard]] std::vector<OvenPoint> oven_history(UtcTime from, UtcTime to,
                                                       std::size_t points) const;
 
     /// Uses these thresholds from now on, and judges the stored series again.
-    void judge_by(const VerdictOptions& options);
+    void judge_by(const verdict::Options& options);
 
     /// Returns the verdict at `now`, also if there are no samples.
-    [[nodiscard]] Verdict verdict(UtcTime now) const;
+    [[nodiscard]] verdict::Verdict verdict(UtcTime now) const;
 
     /// Returns the reading of the set-up from `from` to `to`, as far as it is in memory.  Data
     /// outside do not affect it.
-    [[nodiscard]] RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;
+    [[nodiscard]] verdict::RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;
 
     /// Returns the tilt of the last 2 s relative to the median of a set-up; std::nullopt if one of
     /// the two is not known.  The set-up includes the lifting of the box at its end.
@@ -101,14 +100,14 @@ private:
 
     const wire::DeviceProfile& profile_;
     int rate_hz_;
-    VerdictOptions options_;
+    verdict::Options options_;
     mutable std::mutex mutex_;
     RecentSamples recent_;
     History history_;
-    LiveThinning thinning_;
-    VerdictJudge judge_;
-    std::vector<LiveSample> fresh_;  ///< Kept for reuse.
-    std::deque<LiveSample> thinned_;
+    Thinning thinning_;
+    verdict::Judge judge_;
+    std::vector<verdict::LiveSample> fresh_;  ///< Kept for reuse.
+    std::deque<verdict::LiveSample> thinned_;
     std::deque<OvenPoint> oven_;
     std::optional<UtcTime> last_;
     std::optional<UtcTime> history_end_;  ///< Set while a replay may deliver old samples again.
@@ -118,7 +117,7 @@ private:
 /// samples), so that history, verdict and running occupation are the same after a restart.  Damaged
 /// data are skipped.
 /// @throws std::system_error  a file cannot be read; data before it were loaded.
-void take_archived_past(const std::filesystem::path& archive, const record::StationCodes& codes,
-                        UtcTime now, LiveRecord& record);
+void take_archived_past(const std::filesystem::path& archive, const journal::StationCodes& codes,
+                        UtcTime now, Record& record);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -13,25 +13,25 @@ constexpr int kMiddleRateHz = 5;
 
 }  // namespace
 
-LiveThinning::LiveThinning(const wire::DeviceProfile& profile, int rate_hz)
+Thinning::Thinning(const wire::DeviceProfile& profile, int rate_hz)
     : profile_(profile),
       interval_s_(1.0 / rate_hz),
       block_size_(static_cast<std::size_t>(2 * rate_hz)),
-      to_5_hz_(corrector::design_decimation(rate_hz / kMiddleRateHz)),
-      by_ten_(corrector::design_decimation(10)) {
+      to_5_hz_(signal::design_decimation(rate_hz / kMiddleRateHz)),
+      by_ten_(signal::design_decimation(10)) {
     begin_run();
 }
 
-void LiveThinning::begin_run() {
-    first_.assign(kLiveChannelCount, corrector::Decimator(to_5_hz_));
-    second_.assign(kLiveChannelCount, corrector::Decimator(by_ten_));
+void Thinning::begin_run() {
+    first_.assign(kLiveChannelCount, signal::Decimator(to_5_hz_));
+    second_.assign(kLiveChannelCount, signal::Decimator(by_ten_));
     block_.fill({});
     thinned_.fill({});
     begins_.clear();
     last_.reset();
 }
 
-void LiveThinning::take(const PlacedSample& sample, std::vector<LiveSample>& output) {
+void Thinning::take(const PlacedSample& sample, std::vector<verdict::LiveSample>& output) {
     if (last_) {
         const auto steps = std::llround(seconds_between(*last_, sample.time) / interval_s_);
         if (steps < 1 || static_cast<double>(steps) * interval_s_ > kLongestFilledSeconds) {
@@ -48,7 +48,7 @@ void LiveThinning::take(const PlacedSample& sample, std::vector<LiveSample>& out
     add(sample.time, values, output);
 }
 
-void LiveThinning::add(UtcTime time, const Values& values, std::vector<LiveSample>& output) {
+void Thinning::add(UtcTime time, const Values& values, std::vector<verdict::LiveSample>& output) {
     if (block_[0].empty()) begins_.push_back(time);
     for (std::size_t channel = 0; channel < kLiveChannelCount; ++channel)
         block_[channel].push_back(values[channel]);
@@ -56,7 +56,7 @@ void LiveThinning::add(UtcTime time, const Values& values, std::vector<LiveSampl
     if (block_[0].size() == block_size_) push_block(output);
 }
 
-void LiveThinning::push_block(std::vector<LiveSample>& output) {
+void Thinning::push_block(std::vector<verdict::LiveSample>& output) {
     const MilliGal shake = shake_of_block();
     for (std::size_t channel = 0; channel < kLiveChannelCount; ++channel) {
         at_5_hz_[channel].clear();
@@ -65,7 +65,7 @@ void LiveThinning::push_block(std::vector<LiveSample>& output) {
         block_[channel].clear();
     }
     for (std::size_t k = 0; k < thinned_[0].size(); ++k) {
-        LiveSample sample;
+        verdict::LiveSample sample;
         sample.time = begins_.front();
         begins_.pop_front();
         sample.seen_at = *last_;
@@ -79,7 +79,7 @@ void LiveThinning::push_block(std::vector<LiveSample>& output) {
 }
 
 /// Returns half the largest peak-to-peak value of the axes, without missing samples.
-MilliGal LiveThinning::shake_of_block() const {
+MilliGal Thinning::shake_of_block() const {
     double shake_mgal = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -93,4 +93,4 @@ MilliGal LiveThinning::shake_of_block() const {
     return MilliGal(shake_mgal);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

@@ -11,35 +11,35 @@
 #include "protocol/signal/decimator.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 
 /// Samples -> the live series of one value in 2 s, with the decimation of a351-correct: to 5 Hz,
 /// then by ten.  Values whose filters touch missing samples are NaN.  After a gap of more than
 /// a minute, or if time is set back, the series begins again.
-class LiveThinning {
+class Thinning {
 public:
     /// @param rate_hz  a multiple of 10, >= 10: all output rates of the profiles are.
-    LiveThinning(const wire::DeviceProfile& profile, int rate_hz);
+    Thinning(const wire::DeviceProfile& profile, int rate_hz);
 
     /// Takes a sample, and appends to `output` the values that are complete with it.
-    void take(const PlacedSample& sample, std::vector<LiveSample>& output);
+    void take(const PlacedSample& sample, std::vector<verdict::LiveSample>& output);
 
 private:
     using Values = std::array<double, kLiveChannelCount>;
 
     void begin_run();
-    void add(UtcTime time, const Values& values, std::vector<LiveSample>& output);
-    void push_block(std::vector<LiveSample>& output);
+    void add(UtcTime time, const Values& values, std::vector<verdict::LiveSample>& output);
+    void push_block(std::vector<verdict::LiveSample>& output);
     [[nodiscard]] MilliGal shake_of_block() const;
 
     const wire::DeviceProfile& profile_;
     double interval_s_;
     std::size_t block_size_;  ///< Samples in 2 s.
-    corrector::DecimationFilter to_5_hz_, by_ten_;
-    std::vector<corrector::Decimator> first_, second_;  ///< Filters by channel.
+    signal::DecimationFilter to_5_hz_, by_ten_;
+    std::vector<signal::Decimator> first_, second_;  ///< Filters by channel.
     std::array<std::vector<double>, kLiveChannelCount> block_, at_5_hz_, thinned_;
     std::deque<UtcTime> begins_;  ///< Begin of each block whose value is not complete.
     std::optional<UtcTime> last_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

@@ -10,7 +10,7 @@
 #include "daemon/page/status_json.hpp"
 #include "protocol/core/input_error.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 using nlohmann::json;
@@ -32,7 +32,7 @@ constexpr std::string_view kChangeable[] = {"/api/occupation/start",
 /// counts as not given.
 struct Order {
     std::string site;
-    Remark remark;  ///< Keys operator and note.
+    survey::Remark remark;  ///< Keys operator and note.
     std::optional<UtcTime> at;
 };
 
@@ -74,10 +74,10 @@ Response ok(const json& body) {
     return {.body = body.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"};
 }
 
-Response answer_of(const Outcome& outcome,
-                   const std::optional<record::RunningOccupation>& running) {
-    if (outcome.kind == Outcome::Kind::refused) return refusal(409, outcome.message);
-    if (outcome.kind == Outcome::Kind::failed) return refusal(500, outcome.message);
+Response answer_of(const survey::Outcome& outcome,
+                   const std::optional<events::RunningOccupation>& running) {
+    if (outcome.kind == survey::Outcome::Kind::refused) return refusal(409, outcome.message);
+    if (outcome.kind == survey::Outcome::Kind::failed) return refusal(500, outcome.message);
     return ok({{"message", outcome.message},
                {"occupation", running ? to_json(*running, running->start) : json()}});
 }
@@ -112,11 +112,11 @@ std::optional<json> Api::status() noexcept {
 
 std::optional<std::string> Api::urgent_status() noexcept {
     try {
-        const Status status = sources_.status();
+        const status::Status status = sources_.status();
         const bool is_fresh =
             status.last_sample && status.now - *status.last_sample <= sources_.stale_after;
         auto text = fmt::format("{}{}{}", to_text(status.level), status.link_state,
-                                is_fresh ? to_text(status.verdict.state) : "stale");
+                                is_fresh ? verdict::to_text(status.verdict.state) : "stale");
         if (const auto& running = sources_.occupations.running()) {
             text += running->site + to_rfc3339(running->start) +
                     to_rfc3339(running->set_ups.back()) + running->operator_name + running->note;
@@ -129,8 +129,8 @@ std::optional<std::string> Api::urgent_status() noexcept {
 }
 
 json Api::status_now() {
-    const Status status = sources_.status();
-    const auto field = field_status(sources_.occupations, sources_.live, status.now);
+    const status::Status status = sources_.status();
+    const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
     return to_json(status, sources_.occupations, field, sources_.live, sources_.stale_after);
 }
 
@@ -184,7 +184,7 @@ Response Api::sites_around() const {
         longitude = site->longitude;
     }
     json sites = json::array();
-    for (const auto& one : nearest_first(sources_.occupations.sites(), latitude, longitude))
+    for (const auto& one : survey::nearest_first(sources_.occupations.sites(), latitude, longitude))
         sites.push_back(to_json(one));
     return ok({{"sites", sites}});
 }
@@ -194,7 +194,7 @@ Response Api::occupations_so_far() const {
     for (const auto& one : sources_.occupations.list()) {
         list.push_back(to_json(one));
         list.back()["reading"] =
-            to_json(reading_of(one.set_ups, sources_.live, sources_.occupations.target()));
+            to_json(survey::reading_of(one.set_ups, sources_.live, sources_.occupations.target()));
     }
     return ok({{"occupations", list}});
 }
@@ -213,13 +213,13 @@ Response Api::events_since(std::string_view query) {
     const auto first = since ? 0 : events.size() - count;
     json list = json::array();
     for (std::size_t i = first; i < first + count; ++i)
-        list.push_back(json::parse(record::to_json(events[i])));
+        list.push_back(json::parse(events::to_json(events[i])));
     return ok({{"events", list}, {"complete", count == events.size()}});
 }
 
 Response Api::change(std::string_view path, const std::string& body) {
     auto& occupations = sources_.occupations;
-    Outcome outcome;
+    survey::Outcome outcome;
     if (path == "/api/occupation/start") {
         const auto order = parse_order(body, {"site", "operator", "note", "at"});
         if (order.site.empty()) throw InputError("body: key site is missing");
@@ -248,4 +248,4 @@ Response Api::change(std::string_view path, const std::string& body) {
     return answer_of(outcome, occupations.running());
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

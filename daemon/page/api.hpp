@@ -30,15 +30,15 @@
 #include "protocol/events/event_log.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 /// The sources of the answers.
 struct ApiSources {
-    std::function<Status()> status;
-    Occupations& occupations;
-    LiveRecord& live;
+    std::function<status::Status()> status;
+    survey::Occupations& occupations;
+    live::Record& live;
     Degrees latitude = {}, longitude = {};  ///< Position of the base, where a day begins.
-    std::function<std::vector<record::Event>()> events;  ///< The whole event log, in file order.
+    std::function<std::vector<events::Event>()> events;  ///< The whole event log, in file order.
     std::filesystem::path assets = {};  ///< The page's files; empty: the compiled ones.
 
     /// Instrument time without a sample after which the verdict is "no data".  On scaled time it
@@ -80,4 +80,4 @@ private:
     PageUse use_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

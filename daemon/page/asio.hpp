@@ -18,7 +18,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
@@ -29,4 +29,4 @@ using boost::system::error_code;
 /// Stores an error instead of throwing it: `co_await async_...(into(error))`.
 inline auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable, error); }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

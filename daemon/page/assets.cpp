@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 constexpr std::string_view kIndex = "index.html";
@@ -62,4 +62,4 @@ Response Assets::answer(std::string_view path) const {
     return response;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

@@ -7,7 +7,7 @@
 
 #include "daemon/page/message.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 /// A compiled file of the page; CMakeLists.txt has the list.
 struct Asset {
@@ -32,4 +32,4 @@ private:
     std::string token_;  ///< Token, escaped for HTML.
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

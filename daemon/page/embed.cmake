@@ -1,5 +1,5 @@
 # Writes OUTPUT, a C++ source that defines compiled_assets() with the files of ASSETS (separated by |).
-set(source "#include \"daemon/page/assets.hpp\"\n\nnamespace a351::daemon {\nnamespace {\n")
+set(source "#include \"daemon/page/assets.hpp\"\n\nnamespace a351::daemon::page {\nnamespace {\n")
 set(table "")
 set(number 0)
 string(REPLACE "|" ";" ASSETS "${ASSETS}")
@@ -25,6 +25,6 @@ ${table}    };
     return kAssets;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page
 ")
 file(WRITE ${OUTPUT} "${source}")

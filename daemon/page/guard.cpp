@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 std::string lower(std::string_view text) {
@@ -107,4 +107,4 @@ const std::vector<std::pair<std::string, std::string>>& security_headers() {
     return kHeaders;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

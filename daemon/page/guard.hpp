@@ -13,7 +13,7 @@
 
 #include "daemon/page/message.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 class Guard {
 public:
@@ -42,4 +42,4 @@ private:
 /// Returns the headers of every response.
 [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& security_headers();
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

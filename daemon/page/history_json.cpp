@@ -14,13 +14,14 @@
 #include "daemon/page/message.hpp"
 #include "protocol/core/input_error.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 constexpr std::size_t kMostPoints = 4000;
 constexpr std::size_t kUsualPoints = 1000;
 constexpr Nanoseconds kUsualSpan = std::chrono::hours(24);
-constexpr std::array<std::string_view, kLiveChannelCount> kNames{"x", "y", "z", "temperature"};
+constexpr std::array<std::string_view, live::kLiveChannelCount> kNames{"x", "y", "z",
+                                                                       "temperature"};
 
 using Keys = std::map<std::string, std::string>;
 
@@ -66,7 +67,7 @@ std::string body(std::string_view channel, std::string_view unit, double interva
     return text + ",\"points\":" + points + "]}\n";
 }
 
-std::string oven_body(const std::vector<OvenPoint>& found) {
+std::string oven_body(const std::vector<live::OvenPoint>& found) {
     std::string points = "[";
     double interval_s = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -84,7 +85,7 @@ std::string oven_body(const std::vector<OvenPoint>& found) {
 
 }  // namespace
 
-std::string history_json(const LiveRecord& live, std::string_view query, UtcTime now) {
+std::string history_json(const live::Record& live, std::string_view query, UtcTime now) {
     const auto keys = parse_query(query, {"channel", "from", "to", "points"});
     const UtcTime to = instant(keys, "to").value_or(now);
     const UtcTime from = instant(keys, "from").value_or(to - kUsualSpan);
@@ -99,12 +100,12 @@ std::string history_json(const LiveRecord& live, std::string_view query, UtcTime
         throw InputError(fmt::format("query: key channel = {}; allowed: x, y, z, temperature, oven",
                                      wanted->second));
     }
-    const auto channel = static_cast<LiveChannel>(name - kNames.begin());
+    const auto channel = static_cast<live::Channel>(name - kNames.begin());
     const auto found = live.history(channel, from, to, most);
     std::string points = "[";
     for (const auto& one : found) append_point(points, one.time, {one.low, one.high});
-    return body(*name, channel == LiveChannel::temperature ? "degC" : "mg",
+    return body(*name, channel == live::Channel::temperature ? "degC" : "mg",
                 found.empty() ? 0.0 : found.front().interval_s, points);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

@@ -5,7 +5,7 @@
 
 #include "daemon/live/live_record.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 /// Returns the body of GET /api/history?channel=x|y|z|temperature|oven&from=UTC&to=UTC&points=N:
 ///
@@ -16,6 +16,7 @@ namespace a351::daemon {
 /// null if not known, and interval_s is the smallest distance of two points (0 for fewer than two).
 /// @param query  points 1 ... 4000, 1000 by default; from and to by default the last 24 h.
 /// @throws InputError  with key, value and the allowed values.
-[[nodiscard]] std::string history_json(const LiveRecord& live, std::string_view query, UtcTime now);
+[[nodiscard]] std::string history_json(const live::Record& live, std::string_view query,
+                                       UtcTime now);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

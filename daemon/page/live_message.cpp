@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstring>
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 constexpr std::uint8_t kVersion = 1;
@@ -22,7 +22,7 @@ void append(std::string& bytes, Value value) {
 
 }  // namespace
 
-std::string encoded(const LiveBlock& block) {
+std::string encoded(const live::Block& block) {
     const std::size_t count = block.counts.front().size();
     std::string bytes;
     bytes.reserve(kLiveHeaderSize + block.counts.size() * count * sizeof(std::int32_t));
@@ -64,4 +64,4 @@ std::shared_ptr<const LiveMessage> LiveMessages::next(std::uint64_t& position,
     return messages_[static_cast<std::size_t>(position++ - oldest)];
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

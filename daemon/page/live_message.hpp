@@ -8,7 +8,7 @@
 
 #include "daemon/live/history.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 /// A message of the live stream, encoded once for all viewers.
 struct LiveMessage {
@@ -27,12 +27,12 @@ struct LiveMessage {
 ///           16   f64  Unix time of the first sample, ms
 ///           24   f64  sample interval, ms
 ///           32   i32  `count` values in counts for each channel in the mask, lowest bit first
-[[nodiscard]] std::string encoded(const LiveBlock& block);
+[[nodiscard]] std::string encoded(const live::Block& block);
 
 inline constexpr std::size_t kLiveHeaderSize = 32;
 inline constexpr std::size_t kLargestLiveMessage = std::size_t{64} * 1024;
 inline constexpr std::size_t kMostSamplesPerMessage =
-    (kLargestLiveMessage - kLiveHeaderSize) / (kLiveChannelCount * sizeof(std::int32_t));
+    (kLargestLiveMessage - kLiveHeaderSize) / (live::kLiveChannelCount * sizeof(std::int32_t));
 
 /// The newest messages, for viewers that each continue reading at their own position.  Memory is
 /// limited: a viewer that reads too slowly misses messages and delays nobody.
@@ -58,4 +58,4 @@ private:
 inline constexpr std::size_t kMostMessagesKept = 64;
 inline constexpr std::size_t kMostBytesKept = std::size_t{1024} * 1024;
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

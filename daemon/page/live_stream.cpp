@@ -6,7 +6,7 @@
 
 #include "daemon/page/guard.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 namespace websocket = boost::beast::websocket;
@@ -59,7 +59,7 @@ public:
     bool is_over_ = false;
 };
 
-LiveStream::LiveStream(asio::io_context& io, const LiveRecord& live, Api& api,
+LiveStream::LiveStream(asio::io_context& io, const live::Record& live, Api& api,
                        std::chrono::milliseconds patience)
     : live_(live),
       api_(api),
@@ -154,4 +154,4 @@ asio::awaitable<void> LiveStream::write_all(std::shared_ptr<Viewer> viewer) {
     if (!viewer->is_over_) Viewer::give(viewer, kLinger);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

@@ -15,7 +15,7 @@
 #include "daemon/page/asio.hpp"
 #include "daemon/page/live_message.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
@@ -26,7 +26,7 @@ class LiveStream {
 public:
     /// @param patience  real time after which a viewer that accepts or answers nothing is
     ///                  disconnected.
-    LiveStream(boost::asio::io_context& io, const LiveRecord& live, Api& api,
+    LiveStream(boost::asio::io_context& io, const live::Record& live, Api& api,
                std::chrono::milliseconds patience);
 
     /// Makes messages while there are viewers; does not end.
@@ -42,7 +42,7 @@ private:
     void take_samples();
     void take_status();
 
-    const LiveRecord& live_;
+    const live::Record& live_;
     Api& api_;
     const std::chrono::milliseconds patience_;
     LiveMessages messages_;
@@ -52,4 +52,4 @@ private:
     std::chrono::steady_clock::time_point next_status_{};
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

@@ -10,7 +10,7 @@
 
 #include "protocol/core/input_error.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 std::optional<std::string> percent_decoded(std::string_view text) {
@@ -79,4 +79,4 @@ std::map<std::string, std::string> parse_query(std::string_view query,
     return values;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

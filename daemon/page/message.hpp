@@ -8,7 +8,7 @@
 
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 /// A complete HTTP request, independent of the network library.
 struct Request {
@@ -46,4 +46,4 @@ void require_allowed(std::string_view part, const std::string& key,
 [[nodiscard]] std::map<std::string, std::string> parse_query(
     std::string_view query, const std::vector<std::string>& allowed);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

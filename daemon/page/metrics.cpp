@@ -7,18 +7,18 @@
 
 #include "daemon/page/status_json.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 using nlohmann::json;
 
 using Labels = std::initializer_list<std::pair<std::string_view, std::string>>;
 
-constexpr VerdictState kStates[] = {VerdictState::no_data, VerdictState::warming_up,
-                                    VerdictState::settling, VerdictState::stable,
-                                    VerdictState::disturbed};
-constexpr Status::Level kLevels[] = {Status::Level::good, Status::Level::warning,
-                                     Status::Level::fault};
+constexpr verdict::State kStates[] = {verdict::State::no_data, verdict::State::warming_up,
+                                      verdict::State::settling, verdict::State::stable,
+                                      verdict::State::disturbed};
+constexpr status::Status::Level kLevels[] = {
+    status::Status::Level::good, status::Status::Level::warning, status::Status::Level::fault};
 /// Name of the only counter that can also decrease.
 constexpr std::string_view kWaiting = "archive_records_waiting";
 
@@ -77,7 +77,7 @@ void tell_state(Text& text, const json& status) {
     }
     text.metric("a351_verdict", "gauge", "1 for the present verdict.");
     for (const auto state : kStates) {
-        const std::string name(to_text(state));
+        const std::string name(verdict::to_text(state));
         text.sample(at(status, "/verdict/state") == name ? 1 : 0, {{"state", name}});
     }
     text.gauge("a351_occupation_running", "1 while an occupation runs.",
@@ -143,4 +143,4 @@ std::string metrics_of(const json& status, const PageUse& use) {
     return std::move(text.text_);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

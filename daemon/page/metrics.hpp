@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 /// Counters of the page's thread.
 struct PageUse {
@@ -37,4 +37,4 @@ inline constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=
 /// @param status  the body of GET /api/status; values that are null are left out.
 [[nodiscard]] std::string metrics_of(const nlohmann::json& status, const PageUse& use);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

@@ -9,7 +9,7 @@
 #include "daemon/page/guard.hpp"
 #include "daemon/page/live_stream.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
@@ -63,7 +63,7 @@ public:
         bind();
         const std::string token = options.token.empty() ? random_token() : options.token;
         guard_.emplace(port_, options.hosts, token);
-        const LiveRecord& live = sources.live;
+        const live::Record& live = sources.live;
         api_.emplace(std::move(sources), listen_.is_loopback ? token : std::string());
         live_.emplace(io_, live, *api_, options.stream_patience);
     }
@@ -92,7 +92,7 @@ private:
     void bind() {
         const auto ip = asio::ip::make_address(listen_.ip);
         error_code error = listen_on({ip, listen_.port});
-        if (error) throw std::system_error(error, "[page] listen = " + to_string(listen_));
+        if (error) throw std::system_error(error, "[page] listen = " + config::to_string(listen_));
         port_ = acceptors_.front().local_endpoint().port();
 
         asio::ip::address other;
@@ -119,9 +119,10 @@ private:
         if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
         if (error) return error;
         const auto bound = acceptor.local_endpoint();
-        addresses_.push_back(to_string(ListenAddress{.ip = bound.address().to_string(),
-                                                     .port = bound.port(),
-                                                     .is_v6 = bound.address().is_v6()}));
+        addresses_.push_back(
+            config::to_string(config::ListenAddress{.ip = bound.address().to_string(),
+                                                    .port = bound.port(),
+                                                    .is_v6 = bound.address().is_v6()}));
         acceptors_.push_back(std::move(acceptor));
         return {};
     }
@@ -217,7 +218,7 @@ private:
     }
 
     const ServerOptions options_;
-    const ListenAddress listen_;
+    const config::ListenAddress listen_;
     std::optional<Guard> guard_;
     // Coroutines end with io_ and then free their seats in these members.
     std::optional<Api> api_;
@@ -239,4 +240,4 @@ std::uint16_t Server::port() const noexcept { return impl_->port_; }
 const std::vector<std::string>& Server::addresses() const noexcept { return impl_->addresses_; }
 bool Server::is_exposed() const noexcept { return impl_->is_exposed(); }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

@@ -4,7 +4,7 @@
 ///
 ///     Server server({.listen = page.listen, .hosts = page.hosts, .token = page.token},
 ///                   {.status = [&] { return ...; }, .occupations = occupations, .live = live,
-///                    .events = [&] { return record::read_events(root / "events").events; }});
+///                    .events = [&] { return events::read_events(root / "events").events; }});
 ///     for (const auto& address : server.addresses()) log->info("page at http://{}", address);
 ///     server.start();
 ///     ...
@@ -22,10 +22,10 @@
 #include "daemon/config/listen_address.hpp"
 #include "daemon/page/api.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 struct ServerOptions {
-    ListenAddress listen = {};
+    config::ListenAddress listen = {};
     std::vector<std::string> hosts = {};  ///< Further accepted names (name or name:port).
     std::string token = {};               ///< Token; empty: a random one per start.
     std::chrono::milliseconds request_limit{10'000};  ///< Real time to complete a request.
@@ -58,4 +58,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

@@ -5,12 +5,12 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 namespace {
 
 using nlohmann::json;
 
-const char* name(timing::TimingState state) {
+const char* name(timing::State state) {
     // In the order of the enumerators.
     constexpr std::array kTexts{"unlocked", "coarse", "locked", "holdover"};
     return kTexts.at(static_cast<std::size_t>(state));
@@ -26,10 +26,10 @@ json or_null(const std::optional<Quantity<Unit>>& quantity) {
     return quantity ? json(quantity->value()) : json();
 }
 
-json verdict_of(const Status& status, Nanoseconds stale_after) {
+json verdict_of(const status::Status& status, Nanoseconds stale_after) {
     const auto no_data = [&](const std::string& reason, std::optional<UtcTime> since) {
-        json verdict =
-            to_json(Verdict{VerdictState::no_data, since.value_or(UtcTime{}), {}}, status.now);
+        json verdict = to_json(
+            verdict::Verdict{verdict::State::no_data, since.value_or(UtcTime{}), {}}, status.now);
         verdict["reasons"].push_back(reason);
         return verdict;
     };
@@ -40,7 +40,8 @@ json verdict_of(const Status& status, Nanoseconds stale_after) {
         status.last_sample);
 }
 
-json occupation_of(const Occupations& occupations, const FieldStatus& field, UtcTime now) {
+json occupation_of(const survey::Occupations& occupations, const survey::FieldStatus& field,
+                   UtcTime now) {
     const auto& running = occupations.running();
     if (!running) return nullptr;
     json occupation = to_json(*running, now);
@@ -52,7 +53,7 @@ json occupation_of(const Occupations& occupations, const FieldStatus& field, Utc
     return occupation;
 }
 
-json rate_of(const Status& status) {
+json rate_of(const status::Status& status) {
     using Hours = std::chrono::duration<double, std::ratio<3600>>;
     const auto& measured = status.measured_rate;
     return {{"declared_hz", or_null(status.declared_rate_hz)},
@@ -62,7 +63,7 @@ json rate_of(const Status& status) {
             {"advice", status.rate_advice}};
 }
 
-json sample_of(const Status& status) {
+json sample_of(const status::Status& status) {
     if (!status.last_sample) return nullptr;
     json acceleration = json::array();
     for (const auto axis : status.acceleration) acceleration.push_back(1e3 * axis.value());
@@ -72,16 +73,16 @@ json sample_of(const Status& status) {
             {"temperature_degc", status.temperature.value()}};
 }
 
-json oven_of(const std::optional<OvenLinkStatus>& oven) {
+json oven_of(const std::optional<source::OvenLinkStatus>& oven) {
     if (!oven) return {{"state", "disabled"}};
     const auto& values = oven->values;
     const auto& age = oven->age;
-    return {{"state", to_text(oven->state)},
+    return {{"state", source::to_text(oven->state)},
             {"trouble", oven->trouble},
             {"port", oven->port},
             {"decimals", oven->decimals},
             {"is_stale", oven->is_stale},
-            {"polls", polls_by_outcome(*oven)},
+            {"polls", source::polls_by_outcome(*oven)},
             {"age_s", age ? json(std::chrono::duration<double>(*age).count()) : json()},
             {"process_value_degc", values ? or_null(values->process_value) : json()},
             {"set_point_degc", values ? json(values->set_point.value()) : json()},
@@ -90,7 +91,7 @@ json oven_of(const std::optional<OvenLinkStatus>& oven) {
             {"has_input_error", values ? json(oven::has_input_error(values->status)) : json()}};
 }
 
-json counters_of(const Status& status) {
+json counters_of(const status::Status& status) {
     const auto& c = status.counters;
     json counters = {{"bytes", c.bytes},
                      {"frames", c.frames},
@@ -111,14 +112,14 @@ json counters_of(const Status& status) {
 
 }  // namespace
 
-std::string_view to_text(Status::Level level) noexcept {
+std::string_view to_text(status::Status::Level level) noexcept {
     // In the order of the enumerators.
     constexpr std::array kTexts{"good", "warning", "fault"};
     return kTexts.at(static_cast<std::size_t>(level));
 }
 
-json to_json(const Status& status, const Occupations& occupations, const FieldStatus& field,
-             const LiveRecord& live, Nanoseconds stale_after) {
+json to_json(const status::Status& status, const survey::Occupations& occupations,
+             const survey::FieldStatus& field, const live::Record& live, Nanoseconds stale_after) {
     json uncertainty_ms;
     if (const auto& known = status.timing_uncertainty)
         uncertainty_ms = std::chrono::duration<double, std::milli>(*known).count();
@@ -160,7 +161,7 @@ json to_json(const Status& status, const Occupations& occupations, const FieldSt
               {"longest_sync_ms", status.longest_sync.count()}}}};
 }
 
-json to_json(const record::RunningOccupation& running, UtcTime now) {
+json to_json(const events::RunningOccupation& running, UtcTime now) {
     return {{"site", running.site},
             {"number", running.number},
             {"operator", running.operator_name},
@@ -173,7 +174,7 @@ json to_json(const record::RunningOccupation& running, UtcTime now) {
             {"index", or_null(running.index)}};
 }
 
-json to_json(const record::Occupation& occupation) {
+json to_json(const events::Occupation& occupation) {
     json set_ups = json::array();
     for (const auto& one : occupation.set_ups)
         set_ups.push_back({{"start", to_rfc3339(one.start, 3)}, {"end", to_rfc3339(one.end, 3)}});
@@ -184,7 +185,7 @@ json to_json(const record::Occupation& occupation) {
             {"set_ups", set_ups}};
 }
 
-json to_json(const SiteDistance& one) {
+json to_json(const survey::SiteDistance& one) {
     const text::Site& site = one.site;
     const auto placed = [&site](double value) { return site.is_placed ? json(value) : json(); };
     return {{"site", site.name},
@@ -195,9 +196,9 @@ json to_json(const SiteDistance& one) {
             {"distance_m", or_null(one.distance)}};
 }
 
-json to_json(const Verdict& verdict, UtcTime now) {
+json to_json(const verdict::Verdict& verdict, UtcTime now) {
     json reasons = json::array(), checks = json::array();
-    for (const Reason& reason : verdict.reasons) {
+    for (const verdict::Reason& reason : verdict.reasons) {
         if (!reason.is_met) reasons.push_back(reason.to_text());
         checks.push_back({{"quantity", reason.quantity},
                           {"value", reason.value},
@@ -209,19 +210,19 @@ json to_json(const Verdict& verdict, UtcTime now) {
                           {"is_met", reason.is_met}});
     }
     const bool is_known = verdict.since != UtcTime{};
-    return {{"state", to_text(verdict.state)},
+    return {{"state", verdict::to_text(verdict.state)},
             {"since", is_known ? json(to_rfc3339(verdict.since, 3)) : json()},
             {"held_s", is_known ? json(seconds_between(verdict.since, now)) : json()},
             {"reasons", reasons},
             {"checks", checks}};
 }
 
-json to_json(const OccupationReading& reading) {
+json to_json(const survey::OccupationReading& reading) {
     return {{"value_mgal", or_null(reading.value)},
             {"standard_error_mgal", or_null(reading.standard_error)}};
 }
 
-json to_json(const RunningReading& reading, MilliGal target) {
+json to_json(const verdict::RunningReading& reading, MilliGal target) {
     return {{"value_mgal", or_null(reading.value)},
             {"standard_error_mgal", or_null(reading.standard_error)},
             {"used_s", reading.used_s},
@@ -231,18 +232,18 @@ json to_json(const RunningReading& reading, MilliGal target) {
             {"needed_s", or_null(reading.needed_s)}};
 }
 
-json tilt_of(const FieldStatus& field) {
+json tilt_of(const survey::FieldStatus& field) {
     if (field.level_site.empty()) return nullptr;
     const auto& level = field.level;
     return {{"x_arcmin", level ? json(level->tilt_arcmin[0]) : json()},
             {"y_arcmin", level ? json(level->tilt_arcmin[1]) : json()},
-            {"limit_arcmin", kMostTiltArcmin},
+            {"limit_arcmin", live::kMostTiltArcmin},
             {"is_within", level ? json(level->is_within) : json()},
             {"advice", level ? json(level->advice) : json::array()},
             {"reference", {{"site", field.level_site}, {"utc", to_rfc3339(field.level_utc, 3)}}}};
 }
 
-json channels_of(const LiveRecord& live) {
+json channels_of(const live::Record& live) {
     const wire::DeviceProfile& profile = live.profile();
     json channels = json::array();
     for (const char* axis : {"x", "y", "z"}) {
@@ -259,4 +260,4 @@ json channels_of(const LiveRecord& live) {
         {"rate_hz", live.rate_hz()}, {"interval_s", 1.0 / live.rate_hz()}, {"channels", channels}};
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

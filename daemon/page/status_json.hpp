@@ -9,33 +9,34 @@
 #include "protocol/events/occupations.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::page {
 
 /// Version of the interface, published as `api`; increased when a field changes its meaning.
 inline constexpr int kApiVersion = 1;
 
-[[nodiscard]] std::string_view to_text(Status::Level level) noexcept;
+[[nodiscard]] std::string_view to_text(status::Status::Level level) noexcept;
 
 /// Returns the body of GET /api/status.  A number that is not known or not finite is null.
 /// @param stale_after  the verdict is "no data" if the last sample is older than this.
-[[nodiscard]] nlohmann::json to_json(const Status& status, const Occupations& occupations,
-                                     const FieldStatus& field, const LiveRecord& live,
+[[nodiscard]] nlohmann::json to_json(const status::Status& status,
+                                     const survey::Occupations& occupations,
+                                     const survey::FieldStatus& field, const live::Record& live,
                                      Nanoseconds stale_after);
 
 /// Converts the running occupation; `now` gives its running time.
-[[nodiscard]] nlohmann::json to_json(const record::RunningOccupation& running, UtcTime now);
-[[nodiscard]] nlohmann::json to_json(const record::Occupation& occupation);
-[[nodiscard]] nlohmann::json to_json(const SiteDistance& one);
+[[nodiscard]] nlohmann::json to_json(const events::RunningOccupation& running, UtcTime now);
+[[nodiscard]] nlohmann::json to_json(const events::Occupation& occupation);
+[[nodiscard]] nlohmann::json to_json(const survey::SiteDistance& one);
 
 /// Convert the information for the operator at a benchmark.  A number that is not known is null.
-[[nodiscard]] nlohmann::json to_json(const Verdict& verdict, UtcTime now);
-[[nodiscard]] nlohmann::json to_json(const OccupationReading& reading);
-[[nodiscard]] nlohmann::json to_json(const RunningReading& reading, MilliGal target);
+[[nodiscard]] nlohmann::json to_json(const verdict::Verdict& verdict, UtcTime now);
+[[nodiscard]] nlohmann::json to_json(const survey::OccupationReading& reading);
+[[nodiscard]] nlohmann::json to_json(const verdict::RunningReading& reading, MilliGal target);
 
 /// Returns the tilt relative to the day's first set-up; null if there was none.
-[[nodiscard]] nlohmann::json tilt_of(const FieldStatus& field);
+[[nodiscard]] nlohmann::json tilt_of(const survey::FieldStatus& field);
 
 /// Returns the scale of each channel of the live stream: value = offset + scale x counts.
-[[nodiscard]] nlohmann::json channels_of(const LiveRecord& live);
+[[nodiscard]] nlohmann::json channels_of(const live::Record& live);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::page

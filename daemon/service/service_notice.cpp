@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace a351::daemon {
+namespace a351::daemon::service {
 
 ServiceNotice ServiceNotice::from_environment() {
     const char* const socket = std::getenv("NOTIFY_SOCKET");  // NOLINT(concurrency-mt-unsafe)
@@ -39,4 +39,4 @@ bool ServiceNotice::send(std::string_view lines) const {
     return sent >= 0;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::service

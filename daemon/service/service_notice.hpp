@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace a351::daemon {
+namespace a351::daemon::service {
 
 class ServiceNotice {
 public:
@@ -34,4 +34,4 @@ private:
     std::string text_;  ///< Status text sent last.
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::service

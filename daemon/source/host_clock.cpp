@@ -5,7 +5,7 @@
 #include <ctime>
 #include <fstream>
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 namespace {
 
 Nanoseconds read_clock(clockid_t id) {
@@ -84,4 +84,4 @@ std::string HostClock::boot_id() const {
     return id;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

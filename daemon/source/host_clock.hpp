@@ -11,7 +11,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/timing/clock_reading.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 class HostClock {
 public:
@@ -43,4 +43,4 @@ private:
 /// Reads the host's realtime clock, unscaled.  --clock is anchored to it.
 [[nodiscard]] UtcTime host_realtime();
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

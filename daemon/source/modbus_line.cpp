@@ -14,10 +14,10 @@
 
 #include "daemon/source/port.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 namespace {
 
-using record::OvenOutcome;
+using journal::OvenOutcome;
 
 constexpr std::uint8_t kReadRegisters = 0x03;
 constexpr std::uint8_t kException = 0x80;
@@ -157,4 +157,4 @@ ModbusLine::Answer ModbusLine::read(std::uint16_t address, std::size_t count) {
     return answer_in(frame, static_cast<std::size_t>(size), count);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

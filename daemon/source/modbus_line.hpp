@@ -9,7 +9,7 @@
 
 #include "protocol/journal/journal.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 /// Reads registers of one unit over Modbus RTU with libmodbus, on a port that it keeps locked.
 /// It has no function that writes a register.
@@ -23,7 +23,7 @@ public:
         bool is_rs485 = false;  ///< The kernel's driver switches the direction (TIOCSRS485).
     };
     struct Answer {
-        record::OvenOutcome outcome = record::OvenOutcome::no_port;
+        journal::OvenOutcome outcome = journal::OvenOutcome::no_port;
         std::vector<std::uint16_t> words;  ///< Values, as many as requested; none if not answered.
         std::string trouble;               ///< Reason why there is no answer, in words.
         std::uint8_t exception = 0;        ///< Code of the exception, if that is the outcome.
@@ -52,4 +52,4 @@ private:
     std::unique_ptr<Connection> connection_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

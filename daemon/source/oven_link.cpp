@@ -5,10 +5,10 @@
 
 #include "daemon/source/port.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 namespace {
 
-using record::OvenOutcome;
+using journal::OvenOutcome;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
@@ -43,7 +43,7 @@ const char* to_text(OvenLinkStatus::State state) noexcept {
 
 std::map<std::string, std::uint64_t> polls_by_outcome(const OvenLinkStatus& status) {
     // In the order of the enumerators.
-    constexpr std::array<const char*, record::kOvenOutcomeCount> kTexts{
+    constexpr std::array<const char*, journal::kOvenOutcomeCount> kTexts{
         "answered", "timed_out", "bad_crc", "exception", "other_unit", "malformed", "no_port"};
     std::map<std::string, std::uint64_t> polls;
     for (std::size_t i = 0; i < kTexts.size(); ++i) polls[kTexts[i]] = status.polls[i];
@@ -53,8 +53,8 @@ std::map<std::string, std::uint64_t> polls_by_outcome(const OvenLinkStatus& stat
 std::chrono::seconds archived_interval(const OvenLinkOptions& options, const HostClock& clock) {
     const auto interval =
         std::max(options.poll_interval, clock.instrument_span(kShortestRealInterval));
-    return std::clamp(std::chrono::ceil<seconds>(interval), record::kShortestOvenInterval,
-                      record::kLongestOvenInterval);
+    return std::clamp(std::chrono::ceil<seconds>(interval), journal::kShortestOvenInterval,
+                      journal::kLongestOvenInterval);
 }
 
 OvenLink::OvenLink(OvenLinkOptions options, const HostClock& clock, Hook hook)
@@ -119,7 +119,7 @@ void OvenLink::run() noexcept {
 
 bool OvenLink::poll() {
     ModbusLine::Answer answer = read_monitors();
-    record::OvenChunk poll{clock_.raw(), answer.outcome, 0, std::move(answer.words)};
+    journal::OvenChunk poll{clock_.raw(), answer.outcome, 0, std::move(answer.words)};
     const bool is_answered = answer.outcome == OvenOutcome::answered;
     if (is_answered && !stop_) ask_decimals();
     poll.decimals = static_cast<std::uint8_t>(decimals_);
@@ -175,7 +175,7 @@ void OvenLink::ask_decimals() {
     decimals_ = is_known ? answer.words.front() : options_.decimals;
 }
 
-void OvenLink::note(const record::OvenChunk& poll, const std::string& trouble) {
+void OvenLink::note(const journal::OvenChunk& poll, const std::string& trouble) {
     const std::lock_guard lock(mutex_);
     ++status_.polls.at(static_cast<std::size_t>(poll.outcome));
     status_.trouble = trouble;
@@ -190,4 +190,4 @@ void OvenLink::note(const record::OvenChunk& poll, const std::string& trouble) {
     status_.state = state_after(poll.outcome);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -23,7 +23,7 @@
 #include "protocol/oven/controller_values.hpp"
 #include "protocol/oven/registers.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 struct OvenLinkOptions {
     ModbusLine::Settings line = {};
@@ -50,7 +50,7 @@ struct OvenLinkStatus {
     int decimals = 1;                              ///< Decimals of process value and set point.
     std::optional<Nanoseconds> age;                ///< Age of the last answer, instrument time.
     bool is_stale = true;                          ///< Last answer older than three polls, or none.
-    std::array<std::uint64_t, record::kOvenOutcomeCount> polls{};  ///< Number of polls by outcome.
+    std::array<std::uint64_t, journal::kOvenOutcomeCount> polls{};  ///< Number of polls by outcome.
 };
 
 [[nodiscard]] const char* to_text(OvenLinkStatus::State state) noexcept;
@@ -59,7 +59,7 @@ struct OvenLinkStatus {
 
 class OvenLink {
 public:
-    using Hook = std::function<void(record::OvenChunk)>;
+    using Hook = std::function<void(journal::OvenChunk)>;
 
     /// `clock` must outlive this.
     /// @param hook  receives each poll, in the oven's thread.
@@ -81,7 +81,7 @@ private:
     [[nodiscard]] ModbusLine::Answer read_monitors();
     [[nodiscard]] ModbusLine::Answer read_variables(oven::Address first, std::size_t count);
     void ask_decimals();
-    void note(const record::OvenChunk& poll, const std::string& trouble);
+    void note(const journal::OvenChunk& poll, const std::string& trouble);
     [[nodiscard]] bool is_stale(RawTime now) const;
 
     OvenLinkOptions options_;
@@ -103,4 +103,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

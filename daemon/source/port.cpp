@@ -7,7 +7,7 @@
 
 #include "daemon/source/tty_port.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 namespace {
 
 struct FreePort {
@@ -105,4 +105,4 @@ void configure_serial_port(const std::filesystem::path& device, int baud) {
     }
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

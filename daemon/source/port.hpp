@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 /// A USB adapter by the identifiers that its maker stored in it.  They stay the same in another USB
 /// socket and under another tty name.
@@ -89,4 +89,4 @@ struct SerialPortEntry {
 /// @throws PortError
 void configure_serial_port(const std::filesystem::path& device, int baud);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 // An entry and its bytes are contiguous.  If they do not fit before the end of the ring, an entry
 // of kind kWrap fills the rest.  All sizes are multiples of the size of an entry.
@@ -50,7 +50,7 @@ bool ReadQueue::push(Kind kind, RawTime time, std::span<const std::byte> bytes) 
     return true;
 }
 
-bool ReadQueue::push_session(record::JournalHeader header, RawTime time) {
+bool ReadQueue::push_session(journal::Header header, RawTime time) {
     const std::lock_guard lock(sessions_mutex_);
     sessions_.push_back(std::move(header));
     if (push(Kind::session, time, {})) return true;
@@ -81,9 +81,9 @@ void ReadQueue::pop() noexcept {
     head_.store(head + room_for(entry_at(head).size), std::memory_order_release);
 }
 
-record::JournalHeader ReadQueue::take_session() {
+journal::Header ReadQueue::take_session() {
     const std::lock_guard lock(sessions_mutex_);
-    record::JournalHeader header = std::move(sessions_.front());
+    journal::Header header = std::move(sessions_.front());
     sessions_.pop_front();
     return header;
 }
@@ -100,4 +100,4 @@ std::size_t ReadQueue::fill() const noexcept {
     return static_cast<std::size_t>(tail_.load(std::memory_order_acquire) - head);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -15,7 +15,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 class ReadQueue {
 public:
@@ -43,7 +43,7 @@ public:
     /// Appends an item.  @param bytes  at most kLargestItem.  @return false if there is no room.
     [[nodiscard]] bool push(Kind kind, RawTime time, std::span<const std::byte> bytes) noexcept;
     /// Appends a session header.  This allocates; sessions are rare.
-    [[nodiscard]] bool push_session(record::JournalHeader header, RawTime time);
+    [[nodiscard]] bool push_session(journal::Header header, RawTime time);
     /// Appends a clock reading after a sleep of the host.
     /// @param reading  taken no later than the items that follow.
     [[nodiscard]] bool push_woken(const timing::ClockReading& reading) noexcept;
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::optional<Item> front() noexcept;
     void pop() noexcept;
     /// Returns the header of the `session` item at the front, and removes it from its list.
-    [[nodiscard]] record::JournalHeader take_session();
+    [[nodiscard]] journal::Header take_session();
     /// Returns the reading of the `woken` item at the front, which stays there.
     [[nodiscard]] timing::ClockReading woken() noexcept;
 
@@ -77,7 +77,7 @@ private:
     std::atomic<std::uint64_t> head_{0};  ///< Position of the next item to take; never wraps.
     std::atomic<std::uint64_t> tail_{0};  ///< Position of the next item to write.
     std::mutex sessions_mutex_;
-    std::deque<record::JournalHeader> sessions_;
+    std::deque<journal::Header> sessions_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -9,7 +9,7 @@
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 namespace {
 
 using std::chrono::milliseconds;
@@ -26,7 +26,7 @@ constexpr std::chrono::seconds kLongestBabble{3};
 /// Checks that frames continue a known stream, each one counter step after the one before.
 class Continuation {
 public:
-    Continuation(const record::StreamEnd& known, std::uint16_t count_step)
+    Continuation(const journal::StreamEnd& known, std::uint16_t count_step)
         : known_(known), count_step_(count_step) {}
 
     void take(std::uint16_t count, RawTime arrival) {
@@ -55,7 +55,7 @@ private:
         return kind == Kind::next || kind == Kind::after_gap;
     }
 
-    const record::StreamEnd& known_;
+    const journal::StreamEnd& known_;
     std::uint16_t count_step_;
     int frames_in_step_ = 0;
     Frame first_, last_;  ///< First and last frame of the run that is in step.
@@ -95,9 +95,9 @@ bool drain(Port& port, const wire::DrainUntilSilent& step, std::size_t& skipped)
 
 }  // namespace
 
-Listening listen_for(const record::StreamEnd& known, Port& port, const HostClock& clock,
+Listening listen_for(const journal::StreamEnd& known, Port& port, const HostClock& clock,
                      const std::atomic<bool>& stop) {
-    const record::JournalHeader& header = known.header;
+    const journal::Header& header = known.header;
     const int rate_hz = header.output_rate_hz;
     const auto step = wire::find_profile(header.profile)->count_step(rate_hz);
     wire::BurstDecoder decoder(*wire::BurstLayout::from_burst_ctrl(header.burst_ctrl), step);
@@ -168,4 +168,4 @@ HandshakeRun run_handshake(wire::Handshake& handshake, Port& port, const HostClo
     return run;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

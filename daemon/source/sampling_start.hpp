@@ -14,7 +14,7 @@
 #include "protocol/journal/stream_end.hpp"
 #include "protocol/wire/handshake.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 /// The result of one read of the port.
 struct Read {
@@ -39,15 +39,15 @@ struct Listening {
 /// A device that restarted meanwhile is mistaken for the known stream in one of 20 cases: when its
 /// new counter happens to be within a second of the expected one, or continues the old one.
 /// @param stop  listening ends when it becomes true.
-[[nodiscard]] Listening listen_for(const record::StreamEnd& known, Port& port,
+[[nodiscard]] Listening listen_for(const journal::StreamEnd& known, Port& port,
                                    const HostClock& clock, const std::atomic<bool>& stop);
 
 struct PortGone {};
 
 struct HandshakeRun {
     std::variant<wire::DeviceIdentity, wire::HandshakeFailure, PortGone> outcome;
-    std::vector<record::TxChunk> sent;  ///< Commands in order, for the journal.
-    std::size_t bytes_skipped = 0;      ///< Bytes received that were no answer.
+    std::vector<journal::TxChunk> sent;  ///< Commands in order, for the journal.
+    std::size_t bytes_skipped = 0;       ///< Bytes received that were no answer.
 };
 
 /// Carries out the steps of the handshake on the port until it succeeds or fails.
@@ -55,4 +55,4 @@ struct HandshakeRun {
 [[nodiscard]] HandshakeRun run_handshake(wire::Handshake& handshake, Port& port,
                                          const HostClock& clock, const std::atomic<bool>& stop);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -8,7 +8,7 @@
 
 #include "protocol/wire/commands.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 namespace {
 
 using std::chrono::milliseconds;
@@ -32,9 +32,9 @@ std::vector<int> bauds_of(const LinkOptions& options) {
     return bauds;
 }
 
-record::SessionId random_session() {
+journal::SessionId random_session() {
     std::random_device source;
-    record::SessionId id;
+    journal::SessionId id;
     for (std::uint8_t& byte : id.bytes) byte = static_cast<std::uint8_t>(source());
     return id;
 }
@@ -129,12 +129,13 @@ bool SensorLink::find_port() {
 // counter shows how many samples the outage cost.
 bool SensorLink::adopt() {
     if (!std::exchange(is_port_new_, false) || !known_) return false;
-    record::JournalHeader expected = options_.header;
+    journal::Header expected = options_.header;
     expected.baud = bauds_.front();
-    const record::JournalHeader& last = known_->header;
+    const journal::Header& last = known_->header;
     const bool is_expected_device = options_.expected_serial_number.empty() ||
                                     options_.expected_serial_number == last.serial_number;
-    if (!is_same_stream(last, expected) || last.port != expected.port || !is_expected_device)
+    if (!journal::is_same_stream(last, expected) || last.port != expected.port ||
+        !is_expected_device)
         return false;
     set_state(LinkStatus::State::handshake, "checking whether the sensor is still sampling");
     const Listening listening = listen_for(*known_, *port_, clock_, stop_);
@@ -192,11 +193,11 @@ bool SensorLink::try_next_baud() {
     return ++bauds_tried_ < bauds_.size();
 }
 
-void SensorLink::prepare_session(const record::SessionId& session,
+void SensorLink::prepare_session(const journal::SessionId& session,
                                  const wire::DeviceIdentity& device, bool is_adopted,
-                                 std::vector<record::TxChunk> sent) {
+                                 std::vector<journal::TxChunk> sent) {
     begun_ = Begun{options_.header, std::move(sent)};
-    record::JournalHeader& header = begun_->header;
+    journal::Header& header = begun_->header;
     header.session = session;
     header.product_id = device.product_id;
     header.serial_number = device.serial_number;
@@ -221,11 +222,11 @@ void SensorLink::begin_session() {
     slept_ = told.boottime - told.raw.time_since_epoch();
     const bool is_new = !known_ || known_->header.session != begun_->header.session;
     // The counter of a device that was just configured starts at 0.
-    if (is_new) known_ = record::StreamEnd{begun_->header, 0, begun_->header.clock.raw};
+    if (is_new) known_ = journal::StreamEnd{begun_->header, 0, begun_->header.clock.raw};
     while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_)
         wait_for_journal();
     waits_for_journal_ = false;
-    for (const record::TxChunk& chunk : begun_->sent)
+    for (const journal::TxChunk& chunk : begun_->sent)
         push(ReadQueue::Kind::tx, chunk.time, chunk.bytes);
     begun_.reset();
 
@@ -274,4 +275,4 @@ void SensorLink::set_state(LinkStatus::State state, std::string trouble) {
     status_.trouble = std::move(trouble);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

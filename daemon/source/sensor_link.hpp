@@ -22,7 +22,7 @@
 #include "protocol/journal/journal.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 struct LinkOptions {
     PortAddress address;
@@ -31,9 +31,9 @@ struct LinkOptions {
     wire::SensorSettings settings = {};
     std::string expected_serial_number = {};  ///< Empty accepts any.
     /// Header of each session; session, device and clock are filled in later.
-    record::JournalHeader header = {};
+    journal::Header header = {};
     /// End of the stream that the journal contains.  The stream is adopted if it continues.
-    std::optional<record::StreamEnd> known = {};
+    std::optional<journal::StreamEnd> known = {};
 };
 
 struct LinkStatus {
@@ -82,8 +82,8 @@ private:
     [[nodiscard]] bool try_next_baud();
     [[nodiscard]] End read_stream();
     void note_stall(End end);
-    void prepare_session(const record::SessionId& session, const wire::DeviceIdentity& device,
-                         bool is_adopted, std::vector<record::TxChunk> sent);
+    void prepare_session(const journal::SessionId& session, const wire::DeviceIdentity& device,
+                         bool is_adopted, std::vector<journal::TxChunk> sent);
     void begin_session();
     void back_off(const std::string& trouble);
     void wait_for_journal();
@@ -106,11 +106,11 @@ private:
     Nanoseconds slept_{0};     ///< HostClock::slept() when the last bytes were received.
     /// A session whose sampling was started; it begins with its first byte.
     struct Begun {
-        record::JournalHeader header;
-        std::vector<record::TxChunk> sent;
+        journal::Header header;
+        std::vector<journal::TxChunk> sent;
     };
     std::optional<Begun> begun_;
-    std::optional<record::StreamEnd> known_;
+    std::optional<journal::StreamEnd> known_;
 
     std::atomic<bool> stop_{false};
     std::atomic<std::uint64_t> queue_full_{0};
@@ -121,4 +121,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -12,7 +12,7 @@
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/commands.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 namespace {
 
 using std::chrono::milliseconds;
@@ -150,4 +150,4 @@ void SensorLink::stop_sensor() {
     }
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 namespace {
 
 // The kernel's own termios, because it holds the speed in use as a number.
@@ -156,4 +156,4 @@ bool TtyPort::write(std::span<const std::byte> bytes) {
     return true;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -2,7 +2,7 @@
 
 #include "daemon/source/port.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::source {
 
 /// A tty by its descriptor.  A port in the kernel's tty class is set up with libserialport;
 /// anything else, such as a pseudo-terminal, with termios alone.
@@ -28,4 +28,4 @@ private:
     std::string description_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::source

@@ -6,7 +6,7 @@
 
 #include "protocol/oven/controller_values.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::status {
 namespace {
 
 // 1 GiB lasts 9 days at 50 Hz: 100 MB of journal and 15 MB of archive a day.
@@ -21,14 +21,15 @@ std::string printable(std::string text) {
 
 /// Adds the oven's reasons.  They contain nothing that varies from poll to poll, because the log
 /// distinguishes reasons by their text.
-void assess_oven(Status& status, const OvenLinkStatus& oven) {
-    using State = OvenLinkStatus::State;
+void assess_oven(Status& status, const source::OvenLinkStatus& oven) {
+    using State = source::OvenLinkStatus::State;
     if (oven.state == State::searching) {
         status.warn("oven: searching: " + oven.trouble);
     } else if (oven.is_stale) {
-        status.warn(fmt::format(
-            "oven: {}; check the controller's cable (sensor data are not affected)",
-            oven.state == State::answering ? "the last answer is old" : to_text(oven.state)));
+        status.warn(
+            fmt::format("oven: {}; check the controller's cable (sensor data are not affected)",
+                        oven.state == State::answering ? "the last answer is old"
+                                                       : source::to_text(oven.state)));
     } else if (oven.values && oven::has_input_error(oven.values->status)) {
         status.warn(
             "oven: input error, its temperature is not valid; check the controller's probe (sensor "
@@ -62,8 +63,8 @@ void assess_rate(Status& status) {
 
 }  // namespace
 
-void fill(Status& status, const LinkStatus& link) {
-    status.link_state = to_text(link.state);
+void fill(Status& status, const source::LinkStatus& link) {
+    status.link_state = source::to_text(link.state);
     status.link_trouble = link.trouble;
     status.port = link.port;
     if (link.device) {
@@ -82,7 +83,7 @@ void fill(Status& status, const LinkStatus& link) {
             "the disk is too slow: the buffer is full, reading from the sensor waits and samples "
             "may be lost; check the disk");
     }
-    if (link.state != LinkStatus::State::sampling) {
+    if (link.state != source::LinkStatus::State::sampling) {
         status.fail("no data: " + link.trouble);
     } else if (link.device && !link.device->has_expected_product_id) {
         status.warn(fmt::format(
@@ -108,11 +109,11 @@ void assess(Status& status) {
                         "uses another unit's behaviour; check survey.calibration",
                         printable(calibrated), status.serial_number));
     }
-    if (status.timing_state == timing::TimingState::unlocked) {
+    if (status.timing_state == timing::State::unlocked) {
         status.warn(
             "timing: unlocked, sample times are not known until 60 s of data have been received; "
             "wait");
-    } else if (status.timing_state == timing::TimingState::holdover) {
+    } else if (status.timing_state == timing::State::holdover) {
         status.warn(
             "timing: holdover, the host clock is not synchronised or has jumped; synchronise it, "
             "and correct the times later with a351-correct retime");
@@ -129,4 +130,4 @@ void assess(Status& status) {
         status.warn("disk: less than 1 GiB free, at most 9 days at 50 Hz; make room");
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::status

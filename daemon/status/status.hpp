@@ -18,7 +18,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/timing/sample_clock.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::status {
 
 /// A snapshot of the daemon's state as `/api/status` publishes it.
 struct Status {
@@ -43,7 +43,7 @@ struct Status {
     std::optional<std::int64_t> received, journaled, archived;
     std::optional<UtcTime> last_sample;
 
-    timing::TimingState timing_state = timing::TimingState::unlocked;
+    timing::State timing_state = timing::State::unlocked;
     std::optional<Nanoseconds> timing_uncertainty;       ///< 95 %; absent before the first sample.
     timing::LeapSecond leap = timing::LeapSecond::none;  ///< Leap second announced by the host.
     std::optional<timing::MeasuredRate> measured_rate;
@@ -61,10 +61,10 @@ struct Status {
 
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;
-    Verdict verdict;
-    std::optional<OvenLinkStatus> oven;  ///< Absent if not enabled.
+    verdict::Verdict verdict;
+    std::optional<source::OvenLinkStatus> oven;  ///< Absent if not enabled.
 
-    record::ArchiverCounters counters;
+    archive::Counters counters;
     std::map<std::string, std::uint64_t> more_counters;  ///< Counters of link and store, by name.
 
     std::optional<std::uint64_t> disk_free_bytes;  ///< Absent if it cannot be determined.
@@ -74,10 +74,10 @@ struct Status {
 };
 
 /// Copies the state of the sensor's link into the status, and adds its reasons.
-void fill(Status& status, const LinkStatus& link);
+void fill(Status& status, const source::LinkStatus& link);
 
 /// Adds the level and reasons of a completely filled status: sample rate, oven, calibration, sample
 /// times and disk space.
 void assess(Status& status);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::status

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace a351::daemon {
+namespace a351::daemon::status {
 namespace {
 
 constexpr std::chrono::minutes kReminder{1};
@@ -22,7 +22,7 @@ void StatusLog::note(const Status& status, Instant now) {
         log_->info("session {}: {} serial {}, {} Hz, {}", status.session, status.product_id,
                    status.serial_number, status.output_rate_hz, status.filter);
     const auto& oven = status.oven;
-    if (oven && is_new(oven_state_, to_text(oven->state)))
+    if (oven && is_new(oven_state_, source::to_text(oven->state)))
         log_->info("oven: {} ({})", oven_state_,
                    oven->trouble.empty() ? oven->port : oven->trouble);
     if (is_new(reserve_, status.disk_reserve))
@@ -48,7 +48,7 @@ void StatusLog::note(const Status& status, Instant now) {
         if (found != status.more_counters.end()) note_counter(name, found->second, now);
     }
     if (!oven) return;
-    for (const auto& [outcome, count] : polls_by_outcome(*oven))
+    for (const auto& [outcome, count] : source::polls_by_outcome(*oven))
         if (outcome != "answered") note_counter("oven polls " + outcome, count, now);
 }
 
@@ -79,4 +79,4 @@ void StatusLog::note_counter(const std::string& name, std::uint64_t value, Insta
     counter = {value, now};
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::status

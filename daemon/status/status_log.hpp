@@ -12,7 +12,7 @@ namespace spdlog {
 class logger;
 }
 
-namespace a351::daemon {
+namespace a351::daemon::status {
 
 /// Turns successive snapshots into log lines: changes of state, and each trouble when it begins,
 /// once a minute with its count, and when it ends.
@@ -48,4 +48,4 @@ private:
     std::map<std::string, Counter> counters_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::status

@@ -6,7 +6,7 @@
 #include "protocol/archive/channel_code.hpp"
 #include "protocol/archive/sds.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 namespace {
 
 using std::chrono::milliseconds;
@@ -19,19 +19,19 @@ constexpr milliseconds kShortestModelInterval{100};  // real time.
 constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
 constexpr std::size_t kSessionsRemembered = 8;  // Each has 24 h of times, up to 3.5 MB.
 
-std::optional<Instant> instant_of(const record::SessionId& session,
-                                  const timing::SampleClock& clock,
-                                  std::optional<std::int64_t> index) {
+std::optional<survey::Instant> instant_of(const journal::SessionId& session,
+                                          const timing::SampleClock& clock,
+                                          std::optional<std::int64_t> index) {
     const auto time = index ? clock.time_of(*index) : std::nullopt;
-    return time ? std::optional(Instant{session, *index, time->utc}) : std::nullopt;
+    return time ? std::optional(survey::Instant{session, *index, time->utc}) : std::nullopt;
 }
 
 }  // namespace
 
-ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
-                             record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
-                             Progress& progress, SpaceReserve& reserve, Hooks hooks, DiskTime time,
-                             const record::RecoveryPlan& plan)
+ArchiveThread::ArchiveThread(files::FileLayer& files, std::filesystem::path archive,
+                             journal::StationCodes codes, const source::HostClock& clock,
+                             ChunkQueue& chunks, Progress& progress, SpaceReserve& reserve,
+                             Hooks hooks, DiskTime time, const archive::RecoveryPlan& plan)
     : files_(files),
       archive_(std::move(archive)),
       codes_(std::move(codes)),
@@ -43,9 +43,9 @@ ArchiveThread::ArchiveThread(record::FileLayer& files, std::filesystem::path arc
       time_(std::move(time)),
       plan_(plan),
       last_sync_(time_.now()),
-      archiver_(std::make_unique<record::Archiver>(outbox_)) {
+      archiver_(std::make_unique<archive::Archiver>(outbox_)) {
     status_.is_replaying = true;
-    outbox_.placed = [this](const record::Sample& sample) {
+    outbox_.placed = [this](const archive::Sample& sample) {
         if (const auto placed = archiver_->clock()->time_of(sample.index))
             hooks_.sample(sample, placed->utc);
     };
@@ -118,7 +118,7 @@ void ArchiveThread::handle(const NumberedChunk& numbered) noexcept {
 }
 
 void ArchiveThread::take(const NumberedChunk& numbered) {
-    const auto* const header = std::get_if<record::JournalHeader>(&numbered.chunk);
+    const auto* const header = std::get_if<journal::Header>(&numbered.chunk);
     const std::lock_guard lock(mutex_);
     if (header != nullptr) begin_session(*header);
     archiver_->take(numbered.chunk);
@@ -131,7 +131,7 @@ void ArchiveThread::take(const NumberedChunk& numbered) {
 }
 
 /// Handles a segment's header, of the running session or of a new one.
-void ArchiveThread::begin_session(const record::JournalHeader& header) {
+void ArchiveThread::begin_session(const journal::Header& header) {
     // The first header of a session has the time of its begin.
     if (undescribed_.empty() || undescribed_.back().session != header.session)
         undescribed_.push_back(header);
@@ -140,7 +140,7 @@ void ArchiveThread::begin_session(const record::JournalHeader& header) {
     has_recorded_ = true;
 }
 
-void ArchiveThread::note_session(const record::SessionId& session) {
+void ArchiveThread::note_session(const journal::SessionId& session) {
     const auto ended = std::exchange(session_, session);
     const auto last_index = archiver_->last_index();
     if (!ended || ended == session || !last_index) return;
@@ -213,7 +213,7 @@ void ArchiveThread::write_outbox() {
 
 void ArchiveThread::sync() {
     last_sync_ = time_.now();
-    std::vector<record::ChannelMark> marks;
+    std::vector<journal::ChannelMark> marks;
     try {
         marks = writer_->sync();
     } catch (...) {
@@ -224,11 +224,11 @@ void ArchiveThread::sync() {
     if (!marked_ || marks.empty() || !are_marks_true_) return;
     std::optional<std::int64_t> last;
     for (const auto& mark : marks) {
-        if (record::is_derived(mark.channel)) continue;
+        if (archive::is_derived(mark.channel)) continue;
         last = std::min(last.value_or(mark.index), mark.index);
     }
     if (last) progress_.archive_synced(*marked_, *last);
-    hooks_.post(record::MarkChunk{*marked_, std::move(marks)});
+    hooks_.post(journal::MarkChunk{*marked_, std::move(marks)});
 }
 
 void ArchiveThread::post_model() {
@@ -236,14 +236,14 @@ void ArchiveThread::post_model() {
     if (now - last_model_real_ < kShortestModelInterval) return;
     const RawTime raw = clock_.raw();
     if (raw - last_model_ < kModelInterval) return;
-    std::optional<record::ModelChunk> model;
+    std::optional<journal::ModelChunk> model;
     {
         const std::lock_guard lock(mutex_);
         const auto index = archiver_->last_index();
         const auto* const sample_clock = archiver_->clock();
         if (!index || sample_clock == nullptr) return;
         const auto time = sample_clock->time_of(*index);
-        if (time) model = record::ModelChunk{*index, *time};
+        if (time) model = journal::ModelChunk{*index, *time};
     }
     if (!model) return;
     last_model_ = raw;
@@ -261,13 +261,13 @@ void ArchiveThread::reopen() {
             are_marks_true_ = false;
         }
     }
-    for (const std::string& channel : record::channels_in(archive_, codes_))
-        if (const auto file = record::newest_day_file(archive_, codes_, channel))
-            record::repair_tail(files_, *file);
+    for (const std::string& channel : archive::channels_in(archive_, codes_))
+        if (const auto file = archive::newest_day_file(archive_, codes_, channel))
+            archive::repair_tail(files_, *file);
     writer_->reopen();
 }
 
-std::optional<Instant> ArchiveThread::latest() {
+std::optional<survey::Instant> ArchiveThread::latest() {
     const std::lock_guard lock(mutex_);
     if (status_.is_replaying) return std::nullopt;
     if (const auto index = archiver_->last_index(); index && session_)
@@ -276,7 +276,7 @@ std::optional<Instant> ArchiveThread::latest() {
     return instant_of(ended_.back().session, ended_.back().clock, ended_.back().last_index);
 }
 
-std::optional<Instant> ArchiveThread::at(UtcTime utc) {
+std::optional<survey::Instant> ArchiveThread::at(UtcTime utc) {
     const std::lock_guard lock(mutex_);
     if (status_.is_replaying) return std::nullopt;
     for (const Ended& one : ended_)
@@ -299,4 +299,4 @@ ArchiveStatus ArchiveThread::status() {
     return status;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -29,7 +29,7 @@
 #include "protocol/archive/recovery.hpp"
 #include "protocol/files/file_layer.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
 struct ArchiveStatus {
     bool is_faulty = false;
@@ -43,9 +43,9 @@ struct ArchiveStatus {
     std::uint64_t records = 0;
     std::uint64_t records_waiting = 0;
     std::uint64_t conflicts = 0;  ///< Records that differ from the archive's, which are kept.
-    record::ArchiverCounters counters;
-    std::optional<record::Sample> last_sample;
-    timing::TimingState timing_state = timing::TimingState::unlocked;
+    archive::Counters counters;
+    std::optional<archive::Sample> last_sample;
+    timing::State timing_state = timing::State::unlocked;
     std::optional<Nanoseconds> timing_uncertainty;  ///< Absent before the first session.
     std::optional<timing::MeasuredRate> measured_rate;
 };
@@ -54,22 +54,22 @@ class ArchiveThread {
 public:
     struct Hooks {
         /// Receives MARK and MODEL chunks for the journal.
-        std::function<void(record::JournalChunk)> post;
+        std::function<void(journal::Chunk)> post;
         /// Called when a session begins, to describe the instrument.
-        std::function<void(const record::JournalHeader&)> session_began;
+        std::function<void(const journal::Header&)> session_began;
         /// Called when the last run's journal is completely in the archive.
-        std::function<void(const record::RecoveryReport&)> recovered;
+        std::function<void(const archive::RecoveryReport&)> recovered;
         /// Called before anything is read or written.
         std::function<void()> begin;
         /// Called for each sample with index and time, also those of the last run's journal.
-        std::function<void(const record::Sample&, UtcTime)> sample;
+        std::function<void(const archive::Sample&, UtcTime)> sample;
     };
 
     /// All objects passed by reference must outlive this.
-    ArchiveThread(record::FileLayer& files, std::filesystem::path archive,
-                  record::StationCodes codes, const HostClock& clock, ChunkQueue& chunks,
+    ArchiveThread(files::FileLayer& files, std::filesystem::path archive,
+                  journal::StationCodes codes, const source::HostClock& clock, ChunkQueue& chunks,
                   Progress& progress, SpaceReserve& reserve, Hooks hooks, DiskTime time,
-                  const record::RecoveryPlan& plan);
+                  const archive::RecoveryPlan& plan);
     ~ArchiveThread();
 
     void start() {
@@ -87,26 +87,26 @@ public:
     /// @return false if something could not be written.
     bool join();
 
-    [[nodiscard]] std::optional<Instant> latest();
-    [[nodiscard]] std::optional<Instant> at(UtcTime utc);
+    [[nodiscard]] std::optional<survey::Instant> latest();
+    [[nodiscard]] std::optional<survey::Instant> at(UtcTime utc);
     [[nodiscard]] ArchiveStatus status();
 
 private:
     /// Keeps records until they are written, which is done without the lock.
-    class Outbox : public record::ArchiveSink {
+    class Outbox : public archive::Sink {
     public:
         struct Entry {
-            std::optional<record::SessionId> session;
+            std::optional<journal::SessionId> session;
             std::string channel;
-            record::PackedRecord record;
+            archive::PackedRecord record;
             std::int64_t last_index = 0;
         };
-        void record(const std::string& channel, const record::PackedRecord& record,
+        void record(const std::string& channel, const archive::PackedRecord& record,
                     std::int64_t last_index) override {
             bytes += record.bytes.size();
             entries.push_back({session, channel, record, last_index});
         }
-        void sample(const record::Sample& sample) override {
+        void sample(const archive::Sample& sample) override {
             last_sample = sample;
             placed(sample);
         }
@@ -115,31 +115,31 @@ private:
             return writer->samples_in_archive(channel, start);
         }
 
-        const record::ArchiveWriter* writer = nullptr;  ///< Not null while records are received.
-        std::optional<record::SessionId> session;       ///< Session of the records being received.
+        const archive::Writer* writer = nullptr;    ///< Not null while records are received.
+        std::optional<journal::SessionId> session;  ///< Session of the records being received.
         std::deque<Entry> entries;
         std::size_t bytes = 0;
-        std::optional<record::Sample> last_sample;
-        std::function<void(const record::Sample&)> placed;
+        std::optional<archive::Sample> last_sample;
+        std::function<void(const archive::Sample&)> placed;
     };
 
     /// A session that has ended and is still remembered.
     struct Ended {
-        record::SessionId session;
+        journal::SessionId session;
         timing::SampleClock clock;
         std::int64_t last_index = 0;
     };
 
     void run() noexcept;
     [[nodiscard]] bool recover() noexcept;
-    [[nodiscard]] bool replay(record::RecoveryReport& report);
-    [[nodiscard]] bool replay_chunk(const record::JournalChunk& chunk);
+    [[nodiscard]] bool replay(archive::RecoveryReport& report);
+    [[nodiscard]] bool replay_chunk(const journal::Chunk& chunk);
     void handle(const NumberedChunk& numbered) noexcept;
     void take(const NumberedChunk& numbered);
-    void open_archive(const record::StationCodes& codes);
+    void open_archive(const journal::StationCodes& codes);
     void write_replayed();
-    void begin_session(const record::JournalHeader& header);
-    void note_session(const record::SessionId& session);
+    void begin_session(const journal::Header& header);
+    void note_session(const journal::SessionId& session);
     [[nodiscard]] bool may_write();
     bool store_records(bool is_last);
     void write_outbox();
@@ -148,38 +148,38 @@ private:
     void post_model();
     void reopen();
 
-    record::FileLayer& files_;
+    files::FileLayer& files_;
     std::filesystem::path archive_;
-    record::StationCodes codes_;
-    const HostClock& clock_;
+    journal::StationCodes codes_;
+    const source::HostClock& clock_;
     ChunkQueue& chunks_;
     Progress& progress_;
     SpaceReserve& reserve_;
     Hooks hooks_;
     DiskTime time_;
-    const record::RecoveryPlan& plan_;
+    const archive::RecoveryPlan& plan_;
 
     using steady_time = std::chrono::steady_clock::time_point;
 
     // Used by the archive thread only.
-    std::unique_ptr<record::ArchiveWriter> writer_;
+    std::unique_ptr<archive::Writer> writer_;
     steady_time last_sync_, last_model_real_, last_look_at_space_;
     RawTime last_model_;
-    std::optional<steady_time> retry_at_;            ///< Time of the next try; set after a fault.
-    std::deque<record::JournalHeader> undescribed_;  ///< Sessions whose metadata must be written.
+    std::optional<steady_time> retry_at_;      ///< Time of the next try; set after a fault.
+    std::deque<journal::Header> undescribed_;  ///< Sessions whose metadata must be written.
     std::atomic<bool> are_marks_true_{true};
-    std::optional<record::SessionId> marked_;  ///< Session of the records in the writer.
+    std::optional<journal::SessionId> marked_;  ///< Session of the records in the writer.
 
     mutable std::mutex mutex_;  ///< Mutex of archiver_ and its output; not locked for disk access.
     std::condition_variable hurried_;
     bool has_recorded_ = false;  ///< This run recorded a session or a part of one.
     bool is_hurried_ = false;
     Outbox outbox_;
-    std::unique_ptr<record::Archiver> archiver_;
-    std::optional<record::SessionId> session_;  ///< Session of archiver_.
+    std::unique_ptr<archive::Archiver> archiver_;
+    std::optional<journal::SessionId> session_;  ///< Session of archiver_.
     std::deque<Ended> ended_;
     ArchiveStatus status_;
     std::thread thread_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -5,7 +5,7 @@
 
 #include "daemon/store/archive_thread.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
 /// Adds the last run's journal to the archive.  The archiver is then in the state in which that run
 /// ended, so that an adopted stream continues its session.
@@ -16,7 +16,7 @@ bool ArchiveThread::recover() noexcept {
         if (!status_.is_replaying) return true;
     }
     if (retry_at_ && time_.now() < *retry_at_) return false;
-    record::RecoveryReport report;
+    archive::RecoveryReport report;
     reserve_.tend();
     try {
         report.journal = plan_.cut;
@@ -25,7 +25,7 @@ bool ArchiveThread::recover() noexcept {
     } catch (const std::exception& error) {
         // After a failed sync it is not known which data the kernel kept and which it dropped.
         const auto* const failure = dynamic_cast<const std::system_error*>(&error);
-        if (failure == nullptr || !record::is_disk_full(failure->code())) are_marks_true_ = false;
+        if (failure == nullptr || !files::is_disk_full(failure->code())) are_marks_true_ = false;
         note_fault(error.what());
         retry_at_ = time_.now() + time_.retry_interval;
         return false;
@@ -39,23 +39,23 @@ bool ArchiveThread::recover() noexcept {
     return true;
 }
 
-bool ArchiveThread::replay(record::RecoveryReport& report) {
+bool ArchiveThread::replay(archive::RecoveryReport& report) {
     {
         const std::lock_guard lock(mutex_);
         open_archive(codes_);
         outbox_.entries.clear();
         outbox_.bytes = 0;
-        archiver_ = std::make_unique<record::Archiver>(outbox_);
+        archiver_ = std::make_unique<archive::Archiver>(outbox_);
         session_.reset();
         ended_.clear();
     }
-    const auto take = [this](const record::JournalChunk& chunk) { return replay_chunk(chunk); };
-    for (const record::Replay& part : plan_.replays) {
+    const auto take = [this](const journal::Chunk& chunk) { return replay_chunk(chunk); };
+    for (const archive::Replay& part : plan_.replays) {
         {
             const std::lock_guard lock(mutex_);
             open_archive(part.codes);
         }
-        if (!record::replay_journal(files_, archive_, part, *writer_, take, report)) return false;
+        if (!archive::replay_journal(files_, archive_, part, *writer_, take, report)) return false;
         if (&part == &plan_.replays.back() && part.codes == codes_) break;
         // Nothing continues in a part with other station codes.
         std::unique_lock lock(mutex_);
@@ -72,13 +72,13 @@ bool ArchiveThread::replay(record::RecoveryReport& report) {
     return true;
 }
 
-void ArchiveThread::open_archive(const record::StationCodes& codes) {
-    writer_ = std::make_unique<record::ArchiveWriter>(files_, archive_, codes);
+void ArchiveThread::open_archive(const journal::StationCodes& codes) {
+    writer_ = std::make_unique<archive::Writer>(files_, archive_, codes);
     outbox_.writer = writer_.get();
 }
 
 /// Processes one chunk of the replay.  @return false if the daemon is stopping.
-bool ArchiveThread::replay_chunk(const record::JournalChunk& chunk) {
+bool ArchiveThread::replay_chunk(const journal::Chunk& chunk) {
     if (reserve_.is_space_short())
         throw std::system_error(std::make_error_code(std::errc::no_space_on_device),
                                 "the remaining space is kept for the journal");
@@ -86,7 +86,7 @@ bool ArchiveThread::replay_chunk(const record::JournalChunk& chunk) {
     {
         const std::lock_guard lock(mutex_);
         if (is_hurried_) return false;
-        if (const auto* const header = std::get_if<record::JournalHeader>(&chunk)) {
+        if (const auto* const header = std::get_if<journal::Header>(&chunk)) {
             is_new_session = header->session != session_;
             note_session(header->session);
         }
@@ -104,4 +104,4 @@ void ArchiveThread::write_replayed() {
     outbox_.bytes = 0;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

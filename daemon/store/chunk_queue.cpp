@@ -1,12 +1,12 @@
 #include "daemon/store/chunk_queue.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 namespace {
 
 std::size_t size_of(const NumberedChunk& numbered) {
     std::size_t size = sizeof numbered;
-    if (const auto* rx = std::get_if<record::RxChunk>(&numbered.chunk))
-        size += rx->bytes.size() + rx->reads.size() * sizeof(record::ReadStamp);
+    if (const auto* rx = std::get_if<journal::RxChunk>(&numbered.chunk))
+        size += rx->bytes.size() + rx->reads.size() * sizeof(journal::ReadStamp);
     return size;
 }
 
@@ -55,4 +55,4 @@ void ChunkQueue::close() {
     changed_.notify_all();
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -9,12 +9,12 @@
 
 #include "protocol/journal/journal.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
 /// A chunk that is written to the journal (not yet synced), with its number since start.
 struct NumberedChunk {
     std::uint64_t number = 0;
-    record::JournalChunk chunk;
+    journal::Chunk chunk;
 };
 
 /// The queue from the journal thread to the archive thread.
@@ -53,4 +53,4 @@ private:
     bool is_closed_ = false;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -11,8 +11,8 @@
 
 #include "protocol/core/input_error.hpp"
 
-namespace a351::daemon {
-DataRootLock::DataRootLock(record::FileLayer& files, const std::filesystem::path& root) {
+namespace a351::daemon::store {
+DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path& root) {
     for (const char* name : {"journal", "archive", "metadata", "events", "state"})
         files.create_directories(root / name);
     files.sync_directory(root);  // A start that was killed may not have synced it.
@@ -28,14 +28,14 @@ DataRootLock::DataRootLock(record::FileLayer& files, const std::filesystem::path
 
 DataRootLock::~DataRootLock() { close(descriptor_); }
 
-std::optional<std::string> describe_station(record::FileLayer& files,
+std::optional<std::string> describe_station(files::FileLayer& files,
                                             const std::filesystem::path& root,
-                                            const record::StationDescription& description) {
+                                            const station::Description& description) {
     const std::filesystem::path file = root / "metadata" / "station.xml";
     std::optional<std::string> xml, trouble;
     try {
-        xml = std::filesystem::exists(file) ? record::extend_station_xml(file, description)
-                                            : record::to_station_xml(description);
+        xml = std::filesystem::exists(file) ? station::extend_station_xml(file, description)
+                                            : station::to_station_xml(description);
     } catch (const InputError& damage) {
         std::filesystem::path aside = file;
         aside += ".damaged";
@@ -45,10 +45,10 @@ std::optional<std::string> describe_station(record::FileLayer& files,
         trouble = fmt::format(
             "{}; the file is kept as {}, and a new one without its earlier epochs was written",
             damage.what(), aside.filename().string());
-        xml = record::to_station_xml(description);
+        xml = station::to_station_xml(description);
     }
-    if (xml) record::replace_file(files, file, std::as_bytes(std::span(*xml)));
+    if (xml) files::replace_file(files, file, std::as_bytes(std::span(*xml)));
     return trouble;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

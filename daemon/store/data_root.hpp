@@ -10,7 +10,7 @@
 #include "protocol/files/file_layer.hpp"
 #include "protocol/station/station_xml.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
 /// Thrown if another daemon uses this data root.
 class DataRootLocked : public std::runtime_error {
@@ -24,7 +24,7 @@ public:
     /// Creates missing directories and takes the lock.
     /// @throws DataRootLocked     another process has the lock.
     /// @throws std::system_error  the root cannot be used.
-    DataRootLock(record::FileLayer& files, const std::filesystem::path& root);
+    DataRootLock(files::FileLayer& files, const std::filesystem::path& root);
     ~DataRootLock();
     DataRootLock(const DataRootLock&) = delete;
     DataRootLock& operator=(const DataRootLock&) = delete;
@@ -37,8 +37,8 @@ private:
 /// file that cannot be used is renamed and replaced by a new one.
 /// @return  the trouble with the existing file; std::nullopt if none.
 /// @throws std::system_error  it cannot be read or written.
-std::optional<std::string> describe_station(record::FileLayer& files,
+std::optional<std::string> describe_station(files::FileLayer& files,
                                             const std::filesystem::path& root,
-                                            const record::StationDescription& description);
+                                            const station::Description& description);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -11,34 +11,34 @@
 #include "protocol/journal/journal_compression.hpp"
 #include "protocol/journal/journal_reader.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 namespace {
 
 namespace fs = std::filesystem;
 
 struct Segment {
     fs::path path;
-    record::JournalHeader header;
+    journal::Header header;
 };
 
 /// Returns the segments whose header can be read.
 std::vector<Segment> readable_segments(const fs::path& journal) {
     std::vector<Segment> segments;
-    for (const fs::path& path : record::journal_segments(journal))
-        if (const auto header = record::segment_header(path)) segments.push_back({path, *header});
+    for (const fs::path& path : journal::segment_files(journal))
+        if (const auto header = journal::segment_header(path)) segments.push_back({path, *header});
     return segments;
 }
 
 /// Returns the session of the newest MARK.  Earlier sessions are complete in the archive.
-std::optional<record::SessionId> marked_session(const std::vector<Segment>& segments) {
+std::optional<journal::SessionId> marked_session(const std::vector<Segment>& segments) {
     for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment)
-        if (const auto mark = record::newest_mark(segment->path)) return mark->session;
+        if (const auto mark = journal::newest_mark(segment->path)) return mark->session;
     return std::nullopt;
 }
 
 }  // namespace
 
-JournalKeeper::JournalKeeper(record::FileLayer& files, fs::path journal, Options options)
+JournalKeeper::JournalKeeper(files::FileLayer& files, fs::path journal, Options options)
     : files_(files), journal_(std::move(journal)), options_(options) {}
 
 JournalKeeper::~JournalKeeper() {
@@ -82,10 +82,10 @@ void JournalKeeper::tidy() noexcept {
 }
 
 void JournalKeeper::remove_old() {
-    const auto names = record::journal_segments(journal_);
+    const auto names = journal::segment_files(journal_);
     if (names.empty()) return;
-    const auto first = record::segment_time(names.front()),
-               last = record::segment_time(names.back());
+    const auto first = journal::segment_time(names.front()),
+               last = journal::segment_time(names.back());
     const auto kept = std::chrono::days(options_.keep_days);
     if (first && last && *last - *first < kept) return;
 
@@ -121,13 +121,13 @@ void JournalKeeper::remove_old() {
 }
 
 void JournalKeeper::compress_closed() {
-    const auto segments = record::journal_segments(journal_);
+    const auto segments = journal::segment_files(journal_);
     for (std::size_t i = 0; i + 1 < segments.size() && !is_stopping_; ++i) {
         if (segments[i].extension() != ".a351j") continue;
         const auto age = fs::file_time_type::clock::now() - fs::last_write_time(segments[i]);
         if (age < options_.compress_after) continue;
         try {
-            record::compress_segment(files_, segments[i]);
+            journal::compress_segment(files_, segments[i]);
         } catch (const std::exception& error) {
             note_fault(error.what());
             continue;
@@ -137,4 +137,4 @@ void JournalKeeper::compress_closed() {
     }
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -13,7 +13,7 @@
 
 #include "protocol/files/file_layer.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
 /// Compresses closed segments of the journal and removes old sessions, in a thread of its own.
 ///
@@ -34,7 +34,7 @@ public:
         std::string trouble;  ///< Text of the last fault.
     };
 
-    JournalKeeper(record::FileLayer& files, std::filesystem::path journal, Options options);
+    JournalKeeper(files::FileLayer& files, std::filesystem::path journal, Options options);
     ~JournalKeeper();
 
     void start() {
@@ -60,7 +60,7 @@ private:
     void compress_closed();
     void note_fault(const std::string& trouble);
 
-    record::FileLayer& files_;
+    files::FileLayer& files_;
     std::filesystem::path journal_;
     Options options_;
     std::atomic<bool> are_names_read_{false};
@@ -72,4 +72,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

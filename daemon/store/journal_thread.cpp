@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 namespace {
 
 using std::chrono::milliseconds;
@@ -22,9 +22,10 @@ constexpr std::size_t kMostPosted = 10'000;
 
 }  // namespace
 
-JournalThread::JournalThread(record::FileLayer& files, const std::filesystem::path& data_root,
-                             const HostClock& clock, ReadQueue& reads, ChunkQueue& written,
-                             Progress& progress, SpaceReserve& reserve, DiskTime time)
+JournalThread::JournalThread(files::FileLayer& files, const std::filesystem::path& data_root,
+                             const source::HostClock& clock, source::ReadQueue& reads,
+                             ChunkQueue& written, Progress& progress, SpaceReserve& reserve,
+                             DiskTime time)
     : time_(std::move(time)),
       files_(files),
       events_(data_root / "events"),
@@ -68,11 +69,11 @@ bool JournalThread::finish() {
     return !status_.is_faulty;
 }
 
-void JournalThread::post(record::JournalChunk chunk) {
+void JournalThread::post(journal::Chunk chunk) {
     const std::lock_guard lock(mutex_);
     if (posted_.size() >= kMostPosted) {
-        const auto is_poll = [](const record::JournalChunk& posted) {
-            return std::holds_alternative<record::OvenChunk>(posted);
+        const auto is_poll = [](const journal::Chunk& posted) {
+            return std::holds_alternative<journal::OvenChunk>(posted);
         };
         const auto oldest = std::find_if(posted_.begin(), posted_.end(), is_poll);
         if (oldest != posted_.end()) posted_.erase(oldest);
@@ -80,7 +81,7 @@ void JournalThread::post(record::JournalChunk chunk) {
     posted_.push_back(std::move(chunk));
 }
 
-void JournalThread::commit(const record::Event& event, milliseconds patience) {
+void JournalThread::commit(const events::Event& event, milliseconds patience) {
     const auto commit = std::make_shared<Commit>(Commit{event, {}});
     std::future<void> done = commit->done.get_future();
     {
@@ -171,10 +172,10 @@ void JournalThread::make_room() {
     std::uint64_t dropped = 0;
     while (reads_.fill() > reads_.capacity() / 8 * 7) {
         const auto kind = reads_.front()->kind;
-        if (kind == ReadQueue::Kind::rx) ++dropped;
-        if (kind == ReadQueue::Kind::session) {
+        if (kind == source::ReadQueue::Kind::rx) ++dropped;
+        if (kind == source::ReadQueue::Kind::session) {
             const auto* const rx =
-                unwritten_ ? std::get_if<record::RxChunk>(&*unwritten_) : nullptr;
+                unwritten_ ? std::get_if<journal::RxChunk>(&*unwritten_) : nullptr;
             if (rx != nullptr) dropped += rx->reads.size();
             unwritten_ = reads_.take_session();
         }
@@ -185,35 +186,35 @@ void JournalThread::make_room() {
 }
 
 void JournalThread::write_reads() {
-    record::RxChunk rx;
+    journal::RxChunk rx;
     const auto write_rx = [&] {
         if (!rx.reads.empty()) write(std::exchange(rx, {}));
     };
     while (const auto item = reads_.front()) {
-        if (item->kind != ReadQueue::Kind::rx ||
+        if (item->kind != source::ReadQueue::Kind::rx ||
             rx.bytes.size() + item->bytes.size() > kMostBytes || rx.reads.size() == kMostReads) {
             write_rx();
         }
         switch (item->kind) {
-            case ReadQueue::Kind::rx:
+            case source::ReadQueue::Kind::rx:
                 rx.bytes.insert(rx.bytes.end(), item->bytes.begin(), item->bytes.end());
                 rx.reads.push_back({static_cast<std::uint32_t>(rx.bytes.size()), item->time});
                 reads_.pop();
                 break;
-            case ReadQueue::Kind::tx: {
-                record::TxChunk tx{item->time, {item->bytes.begin(), item->bytes.end()}};
+            case source::ReadQueue::Kind::tx: {
+                journal::TxChunk tx{item->time, {item->bytes.begin(), item->bytes.end()}};
                 reads_.pop();
                 write(std::move(tx));
                 break;
             }
-            case ReadQueue::Kind::woken: {
+            case source::ReadQueue::Kind::woken: {
                 const timing::ClockReading reading = reads_.woken();
                 reads_.pop();
                 write_clock(reading);
                 break;
             }
-            case ReadQueue::Kind::session: {
-                record::JournalHeader header = reads_.take_session();
+            case source::ReadQueue::Kind::session: {
+                journal::Header header = reads_.take_session();
                 reads_.pop();
                 write(std::move(header));
                 break;
@@ -234,14 +235,14 @@ void JournalThread::write_clock(const timing::ClockReading& reading) {
     write(reading);
 }
 
-void JournalThread::write(record::JournalChunk chunk) {
+void JournalThread::write(journal::Chunk chunk) {
     unwritten_ = std::move(chunk);
     retry_unwritten();
 }
 
 void JournalThread::retry_unwritten() {
     if (!unwritten_) return;
-    const auto* const header = std::get_if<record::JournalHeader>(&*unwritten_);
+    const auto* const header = std::get_if<journal::Header>(&*unwritten_);
     if (header == nullptr && !has_segment_) {
         unwritten_.reset();
         return;
@@ -252,7 +253,7 @@ void JournalThread::retry_unwritten() {
     } else {
         // With a clock reading later than the reader's own, the header would include later sleeps.
         const auto* const reading = std::get_if<timing::ClockReading>(&*unwritten_);
-        std::optional<record::JournalHeader> rotated;
+        std::optional<journal::Header> rotated;
         on_disk([&] { rotated = writer_.append(*unwritten_, reading ? *reading : clock_.read()); });
         if (rotated) hand_over(*rotated);  // The archive must see the same chunks as a reader.
     }
@@ -263,7 +264,7 @@ void JournalThread::retry_unwritten() {
     status_.bytes_written = writer_.bytes_written();
 }
 
-void JournalThread::hand_over(record::JournalChunk chunk) {
+void JournalThread::hand_over(journal::Chunk chunk) {
     if (written_.push({++last_chunk_, std::move(chunk)})) return;
     const std::lock_guard lock(mutex_);
     ++status_.archive_waits;
@@ -273,7 +274,7 @@ void JournalThread::hand_over(record::JournalChunk chunk) {
 // once, or later after a fault of the journal.
 void JournalThread::carry_out(Commit& commit) {
     try {
-        on_disk([&] { record::append_event(files_, events_, commit.event); });
+        on_disk([&] { events::append_event(files_, events_, commit.event); });
     } catch (const std::exception&) {
         std::unique_lock lock(mutex_);
         ++status_.events_refused;
@@ -281,7 +282,7 @@ void JournalThread::carry_out(Commit& commit) {
         return commit.done.set_exception(std::current_exception());
     }
     try {
-        post(record::EventChunk{record::to_json(commit.event)});
+        post(journal::EventChunk{events::to_json(commit.event)});
         if (may_try_again()) {
             retry_unwritten();
             while (auto chunk = take_first(posted_)) write(std::move(*chunk));
@@ -326,7 +327,7 @@ void JournalThread::on_disk(const std::function<void()>& operation) {
     try {
         operation();
     } catch (const std::system_error& error) {
-        if (!record::is_disk_full(error.code()) || !reserve_.give_up()) throw;
+        if (!files::is_disk_full(error.code()) || !reserve_.give_up()) throw;
         operation();
     }
 }
@@ -352,4 +353,4 @@ bool JournalThread::is_fault_recent() const {
     return last_fault_ && time_.now() - *last_fault_ < time_.retry_interval;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

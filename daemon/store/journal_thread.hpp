@@ -27,7 +27,7 @@
 #include "protocol/files/file_layer.hpp"
 #include "protocol/journal/journal_writer.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
 struct JournalStatus {
     bool is_faulty = false;  ///< A fault now or within the last retry interval, so that it is seen.
@@ -45,9 +45,9 @@ struct JournalStatus {
 class JournalThread {
 public:
     /// All objects passed by reference must outlive this.
-    JournalThread(record::FileLayer& files, const std::filesystem::path& data_root,
-                  const HostClock& clock, ReadQueue& reads, ChunkQueue& written, Progress& progress,
-                  SpaceReserve& reserve, DiskTime time);
+    JournalThread(files::FileLayer& files, const std::filesystem::path& data_root,
+                  const source::HostClock& clock, source::ReadQueue& reads, ChunkQueue& written,
+                  Progress& progress, SpaceReserve& reserve, DiskTime time);
     ~JournalThread();
 
     void start();
@@ -63,21 +63,21 @@ public:
     bool finish();
 
     /// Queues a chunk to be written soon: MARK, MODEL or a poll of the oven.
-    void post(record::JournalChunk chunk);
+    void post(journal::Chunk chunk);
 
     /// Writes the event and waits until it is in the event log and synced.  The journal contains it
     /// then too, or as soon as the journal can be written.
     /// @throws std::system_error  the event could not be written, and nothing of it is in the event
     ///                            log; timed_out if its turn did not come within `patience`: it is
     ///                            then withdrawn.
-    void commit(const record::Event& event, std::chrono::milliseconds patience);
+    void commit(const events::Event& event, std::chrono::milliseconds patience);
 
     [[nodiscard]] JournalStatus status() const;
 
 private:
     enum class Phase { running, draining, finishing };
     struct Commit {
-        record::Event event;
+        events::Event event;
         std::promise<void> done;
     };
 
@@ -90,9 +90,9 @@ private:
     void write_clock(const timing::ClockReading& reading);
     template <class Item>
     [[nodiscard]] std::optional<Item> take_first(std::deque<Item>& items);
-    void write(record::JournalChunk chunk);
+    void write(journal::Chunk chunk);
     void retry_unwritten();
-    void hand_over(record::JournalChunk chunk);
+    void hand_over(journal::Chunk chunk);
     void carry_out(Commit& commit);
     void sync();
     void on_disk(const std::function<void()>& operation);
@@ -101,22 +101,22 @@ private:
     [[nodiscard]] bool is_fault_recent() const;
 
     DiskTime time_;
-    record::FileLayer& files_;
+    files::FileLayer& files_;
     std::filesystem::path events_;
-    const HostClock& clock_;
-    ReadQueue& reads_;
+    const source::HostClock& clock_;
+    source::ReadQueue& reads_;
     ChunkQueue& written_;
     Progress& progress_;
     SpaceReserve& reserve_;
-    record::JournalWriter writer_;
+    journal::Writer writer_;
 
     bool is_started_ = false;  ///< If false, the caller's thread does the work.
 
     // Used by the journal thread only.
     bool has_segment_ = false;
     bool is_dirty_ = false;
-    int faults_running_ = 0;                         ///< Faults since the last successful sync.
-    std::optional<record::JournalChunk> unwritten_;  ///< Chunk that could not be written yet.
+    int faults_running_ = 0;                   ///< Faults since the last successful sync.
+    std::optional<journal::Chunk> unwritten_;  ///< Chunk that could not be written yet.
     std::uint64_t last_chunk_ = 0;
     RawTime last_clock_;
     std::chrono::steady_clock::time_point last_clock_real_, last_sync_;
@@ -125,11 +125,11 @@ private:
     std::condition_variable woken_;
     Phase phase_ = Phase::running;
     bool is_drained_ = false;
-    std::deque<record::JournalChunk> posted_;
+    std::deque<journal::Chunk> posted_;
     std::deque<std::shared_ptr<Commit>> commits_;
     JournalStatus status_;
     std::optional<std::chrono::steady_clock::time_point> on_disk_since_, last_fault_;
     std::thread thread_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -1,8 +1,8 @@
 #include "daemon/store/progress.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
-void Progress::parsed(std::uint64_t chunk, const record::SessionId& session,
+void Progress::parsed(std::uint64_t chunk, const journal::SessionId& session,
                       std::optional<std::int64_t> last_index) {
     const std::lock_guard lock(mutex_);
     if (indices_.session != session) {
@@ -20,7 +20,7 @@ void Progress::journal_synced(std::uint64_t chunk) {
     advance();
 }
 
-void Progress::archive_synced(const record::SessionId& session, std::int64_t index) {
+void Progress::archive_synced(const journal::SessionId& session, std::int64_t index) {
     const std::lock_guard lock(mutex_);
     if (indices_.session != session) return;
     indices_.archived = index;
@@ -38,4 +38,4 @@ Progress::Indices Progress::indices() const {
     return indices_;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -10,26 +10,26 @@
 
 #include "protocol/journal/journal.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
 class Progress {
 public:
     struct Indices {
-        std::optional<record::SessionId> session;
+        std::optional<journal::SessionId> session;
         std::optional<std::int64_t> received;   ///< Last sample parsed.
         std::optional<std::int64_t> journaled;  ///< Last sample that survives a power cut.
         std::optional<std::int64_t> archived;   ///< Last sample in synced records of all channels.
     };
 
     /// Notes that the archive thread parsed a chunk; `last_index` is the session's last one so far.
-    void parsed(std::uint64_t chunk, const record::SessionId& session,
+    void parsed(std::uint64_t chunk, const journal::SessionId& session,
                 std::optional<std::int64_t> last_index);
 
     /// Notes that every chunk up to `chunk` is on disk.
     void journal_synced(std::uint64_t chunk);
 
     /// Notes that all samples up to `index` are in synced records.
-    void archive_synced(const record::SessionId& session, std::int64_t index);
+    void archive_synced(const journal::SessionId& session, std::int64_t index);
 
     [[nodiscard]] Indices indices() const;
 
@@ -46,4 +46,4 @@ private:
     std::uint64_t synced_chunk_ = 0;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

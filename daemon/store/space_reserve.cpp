@@ -4,9 +4,9 @@
 #include <system_error>
 #include <utility>
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
-SpaceReserve::SpaceReserve(record::FileLayer& files, std::filesystem::path file,
+SpaceReserve::SpaceReserve(files::FileLayer& files, std::filesystem::path file,
                            std::uint64_t size_bytes)
     : files_(files), file_(std::move(file)), size_bytes_(size_bytes) {
     if (std::filesystem::exists(file_)) make();  // In a copied root the file may have no blocks.
@@ -36,7 +36,7 @@ void SpaceReserve::make() {
         state_ = State::present;
         return;
     } catch (const std::system_error& error) {
-        if (!record::is_disk_full(error.code())) {
+        if (!files::is_disk_full(error.code())) {
             state_ = State::unavailable;
             const std::lock_guard lock(trouble_mutex_);
             trouble_ = error.what();
@@ -64,4 +64,4 @@ const char* to_text(SpaceReserve::State state) {
     return kTexts.at(static_cast<std::size_t>(state));
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

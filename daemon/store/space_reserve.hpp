@@ -13,7 +13,7 @@
 
 #include "protocol/files/file_layer.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
 /// The real time that journal and archive use for writing, syncing and trying again.
 struct DiskTime {
@@ -43,7 +43,7 @@ public:
     /// Creates the reserve under the same condition as tend(); an existing one is kept.
     /// @param files  must outlive this.
     /// @param file   path; its directory must exist.
-    SpaceReserve(record::FileLayer& files, std::filesystem::path file, std::uint64_t size_bytes);
+    SpaceReserve(files::FileLayer& files, std::filesystem::path file, std::uint64_t size_bytes);
 
     /// Removes the file.  It stays removed until tend() finds enough free space.
     /// @return false if there is no file to remove.
@@ -62,7 +62,7 @@ public:
 private:
     void make();
 
-    record::FileLayer& files_;
+    files::FileLayer& files_;
     std::filesystem::path file_;
     std::uint64_t size_bytes_;
 
@@ -76,4 +76,4 @@ private:
 
 [[nodiscard]] const char* to_text(SpaceReserve::State state);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

@@ -7,7 +7,7 @@
 
 #include "protocol/archive/time_gate.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 namespace {
 
 // Duration of a sync above which a power cut would cost more than the promised second.
@@ -15,8 +15,8 @@ constexpr std::chrono::seconds kStall{1};
 
 }  // namespace
 
-Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& clock,
-             ReadQueue& reads)
+Store::Store(files::FileLayer& files, Options options, const source::HostClock& clock,
+             source::ReadQueue& reads)
     : files_(files),
       options_(std::move(options)),
       lock_(files, options_.root),
@@ -24,16 +24,16 @@ Store::Store(record::FileLayer& files, StoreOptions options, const HostClock& cl
       reserve_(files, options_.root / "state" / "reserve", options_.reserve_bytes),
       plan_(plan_recovery()),
       known_stream_(plan_.replays.empty() ? std::nullopt
-                                          : record::stream_end(plan_.replays.back().segments)),
+                                          : journal::stream_end(plan_.replays.back().segments)),
       profile_(wire::find_profile(options_.station.profile)),
       chunks_(options_.queue_bytes),
       journal_(files, options_.root, clock, reads, chunks_, progress_, reserve_, options_.time),
       archive_(
           files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
           reserve_,
-          {.post = [this](record::JournalChunk chunk) { journal_.post(std::move(chunk)); },
-           .session_began = [this](const record::JournalHeader& header) { describe(header); },
-           .recovered = [this](const record::RecoveryReport& report) { finish_recovery(report); },
+          {.post = [this](journal::Chunk chunk) { journal_.post(std::move(chunk)); },
+           .session_began = [this](const journal::Header& header) { describe(header); },
+           .recovered = [this](const archive::RecoveryReport& report) { finish_recovery(report); },
            .begin = options_.begin,
            .sample = options_.sample},
           options_.time, plan_) {}
@@ -62,27 +62,27 @@ bool Store::stop() {
 }
 
 /// Begins recovery.  On a full disk it gives up the reserve, because recording must continue.
-record::RecoveryPlan Store::plan_recovery() {
+archive::RecoveryPlan Store::plan_recovery() {
     const auto journal = options_.root / "journal";
     try {
-        return record::begin_recovery(files_, journal);
+        return archive::begin_recovery(files_, journal);
     } catch (const std::system_error& error) {
-        if (!record::is_disk_full(error.code()) || !reserve_.give_up()) throw;
-        return record::begin_recovery(files_, journal);
+        if (!files::is_disk_full(error.code()) || !reserve_.give_up()) throw;
+        return archive::begin_recovery(files_, journal);
     }
 }
 
-void Store::finish_recovery(const record::RecoveryReport& report) {
+void Store::finish_recovery(const archive::RecoveryReport& report) {
     options_.recovered(report);
     keeper_.keep_names(false);
 }
 
 /// Writes the station metadata.  Trouble is shown in the status and does not delay the archive; the
 /// next header tries again.
-void Store::describe(const record::JournalHeader& header) {
+void Store::describe(const journal::Header& header) {
     // Without a host clock the begin of the epoch is not known.
-    if (header.clock.realtime < record::TimeGate::kEarliest) return;
-    record::StationDescription description = options_.station;
+    if (header.clock.realtime < archive::TimeGate::kEarliest) return;
+    station::Description description = options_.station;
     // The times of the first samples precede their header by the filter's delay.
     description.start = header.clock.realtime - description.group_delay;
     description.product_id = header.product_id;
@@ -106,7 +106,7 @@ bool Store::is_alive() {
            std::exchange(rounds_, journal.rounds) != journal.rounds;
 }
 
-void Store::fill(Status& status) {
+void Store::fill(status::Status& status) {
     const Progress::Indices indices = progress_.indices();
     if (indices.session) status.session = indices.session->to_hex();
     status.received = indices.received;
@@ -189,4 +189,4 @@ void Store::fill(Status& status) {
     }
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

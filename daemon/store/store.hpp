@@ -28,12 +28,12 @@
 #include "protocol/station/station_xml.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::store {
 
-struct StoreOptions {
+struct Options {
     std::filesystem::path root;
     /// Station as configured; device and times are added for each session.
-    record::StationDescription station = {};
+    station::Description station = {};
     DiskTime time = {};
     std::uint64_t reserve_bytes = SpaceReserve::kSize_bytes;
     std::size_t queue_bytes = ChunkQueue::kCapacityBytes;
@@ -41,23 +41,24 @@ struct StoreOptions {
     /// Longest time that an event waits for its turn.
     std::chrono::milliseconds commit_patience{10'000};
     /// Called by another thread when the last run's journal is completely in the archive.
-    std::function<void(const record::RecoveryReport&)> recovered = [](const auto&) {};
+    std::function<void(const archive::RecoveryReport&)> recovered = [](const auto&) {};
     /// Called by another thread, once, before anything is recorded or recovered.  Must not throw.
     std::function<void()> begin = [] {};
     /// Called by another thread for each sample that received its index and time, also those of the
     /// last run's journal.
-    std::function<void(const record::Sample&, UtcTime)> sample = [](const auto&, UtcTime) {};
+    std::function<void(const archive::Sample&, UtcTime)> sample = [](const auto&, UtcTime) {};
 };
 
-class Store : public Recorder {
+class Store : public survey::Recorder {
 public:
     /// Locks the data root and repairs its journal.  The references must outlive this.
     /// @throws DataRootLocked, std::system_error
-    Store(record::FileLayer& files, StoreOptions options, const HostClock& clock, ReadQueue& reads);
+    Store(files::FileLayer& files, Options options, const source::HostClock& clock,
+          source::ReadQueue& reads);
     ~Store() override { stop(); }
 
     /// Returns the end of the stream that the journal contains; std::nullopt if there is none.
-    [[nodiscard]] const std::optional<record::StreamEnd>& known_stream() const noexcept {
+    [[nodiscard]] const std::optional<journal::StreamEnd>& known_stream() const noexcept {
         return known_stream_;
     }
 
@@ -72,35 +73,37 @@ public:
     /// @return false if something could not be written.
     bool stop();
 
-    [[nodiscard]] std::optional<Instant> latest() override { return archive_.latest(); }
-    [[nodiscard]] std::optional<Instant> at(UtcTime utc) override { return archive_.at(utc); }
-    void commit(const record::Event& event) override {
+    [[nodiscard]] std::optional<survey::Instant> latest() override { return archive_.latest(); }
+    [[nodiscard]] std::optional<survey::Instant> at(UtcTime utc) override {
+        return archive_.at(utc);
+    }
+    void commit(const events::Event& event) override {
         journal_.commit(event, options_.commit_patience);
     }
 
     /// Passes a poll to the journal.  It is dropped before the sensor's first session, which opens
     /// the journal.
-    void post(record::OvenChunk poll) { journal_.post(std::move(poll)); }
+    void post(journal::OvenChunk poll) { journal_.post(std::move(poll)); }
 
     /// Returns true if the journal thread finished a round since the last call, or waits for the
     /// disk.  While it waits, data are in memory only, and a restart would lose them.
     [[nodiscard]] bool is_alive();
 
     /// Copies the state of the store into the status, and adds its reasons.
-    void fill(Status& status);
+    void fill(status::Status& status);
 
 private:
-    record::RecoveryPlan plan_recovery();
-    void finish_recovery(const record::RecoveryReport& report);
-    void describe(const record::JournalHeader& header);
+    archive::RecoveryPlan plan_recovery();
+    void finish_recovery(const archive::RecoveryReport& report);
+    void describe(const journal::Header& header);
 
-    record::FileLayer& files_;
-    StoreOptions options_;
+    files::FileLayer& files_;
+    Options options_;
     DataRootLock lock_;
     JournalKeeper keeper_;
     SpaceReserve reserve_;
-    record::RecoveryPlan plan_;
-    std::optional<record::StreamEnd> known_stream_;
+    archive::RecoveryPlan plan_;
+    std::optional<journal::StreamEnd> known_stream_;
     const wire::DeviceProfile* profile_;
     Progress progress_;
     ChunkQueue chunks_;
@@ -112,4 +115,4 @@ private:
     std::uint64_t rounds_ = 0;  ///< Journal rounds at the last call of is_alive().
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::store

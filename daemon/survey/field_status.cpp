@@ -8,15 +8,15 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::survey {
 namespace {
 
 constexpr double kForgottenAfter = 3.0;  ///< Time until a reminder, in planned lengths.
 constexpr double kEarthRadiusMetres = 6371000.0;
 
-using SetUp = record::Occupation::SetUp;
+using SetUp = events::Occupation::SetUp;
 
-std::vector<SetUp> set_ups_so_far(const record::RunningOccupation& running, UtcTime now) {
+std::vector<SetUp> set_ups_so_far(const events::RunningOccupation& running, UtcTime now) {
     std::vector<SetUp> set_ups;
     for (const UtcTime start : running.set_ups) {
         if (!set_ups.empty()) set_ups.back().end = start;
@@ -25,11 +25,11 @@ std::vector<SetUp> set_ups_so_far(const record::RunningOccupation& running, UtcT
     return set_ups;
 }
 
-std::vector<std::string> warnings_of(const record::RunningOccupation& running,
-                                     const std::vector<record::Occupation>& day, double running_s,
+std::vector<std::string> warnings_of(const events::RunningOccupation& running,
+                                     const std::vector<events::Occupation>& day, double running_s,
                                      double planned_s) {
     std::vector<std::string> warnings;
-    if (std::ranges::count(day, running.site, &record::Occupation::site) > 0) {
+    if (std::ranges::count(day, running.site, &events::Occupation::site) > 0) {
         warnings.push_back(
             fmt::format("the site was occupied before: this is stay {}", running.number));
     }
@@ -41,7 +41,7 @@ std::vector<std::string> warnings_of(const record::RunningOccupation& running,
     return warnings;
 }
 
-void compare_level(FieldStatus& field, const Occupations& occupations, const LiveRecord& live,
+void compare_level(FieldStatus& field, const Occupations& occupations, const live::Record& live,
                    UtcTime now) {
     const auto day = survey_day(occupations, now);
     const auto& running = occupations.running();
@@ -65,12 +65,12 @@ double distance_m(const text::Site& site, Degrees latitude, Degrees longitude) {
 
 }  // namespace
 
-std::vector<record::Occupation> survey_day(const Occupations& occupations, UtcTime now) {
+std::vector<events::Occupation> survey_day(const Occupations& occupations, UtcTime now) {
     const auto& running = occupations.running();
-    return record::survey_day(occupations.list(), running ? running->start : now);
+    return events::survey_day(occupations.list(), running ? running->start : now);
 }
 
-OccupationReading reading_of(const std::vector<SetUp>& set_ups, const LiveRecord& live,
+OccupationReading reading_of(const std::vector<SetUp>& set_ups, const live::Record& live,
                              MilliGal target) {
     OccupationReading whole;
     double sum_mgal = 0.0, square = 0.0;
@@ -89,7 +89,7 @@ OccupationReading reading_of(const std::vector<SetUp>& set_ups, const LiveRecord
     return whole;
 }
 
-FieldStatus field_status(const Occupations& occupations, const LiveRecord& live, UtcTime now) {
+FieldStatus field_status(const Occupations& occupations, const live::Record& live, UtcTime now) {
     FieldStatus field;
     compare_level(field, occupations, live, now);
     const auto& running = occupations.running();
@@ -120,4 +120,4 @@ std::vector<SiteDistance> nearest_first(const std::vector<text::Site>& sites, De
     return list;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::survey

@@ -13,7 +13,7 @@
 #include "protocol/events/occupations.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::survey {
 
 /// The mean of an occupation's set-ups, as far as they are in memory.
 struct OccupationReading {
@@ -22,29 +22,29 @@ struct OccupationReading {
 };
 
 struct FieldStatus {
-    std::optional<RunningReading> reading;  ///< Reading of the running set-up.
-    OccupationReading whole;                ///< Mean of all set-ups.
-    std::optional<double> half_time_s;      ///< Seconds until half time; 0 after it.
-    bool proposes_set_up = false;           ///< Half time is past and there was only one set-up.
+    std::optional<verdict::RunningReading> reading;  ///< Reading of the running set-up.
+    OccupationReading whole;                         ///< Mean of all set-ups.
+    std::optional<double> half_time_s;               ///< Seconds until half time; 0 after it.
+    bool proposes_set_up = false;  ///< Half time is past and there was only one set-up.
     std::vector<std::string> warnings;
 
-    std::optional<Level> level;  ///< Tilt relative to the day's first set-up.
-    std::string level_site;      ///< Site of that set-up; empty if there is none.
-    UtcTime level_utc;           ///< Start of that set-up.
+    std::optional<live::Level> level;  ///< Tilt relative to the day's first set-up.
+    std::string level_site;            ///< Site of that set-up; empty if there is none.
+    UtcTime level_utc;                 ///< Start of that set-up.
 };
 
-/// Returns the finished occupations of the current survey day (record::kSurveyNight),
+/// Returns the finished occupations of the current survey day (events::kSurveyNight),
 /// in time order.
-[[nodiscard]] std::vector<record::Occupation> survey_day(const Occupations& occupations,
+[[nodiscard]] std::vector<events::Occupation> survey_day(const Occupations& occupations,
                                                          UtcTime now);
 
 /// Returns the information for the operator at this time.
-[[nodiscard]] FieldStatus field_status(const Occupations& occupations, const LiveRecord& live,
+[[nodiscard]] FieldStatus field_status(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);
 
 /// Returns the mean of these set-ups.
-[[nodiscard]] OccupationReading reading_of(const std::vector<record::Occupation::SetUp>& set_ups,
-                                           const LiveRecord& live, MilliGal target);
+[[nodiscard]] OccupationReading reading_of(const std::vector<events::Occupation::SetUp>& set_ups,
+                                           const live::Record& live, MilliGal target);
 
 struct SiteDistance {
     text::Site site;
@@ -56,4 +56,4 @@ struct SiteDistance {
 [[nodiscard]] std::vector<SiteDistance> nearest_first(const std::vector<text::Site>& sites,
                                                       Degrees latitude, Degrees longitude);
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::survey

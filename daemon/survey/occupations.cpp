@@ -8,27 +8,27 @@
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::survey {
 namespace {
 
 std::string shown(UtcTime time) { return to_rfc3339(time, 1); }
 
 Outcome refused(std::string message) { return {Outcome::Kind::refused, std::move(message)}; }
 
-record::Event event_at(std::string type, const Instant& instant) {
+events::Event event_at(std::string type, const Instant& instant) {
     return {std::move(type), instant.utc, instant.session, instant.index, {}};
 }
 
-void add(record::Event& event, const std::string& key, std::string_view text) {
+void add(events::Event& event, const std::string& key, std::string_view text) {
     if (!text.empty()) event.details[key] = text;
 }
 
-void add(record::Event& event, const Remark& remark) {
+void add(events::Event& event, const Remark& remark) {
     add(event, "operator", remark.operator_name);
     add(event, "note", remark.note);
 }
 
-std::string detail(const record::Event& event, const std::string& key) {
+std::string detail(const events::Event& event, const std::string& key) {
     return event.details.contains(key) ? event.details.at(key) : "";
 }
 
@@ -36,7 +36,7 @@ constexpr const char* kTargetKey = "target_mgal";
 
 bool is_target(MilliGal target) { return target.value() >= 0.01 && target.value() <= 1000.0; }
 
-std::optional<MilliGal> target_of(const record::Event& event) {
+std::optional<MilliGal> target_of(const events::Event& event) {
     const auto value = text::parse_number(detail(event, kTargetKey));
     if (!value || !is_target(MilliGal(*value))) return std::nullopt;
     return MilliGal(*value);
@@ -50,9 +50,9 @@ std::string named(const auto& occupation) {
 }  // namespace
 
 Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                         const std::vector<record::Event>& events, const OccupationOptions& options)
+                         const std::vector<events::Event>& events, const OccupationOptions& options)
     : recorder_(recorder), options_(options), sites_(std::move(sites)), replay_(events) {
-    for (const record::Event& event : events) note_aside(event);
+    for (const events::Event& event : events) note_aside(event);
 }
 
 Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
@@ -84,7 +84,7 @@ std::optional<std::string> Occupations::trouble_with_site(std::string_view site)
 }
 
 /// Makes an event that needs no sample, because it must be possible with the sensor unplugged.
-record::Event Occupations::about_now(std::string type) {
+events::Event Occupations::about_now(std::string type) {
     if (const auto latest = recorder_.latest()) return event_at(std::move(type), *latest);
     return {std::move(type), last_event_, {}, {}, {}};
 }
@@ -201,7 +201,7 @@ void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& op
     options_ = options;
 }
 
-Outcome Occupations::commit(record::Event event, std::string message) {
+Outcome Occupations::commit(events::Event event, std::string message) {
     try {
         recorder_.commit(event);
     } catch (const std::system_error& error) {
@@ -213,10 +213,10 @@ Outcome Occupations::commit(record::Event event, std::string message) {
 }
 
 /// Notes what does not concern occupations.
-void Occupations::note_aside(const record::Event& event) {
+void Occupations::note_aside(const events::Event& event) {
     last_event_ = event.utc;
     if (event.type != "target") return;
     if (const auto target = target_of(event)) target_ = target;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::survey

@@ -11,7 +11,7 @@
 #include "protocol/events/occupations.hpp"
 #include "protocol/text/sites.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::survey {
 
 /// The answer to a request of the operator.
 struct Outcome {
@@ -50,7 +50,7 @@ class Occupations {
 public:
     /// @param events  the event log so far, in file order.  `recorder` must outlive this.
     Occupations(Recorder& recorder, std::vector<text::Site> sites,
-                const std::vector<record::Event>& events, const OccupationOptions& options = {});
+                const std::vector<events::Event>& events, const OccupationOptions& options = {});
 
     Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at);
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
@@ -74,8 +74,8 @@ public:
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
 
     /// Returns the finished occupations, in order of time.
-    [[nodiscard]] std::vector<record::Occupation> list() const { return replay_.finished(); }
-    [[nodiscard]] const std::optional<record::RunningOccupation>& running() const noexcept {
+    [[nodiscard]] std::vector<events::Occupation> list() const { return replay_.finished(); }
+    [[nodiscard]] const std::optional<events::RunningOccupation>& running() const noexcept {
         return replay_.running();
     }
 
@@ -88,16 +88,16 @@ private:
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
     [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);
     [[nodiscard]] std::optional<std::string> trouble_with_site(std::string_view site) const;
-    [[nodiscard]] record::Event about_now(std::string type);
-    Outcome commit(record::Event event, std::string message);
-    void note_aside(const record::Event& event);
+    [[nodiscard]] events::Event about_now(std::string type);
+    Outcome commit(events::Event event, std::string message);
+    void note_aside(const events::Event& event);
 
     Recorder& recorder_;
     OccupationOptions options_;
     std::optional<MilliGal> target_;  ///< Target set by the operator.
     std::vector<text::Site> sites_;
-    record::OccupationReplay replay_;
+    events::OccupationReplay replay_;
     UtcTime last_event_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::survey

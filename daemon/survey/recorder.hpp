@@ -7,11 +7,11 @@
 #include "protocol/events/event_log.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::survey {
 
 /// A sample of the running session and its time.
 struct Instant {
-    record::SessionId session;
+    journal::SessionId session;
     std::int64_t index = 0;
     UtcTime utc;
 };
@@ -31,7 +31,7 @@ public:
 
     /// Writes the event to journal and event log and syncs both before it returns.
     /// @throws std::system_error  the event is not on disk.
-    virtual void commit(const record::Event& event) = 0;
+    virtual void commit(const events::Event& event) = 0;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::survey

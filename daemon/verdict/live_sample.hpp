@@ -5,7 +5,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
 /// Reach of the two decimations by ten on either side of a value, in s: 41 samples at 50 Hz and 41
 /// at 5 Hz.
@@ -26,4 +26,4 @@ struct LiveSample {
     MilliGal shake;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

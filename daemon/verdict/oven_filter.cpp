@@ -7,7 +7,7 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 namespace {
 
 // Values that gave the most likely outlook of 10 min on simulated warm-ups, visits and
@@ -33,7 +33,7 @@ using AsMatrix = Eigen::Map<const Matrix>;
 
 }  // namespace
 
-OvenFilter::OvenFilter(const VerdictOptions& options)
+OvenFilter::OvenFilter(const Options& options)
     : lid_degc_(options.lid_degc), lid_degc_per_s_(options.lid_degc_per_h / kSecondsPerHour) {
     constexpr double h = kStepSeconds;
     const double relax_s = 60.0 * options.relax_min;
@@ -99,4 +99,4 @@ void OvenFilter::touch() {
     covariance(2, 2) = std::max(covariance(2, 2), square(lid_degc_per_s_));
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

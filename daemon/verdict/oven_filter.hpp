@@ -5,7 +5,7 @@
 
 #include "daemon/verdict/verdict_options.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
 /// A model of the sensor's temperature, in steps of 20 s: a body that relaxes to the level at which
 /// oven and air would keep it, plus the oven's cycle.
@@ -22,7 +22,7 @@ public:
     static constexpr std::size_t kStates = 5;
     using State = std::array<double, kStates>;  ///< T, L [degC], R [degC/s], c, quadrature.
 
-    explicit OvenFilter(const VerdictOptions& options);
+    explicit OvenFilter(const Options& options);
 
     void begin(double degc);                 ///< Starts again at this temperature.
     void step();                             ///< Advances by one time step.
@@ -47,4 +47,4 @@ private:
     double lid_degc_, lid_degc_per_s_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

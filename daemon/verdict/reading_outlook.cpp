@@ -5,9 +5,9 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
-ReadingOutlook::ReadingOutlook(const VerdictOptions& options, const OvenFilter& filter)
+ReadingOutlook::ReadingOutlook(const Options& options, const OvenFilter& filter)
     : options_(options),
       half_(
           static_cast<std::size_t>(std::lround(0.5 * options.cycle_s / OvenFilter::kStepSeconds))),
@@ -104,4 +104,4 @@ std::optional<Outlook> ReadingOutlook::outlook(const OvenFilter& filter,
     return worst;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

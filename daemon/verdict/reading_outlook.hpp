@@ -8,7 +8,7 @@
 #include "daemon/verdict/oven_filter.hpp"
 #include "daemon/verdict/verdict_options.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
 /// The effect of temperature on the reading within the next 10 min.
 struct Outlook {
@@ -29,7 +29,7 @@ struct Outlook {
 /// follows the air.
 class ReadingOutlook {
 public:
-    ReadingOutlook(const VerdictOptions& options, const OvenFilter& filter);
+    ReadingOutlook(const Options& options, const OvenFilter& filter);
 
     void clear();
     void take(double degc);  ///< Takes the next mean, or the expected value in its place.
@@ -50,7 +50,7 @@ private:
     [[nodiscard]] std::vector<double> continued(std::vector<double> degc, OvenFilter::State state,
                                                 const OvenFilter& filter) const;
 
-    VerdictOptions options_;
+    Options options_;
     std::size_t half_;  ///< Number of steps in half a cycle.
     double slow_gain_;
     std::deque<double> past_degc_;
@@ -59,4 +59,4 @@ private:
     Changes unforeseen_mgal2_{};  ///< Variance due to future noise.
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

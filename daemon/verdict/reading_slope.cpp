@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 namespace {
 
 constexpr int kLeastInMinute = 15;       ///< Least number of values in a minute: half of them.
@@ -65,4 +65,4 @@ std::optional<Slope> ReadingSlope::fit() const {
     return Slope{found[1], std::sqrt(variance * inverse(1, 1))};
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

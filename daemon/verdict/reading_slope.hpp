@@ -7,7 +7,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
 /// Slope of the reading in time.
 struct Slope {
@@ -24,7 +24,7 @@ struct Slope {
 /// residuals: first-order autoregressive.  A minute with too few values is skipped.
 class ReadingSlope {
 public:
-    explicit ReadingSlope(const VerdictOptions& options) : options_(options) {}
+    explicit ReadingSlope(const Options& options) : options_(options) {}
 
     /// Takes the next value.  @param norm  of the axes, not affected by a knock.
     void take(UtcTime time, MilliGal norm);
@@ -42,7 +42,7 @@ private:
     void close_minute();
     [[nodiscard]] std::optional<Slope> fit() const;
 
-    VerdictOptions options_;
+    Options options_;
     std::deque<Minute> minutes_;
     UtcTime begun_;
     double zero_mgal_ = 0.0, sum_mgal_ = 0.0;
@@ -50,4 +50,4 @@ private:
     std::optional<Slope> slope_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

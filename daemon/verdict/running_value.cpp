@@ -6,7 +6,7 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 namespace {
 
 constexpr int kPerMinute = 30;
@@ -37,7 +37,7 @@ void RunningValue::take(const LiveSample& sample) {
     in_minute_ = 0;
 }
 
-RunningReading RunningValue::reading(MilliGal target, VerdictState state) const {
+RunningReading RunningValue::reading(MilliGal target, State state) const {
     RunningReading reading;
     reading.used_s = kLiveStepSeconds * used_;
     reading.left_out_s = kLiveStepSeconds * left_out_;
@@ -53,7 +53,7 @@ RunningReading RunningValue::reading(MilliGal target, VerdictState state) const 
     const double share = std::min(1.0, bend_s / reading.used_s);
     const double square = scatter / reading.used_s + cycle * cycle * share * share;
     reading.standard_error = MilliGal(std::sqrt(square));
-    if (state != VerdictState::stable) return reading;
+    if (state != State::stable) return reading;
 
     // scatter / u + (cycle bend / u)^2 = target^2
     const double wanted = target.value() * target.value();
@@ -65,4 +65,4 @@ RunningReading RunningValue::reading(MilliGal target, VerdictState state) const 
     return reading;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

@@ -5,7 +5,7 @@
 #include "daemon/verdict/live_sample.hpp"
 #include "daemon/verdict/verdict.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
 /// The reading of a running set-up so far.
 struct RunningReading {
@@ -28,15 +28,15 @@ struct RunningReading {
 class RunningValue {
 public:
     /// Values that depend on samples before `start` are not used.
-    RunningValue(const VerdictOptions& options, UtcTime start) : options_(options), start_(start) {}
+    RunningValue(const Options& options, UtcTime start) : options_(options), start_(start) {}
 
     void take(const LiveSample& sample);
 
     /// Returns the reading so far.  @param target  > 0
-    [[nodiscard]] RunningReading reading(MilliGal target, VerdictState state) const;
+    [[nodiscard]] RunningReading reading(MilliGal target, State state) const;
 
 private:
-    VerdictOptions options_;
+    Options options_;
     UtcTime start_;
     std::optional<UtcTime> last_shaken_;
     double zero_mgal_ = 0.0;  ///< First value; sums are of differences from it.
@@ -48,4 +48,4 @@ private:
     double minutes_sum_ = 0.0, minutes_square_ = 0.0;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 namespace {
 
 constexpr double kMeanSeconds = OvenFilter::kStepSeconds;
@@ -67,4 +67,4 @@ double TemperatureTrend::slope_degc_per_h() const noexcept {
     return filter_.off_level_degc() / (60.0 * options_.relax_min) * kSecondsPerHour;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

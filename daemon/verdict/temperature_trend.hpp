@@ -8,13 +8,13 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
 /// Passes the temperature as means of 20 s, each with an error from its own scatter, through the
 /// oven's filter.  A gap of up to 5 min is filled with the values that the filter expects.
 class TemperatureTrend {
 public:
-    explicit TemperatureTrend(const VerdictOptions& options)
+    explicit TemperatureTrend(const Options& options)
         : options_(options), filter_(options), reading_(options, filter_) {}
 
     /// Takes a value.  Times must increase; otherwise the trend starts again.
@@ -35,7 +35,7 @@ public:
 private:
     void close_mean();
 
-    VerdictOptions options_;
+    Options options_;
     OvenFilter filter_;
     ReadingOutlook reading_;
     int means_ = 0;  ///< Means observed or filled without a break.
@@ -47,4 +47,4 @@ private:
     double variance_degc2_ = 0.0;  ///< Variance of one value.
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

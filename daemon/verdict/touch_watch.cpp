@@ -6,7 +6,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/signal/median.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 namespace {
 
 constexpr std::size_t kMinute = 30;           ///< Samples in a minute.
@@ -43,7 +43,7 @@ void TouchWatch::follow_shake(const LiveSample& sample) {
     if (!std::isfinite(shake_mgal)) return;
     shakes_mgal_.push_back(shake_mgal);
     if (shakes_mgal_.size() > kUsualShakes) shakes_mgal_.pop_front();
-    const double usual_mgal = corrector::median({shakes_mgal_.begin(), shakes_mgal_.end()});
+    const double usual_mgal = signal::median({shakes_mgal_.begin(), shakes_mgal_.end()});
     const bool is_shaking = shake_mgal > std::max(kMilliGalPerGal * options_.shake_gal,
                                                   options_.shake_factor * usual_mgal);
     if (is_shaking) last_shaking_ = sample.seen_at;
@@ -92,8 +92,8 @@ void TouchWatch::follow_noise(const LiveSample& sample) {
 
 double TouchWatch::noise_ratio() const noexcept {
     if (minutes_mgal_.size() < kUsualMinutes) return 1.0;
-    const double usual = corrector::median({minutes_mgal_.begin(), minutes_mgal_.end()});
+    const double usual = signal::median({minutes_mgal_.begin(), minutes_mgal_.end()});
     return noise_mgal_ / std::max(usual, options_.noise_floor_mgal);
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

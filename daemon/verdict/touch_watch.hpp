@@ -7,12 +7,12 @@
 #include "daemon/verdict/live_sample.hpp"
 #include "daemon/verdict/verdict_options.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
 /// Detects knocks, handling of the box and its move to another place; measures the noise.
 class TouchWatch {
 public:
-    explicit TouchWatch(const VerdictOptions& options) : options_(options) {}
+    explicit TouchWatch(const Options& options) : options_(options) {}
 
     void take(const LiveSample& sample);
 
@@ -36,7 +36,7 @@ private:
     void follow_tilt(const LiveSample& sample);
     void follow_noise(const LiveSample& sample);
 
-    VerdictOptions options_;
+    Options options_;
     std::optional<UtcTime> knock_begun_;
     std::optional<UtcTime> last_shaken_;  ///< Like last_knock_, but not set by a change of tilt.
     std::optional<UtcTime> last_knock_, last_handled_, last_shaking_;
@@ -48,4 +48,4 @@ private:
     double noise_mgal_ = 0.0;  ///< Rms of the norm about its mean in the last minute.
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

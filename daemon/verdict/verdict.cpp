@@ -9,7 +9,7 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 namespace {
 
 constexpr double kAheadHours = 600.0 / kSecondsPerHour;
@@ -17,7 +17,7 @@ constexpr double kWatchedHours = 1.0;  ///< Time in which a box that was switche
 
 }  // namespace
 
-std::string_view to_text(VerdictState state) noexcept {
+std::string_view to_text(State state) noexcept {
     // In the order of the enumerators.
     constexpr std::array kTexts{"no data", "warming up", "disturbed", "settling", "stable"};
     return kTexts.at(static_cast<std::size_t>(state));
@@ -30,7 +30,7 @@ std::string Reason::to_text() const {
                        *ending ? " " : "", ending, is_least ? "needs" : "limit", limit, in_unit);
 }
 
-const Verdict& VerdictJudge::take(const LiveSample& sample) {
+const Verdict& Judge::take(const LiveSample& sample) {
     const double x = sample.axes[0].value(), y = sample.axes[1].value(), z = sample.axes[2].value();
     const double degc = sample.temperature.value();
     const auto handled = touches_.last_handled();
@@ -56,7 +56,7 @@ const Verdict& VerdictJudge::take(const LiveSample& sample) {
 
 /// Detects power-on: a box that is cold at the first sample, or warms by itself, has just been
 /// switched on.
-void VerdictJudge::follow_power(UtcTime seen_at, double degc) {
+void Judge::follow_power(UtcTime seen_at, double degc) {
     if (!first_seen_) {
         first_seen_ = seen_at;
         first_degc_ = degc;
@@ -68,7 +68,7 @@ void VerdictJudge::follow_power(UtcTime seen_at, double degc) {
     if (!switched_on_ && (is_cold || has_warmed)) switched_on_ = first_seen_;
 }
 
-const Verdict& VerdictJudge::at(UtcTime now) {
+const Verdict& Judge::at(UtcTime now) {
     std::vector<Reason> reasons;
     const auto check = [&](const Reason& reason) {
         reasons.push_back(reason);
@@ -84,12 +84,12 @@ const Verdict& VerdictJudge::at(UtcTime now) {
     };
     if (!last_good_) {
         least("values so far (the first takes 20 s):", 0.0, "", 1.0);
-        return decide(VerdictState::no_data, now, std::move(reasons));
+        return decide(State::no_data, now, std::move(reasons));
     }
     if (!most("last good sample", seconds_between(*last_good_, now), "s", options_.gap_s, "ago") ||
         !most("temperature unchanged for", seconds_between(*stuck_since_, now), "s",
               options_.stuck_s)) {
-        return decide(VerdictState::no_data, now, std::move(reasons));
+        return decide(State::no_data, now, std::move(reasons));
     }
     reasons.clear();
 
@@ -140,16 +140,16 @@ const Verdict& VerdictJudge::at(UtcTime now) {
         steady_since_.reset();
     }
     is_steady_ = steady_since_ && seconds_between(*steady_since_, now) >= options_.hold_s;
-    if (!is_warm) return decide(VerdictState::warming_up, now, std::move(reasons));
+    if (!is_warm) return decide(State::warming_up, now, std::move(reasons));
     if (!is_quiet) {  // The disturbances come first.
         std::rotate(reasons.begin(), reasons.begin() + thermal_count, reasons.end());
-        return decide(VerdictState::disturbed, now, std::move(reasons));
+        return decide(State::disturbed, now, std::move(reasons));
     }
-    const auto state = is_steady_ ? VerdictState::stable : VerdictState::settling;
+    const auto state = is_steady_ ? State::stable : State::settling;
     return decide(state, now, std::move(reasons));
 }
 
-const Verdict& VerdictJudge::decide(VerdictState state, UtcTime now, std::vector<Reason> reasons) {
+const Verdict& Judge::decide(State state, UtcTime now, std::vector<Reason> reasons) {
     std::ranges::stable_sort(reasons, {}, &Reason::is_met);
     if (state != verdict_.state || !has_judged_) verdict_.since = now;
     has_judged_ = true;
@@ -158,4 +158,4 @@ const Verdict& VerdictJudge::decide(VerdictState state, UtcTime now, std::vector
     return verdict_;
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

@@ -13,12 +13,12 @@
 #include "daemon/verdict/touch_watch.hpp"
 #include "daemon/verdict/verdict_options.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
-enum class VerdictState { no_data, warming_up, disturbed, settling, stable };
+enum class State { no_data, warming_up, disturbed, settling, stable };
 
 /// Returns "warming up" and the like.
-[[nodiscard]] std::string_view to_text(VerdictState state) noexcept;
+[[nodiscard]] std::string_view to_text(State state) noexcept;
 
 /// One check of the verdict.
 struct Reason {
@@ -37,7 +37,7 @@ struct Reason {
 };
 
 struct Verdict {
-    VerdictState state = VerdictState::no_data;
+    State state = State::no_data;
     UtcTime since;                ///< Begin of the state.
     std::vector<Reason> reasons;  ///< Checks; those not met come first.
 };
@@ -57,9 +57,9 @@ struct Verdict {
 /// "Surely" means by `sure` standard errors until the box has settled, then by `sure_stay` until
 /// the box is touched.  The first sample counts as power-on if the box is then more than
 /// warm_up_degc below its set point, or warms by half of that within an hour.
-class VerdictJudge {
+class Judge {
 public:
-    explicit VerdictJudge(const VerdictOptions& options = {})
+    explicit Judge(const Options& options = {})
         : options_(options), trend_(options), touches_(options), slope_(options) {}
 
     /// Takes the next value of the series.
@@ -72,9 +72,9 @@ public:
 
 private:
     void follow_power(UtcTime seen_at, double degc);
-    const Verdict& decide(VerdictState state, UtcTime now, std::vector<Reason> reasons);
+    const Verdict& decide(State state, UtcTime now, std::vector<Reason> reasons);
 
-    VerdictOptions options_;
+    Options options_;
     TemperatureTrend trend_;
     TouchWatch touches_;
     ReadingSlope slope_;
@@ -90,4 +90,4 @@ private:
     Verdict verdict_;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

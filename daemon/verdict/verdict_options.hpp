@@ -2,10 +2,10 @@
 
 #include "protocol/unit/thermal_response.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 
 /// Thresholds of the verdict: the keys of [verdict], with defaults and sources; see a351d.toml(5).
-struct VerdictOptions {
+struct Options {
     // The oven.
     double operating_degc = 42.5;  ///< Set point, degC: that of the published unit.
     double warm_up_degc = 1.0;     ///< Largest distance from it; a day in the field was within 0.5.
@@ -14,16 +14,15 @@ struct VerdictOptions {
 
     // Effect of temperature on the reading: that of the typical unit, or of the calibration.
     /// Effect of the temperature.
-    double static_mgal_per_degc = corrector::kTypicalUnit.level_mgal_per_degc;
+    double static_mgal_per_degc = unit::kTypicalUnit.level_mgal_per_degc;
     /// Effect of its rate.
-    double rate_mgal_h_per_degc = corrector::kTypicalUnit.fast_mgal_per_degc_per_h;
+    double rate_mgal_h_per_degc = unit::kTypicalUnit.fast_mgal_per_degc_per_h;
     /// Effect of the clock oscillator, which follows the temperature with a lag.
-    double slow_mgal_per_degc = corrector::kTypicalUnit.slow_mgal_per_degc;
-    double slow_lag_min =
-        corrector::kTypicalUnit.slow_lag_s / 60.0;  ///< Time constant of this lag.
+    double slow_mgal_per_degc = unit::kTypicalUnit.slow_mgal_per_degc;
+    double slow_lag_min = unit::kTypicalUnit.slow_lag_s / 60.0;  ///< Time constant of this lag.
     double relax_min = 17.0;  ///< Time constant of the box after a step of the air.
-    double warm_up_mgal = corrector::kTypicalUnit.warm_up_mgal;  ///< Effect at power-on.
-    double warm_up_h = corrector::kTypicalUnit.warm_up_h;        ///< Time constant of its decay.
+    double warm_up_mgal = unit::kTypicalUnit.warm_up_mgal;  ///< Effect at power-on.
+    double warm_up_h = unit::kTypicalUnit.warm_up_h;        ///< Time constant of its decay.
 
     // Settled.
     double change_mgal = 2.0;        ///< Largest change in the next 10 min: the published scatter.
@@ -56,7 +55,7 @@ struct VerdictOptions {
     double gap_s = 10.0;    ///< Time since the last sample: ten times the delay of a slow adapter.
     double stuck_s = 60.0;  ///< Time without any change of temperature: 30 noisy values.
 
-    bool operator==(const VerdictOptions&) const = default;
+    bool operator==(const Options&) const = default;
 };
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

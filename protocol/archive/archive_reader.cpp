@@ -10,7 +10,7 @@
 #include "protocol/archive/sds.hpp"
 #include "protocol/files/file_bytes.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 namespace {
 
@@ -62,12 +62,12 @@ UtcTime Segment::time_of(std::size_t i) const {
     return anchor.time + from_seconds(static_cast<double>(i - anchor.offset) / rate_hz);
 }
 
-std::string to_text(const ArchiveDamage& damage) {
+std::string to_text(const Damage& damage) {
     return fmt::format("{}: offset {}: {} bytes are not a record", damage.file.filename().string(),
                        damage.offset, damage.byte_count);
 }
 
-ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
+ChannelData read_channel(const fs::path& archive, const journal::StationCodes& codes,
                          const std::string& channel, UtcTime from, UtcTime to) {
     ChannelData data;
     if (from >= to) return data;
@@ -77,7 +77,7 @@ ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
     const auto last = sds_file(archive, codes, channel, to - Nanoseconds(1)).filename();
     for (const auto& file : day_files(archive, codes, channel)) {
         if (file.filename() < first || file.filename() > last) continue;
-        const auto bytes = read_bytes(file);
+        const auto bytes = files::read_bytes(file);
         for (std::size_t at = 0; at < bytes.size();) {
             const std::size_t unread = at;
             const auto record = next_record(bytes, channel, at);
@@ -91,4 +91,4 @@ ChannelData read_channel(const fs::path& archive, const StationCodes& codes,
     return data;
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

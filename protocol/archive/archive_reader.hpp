@@ -20,7 +20,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Samples without a gap: records of which each starts within half a sample of the end of the one
 /// before.  The start time of each record is kept, because the header rate drifts away from it.
@@ -47,20 +47,20 @@ struct Segment {
 
 /// Damage found while reading: bytes that are not a record of the channel.  Samples of damaged
 /// records are missing; those before and after them are read.
-struct ArchiveDamage {
+struct Damage {
     std::filesystem::path file;    ///< Day file, with its folders.
     std::uint64_t offset = 0;      ///< First damaged byte, from the begin of the file.
     std::uint64_t byte_count = 0;  ///< Bytes up to the next record, or to the end of the file.
 };
 
 /// Returns "FILE: offset O: N bytes are not a record", FILE without its folder.
-[[nodiscard]] std::string to_text(const ArchiveDamage& damage);
+[[nodiscard]] std::string to_text(const Damage& damage);
 
 /// Result of read_channel().
 struct ChannelData {
     std::vector<Segment> segments;  ///< In time order.
     /// Damage of all day files read, also outside the interval, in the order of the files.
-    std::vector<ArchiveDamage> damage;
+    std::vector<Damage> damage;
 };
 
 /// Reads the samples of one channel whose times lie within [from, to), from
@@ -78,7 +78,7 @@ struct ChannelData {
 /// @param channel  channel code, e.g. BNZ; records of another channel in its files are damage.
 /// @throws std::system_error  a file cannot be read.
 [[nodiscard]] ChannelData read_channel(const std::filesystem::path& archive,
-                                       const StationCodes& codes, const std::string& channel,
-                                       UtcTime from, UtcTime to);
+                                       const journal::StationCodes& codes,
+                                       const std::string& channel, UtcTime from, UtcTime to);
 
-}  // namespace a351::record
+}  // namespace a351::archive

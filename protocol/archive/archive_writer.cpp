@@ -9,7 +9,7 @@
 
 #include "protocol/archive/miniseed_layout.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 namespace {
 
 constexpr int kLargestSequence = 999'999;
@@ -39,20 +39,20 @@ UtcTime last_sample_of(const DecodedRecord& record) {
 
 }  // namespace
 
-ArchiveWriter::ArchiveWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes)
+Writer::Writer(files::FileLayer& files, std::filesystem::path archive, journal::StationCodes codes)
     : files_(files),
       archive_(std::move(archive)),
       codes_(std::move(codes)),
       sds_(std::make_unique<SdsWriter>(files_, archive_, codes_)) {}
 
-ArchiveWriter::ArchivedRecord ArchiveWriter::describe(const DecodedRecord& record) {
+Writer::ArchivedRecord Writer::describe(const DecodedRecord& record) {
     const std::string_view bytes(reinterpret_cast<const char*>(record.samples.data()),
                                  record.samples.size() * sizeof(std::int32_t));
     return {record.samples.size(), std::hash<std::string_view>()(bytes),
             last_sample_of(record) + from_seconds(0.5 / record.rate_hz())};
 }
 
-void ArchiveWriter::end_replay() {
+void Writer::end_replay() {
     is_replaying_ = false;
     for (auto& [name, channel] : channels_) {
         channel.held.clear();
@@ -61,7 +61,7 @@ void ArchiveWriter::end_replay() {
 }
 
 /// Returns a channel; in a replay it knows the records of the day of `start` in the archive.
-ArchiveWriter::Channel& ArchiveWriter::replayed(const std::string& name, UtcTime start) const {
+Writer::Channel& Writer::replayed(const std::string& name, UtcTime start) const {
     Channel& channel = channels_[name];
     const auto day_file = sds_file(archive_, codes_, name, start);
     if (is_replaying_ && channel.days_read.insert(day_file).second &&
@@ -70,7 +70,7 @@ ArchiveWriter::Channel& ArchiveWriter::replayed(const std::string& name, UtcTime
     return channel;
 }
 
-void ArchiveWriter::load(Channel& channel, const std::filesystem::path& day_file) const {
+void Writer::load(Channel& channel, const std::filesystem::path& day_file) const {
     files_.open_append(day_file)->sync();
     for (auto directory = day_file.parent_path(); directory != archive_.parent_path();
          directory = directory.parent_path())
@@ -83,17 +83,17 @@ void ArchiveWriter::load(Channel& channel, const std::filesystem::path& day_file
     }
 }
 
-void ArchiveWriter::begin_session() {
+void Writer::begin_session() {
     for (auto& [name, channel] : channels_) channel.newest.reset();
 }
 
-void ArchiveWriter::reopen() {
+void Writer::reopen() {
     sds_ = std::make_unique<SdsWriter>(files_, archive_, codes_);
     for (auto& [name, channel] : channels_) channel.sequence.reset();
 }
 
-std::optional<std::size_t> ArchiveWriter::samples_in_archive(const std::string& name,
-                                                             UtcTime start) const {
+std::optional<std::size_t> Writer::samples_in_archive(const std::string& name,
+                                                      UtcTime start) const {
     if (!is_replaying_) return std::nullopt;
     const Channel& channel = replayed(name, start);
     const auto held = channel.held.find(start);
@@ -101,7 +101,7 @@ std::optional<std::size_t> ArchiveWriter::samples_in_archive(const std::string& 
     return held->second.sample_count;
 }
 
-ArchiveWriter::Found ArchiveWriter::find(const std::string& name, const PackedRecord& record) {
+Writer::Found Writer::find(const std::string& name, const PackedRecord& record) {
     if (!is_replaying_) return Found::nothing;
     Channel& channel = replayed(name, record.start);
     if (channel.held.empty()) return Found::nothing;
@@ -124,7 +124,7 @@ ArchiveWriter::Found ArchiveWriter::find(const std::string& name, const PackedRe
     return overlaps ? Found::other : Found::nothing;
 }
 
-int ArchiveWriter::newest_sequence(const std::string& channel) const {
+int Writer::newest_sequence(const std::string& channel) const {
     const auto day_file = newest_day_file(archive_, codes_, channel);
     if (!day_file) return 0;
     const auto size = std::filesystem::file_size(*day_file);
@@ -138,8 +138,7 @@ int ArchiveWriter::newest_sequence(const std::string& channel) const {
     return sequence;
 }
 
-void ArchiveWriter::record(const std::string& name, const PackedRecord& record,
-                           std::int64_t last_index) {
+void Writer::record(const std::string& name, const PackedRecord& record, std::int64_t last_index) {
     const Found found = find(name, record);
     if (found == Found::other) {
         ++replay_conflicts_;
@@ -160,9 +159,9 @@ void ArchiveWriter::record(const std::string& name, const PackedRecord& record,
     channel.newest = Newest{record, last_index};
 }
 
-std::vector<ChannelMark> ArchiveWriter::sync() {
+std::vector<journal::ChannelMark> Writer::sync() {
     sds_->sync();
-    std::vector<ChannelMark> marks;
+    std::vector<journal::ChannelMark> marks;
     for (const auto& [name, channel] : channels_) {
         if (!channel.newest) continue;
         const auto record = decode_record(channel.newest->record.bytes);
@@ -171,4 +170,4 @@ std::vector<ChannelMark> ArchiveWriter::sync() {
     return marks;
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -3,7 +3,7 @@
 /// The last step of archiving: numbers records, writes them to day files, and reports which samples
 /// survive a power cut.
 ///
-///     ArchiveWriter writer(files, archive, codes);
+///     Writer writer(files, archive, codes);
 ///     Archiver archiver(writer);
 ///     writer.begin_replay();                 // only if the archive may already have the records
 ///     for (...) archiver.take(old_chunk);
@@ -26,20 +26,20 @@
 #include "protocol/archive/archiver.hpp"
 #include "protocol/archive/sds.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Writes the archiver's records into the SDS archive.  Sequence numbers continue those in the
 /// archive: per channel 1 ... 999999 and again from 1.
 ///
 /// Only one writer at a time may write to the archive of a station.  Not thread-safe.  The
 /// destructor does not sync.
-class ArchiveWriter : public ArchiveSink {
+class Writer : public Sink {
 public:
     /// Reads and writes nothing yet; directories are made with the first record.
     /// @param files    must outlive this.
     /// @param archive  root of the archive; it may be missing.
     /// @param codes    valid codes, see are_valid(); they become parts of the path.
-    ArchiveWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes);
+    Writer(files::FileLayer& files, std::filesystem::path archive, journal::StationCodes codes);
 
     /// Begins a replay of the journal: records that the archive already holds are not written
     /// again.  Each day file concerned is read and synced first, because the previous writer may
@@ -76,7 +76,7 @@ public:
     /// @return the last sample per channel that now survives a power cut, in the order of the
     ///         codes.  Channels without a record since begin_session() are absent.
     /// @throws std::system_error  the archive could not be synced.
-    [[nodiscard]] std::vector<ChannelMark> sync();
+    [[nodiscard]] std::vector<journal::ChannelMark> sync();
 
     /// Returns the number of records appended since construction.
     [[nodiscard]] std::uint64_t records_written() const noexcept { return records_written_; }
@@ -110,9 +110,9 @@ private:
     [[nodiscard]] int newest_sequence(const std::string& channel) const;
     static ArchivedRecord describe(const DecodedRecord& record);
 
-    FileLayer& files_;
+    files::FileLayer& files_;
     std::filesystem::path archive_;
-    StationCodes codes_;
+    journal::StationCodes codes_;
     std::unique_ptr<SdsWriter> sds_;
     bool is_replaying_ = false;
     mutable std::map<std::string, Channel> channels_;  ///< Days are read when needed.
@@ -121,4 +121,4 @@ private:
     std::uint64_t replay_conflicts_ = 0;
 };
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -16,7 +16,7 @@
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 namespace {
 
 using wire::Axis;
@@ -37,13 +37,13 @@ bool is_data(const wire::BurstValues& values) {
            values.axes[1] != kNoData && values.axes[2] != kNoData;
 }
 
-const wire::DeviceProfile& profile_of(const JournalHeader& header) {
+const wire::DeviceProfile& profile_of(const journal::Header& header) {
     const auto* profile = wire::find_profile(header.profile);
     if (!profile) throw InputError("journal: unknown device profile '" + header.profile + "'");
     return *profile;
 }
 
-wire::BurstLayout layout_of(const JournalHeader& header) {
+wire::BurstLayout layout_of(const journal::Header& header) {
     const auto layout = wire::BurstLayout::from_burst_ctrl(header.burst_ctrl);
     if (!layout || header.baud <= 0 || !profile_of(header).has_output_rate(header.output_rate_hz)) {
         throw InputError(
@@ -53,7 +53,7 @@ wire::BurstLayout layout_of(const JournalHeader& header) {
     return *layout;
 }
 
-timing::SampleClockOptions clock_options(const JournalHeader& header) {
+timing::SampleClockOptions clock_options(const journal::Header& header) {
     const auto& profile = profile_of(header);
     const auto* filter = profile.filter_named(header.filter);
     const Nanoseconds filter_delay = filter ? profile.group_delay(*filter) : Nanoseconds(0);
@@ -66,8 +66,7 @@ timing::SampleClockOptions clock_options(const JournalHeader& header) {
 
 class Archiver::Session {
 public:
-    Session(const JournalHeader& header, ArchiveSink& sink, ArchiverCounters& counters,
-            Retiming* retiming)
+    Session(const journal::Header& header, Sink& sink, Counters& counters, Retiming* retiming)
         : header_(header),
           sink_(sink),
           counters_(counters),
@@ -84,16 +83,16 @@ public:
         adopt(header);
     }
 
-    [[nodiscard]] bool is_continued_by(const JournalHeader& next) const {
-        return next.session == header_.session && is_same_stream(header_, next);
+    [[nodiscard]] bool is_continued_by(const journal::Header& next) const {
+        return next.session == header_.session && journal::is_same_stream(header_, next);
     }
 
-    void continue_with(const JournalHeader& next) {
+    void continue_with(const journal::Header& next) {
         if (next.declared_rate_hz != header_.declared_rate_hz) close_records(false);
         adopt(next);
     }
 
-    void receive(const RxChunk& chunk) {
+    void receive(const journal::RxChunk& chunk) {
         arrivals_.add(chunk);
         std::span<const std::byte> input(chunk.bytes);
         while (const auto event = decoder_.next(input)) {
@@ -114,7 +113,7 @@ public:
         errors_.forget_before(oldest_unpacked());
     }
 
-    void observe_oven(const OvenChunk& poll) {
+    void observe_oven(const journal::OvenChunk& poll) {
         if (last_index_) slow_.add(*last_index_, since_last_sample(poll.time), poll);
     }
 
@@ -138,7 +137,7 @@ private:
         std::optional<Axis> axis;  ///< Absent for the temperature.
     };
 
-    void adopt(const JournalHeader& header) {
+    void adopt(const journal::Header& header) {
         header_ = header;
         record_header_.network = header.codes.network;
         record_header_.station = header.codes.station;
@@ -279,10 +278,10 @@ private:
         errors_.forget_before(next_first);
     }
 
-    JournalHeader header_;
+    journal::Header header_;
     RecordHeader record_header_;
-    ArchiveSink& sink_;
-    ArchiverCounters& counters_;
+    Sink& sink_;
+    Counters& counters_;
     Retiming* retiming_;
     wire::BurstLayout layout_;
     std::uint16_t count_step_;
@@ -301,12 +300,12 @@ private:
     std::optional<std::int64_t> next_stored_;
 };
 
-Archiver::Archiver(ArchiveSink& sink, Retiming* retiming)
+Archiver::Archiver(Sink& sink, Retiming* retiming)
     : gate_(std::make_unique<TimeGate>(sink, counters_)), retiming_(retiming) {}
 Archiver::~Archiver() = default;
 
-void Archiver::take(const JournalChunk& chunk) {
-    if (const auto* header = std::get_if<JournalHeader>(&chunk)) {
+void Archiver::take(const journal::Chunk& chunk) {
+    if (const auto* header = std::get_if<journal::Header>(&chunk)) {
         if (session_ && session_->is_continued_by(*header)) {
             session_->continue_with(*header);
             return;
@@ -314,7 +313,7 @@ void Archiver::take(const JournalChunk& chunk) {
         if (session_) session_->end();
         session_.reset();  // Bytes after a refused header belong to no session.
         session_ = std::make_unique<Session>(*header, *gate_, counters_, retiming_);
-    } else if (const auto* received = std::get_if<RxChunk>(&chunk)) {
+    } else if (const auto* received = std::get_if<journal::RxChunk>(&chunk)) {
         counters_.bytes += received->bytes.size();
         if (session_)
             session_->receive(*received);
@@ -322,7 +321,7 @@ void Archiver::take(const JournalChunk& chunk) {
             counters_.bytes_skipped += received->bytes.size();
     } else if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) {
         if (session_) session_->observe_clock(*reading);
-    } else if (const auto* poll = std::get_if<OvenChunk>(&chunk)) {
+    } else if (const auto* poll = std::get_if<journal::OvenChunk>(&chunk)) {
         if (session_) session_->observe_oven(*poll);
     }
 }
@@ -342,4 +341,4 @@ std::optional<std::int64_t> Archiver::last_index() const noexcept {
 
 timing::SampleClock* Archiver::clock() noexcept { return session_ ? &session_->clock() : nullptr; }
 
-}  // namespace a351::record
+}  // namespace a351::archive

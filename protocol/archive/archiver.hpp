@@ -21,7 +21,7 @@
 #include "protocol/timing/sample_clock.hpp"
 #include "protocol/wire/burst_frame.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 class Retiming;
 class TimeGate;
@@ -36,9 +36,9 @@ struct Sample {
 ///
 /// Records of one channel come in the order of their samples; those of several channels alternate.
 /// An exception passes through to the caller of Archiver::take() or close_records().
-class ArchiveSink {
+class Sink {
 public:
-    virtual ~ArchiveSink() = default;
+    virtual ~Sink() = default;
     /// Takes a finished record; `last_index` is its last sample.  The references are valid during
     /// the call only.  The sequence number in the record is 1.
     virtual void record(const std::string& channel, const PackedRecord& record,
@@ -57,7 +57,7 @@ public:
 
 /// Counts since construction.  bytes = framed + skipped + pending.  They never decrease, and a new
 /// session does not reset them.
-struct ArchiverCounters {
+struct Counters {
     std::uint64_t bytes = 0;            ///< Bytes received.
     std::uint64_t frames = 0;           ///< Accepted frames, duplicates and anomalies included.
     std::uint64_t bytes_skipped = 0;    ///< Bytes of no frame, or of no session.
@@ -98,7 +98,7 @@ public:
     /// @param sink      must outlive this.
     /// @param retiming  if given, it collects the data it needs; in its second pass it sets the
     ///                  times.  It must outlive this.
-    explicit Archiver(ArchiveSink& sink, Retiming* retiming = nullptr);
+    explicit Archiver(Sink& sink, Retiming* retiming = nullptr);
     /// Drops open records; close_records() must be called before if nothing replays the journal.
     ~Archiver();
 
@@ -109,7 +109,7 @@ public:
     /// Cost: O(bytes of the chunk), plus the records that become complete.
     /// @throws InputError  a header names an unknown profile, layout, rate or baud rate.  Bytes are
     ///                     then counted as skipped until a valid header.
-    void take(const JournalChunk& chunk);
+    void take(const journal::Chunk& chunk);
 
     /// Closes the open records: at a clean shutdown, or at the end of a journal that will not grow.
     /// The session is not ended: the next sample begins a new record of the same run.
@@ -120,7 +120,7 @@ public:
     [[nodiscard]] bool are_times_fixed() const noexcept;
 
     /// Returns the counters; the reference is valid as long as this.
-    [[nodiscard]] const ArchiverCounters& counters() const noexcept { return counters_; }
+    [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
     /// Returns the index of the newest frame placed; std::nullopt before the first one of a run.
     [[nodiscard]] std::optional<std::int64_t> last_index() const noexcept;
 
@@ -130,10 +130,10 @@ public:
 
 private:
     class Session;
-    ArchiverCounters counters_;
+    Counters counters_;
     std::unique_ptr<TimeGate> gate_;
     Retiming* retiming_;
     std::unique_ptr<Session> session_;
 };
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -15,7 +15,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Returns the time that `bytes` take on a serial line with 8N1, ten bits each.  @param baud  > 0.
 ///
@@ -32,7 +32,7 @@ namespace a351::record {
 class Arrivals {
 public:
     /// Adds the reads of a chunk, which follows the chunk before without a gap in the stream.
-    void add(const RxChunk& chunk) {
+    void add(const journal::RxChunk& chunk) {
         for (const auto& read : chunk.reads) reads_.push_back({received_ + read.end, read.time});
         received_ += chunk.bytes.size();
     }
@@ -55,4 +55,4 @@ private:
     std::uint64_t received_ = 0;
 };
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Returns the SEED channel code: band code of a broad-band sensor at this rate, then instrument
 /// and axis; BNZ at 50 Hz, HNZ at 100 Hz.  SEED reference manual 2.4, appendix A.
@@ -35,4 +35,4 @@ inline constexpr std::string_view kTimingQuality = "LCQ";      ///< 1 %
 /// an empty code gives false.
 [[nodiscard]] inline bool is_derived(std::string_view channel) { return channel.starts_with('L'); }
 
-}  // namespace a351::record
+}  // namespace a351::archive

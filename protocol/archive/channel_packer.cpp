@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-namespace a351::record {
+namespace a351::archive {
 namespace {
 
 using std::chrono::days;
@@ -21,7 +21,7 @@ bool IndexMarks::any_in(std::int64_t first, std::int64_t last) const {
 }
 
 void set_timing(RecordHeader& header, const timing::SampleTime& time) {
-    header.is_clock_locked = time.is_host_synchronised && time.state == timing::TimingState::locked;
+    header.is_clock_locked = time.is_host_synchronised && time.state == timing::State::locked;
     header.is_time_questionable = !time.is_host_synchronised || time.uncertainty > kQuestionable;
     header.timing_quality_percent = timing_quality_percent(time.uncertainty);
 }
@@ -152,4 +152,4 @@ void SecondPacker::pack_one(const RecordContext& context, bool ends_series) {
     first_ += interval_ * static_cast<std::int64_t>(packed.sample_count);
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

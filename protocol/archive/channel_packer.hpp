@@ -17,7 +17,7 @@
 
 #include "protocol/archive/archiver.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// List of sample indices at which something was noted; added in rising order.
 class IndexMarks {
@@ -46,8 +46,8 @@ struct RecordContext {
     const timing::SampleClock& clock;  ///< Clock that knows the times of the samples added.
     const RecordHeader& header;        ///< Codes and rates.
     const IndexMarks& errors;          ///< Samples that were due when bytes were discarded.
-    ArchiveSink& sink;                 ///< Receiver of the records.
-    ArchiverCounters& counters;        ///< Counters of which a packer raises integer_records.
+    Sink& sink;                        ///< Receiver of the records.
+    Counters& counters;                ///< Counters of which a packer raises integer_records.
 };
 
 /// Sets the fields of a record about its time: clock locked, time questionable, timing quality.
@@ -141,4 +141,4 @@ private:
     bool has_started_ = false;
 };
 
-}  // namespace a351::record
+}  // namespace a351::archive

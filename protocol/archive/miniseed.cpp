@@ -13,7 +13,7 @@
 
 #include "protocol/archive/miniseed_layout.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 namespace {
 
@@ -336,4 +336,4 @@ int timing_quality_percent(Nanoseconds uncertainty) {
     return static_cast<int>(std::lround(std::max(0.0, 100.0 - 20.0 * decades)));
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -25,7 +25,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Size of every record of the archive, bytes.  Day files are multiples of it.
 inline constexpr std::size_t kRecordSize = 512;
@@ -109,4 +109,4 @@ struct DecodedRecord {
 /// @param uncertainty  uncertainty of a time, 95 %; 0 and below give 100.
 [[nodiscard]] int timing_quality_percent(Nanoseconds uncertainty);
 
-}  // namespace a351::record
+}  // namespace a351::archive

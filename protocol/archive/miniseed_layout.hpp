@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace a351::record {
+namespace a351::archive {
 
 // Fixed section of data header, byte 0 ... 47.
 inline constexpr std::size_t kSequenceAt = 0;  ///< 6 digits.
@@ -65,4 +65,4 @@ inline constexpr std::uint8_t kSynchronisationError = 1U << 5;
 /// Time uncertain by more than 10 ms, or host not synchronised.
 inline constexpr std::uint8_t kTimeTagQuestionable = 1U << 7;
 
-}  // namespace a351::record
+}  // namespace a351::archive

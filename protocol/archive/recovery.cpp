@@ -4,31 +4,31 @@
 
 #include "protocol/core/input_error.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 namespace {
 
 /// Returns the time up to which a channel is certainly on disk; std::nullopt if the mark does not
 /// name the channel: its records may come from sessions that are not replayed.
 std::optional<UtcTime> synced_until(const Replay& replay, const std::string& channel) {
     if (!replay.mark) return UtcTime::min();
-    for (const ChannelMark& mark : replay.mark->channels)
+    for (const journal::ChannelMark& mark : replay.mark->channels)
         if (mark.channel == channel) return mark.utc;
     return std::nullopt;
 }
 
 std::vector<Replay> plan_replays(const std::filesystem::path& journal) {
     std::vector<Replay> replays;  // newest first
-    std::optional<MarkChunk> mark;
+    std::optional<journal::MarkChunk> mark;
     bool has_reached_oldest = false;
-    const auto segments = journal_segments(journal);
+    const auto segments = journal::segment_files(journal);
     for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) {
-        const auto header = segment_header(*segment);
+        const auto header = journal::segment_header(*segment);
         if (!header) continue;  // nothing in it can be read
         if (has_reached_oldest && header->session != mark->session) break;
         if (replays.empty() || header->codes != replays.back().codes)
             replays.push_back({.segments = {}, .codes = header->codes, .mark = {}});
         replays.back().segments.push_back(*segment);
-        if (!mark) mark = newest_mark(*segment);
+        if (!mark) mark = journal::newest_mark(*segment);
         has_reached_oldest = mark && header->session == mark->session;
         if (has_reached_oldest) replays.back().mark = mark;
     }
@@ -39,13 +39,14 @@ std::vector<Replay> plan_replays(const std::filesystem::path& journal) {
 
 }  // namespace
 
-RecoveryPlan begin_recovery(FileLayer& files, const std::filesystem::path& journal) {
-    auto cut = repair_newest_segment(files, journal);
+RecoveryPlan begin_recovery(files::FileLayer& files, const std::filesystem::path& journal) {
+    auto cut = journal::repair_newest_segment(files, journal);
     return {plan_replays(journal), std::move(cut)};
 }
 
-bool replay_journal(FileLayer& files, const std::filesystem::path& archive, const Replay& replay,
-                    ArchiveWriter& writer, const std::function<bool(const JournalChunk&)>& take,
+bool replay_journal(files::FileLayer& files, const std::filesystem::path& archive,
+                    const Replay& replay, Writer& writer,
+                    const std::function<bool(const journal::Chunk&)>& take,
                     RecoveryReport& report) {
     for (const auto& channel : channels_in(archive, replay.codes)) {
         const auto day_file = newest_day_file(archive, replay.codes, channel);
@@ -55,7 +56,7 @@ bool replay_journal(FileLayer& files, const std::filesystem::path& archive, cons
     }
 
     writer.begin_replay();
-    JournalSequence chunks(replay.segments);
+    journal::Sequence chunks(replay.segments);
     while (const auto chunk = chunks.next()) {
         try {
             if (!take(*chunk)) return false;
@@ -69,4 +70,4 @@ bool replay_journal(FileLayer& files, const std::filesystem::path& archive, cons
     return true;
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -9,27 +9,28 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/events/event_log.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 namespace {
 
 namespace fs = std::filesystem;
 
 using Segments = std::vector<fs::path>;
 
-struct Discard final : ArchiveSink {
+struct Discard final : Sink {
     void record(const std::string&, const PackedRecord&, std::int64_t) override {}
 };
 
 /// Writes the archives of one data root; the codes of a station may change between sessions.
-class Archives final : public ArchiveSink {
+class Archives final : public Sink {
 public:
-    Archives(FileLayer& files, fs::path archive) : files_(files), archive_(std::move(archive)) {}
+    Archives(files::FileLayer& files, fs::path archive)
+        : files_(files), archive_(std::move(archive)) {}
 
-    void begin(const StationCodes& codes) {
+    void begin(const journal::StationCodes& codes) {
         if (writer_ && codes == codes_) return;
         finish();
         codes_ = codes;
-        writer_ = std::make_unique<ArchiveWriter>(files_, archive_, codes);
+        writer_ = std::make_unique<Writer>(files_, archive_, codes);
     }
     void record(const std::string& channel, const PackedRecord& packed,
                 std::int64_t last_index) override {
@@ -44,27 +45,27 @@ public:
     [[nodiscard]] std::uint64_t records() const noexcept { return records_; }
 
 private:
-    FileLayer& files_;
+    files::FileLayer& files_;
     fs::path archive_;
-    StationCodes codes_;
-    std::unique_ptr<ArchiveWriter> writer_;
+    journal::StationCodes codes_;
+    std::unique_ptr<Writer> writer_;
     std::uint64_t records_ = 0;
 };
 
 void gather(const Segments& segments, Retiming& retiming) {
     Discard nothing;
     Archiver archiver(nothing, &retiming);
-    JournalSequence chunks(segments);
+    journal::Sequence chunks(segments);
     while (const auto chunk = chunks.next()) archiver.take(*chunk);
 }
 
 void write(const Segments& segments, Retiming& retiming, Archives& archives, RetimeReport& report) {
     retiming.begin_second_pass();
     Archiver archiver(archives, &retiming);
-    std::optional<StationCodes> codes;
-    JournalSequence chunks(segments);
+    std::optional<journal::StationCodes> codes;
+    journal::Sequence chunks(segments);
     while (const auto chunk = chunks.next()) {
-        if (const auto* header = std::get_if<JournalHeader>(&*chunk);
+        if (const auto* header = std::get_if<journal::Header>(&*chunk);
             header && header->codes != codes) {
             archiver.close_records();  // under their own codes
             archives.begin(header->codes);
@@ -79,20 +80,20 @@ void write(const Segments& segments, Retiming& retiming, Archives& archives, Ret
     report.counters = archiver.counters();
 }
 
-void write_events(FileLayer& files, const fs::path& root, const fs::path& out,
+void write_events(files::FileLayer& files, const fs::path& root, const fs::path& out,
                   const Retiming& retiming) {
-    for (Event event : read_events(root / "events").events) {
+    for (events::Event event : events::read_events(root / "events").events) {
         if (event.session && event.index) {
             if (const auto utc = retiming.time_of(*event.session, *event.index, event.utc))
                 event.utc = *utc;
         }
-        append_event(files, out / "events", event);
+        events::append_event(files, out / "events", event);
     }
 }
 
 }  // namespace
 
-void Retiming::begin_run(const JournalHeader& header, timing::SampleClockOptions options,
+void Retiming::begin_run(const journal::Header& header, timing::SampleClockOptions options,
                          timing::SampleClock& clock) {
     if (!is_second_pass_) {
         const std::size_t sleeps = histories_[header.boot_id].sleeps();
@@ -123,7 +124,7 @@ void Retiming::observe(std::int64_t index, RawTime arrival) {
     if (!is_second_pass_) runs_.back().hindsight.observe(index, arrival);
 }
 
-std::optional<UtcTime> Retiming::time_of(const SessionId& session, std::int64_t index,
+std::optional<UtcTime> Retiming::time_of(const journal::SessionId& session, std::int64_t index,
                                          UtcTime near) const {
     std::optional<UtcTime> nearest;
     for (const Run& run : runs_) {
@@ -136,9 +137,9 @@ std::optional<UtcTime> Retiming::time_of(const SessionId& session, std::int64_t 
     return nearest;
 }
 
-RetimeReport retime(FileLayer& files, const fs::path& root, const fs::path& out_as_given) {
+RetimeReport retime(files::FileLayer& files, const fs::path& root, const fs::path& out_as_given) {
     const fs::path out = out_as_given.has_filename() ? out_as_given : out_as_given.parent_path();
-    const Segments segments = journal_segments(root / "journal");
+    const Segments segments = journal::segment_files(root / "journal");
     if (segments.empty())
         throw InputError(root.string() + ": no journal; allowed: the data root of a daemon");
     if (fs::exists(out))
@@ -170,4 +171,4 @@ RetimeReport retime(FileLayer& files, const fs::path& root, const fs::path& out_
     return report;
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -6,7 +6,7 @@
 /// wrong while it was recorded.  retime() does all; Retiming is its connection to the archiver.
 ///
 ///     const RetimeReport report = retime(posix_files(), "/data/box1", "/data/box1-retimed");
-///     for (const JournalDamage& damage : report.damage) warn(damage.reason);
+///     for (const journal::Damage& damage : report.damage) warn(damage.reason);
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +21,7 @@
 #include "protocol/journal/journal_reader.hpp"
 #include "protocol/timing/hindsight.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Two passes of an archiver over a journal: the first one collects the data from which the times
 /// of the second one are computed.
@@ -43,7 +43,7 @@ public:
     /// Begins a run, whose index starts at 0.  In the second pass `clock` gets the times of this
     /// run.
     /// @throws InputError  the second pass has more runs than the first: the journal grew.
-    void begin_run(const JournalHeader& header, timing::SampleClockOptions options,
+    void begin_run(const journal::Header& header, timing::SampleClockOptions options,
                    timing::SampleClock& clock);
     /// Adds a clock reading of the host on which the newest run was recorded.  Precondition:
     /// begin_run() was called.
@@ -57,12 +57,12 @@ public:
     /// Returns the new time of a sample; to be called after the second pass.  If a session has
     /// several runs with this index, it is the time nearest to `near`.  std::nullopt for an unknown
     /// session.
-    [[nodiscard]] std::optional<UtcTime> time_of(const SessionId& session, std::int64_t index,
-                                                 UtcTime near) const;
+    [[nodiscard]] std::optional<UtcTime> time_of(const journal::SessionId& session,
+                                                 std::int64_t index, UtcTime near) const;
 
 private:
     struct Run {
-        SessionId session;
+        journal::SessionId session;
         std::string boot_id;
         timing::Hindsight hindsight;
         std::optional<timing::SampleClock> clock;  ///< Clock of the second pass.
@@ -75,10 +75,10 @@ private:
 
 /// Result of retime().
 struct RetimeReport {
-    std::uint64_t segments = 0;         ///< Segments of the journal, damaged ones included.
-    std::uint64_t records = 0;          ///< Records written.
-    std::vector<JournalDamage> damage;  ///< Segments that end early.
-    ArchiverCounters counters;          ///< Counters of the whole journal, read once.
+    std::uint64_t segments = 0;           ///< Segments of the journal, damaged ones included.
+    std::uint64_t records = 0;            ///< Records written.
+    std::vector<journal::Damage> damage;  ///< Segments that end early.
+    Counters counters;                    ///< Counters of the whole journal, read once.
 };
 
 /// Writes the archive of a data root again, with times computed afterwards: each second from the
@@ -100,7 +100,7 @@ struct RetimeReport {
 /// @throws InputError         no journal in `root`, or `out` exists, or a header of the journal
 ///                            names unknown settings.
 /// @throws std::system_error  a file cannot be read or written.
-RetimeReport retime(FileLayer& files, const std::filesystem::path& root,
+RetimeReport retime(files::FileLayer& files, const std::filesystem::path& root,
                     const std::filesystem::path& out);
 
-}  // namespace a351::record
+}  // namespace a351::archive

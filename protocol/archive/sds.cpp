@@ -10,24 +10,25 @@
 
 #include "protocol/files/file_bytes.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 namespace {
 
 namespace fs = std::filesystem;
 
 /// Returns the file name up to the year: `NET.STA.LOC.CHAN.D.`
-std::string name_stem(const StationCodes& codes, const std::string& channel) {
+std::string name_stem(const journal::StationCodes& codes, const std::string& channel) {
     return fmt::format("{}.{}.{}.{}.D.", codes.network, codes.station, codes.location, channel);
 }
 
 /// Returns the directories of the station, one per year, ascending.
-std::vector<fs::path> station_directories(const fs::path& archive, const StationCodes& codes) {
+std::vector<fs::path> station_directories(const fs::path& archive,
+                                          const journal::StationCodes& codes) {
     std::vector<fs::path> directories;
     if (!fs::is_directory(archive)) return directories;
     for (const auto& year : fs::directory_iterator(archive)) {
         const auto station = year.path() / codes.network / codes.station;
-        if (has_shape(year.path().filename().string(), "####") && fs::is_directory(station))
+        if (files::has_shape(year.path().filename().string(), "####") && fs::is_directory(station))
             directories.push_back(station);
     }
     std::ranges::sort(directories);
@@ -36,8 +37,8 @@ std::vector<fs::path> station_directories(const fs::path& archive, const Station
 
 }  // namespace
 
-fs::path sds_file(const fs::path& archive, const StationCodes& codes, const std::string& channel,
-                  UtcTime start) {
+fs::path sds_file(const fs::path& archive, const journal::StationCodes& codes,
+                  const std::string& channel, UtcTime start) {
     const auto day = std::chrono::floor<std::chrono::days>(start);
     const std::chrono::year_month_day date(day);
     const std::chrono::sys_days new_year = date.year() / std::chrono::January / 1;
@@ -46,7 +47,7 @@ fs::path sds_file(const fs::path& archive, const StationCodes& codes, const std:
            fmt::format("{}{}.{:03}", name_stem(codes, channel), year, (day - new_year).count() + 1);
 }
 
-std::vector<std::string> channels_in(const fs::path& archive, const StationCodes& codes) {
+std::vector<std::string> channels_in(const fs::path& archive, const journal::StationCodes& codes) {
     std::set<std::string> channels;
     for (const auto& station : station_directories(archive, codes)) {
         for (const auto& entry : fs::directory_iterator(station)) {
@@ -57,7 +58,7 @@ std::vector<std::string> channels_in(const fs::path& archive, const StationCodes
     return {channels.begin(), channels.end()};
 }
 
-std::vector<fs::path> day_files(const fs::path& archive, const StationCodes& codes,
+std::vector<fs::path> day_files(const fs::path& archive, const journal::StationCodes& codes,
                                 const std::string& channel) {
     const std::string stem = name_stem(codes, channel);
     std::vector<fs::path> files;
@@ -67,7 +68,7 @@ std::vector<fs::path> day_files(const fs::path& archive, const StationCodes& cod
         for (const auto& entry : fs::directory_iterator(directory)) {
             const std::string name = entry.path().filename().string();
             if (name.starts_with(stem) &&
-                has_shape(std::string_view(name).substr(stem.size()), "####.###"))
+                files::has_shape(std::string_view(name).substr(stem.size()), "####.###"))
                 files.push_back(entry.path());
         }
     }
@@ -75,7 +76,7 @@ std::vector<fs::path> day_files(const fs::path& archive, const StationCodes& cod
     return files;
 }
 
-std::optional<fs::path> newest_day_file(const fs::path& archive, const StationCodes& codes,
+std::optional<fs::path> newest_day_file(const fs::path& archive, const journal::StationCodes& codes,
                                         const std::string& channel) {
     const auto files = day_files(archive, codes, channel);
     return files.empty() ? std::nullopt : std::optional(files.back());
@@ -87,7 +88,8 @@ namespace {
 /// last whole record.
 std::uint64_t end_of_whole_records(const fs::path& day_file) {
     std::uint64_t whole = fs::file_size(day_file) / kRecordSize * kRecordSize;
-    while (whole > 0 && !decode_record(read_bytes(day_file, whole - kRecordSize, kRecordSize)))
+    while (whole > 0 &&
+           !decode_record(files::read_bytes(day_file, whole - kRecordSize, kRecordSize)))
         whole -= kRecordSize;
     return whole;
 }
@@ -95,7 +97,7 @@ std::uint64_t end_of_whole_records(const fs::path& day_file) {
 /// Returns the end of the records that can be kept after a power failure: the first damaged one
 /// after those that were synced.
 std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until) {
-    const auto bytes = read_bytes(day_file);
+    const auto bytes = files::read_bytes(day_file);
     std::uint64_t good = 0;
     std::optional<std::uint64_t> spoilt;
     for (; good + kRecordSize <= bytes.size(); good += kRecordSize) {
@@ -108,7 +110,7 @@ std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until
 
 }  // namespace
 
-std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file,
+std::optional<TornTail> repair_tail(files::FileLayer& files, const fs::path& day_file,
                                     std::optional<UtcTime> synced_until) {
     const std::uint64_t size = fs::file_size(day_file);
     const std::uint64_t whole = synced_until ? end_of_good_records(day_file, *synced_until)
@@ -119,7 +121,7 @@ std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file,
         // Several crashes may happen in a day; the offset in the name keeps their files apart.
         auto side = day_file;
         side += fmt::format(".{}.torn", whole);
-        replace_file(files, side, read_bytes(day_file, whole, tail.byte_count));
+        files::replace_file(files, side, files::read_bytes(day_file, whole, tail.byte_count));
     }
     if (whole > 0) {
         files.truncate(day_file, whole);
@@ -130,7 +132,7 @@ std::optional<TornTail> repair_tail(FileLayer& files, const fs::path& day_file,
     return tail;
 }
 
-SdsWriter::SdsWriter(FileLayer& files, fs::path archive, StationCodes codes)
+SdsWriter::SdsWriter(files::FileLayer& files, fs::path archive, journal::StationCodes codes)
     : files_(files), archive_(std::move(archive)), codes_(std::move(codes)) {}
 
 void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
@@ -141,7 +143,7 @@ void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
         if (!fs::exists(path)) {
             // Created with its first record: readers fail on an empty day file.
             files_.create_directories(path.parent_path());
-            write_file_atomically(files_, path, record.bytes);
+            files::write_file_atomically(files_, path, record.bytes);
             // The parent directories are synced too: a program that made them earlier may have
             // been killed before it synced them.
             for (auto directory = path.parent_path(); directory != archive_.parent_path();
@@ -188,4 +190,4 @@ void SdsWriter::sync() {
     may_have_lost_ = false;
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

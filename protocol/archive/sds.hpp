@@ -3,7 +3,7 @@
 /// The SDS archive as files: `YEAR/NET/STA/CHAN.D/NET.STA.LOC.CHAN.D.YEAR.DAY`.  Only whole records
 /// are appended; a day file is created with its first one.
 ///
-/// The functions find and repair files; SdsWriter appends to them.  ArchiveWriter adds sequence
+/// The functions find and repair files; SdsWriter appends to them.  Writer adds sequence
 /// numbers, read_channel() reads samples.  The codes become parts of paths, so codes from outside
 /// must be checked with are_valid() before.
 
@@ -21,33 +21,34 @@
 #include "protocol/files/file_layer.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Returns the day file for a record that starts at `start` (UTC day of its first sample).
 ///
 /// The file need not exist.  DAY has three digits, 001 to 366.  If the location is empty, its dots
 /// remain.
 [[nodiscard]] std::filesystem::path sds_file(const std::filesystem::path& archive,
-                                             const StationCodes& codes, const std::string& channel,
-                                             UtcTime start);
+                                             const journal::StationCodes& codes,
+                                             const std::string& channel, UtcTime start);
 
 /// Returns the channels that have a directory for a station in any year, sorted.  Empty if the
 /// archive does not exist.  A channel may have a directory without a file.
 /// @throws std::filesystem::filesystem_error  a directory cannot be read.
 [[nodiscard]] std::vector<std::string> channels_in(const std::filesystem::path& archive,
-                                                   const StationCodes& codes);
+                                                   const journal::StationCodes& codes);
 
 /// Returns the day files of a channel, sorted by day, without side files such as `*.torn`.  Empty
 /// if there are none; files of other locations are left out.
 /// @throws std::filesystem::filesystem_error  a directory cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> day_files(const std::filesystem::path& archive,
-                                                           const StationCodes& codes,
+                                                           const journal::StationCodes& codes,
                                                            const std::string& channel);
 
 /// Returns the newest day file of a channel, if there is one.  Newest is the latest day in the
 /// name, not the time of the last change.
 [[nodiscard]] std::optional<std::filesystem::path> newest_day_file(
-    const std::filesystem::path& archive, const StationCodes& codes, const std::string& channel);
+    const std::filesystem::path& archive, const journal::StationCodes& codes,
+    const std::string& channel);
 
 /// Bytes that a crash left after the last whole record.
 struct TornTail {
@@ -67,7 +68,7 @@ struct TornTail {
 ///                      everything after them.
 /// @return the part that was cut, if any.
 /// @throws std::system_error  the file cannot be read or changed; call it again.
-std::optional<TornTail> repair_tail(FileLayer& files, const std::filesystem::path& day_file,
+std::optional<TornTail> repair_tail(files::FileLayer& files, const std::filesystem::path& day_file,
                                     std::optional<UtcTime> synced_until = std::nullopt);
 
 /// Appends records to day files and keeps one file open per channel.  A day file is created with
@@ -82,7 +83,7 @@ std::optional<TornTail> repair_tail(FileLayer& files, const std::filesystem::pat
 class SdsWriter {
 public:
     /// Opens and creates nothing yet.  `files` must outlive this.
-    SdsWriter(FileLayer& files, std::filesystem::path archive, StationCodes codes);
+    SdsWriter(files::FileLayer& files, std::filesystem::path archive, journal::StationCodes codes);
 
     /// Appends a record to the day file of its start time.  It survives a crash of the program at
     /// once, but a power cut only after the next sync().
@@ -93,17 +94,17 @@ public:
 private:
     struct Open {
         std::filesystem::path path;
-        std::unique_ptr<AppendFile> file;
+        std::unique_ptr<files::AppendFile> file;
         bool is_dirty = false;
     };
     void close(const std::string& channel);
 
-    FileLayer& files_;
+    files::FileLayer& files_;
     std::filesystem::path archive_;
-    StationCodes codes_;
+    journal::StationCodes codes_;
     std::map<std::string, Open> open_;
     std::set<std::filesystem::path> new_entries_;  ///< Directories that must be synced.
     bool may_have_lost_ = false;
 };
 
-}  // namespace a351::record
+}  // namespace a351::archive

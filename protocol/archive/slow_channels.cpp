@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace a351::record {
+namespace a351::archive {
 namespace {
 
 using std::chrono::seconds;
@@ -96,8 +96,8 @@ void SlowChannels::add(std::int64_t index, std::int32_t temperature_counts) {
     waiting_polls_.clear();
 }
 
-void SlowChannels::add(std::int64_t index, Nanoseconds after, const OvenChunk& poll) {
-    if (poll.outcome != OvenOutcome::answered) return;
+void SlowChannels::add(std::int64_t index, Nanoseconds after, const journal::OvenChunk& poll) {
+    if (poll.outcome != journal::OvenOutcome::answered) return;
     const auto values = oven::controller_values(poll.registers, poll.decimals);
     if (!values) return;
     if (context_.clock.is_fixed(index))
@@ -196,4 +196,4 @@ std::optional<std::size_t> SlowChannels::samples_in_archive(const std::string& c
     return context_.sink.samples_in_archive(channel, start);
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

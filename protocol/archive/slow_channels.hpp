@@ -18,7 +18,7 @@
 #include "protocol/oven/controller_values.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Answer of the oven's controller.
 struct OvenSample {
@@ -76,7 +76,7 @@ private:
 ///
 /// Samples and polls wait until their times are fixed.  LCE gets its values when a record of the
 /// reference channel ends, LK1 and LCQ when a second is over.  Not thread-safe.
-class SlowChannels final : public ArchiveSink {
+class SlowChannels final : public Sink {
 public:
     /// Begins without a run; begin_run() must be called before any sample is added.
     /// @param profile  converts the temperature; must outlive this.
@@ -102,7 +102,7 @@ public:
     /// Adds a poll of the oven.  A poll without an answer, or with another number of registers
     /// than expected, is ignored.
     /// @param after  time from the instant of sample `index`, the newest, to the poll.
-    void add(std::int64_t index, Nanoseconds after, const OvenChunk& poll);
+    void add(std::int64_t index, Nanoseconds after, const journal::OvenChunk& poll);
 
     /// Closes records that are old at `now`, which the stream may not show: the sensor may be
     /// silent.
@@ -153,7 +153,7 @@ private:
     std::vector<WaitingPoll> waiting_polls_;
     std::optional<Second> second_;
     SecondPacker sensor_temperature_, timing_quality_, clock_error_;
-    OvenChannels oven_{kShortestOvenInterval};
+    OvenChannels oven_{journal::kShortestOvenInterval};
 };
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -4,14 +4,14 @@
 
 #include "protocol/archive/archiver.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 /// Keeps records with impossible times out of the archive: those of a host that started without a
 /// clock.  Their data remain in the journal and can be re-timed if the host's clock was set later.
 ///
 /// Archiver puts it between itself and its sink.  Samples pass in any case; only records are
 /// withheld and counted in records_withheld.  Times in the future are not checked.
-class TimeGate final : public ArchiveSink {
+class TimeGate final : public Sink {
 public:
     /// Earliest plausible record: before the published survey with this sensor, of 2017.  A host
     /// without a clock starts in 1970.
@@ -19,7 +19,7 @@ public:
         std::chrono::sys_days(std::chrono::year(2015) / std::chrono::January / 1);
 
     /// Sets the archive and the counters; both must outlive this.
-    TimeGate(ArchiveSink& sink, ArchiverCounters& counters) : sink_(sink), counters_(counters) {}
+    TimeGate(Sink& sink, Counters& counters) : sink_(sink), counters_(counters) {}
 
     /// Passes a record that begins at kEarliest or later; counts any other.
     void record(const std::string& channel, const PackedRecord& record,
@@ -36,8 +36,8 @@ public:
     }
 
 private:
-    ArchiveSink& sink_;
-    ArchiverCounters& counters_;
+    Sink& sink_;
+    Counters& counters_;
 };
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-namespace a351::record {
+namespace a351::events {
 
 namespace {
 
@@ -33,7 +33,7 @@ bool ends_without_newline(const fs::path& file) {
 }
 
 /// Removes a line that could not be synced, so that a refused event is not found later.
-void take_back(FileLayer& files, const fs::path& file, std::uint64_t size) {
+void take_back(files::FileLayer& files, const fs::path& file, std::uint64_t size) {
     try {
         files.truncate(file, size);
     } catch (const std::system_error&) {
@@ -67,7 +67,7 @@ std::optional<Event> parse_event(std::string_view text) {
     event.utc = *time;
     if (json.contains("session")) {
         const std::string* session = text_at(json, "session");
-        if (session) event.session = SessionId::from_hex(*session);
+        if (session) event.session = journal::SessionId::from_hex(*session);
         if (!event.session) return std::nullopt;
     }
     if (const auto index = json.find("index"); index != json.end()) {
@@ -83,7 +83,7 @@ std::optional<Event> parse_event(std::string_view text) {
     return event;
 }
 
-void append_event(FileLayer& files, const fs::path& directory, const Event& event) {
+void append_event(files::FileLayer& files, const fs::path& directory, const Event& event) {
     const auto path = directory / (to_rfc3339(event.utc).substr(0, 7) + ".jsonl");
     if (!fs::exists(path)) files.create_directories(directory);
     // The new line must not be joined to one torn by a crash.
@@ -108,7 +108,7 @@ EventLog read_events(const fs::path& directory) {
     if (!fs::is_directory(directory)) return log;
     std::vector<fs::path> months;
     for (const auto& entry : fs::directory_iterator(directory)) {
-        if (has_shape(entry.path().filename().string(), "####-##.jsonl"))
+        if (files::has_shape(entry.path().filename().string(), "####-##.jsonl"))
             months.push_back(entry.path());
     }
     std::ranges::sort(months);
@@ -125,4 +125,4 @@ EventLog read_events(const fs::path& directory) {
     return log;
 }
 
-}  // namespace a351::record
+}  // namespace a351::events

@@ -25,7 +25,7 @@
 #include "protocol/files/file_layer.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::events {
 
 /// An event: its kind, its instant and texts.
 ///
@@ -34,7 +34,7 @@ namespace a351::record {
 struct Event {
     std::string type;  ///< start, stop, setup, discard, rename, note, fault ...
     UtcTime utc;       ///< Instant to which the event refers, on the time scale of the samples.
-    std::optional<SessionId> session;            ///< Run of sampling, as in the journal.
+    std::optional<journal::SessionId> session;   ///< Run of sampling, as in the journal.
     std::optional<std::int64_t> index;           ///< Sample at that instant.
     std::map<std::string, std::string> details;  ///< site, operator, note ...: text only.
 };
@@ -66,7 +66,8 @@ struct Event {
 /// @throws std::invalid_argument  as to_json().
 /// @throws std::system_error  the event was not logged.  Its line is removed, if the disk permits
 ///                            it.
-void append_event(FileLayer& files, const std::filesystem::path& directory, const Event& event);
+void append_event(files::FileLayer& files, const std::filesystem::path& directory,
+                  const Event& event);
 
 /// Line that is not an event.
 struct EventDamage {
@@ -88,4 +89,4 @@ struct EventLog {
 /// @throws std::system_error  the directory cannot be listed, or a file cannot be opened.
 [[nodiscard]] EventLog read_events(const std::filesystem::path& directory);
 
-}  // namespace a351::record
+}  // namespace a351::events

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-namespace a351::record {
+namespace a351::events {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::vector<Occupation> survey_day(std::vector<Occupation> occupations, UtcTime 
     return occupations;
 }
 
-}  // namespace a351::record
+}  // namespace a351::events

@@ -20,7 +20,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/event_log.hpp"
 
-namespace a351::record {
+namespace a351::events {
 
 /// Stay at a benchmark that has ended: one or more set-ups of the sensor.
 ///
@@ -51,10 +51,10 @@ struct RunningOccupation {
     UtcTime start;  ///< Start of the stay.
     /// Start of each set-up; the first is `start`.  A set-up without duration is still included.
     std::vector<UtcTime> set_ups;
-    std::optional<SessionId> session;   ///< Session of the first sample.
-    std::optional<std::int64_t> index;  ///< Index of the first sample.
-    std::string operator_name;          ///< Detail `operator` of the start; empty if not given.
-    std::string note;                   ///< Notes so far, joined by "; ".
+    std::optional<journal::SessionId> session;  ///< Session of the first sample.
+    std::optional<std::int64_t> index;          ///< Index of the first sample.
+    std::string operator_name;  ///< Detail `operator` of the start; empty if not given.
+    std::string note;           ///< Notes so far, joined by "; ".
 };
 
 /// Applies events one by one.
@@ -132,4 +132,4 @@ inline constexpr Nanoseconds kSurveyNight = std::chrono::hours(6);
 [[nodiscard]] std::vector<Occupation> survey_day(std::vector<Occupation> occupations,
                                                  UtcTime later);
 
-}  // namespace a351::record
+}  // namespace a351::events

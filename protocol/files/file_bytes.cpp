@@ -4,7 +4,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace a351::record {
+namespace a351::files {
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& file) {
     return read_bytes(file, 0, std::filesystem::file_size(file));
@@ -20,4 +20,4 @@ std::vector<std::byte> read_bytes(const std::filesystem::path& file, std::uint64
     return bytes;
 }
 
-}  // namespace a351::record
+}  // namespace a351::files

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace a351::record {
+namespace a351::files {
 
 /// Reads a whole file, or `count` bytes from `offset` on.
 ///
@@ -25,4 +25,4 @@ namespace a351::record {
 [[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& file,
                                                 std::uint64_t offset, std::uint64_t count);
 
-}  // namespace a351::record
+}  // namespace a351::files

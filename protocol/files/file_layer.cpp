@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace a351::record {
+namespace a351::files {
 
 namespace {
 
@@ -161,4 +161,4 @@ void replace_file(FileLayer& files, const std::filesystem::path& file,
     files.sync_directory(file.has_parent_path() ? file.parent_path() : ".");
 }
 
-}  // namespace a351::record
+}  // namespace a351::files

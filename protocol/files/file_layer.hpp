@@ -27,7 +27,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace a351::record {
+namespace a351::files {
 
 /// File open for appending.  Closing does not sync.
 ///
@@ -112,4 +112,4 @@ void replace_file(FileLayer& files, const std::filesystem::path& file,
            error == std::error_code(EDQUOT, std::generic_category());
 }
 
-}  // namespace a351::record
+}  // namespace a351::files

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace a351::record {
+namespace a351::journal {
 
 std::string SessionId::to_hex() const {
     std::string text;
@@ -47,11 +47,11 @@ bool is_in_range(const timing::ClockReading& clock) noexcept {
            is_error(clock.estimated_error_us);
 }
 
-bool is_same_stream(const JournalHeader& last, const JournalHeader& next) {
+bool is_same_stream(const Header& last, const Header& next) {
     return next.boot_id == last.boot_id && next.codes == last.codes &&
            next.profile == last.profile && next.output_rate_hz == last.output_rate_hz &&
            next.filter == last.filter && next.burst_ctrl == last.burst_ctrl &&
            next.baud == last.baud;
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

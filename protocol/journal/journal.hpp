@@ -4,14 +4,14 @@
 /// to interpret them later.  Bytes on disk: protocol/journal/journal-format.md.
 ///
 /// The journal is the original record; the archive is derived from it and can be made again.  A
-/// journal is a row of segments.  Each segment begins with a JournalHeader, and chunks of the other
+/// journal is a row of segments.  Each segment begins with a Header, and chunks of the other
 /// types follow in the order in which they were written.
 ///
-/// Write it with JournalWriter, read it with JournalSequence.  This header has the types only; all
+/// Write it with Writer, read it with Sequence.  This header has the types only; all
 /// are plain values without references to each other.
 ///
 /// Times: RawTime is the host's CLOCK_MONOTONIC_RAW and has a meaning only within one boot of the
-/// host, JournalHeader::boot_id.  The chunks of clock readings relate it to UTC.  Times of chunks
+/// host, Header::boot_id.  The chunks of clock readings relate it to UTC.  Times of chunks
 /// need not ascend: a header's reading can be later than the reads in the chunk after it.
 
 #include <array>
@@ -27,7 +27,7 @@
 #include "protocol/timing/clock_reading.hpp"
 #include "protocol/timing/sample_clock.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 /// Random identifier of one run of sampling in which the counter is continuous.
 ///
@@ -76,7 +76,7 @@ inline constexpr std::chrono::seconds kShortestOvenInterval{1}, kLongestOvenInte
 ///
 /// A default-constructed header can be encoded, but it has no profile, rate or layout.  Frames
 /// cannot be decoded with it.
-struct JournalHeader {
+struct Header {
     SessionId session;
     std::string boot_id;  ///< Boot of the kernel, which defines the zero of the raw clock.
     std::string program_version;
@@ -104,7 +104,7 @@ struct JournalHeader {
     /// time in the file name.
     timing::ClockReading clock;
     /// Earlier chunks that the first chunks of this segment repeat, because their sync failed.
-    /// Set by JournalWriter, evaluated by Repetitions.
+    /// Set by Writer, evaluated by Repetitions.
     std::optional<RepeatedChunks> repeats;
 };
 
@@ -113,7 +113,7 @@ struct JournalHeader {
 ///
 /// It compares boot_id, codes, profile, output_rate_hz, filter, burst_ctrl and baud.  Session and
 /// identity of the device are not compared: do so yourself if they matter.
-[[nodiscard]] bool is_same_stream(const JournalHeader& last, const JournalHeader& next);
+[[nodiscard]] bool is_same_stream(const Header& last, const Header& next);
 
 // Limits of the values in a journal.  Raw time has the limits of UTC, because it counts like UTC on
 // simulated time.  Within these limits an instant plus a difference of two others is below 2^63 ns.
@@ -216,7 +216,7 @@ struct OvenChunk {
 };
 
 /// Any chunk of a segment.  The order of the alternatives is part of the format, see ChunkType.
-using JournalChunk = std::variant<JournalHeader, RxChunk, TxChunk, timing::ClockReading, ModelChunk,
-                                  EventChunk, MarkChunk, OvenChunk>;
+using Chunk = std::variant<Header, RxChunk, TxChunk, timing::ClockReading, ModelChunk, EventChunk,
+                           MarkChunk, OvenChunk>;
 
-}  // namespace a351::record
+}  // namespace a351::journal

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-namespace a351::record {
+namespace a351::journal {
 
 namespace {
 
@@ -107,7 +107,7 @@ bool has_registers_by_outcome(const OvenChunk& poll) {
 struct PayloadWriter {
     std::vector<std::byte>& out;
 
-    void operator()(const JournalHeader& header) const { put(out, header_to_json(header)); }
+    void operator()(const Header& header) const { put(out, header_to_json(header)); }
     void operator()(const RxChunk& rx) const {
         if (!do_reads_fit(rx))
             throw std::invalid_argument("RxChunk: reads must ascend and end at the last byte");
@@ -163,7 +163,7 @@ struct PayloadWriter {
     }
 };
 
-std::optional<JournalChunk> decode_rx(Fields fields) {
+std::optional<Chunk> decode_rx(Fields fields) {
     RxChunk rx;
     const auto first = fields.take_raw_time();
     const auto read_count = fields.take<std::uint32_t>();
@@ -181,7 +181,7 @@ std::optional<JournalChunk> decode_rx(Fields fields) {
     return rx;
 }
 
-std::optional<JournalChunk> decode_tx(Fields fields) {
+std::optional<Chunk> decode_tx(Fields fields) {
     TxChunk tx;
     tx.time = fields.take_raw_time();
     if (fields.is_short()) return std::nullopt;
@@ -190,7 +190,7 @@ std::optional<JournalChunk> decode_tx(Fields fields) {
     return tx;
 }
 
-std::optional<JournalChunk> decode_clock(Fields fields) {
+std::optional<Chunk> decode_clock(Fields fields) {
     ClockReading clock;
     clock.raw = fields.take_raw_time();
     clock.boottime = fields.take_instant();
@@ -204,19 +204,19 @@ std::optional<JournalChunk> decode_clock(Fields fields) {
     return clock;
 }
 
-std::optional<JournalChunk> decode_model(Fields fields) {
+std::optional<Chunk> decode_model(Fields fields) {
     ModelChunk model;
     model.index = fields.take_index();
     model.time.utc = fields.take_utc();
     model.time.uncertainty = fields.take_span();
     const auto state = fields.take<std::uint8_t>();
     if (!fields.is_used_up()) return std::nullopt;
-    if (state > static_cast<std::uint8_t>(timing::TimingState::holdover)) return std::nullopt;
-    model.time.state = static_cast<timing::TimingState>(state);
+    if (state > static_cast<std::uint8_t>(timing::State::holdover)) return std::nullopt;
+    model.time.state = static_cast<timing::State>(state);
     return model;
 }
 
-std::optional<JournalChunk> decode_mark(Fields fields) {
+std::optional<Chunk> decode_mark(Fields fields) {
     MarkChunk mark;
     for (std::uint8_t& byte : mark.session.bytes) byte = fields.take<std::uint8_t>();
     while (fields.left() > 0) {
@@ -230,7 +230,7 @@ std::optional<JournalChunk> decode_mark(Fields fields) {
     return mark;
 }
 
-std::optional<JournalChunk> decode_oven(Fields fields) {
+std::optional<Chunk> decode_oven(Fields fields) {
     OvenChunk poll;
     poll.time = fields.take_raw_time();
     const auto outcome = fields.take<std::uint8_t>();
@@ -256,19 +256,19 @@ std::vector<std::byte> encode_fields_before_crc(const ChunkHeader& header) {
 std::vector<std::byte> encode_preamble() {
     std::vector<std::byte> out;
     out.reserve(kPreambleSize);
-    put(out, kJournalMagic);
-    put<std::uint32_t>(out, kJournalVersion);
+    put(out, kMagic);
+    put<std::uint32_t>(out, kVersion);
     return out;
 }
 
 bool is_preamble(std::span<const std::byte> bytes) noexcept {
     if (bytes.size() != kPreambleSize) return false;
-    Fields version(bytes.subspan(kJournalMagic.size()));
-    return std::memcmp(bytes.data(), kJournalMagic.data(), kJournalMagic.size()) == 0 &&
-           version.take<std::uint32_t>() == kJournalVersion;
+    Fields version(bytes.subspan(kMagic.size()));
+    return std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0 &&
+           version.take<std::uint32_t>() == kVersion;
 }
 
-std::vector<std::byte> encode_chunk(const JournalChunk& chunk, std::uint32_t sequence) {
+std::vector<std::byte> encode_chunk(const Chunk& chunk, std::uint32_t sequence) {
     std::vector<std::byte> payload;
     std::visit(PayloadWriter{payload}, chunk);
     if (payload.size() > kMostPayloadBytes) {
@@ -307,12 +307,12 @@ bool is_known(std::uint8_t type) noexcept {
            type <= static_cast<std::uint8_t>(ChunkType::oven);
 }
 
-std::optional<JournalChunk> decode_payload(ChunkType type, std::span<const std::byte> payload) {
+std::optional<Chunk> decode_payload(ChunkType type, std::span<const std::byte> payload) {
     switch (type) {
         case ChunkType::head: {
             auto header = parse_header(to_text(payload));
             if (!header) return std::nullopt;
-            return JournalChunk(std::move(*header));
+            return Chunk(std::move(*header));
         }
         case ChunkType::rx:
             return decode_rx(Fields(payload));
@@ -332,4 +332,4 @@ std::optional<JournalChunk> decode_payload(ChunkType type, std::span<const std::
     return std::nullopt;
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

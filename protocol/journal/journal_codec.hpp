@@ -3,7 +3,7 @@
 /// Chunks of the journal <-> bytes, shared by writer and reader.  No I/O.
 /// Layout: protocol/journal/journal-format.md.
 ///
-/// Programs use JournalWriter and JournalReader; this header is for them, and for tools that check
+/// Programs use Writer and Reader; this header is for them, and for tools that check
 /// or make single chunks:
 ///
 ///     const auto bytes = encode_chunk(chunk, sequence);
@@ -17,7 +17,7 @@
 ///
 /// Integers are little-endian on every host.  The same chunk always gives the same bytes, also
 /// after it was encoded and decoded (journal_codec_test.cpp).  A change of these bytes requires a
-/// new kJournalVersion: journal_reader_test.cpp compares them with a reference file.  All functions
+/// new kVersion: journal_reader_test.cpp compares them with a reference file.  All functions
 /// may be called from any thread.
 
 #include <cstddef>
@@ -30,17 +30,17 @@
 
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 /// First bytes of each segment, without a terminating zero.
-inline constexpr std::string_view kJournalMagic = "A351JRNL";
+inline constexpr std::string_view kMagic = "A351JRNL";
 /// Version of the format.  A reader refuses any other; a further chunk type needs no new version,
 /// because readers skip types that they do not know.
-inline constexpr std::uint32_t kJournalVersion = 1;
+inline constexpr std::uint32_t kVersion = 1;
 inline constexpr std::size_t kPreambleSize = 12;     ///< Magic and version.
 inline constexpr std::size_t kChunkHeaderSize = 13;  ///< length, type, sequence, CRC-32C.
 
-/// Code of a chunk on disk: its place among the alternatives of JournalChunk, counted from 1.
+/// Code of a chunk on disk: its place among the alternatives of Chunk, counted from 1.
 /// The codes are part of the format: never change one, add new ones at the end.
 enum class ChunkType : std::uint8_t {
     head = 1,
@@ -53,13 +53,12 @@ enum class ChunkType : std::uint8_t {
     oven = 8,
 };
 
-/// True if `Chunk` is the alternative of JournalChunk with this code.
-template <ChunkType kType, class Chunk>
+/// True if `Kind` is the alternative of Chunk with this code.
+template <ChunkType kType, class Kind>
 inline constexpr bool kIsCoded =
-    std::is_same_v<std::variant_alternative_t<static_cast<std::size_t>(kType) - 1, JournalChunk>,
-                   Chunk>;
-static_assert(std::variant_size_v<JournalChunk> == static_cast<std::size_t>(ChunkType::oven));
-static_assert(kIsCoded<ChunkType::head, JournalHeader> && kIsCoded<ChunkType::rx, RxChunk> &&
+    std::is_same_v<std::variant_alternative_t<static_cast<std::size_t>(kType) - 1, Chunk>, Kind>;
+static_assert(std::variant_size_v<Chunk> == static_cast<std::size_t>(ChunkType::oven));
+static_assert(kIsCoded<ChunkType::head, Header> && kIsCoded<ChunkType::rx, RxChunk> &&
               kIsCoded<ChunkType::tx, TxChunk> &&
               kIsCoded<ChunkType::clock, timing::ClockReading> &&
               kIsCoded<ChunkType::model, ModelChunk> && kIsCoded<ChunkType::event, EventChunk> &&
@@ -88,13 +87,12 @@ struct ChunkHeader {
 /// interval are not checked here: a chunk with values out of range is encoded, and decode_payload()
 /// refuses it.  SampleTime::is_host_synchronised of a ModelChunk is not stored.
 ///
-/// @param sequence  number of the chunk in its segment; 0 for the JournalHeader and only for it,
+/// @param sequence  number of the chunk in its segment; 0 for the Header and only for it,
 ///                  which is not checked.
 /// @throws std::invalid_argument  the payload exceeds kMostPayloadBytes; the reads of an RxChunk do
 ///         not ascend to its last byte; a channel name exceeds 255 characters; an OvenChunk has
 ///         registers without an answer, an answer without registers, or more than 255 registers.
-[[nodiscard]] std::vector<std::byte> encode_chunk(const JournalChunk& chunk,
-                                                  std::uint32_t sequence);
+[[nodiscard]] std::vector<std::byte> encode_chunk(const Chunk& chunk, std::uint32_t sequence);
 
 /// Reads the header of a chunk; nothing is checked.
 /// @param bytes  kChunkHeaderSize bytes.  Fields that are cut off are 0; further bytes are ignored.
@@ -119,7 +117,7 @@ struct ChunkHeader {
 /// The order of the keys is fixed.  Members with their default are left out if the format permits
 /// it: device_assumed, port, declared_rate_hz, oven_interval_s, leap and repeats.  A declared rate
 /// must be finite, because parse_header() refuses the `null` that JSON has instead.
-[[nodiscard]] std::string header_to_json(const JournalHeader& header);
+[[nodiscard]] std::string header_to_json(const Header& header);
 
 /// Reads the payload of a header.  Unknown fields are ignored.
 ///
@@ -130,7 +128,7 @@ struct ChunkHeader {
 /// @param text  one JSON object in UTF-8; white space around it is permitted.
 /// @return std::nullopt unless the text is an object, every required field is present and
 ///         convertible to its member, and those above are within their limits.
-[[nodiscard]] std::optional<JournalHeader> parse_header(std::string_view text);
+[[nodiscard]] std::optional<Header> parse_header(std::string_view text);
 
 /// Reads the payload of a chunk.
 ///
@@ -144,7 +142,7 @@ struct ChunkHeader {
 /// @param payload  exactly the payload.  Types of fixed size refuse a longer one; RX, TX, EVENT and
 ///                 MARK extend to its end.
 /// @return std::nullopt if the payload is not valid for its type.
-[[nodiscard]] std::optional<JournalChunk> decode_payload(ChunkType type,
-                                                         std::span<const std::byte> payload);
+[[nodiscard]] std::optional<Chunk> decode_payload(ChunkType type,
+                                                  std::span<const std::byte> payload);
 
-}  // namespace a351::record
+}  // namespace a351::journal

@@ -6,7 +6,7 @@
 
 #include "protocol/files/file_bytes.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 namespace {
 
 // Default level of zstd; noise compresses little better at higher ones.
@@ -27,7 +27,7 @@ std::vector<std::byte> compress(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::vector<std::byte> decompress_segment(const std::filesystem::path& segment) {
-    const auto packed = read_bytes(segment);
+    const auto packed = files::read_bytes(segment);
     const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
     if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size > kLargest)
         throw std::runtime_error(segment.string() + ": not a compressed segment");
@@ -39,8 +39,8 @@ std::vector<std::byte> decompress_segment(const std::filesystem::path& segment) 
     return bytes;
 }
 
-void compress_segment(FileLayer& files, const std::filesystem::path& segment) {
-    const auto bytes = read_bytes(segment);
+void compress_segment(files::FileLayer& files, const std::filesystem::path& segment) {
+    const auto bytes = files::read_bytes(segment);
     const auto packed_name = segment.string() + ".zst";
     const auto partial = packed_name + ".partial";
     if (std::filesystem::exists(partial)) files.remove(partial);
@@ -57,4 +57,4 @@ void compress_segment(FileLayer& files, const std::filesystem::path& segment) {
     files.sync_directory(segment.parent_path());
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

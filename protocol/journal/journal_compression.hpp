@@ -3,7 +3,7 @@
 /// Compression of closed journal segments, and its inverse.  A compressed segment is one zstd frame
 /// that holds the segment byte for byte: protocol/journal/journal-format.md.
 ///
-/// JournalReader reads both forms, so readers do not need this header.  Compress closed segments
+/// Reader reads both forms, so readers do not need this header.  Compress closed segments
 /// only: the writer appends to the newest one, and a program that listed the segments before would
 /// look for the old name.
 
@@ -13,14 +13,14 @@
 
 #include "protocol/files/file_layer.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 /// Replaces `NAME.a351j` by `NAME.a351j.zst`.  The compressed file is written under a temporary
 /// name, synced, read back, compared and renamed; the directory is synced.  Only then the original
 /// is removed, and the directory is synced again.
 ///
 /// After any failure at least one of the two files holds the whole segment; journal_reader_test.cpp
-/// lets each file operation fail.  If both exist, journal_segments() lists the original; another
+/// lets each file operation fail.  If both exist, segment_files() lists the original; another
 /// call replaces the compressed file.  A failure may leave `NAME.a351j.zst.partial`, which the next
 /// call removes.
 ///
@@ -34,16 +34,16 @@ namespace a351::record {
 ///                             file replaces it.  A power cut may still bring the original back.
 /// @throws std::runtime_error  the file read back differs, or zstd failed; the original is kept.
 ///                             Catch std::system_error first, because it is derived from this type.
-void compress_segment(FileLayer& files, const std::filesystem::path& segment);
+void compress_segment(files::FileLayer& files, const std::filesystem::path& segment);
 
 /// Returns the bytes of a compressed segment.
 ///
 /// The size is taken from the frame and checked before memory is allocated: at most 65 MiB.  The
-/// chunks inside are not checked; JournalReader does that.
+/// chunks inside are not checked; Reader does that.
 ///
 /// @param segment  file with one zstd frame that states its size; its name does not matter.
 /// @throws std::system_error   it cannot be read.
 /// @throws std::runtime_error  it is not a whole zstd frame, or larger than any segment.
 [[nodiscard]] std::vector<std::byte> decompress_segment(const std::filesystem::path& segment);
 
-}  // namespace a351::record
+}  // namespace a351::journal

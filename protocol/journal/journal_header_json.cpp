@@ -2,7 +2,7 @@
 
 #include "protocol/journal/journal_codec.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 namespace {
 
@@ -34,8 +34,8 @@ timing::ClockReading clock_from_json(const Json& json) {
     return clock;
 }
 
-JournalHeader header_from_json(const Json& json) {
-    JournalHeader header;
+Header header_from_json(const Json& json) {
+    Header header;
     const auto session = SessionId::from_hex(json.at("session").get<std::string>());
     if (!session) throw std::invalid_argument("session");
     header.session = *session;
@@ -72,7 +72,7 @@ JournalHeader header_from_json(const Json& json) {
 
 }  // namespace
 
-std::string header_to_json(const JournalHeader& header) {
+std::string header_to_json(const Header& header) {
     Json json = {{"session", header.session.to_hex()},
                  {"boot_id", header.boot_id},
                  {"program_version", header.program_version},
@@ -103,7 +103,7 @@ std::string header_to_json(const JournalHeader& header) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::optional<JournalHeader> parse_header(std::string_view text) {
+std::optional<Header> parse_header(std::string_view text) {
     const Json json = Json::parse(text, nullptr, false);
     if (!json.is_object()) return std::nullopt;
     try {
@@ -115,4 +115,4 @@ std::optional<JournalHeader> parse_header(std::string_view text) {
     }
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

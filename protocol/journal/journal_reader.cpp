@@ -13,14 +13,14 @@
 #include "protocol/journal/journal_codec.hpp"
 #include "protocol/journal/journal_compression.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 namespace {
 
 bool is_compressed(const std::filesystem::path& segment) { return segment.extension() == ".zst"; }
 
 }  // namespace
 
-JournalReader::JournalReader(std::filesystem::path segment) : path_(std::move(segment)) {
+Reader::Reader(std::filesystem::path segment) : path_(std::move(segment)) {
     if (is_compressed(path_)) {
         try {
             const auto bytes = decompress_segment(path_);
@@ -38,17 +38,17 @@ JournalReader::JournalReader(std::filesystem::path segment) : path_(std::move(se
     size_ = std::filesystem::file_size(path_);
 }
 
-bool JournalReader::read(std::span<std::byte> bytes) {
+bool Reader::read(std::span<std::byte> bytes) {
     in_->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     return in_->good();
 }
 
-std::optional<JournalChunk> JournalReader::stop(std::string reason) {
-    damage_ = JournalDamage{path_, offset_, size_ - offset_, std::move(reason)};
+std::optional<Chunk> Reader::stop(std::string reason) {
+    damage_ = Damage{path_, offset_, size_ - offset_, std::move(reason)};
     return std::nullopt;
 }
 
-std::optional<JournalChunk> JournalReader::next() {
+std::optional<Chunk> Reader::next() {
     if (damage_) return std::nullopt;
     if (offset_ == 0) {
         std::array<std::byte, kPreambleSize> preamble{};
@@ -70,7 +70,7 @@ std::optional<JournalChunk> JournalReader::next() {
         const bool is_head = chunk.type == static_cast<std::uint8_t>(ChunkType::head);
         if (is_head != (chunk.sequence == 0))
             return stop(is_head ? "header inside the segment" : "no header");
-        std::optional<JournalChunk> decoded;
+        std::optional<Chunk> decoded;
         if (is_known(chunk.type)) {
             decoded = decode_payload(static_cast<ChunkType>(chunk.type), payload_);
             if (!decoded) return stop("payload does not fit its type");
@@ -83,9 +83,8 @@ std::optional<JournalChunk> JournalReader::next() {
     return std::nullopt;
 }
 
-bool Repetitions::is_repeated(std::uint64_t segment, std::uint32_t sequence,
-                              const JournalChunk& chunk) {
-    if (const auto* header = std::get_if<JournalHeader>(&chunk)) {
+bool Repetitions::is_repeated(std::uint64_t segment, std::uint32_t sequence, const Chunk& chunk) {
+    if (const auto* header = std::get_if<Header>(&chunk)) {
         if (header->repeats && header->repeats != from_) {
             const bool was_read = last_segment_ == header->repeats->segment &&
                                   last_sequence_ >= header->repeats->sequence;
@@ -103,10 +102,9 @@ bool Repetitions::is_repeated(std::uint64_t segment, std::uint32_t sequence,
     return false;
 }
 
-JournalSequence::JournalSequence(std::vector<std::filesystem::path> segments)
-    : segments_(std::move(segments)) {}
+Sequence::Sequence(std::vector<std::filesystem::path> segments) : segments_(std::move(segments)) {}
 
-std::optional<JournalChunk> JournalSequence::next() {
+std::optional<Chunk> Sequence::next() {
     while (true) {
         if (!reader_) {
             if (next_segment_ == segments_.size()) return std::nullopt;
@@ -121,16 +119,16 @@ std::optional<JournalChunk> JournalSequence::next() {
     }
 }
 
-std::optional<JournalHeader> segment_header(const std::filesystem::path& segment) {
-    JournalReader reader(segment);
+std::optional<Header> segment_header(const std::filesystem::path& segment) {
+    Reader reader(segment);
     const auto chunk = reader.next();
-    const auto* header = chunk ? std::get_if<JournalHeader>(&*chunk) : nullptr;
+    const auto* header = chunk ? std::get_if<Header>(&*chunk) : nullptr;
     return header ? std::optional(*header) : std::nullopt;
 }
 
 std::optional<MarkChunk> newest_mark(const std::filesystem::path& segment) {
     std::optional<MarkChunk> newest;
-    JournalReader reader(segment);
+    Reader reader(segment);
     while (auto chunk = reader.next())
         if (auto* mark = std::get_if<MarkChunk>(&*chunk)) newest = std::move(*mark);
     return newest;
@@ -157,7 +155,7 @@ std::optional<std::uint64_t> segment_number(const std::filesystem::path& file) {
     return number;
 }
 
-std::vector<std::filesystem::path> journal_segments(const std::filesystem::path& directory) {
+std::vector<std::filesystem::path> segment_files(const std::filesystem::path& directory) {
     std::vector<std::pair<std::uint64_t, std::filesystem::path>> numbered;
     if (std::filesystem::exists(directory)) {
         for (const auto& entry : std::filesystem::directory_iterator(directory)) {
@@ -175,11 +173,11 @@ std::vector<std::filesystem::path> journal_segments(const std::filesystem::path&
     return segments;
 }
 
-std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
-                                                   const std::filesystem::path& directory) {
-    const auto segments = journal_segments(directory);
+std::optional<Damage> repair_newest_segment(files::FileLayer& files,
+                                            const std::filesystem::path& directory) {
+    const auto segments = segment_files(directory);
     if (segments.empty() || is_compressed(segments.back())) return std::nullopt;
-    JournalReader reader(segments.back());
+    Reader reader(segments.back());
     while (reader.next()) {
     }
     const auto& damage = reader.damage();
@@ -194,10 +192,11 @@ std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
         files.rename(damage->file, side);
         files.sync_directory(directory);
     } else {
-        replace_file(files, side, read_bytes(damage->file, damage->offset, damage->byte_count));
+        files::replace_file(files, side,
+                            files::read_bytes(damage->file, damage->offset, damage->byte_count));
         files.truncate(damage->file, damage->offset);
     }
     return damage;
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

@@ -3,14 +3,14 @@
 /// Reads the journal: one segment, or all of them as one stream.  Repairs its end after a crash.
 /// Format: protocol/journal/journal-format.md.
 ///
-/// Use JournalSequence to read what was recorded:
+/// Use Sequence to read what was recorded:
 ///
-///     JournalSequence chunks(journal_segments(directory));
+///     Sequence chunks(segment_files(directory));
 ///     while (const auto chunk = chunks.next()) std::visit(handle, *chunk);
-///     for (const JournalDamage& damage : chunks.damage()) report(damage);
+///     for (const Damage& damage : chunks.damage()) report(damage);
 ///
-/// Use JournalReader for a single segment; there, chunks may occur that another segment repeats.
-/// Before a JournalWriter is made, call repair_newest_segment().  Readers never change a file.
+/// Use Reader for a single segment; there, chunks may occur that another segment repeats.
+/// Before a Writer is made, call repair_newest_segment().  Readers never change a file.
 ///
 /// Damage is a value, not an exception, because a writer may die at any byte.  Only a file that
 /// cannot be opened is an exception.
@@ -27,13 +27,13 @@
 #include "protocol/files/file_layer.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 /// Damage that ends a segment before its file ends.
 ///
 /// In a compressed segment the positions count its bytes before compression.  If it cannot be
 /// unpacked at all, `offset` is 0 and `byte_count` is the size of the compressed file.
-struct JournalDamage {
+struct Damage {
     std::filesystem::path file;
     std::uint64_t offset = 0;      ///< First byte after the last good chunk.
     std::uint64_t byte_count = 0;  ///< From there to the end of the file.
@@ -52,19 +52,19 @@ struct JournalDamage {
 ///
 /// One flipped bit in any byte of a segment is detected.  A tail torn at any byte costs only the
 /// chunks from there on.  journal_reader_test.cpp shows both.
-class JournalReader {
+class Reader {
 public:
     /// Opens a segment; `.zst` at the end of the name means that it is compressed.  Nothing is
     /// decoded before next().
     /// @throws std::system_error  the file cannot be opened.  A compressed file that exists but
     ///         cannot be read or unpacked does not throw: it is damage.
-    explicit JournalReader(std::filesystem::path segment);
+    explicit Reader(std::filesystem::path segment);
 
     /// Returns the next good chunk; std::nullopt at the end or at the first damage.
     ///
-    /// The first chunk is always the JournalHeader, and no later one is.  After std::nullopt every
+    /// The first chunk is always the Header, and no later one is.  After std::nullopt every
     /// call returns std::nullopt; ask damage() which of the two cases it is.
-    [[nodiscard]] std::optional<JournalChunk> next();
+    [[nodiscard]] std::optional<Chunk> next();
 
     /// Returns the sequence number of the last chunk that next() returned.  It has no meaning
     /// before the first chunk and after std::nullopt.  The header has 0; a skipped chunk leaves a
@@ -76,11 +76,11 @@ public:
     ///
     /// Without a good header the whole file is damage, and `offset` is 0.  Chunks after the damage
     /// are not searched for, because there are no marks to find them.
-    [[nodiscard]] const std::optional<JournalDamage>& damage() const noexcept { return damage_; }
+    [[nodiscard]] const std::optional<Damage>& damage() const noexcept { return damage_; }
 
 private:
     [[nodiscard]] bool read(std::span<std::byte> bytes);
-    std::optional<JournalChunk> stop(std::string reason);
+    std::optional<Chunk> stop(std::string reason);
 
     std::filesystem::path path_;
     std::unique_ptr<std::istream> in_;
@@ -89,7 +89,7 @@ private:
     std::uint64_t offset_ = 0;
     std::uint32_t next_sequence_ = 0;
     std::uint32_t sequence_ = 0;
-    std::optional<JournalDamage> damage_;
+    std::optional<Damage> damage_;
 };
 
 /// Recognises chunks that were read before.  A segment whose header has `repeats` begins with the
@@ -98,7 +98,7 @@ private:
 ///
 /// Segments must be read in order, each to its end or its first damage.
 ///
-/// JournalSequence uses it.  A program needs it only if it reads the segments by itself:
+/// Sequence uses it.  A program needs it only if it reads the segments by itself:
 ///
 ///     while (const auto chunk = reader.next())
 ///         if (!repetitions.is_repeated(number, reader.sequence(), *chunk)) use(*chunk);
@@ -111,7 +111,7 @@ public:
     /// @param segment   number of the segment.
     /// @param sequence  sequence number of the chunk within it.
     [[nodiscard]] bool is_repeated(std::uint64_t segment, std::uint32_t sequence,
-                                   const JournalChunk& chunk);
+                                   const Chunk& chunk);
 
 private:
     std::optional<RepeatedChunks> from_;  ///< First place of the repeated chunks.
@@ -123,30 +123,30 @@ private:
 
 /// Reads segments one after the other, each chunk once: repeated chunks are skipped.
 ///
-/// Every segment begins with its JournalHeader.  If its `session` is that of the header before, the
+/// Every segment begins with its Header.  If its `session` is that of the header before, the
 /// stream continues.  Damage ends a segment, not the sequence: reading continues with the next
 /// segment.
-class JournalSequence {
+class Sequence {
 public:
     /// Opens no file; next() opens them one by one.
-    /// @param segments  result of journal_segments(), or the last of these.
-    explicit JournalSequence(std::vector<std::filesystem::path> segments);
+    /// @param segments  result of segment_files(), or the last of these.
+    explicit Sequence(std::vector<std::filesystem::path> segments);
 
     /// Returns the next chunk; std::nullopt at the end.
     /// @throws std::system_error  a segment cannot be opened, for example because it was compressed
     ///         or removed after it was listed.  The next call continues with the segment after it.
-    [[nodiscard]] std::optional<JournalChunk> next();
+    [[nodiscard]] std::optional<Chunk> next();
 
     /// Returns the damage found in the segments read so far, in their order; at most one of each.
-    [[nodiscard]] const std::vector<JournalDamage>& damage() const noexcept { return damage_; }
+    [[nodiscard]] const std::vector<Damage>& damage() const noexcept { return damage_; }
 
 private:
     std::vector<std::filesystem::path> segments_;
     std::size_t next_segment_ = 0;
     std::uint64_t number_ = 0;
-    std::optional<JournalReader> reader_;
+    std::optional<Reader> reader_;
     Repetitions repetitions_;
-    std::vector<JournalDamage> damage_;
+    std::vector<Damage> damage_;
 };
 
 /// Returns the header of a segment; std::nullopt if it is damaged.
@@ -154,7 +154,7 @@ private:
 /// An uncompressed segment is read only as far as its header.  A compressed one is unpacked as a
 /// whole.
 /// @throws std::system_error  the file cannot be opened.
-[[nodiscard]] std::optional<JournalHeader> segment_header(const std::filesystem::path& segment);
+[[nodiscard]] std::optional<Header> segment_header(const std::filesystem::path& segment);
 
 /// Returns the newest MARK of a segment, if there is one.
 ///
@@ -183,7 +183,7 @@ private:
 /// If a segment exists in both forms, its original is listed.  Partial and torn files are not.
 /// Segments with damage are listed, because no file is opened.  Directories below are not searched.
 /// @throws std::system_error  the directory cannot be listed.
-[[nodiscard]] std::vector<std::filesystem::path> journal_segments(
+[[nodiscard]] std::vector<std::filesystem::path> segment_files(
     const std::filesystem::path& directory);
 
 /// Moves a damaged tail of the newest segment to a file `*.torn` beside it and syncs the rest.  A
@@ -198,7 +198,7 @@ private:
 ///
 /// @return the damage, if there was any.  Positions are those before the repair.
 /// @throws std::system_error  a file cannot be read or written; call it again.
-std::optional<JournalDamage> repair_newest_segment(FileLayer& files,
-                                                   const std::filesystem::path& directory);
+std::optional<Damage> repair_newest_segment(files::FileLayer& files,
+                                            const std::filesystem::path& directory);
 
-}  // namespace a351::record
+}  // namespace a351::journal

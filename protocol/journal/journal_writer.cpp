@@ -11,7 +11,7 @@
 #include "protocol/journal/journal_codec.hpp"
 #include "protocol/journal/journal_reader.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 namespace {
 
@@ -26,7 +26,7 @@ std::string segment_name(std::uint64_t number, UtcTime time) {
 }
 
 /// Removes a file on a disk so full or faulty that the header could not be written.
-void remove_if_possible(FileLayer& files, const std::filesystem::path& path) {
+void remove_if_possible(files::FileLayer& files, const std::filesystem::path& path) {
     try {
         files.remove(path);
     } catch (const std::system_error&) {
@@ -36,7 +36,7 @@ void remove_if_possible(FileLayer& files, const std::filesystem::path& path) {
 
 }  // namespace
 
-JournalWriter::JournalWriter(FileLayer& files, std::filesystem::path directory)
+Writer::Writer(files::FileLayer& files, std::filesystem::path directory)
     : files_(files), directory_(std::move(directory)) {
     files_.create_directories(directory_);
     for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
@@ -45,7 +45,7 @@ JournalWriter::JournalWriter(FileLayer& files, std::filesystem::path directory)
     }
 }
 
-void JournalWriter::begin_segment(const JournalHeader& header) {
+void Writer::begin_segment(const Header& header) {
     sync();
     segment_.reset();
     open_segment(header);
@@ -54,14 +54,13 @@ void JournalWriter::begin_segment(const JournalHeader& header) {
     forget_unsynced();
 }
 
-std::optional<JournalHeader> JournalWriter::append(const JournalChunk& chunk,
-                                                   const timing::ClockReading& clock) {
+std::optional<Header> Writer::append(const Chunk& chunk, const timing::ClockReading& clock) {
     assert(header_);
     if (!segment_) rewrite_unsynced();
     const bool is_full =
         clock.raw - header_->clock.raw >= kLongestSegment || segment_->size() >= kLargestSegment;
     if (is_full) {
-        JournalHeader header = *header_;
+        Header header = *header_;
         header.clock = clock;
         begin_segment(header);
         unreported_header_ = header;
@@ -72,7 +71,7 @@ std::optional<JournalHeader> JournalWriter::append(const JournalChunk& chunk,
     return std::exchange(unreported_header_, std::nullopt);
 }
 
-void JournalWriter::sync() {
+void Writer::sync() {
     if (!segment_ && unsynced_.empty()) return;
     if (!segment_) rewrite_unsynced();
     try {
@@ -85,15 +84,15 @@ void JournalWriter::sync() {
 }
 
 // Writes the unsynced chunks into a new segment after a fault; does not sync.
-void JournalWriter::rewrite_unsynced() {
-    JournalHeader header = *header_;
+void Writer::rewrite_unsynced() {
+    Header header = *header_;
     header.clock = synced_clock_;
     open_segment(header);
-    for (const JournalChunk& chunk : unsynced_) write(chunk);
+    for (const Chunk& chunk : unsynced_) write(chunk);
 }
 
-void JournalWriter::open_segment(const JournalHeader& header) {
-    JournalHeader head = header;
+void Writer::open_segment(const Header& header) {
+    Header head = header;
     head.repeats = lost_from_;
     const auto path = directory_ / segment_name(++number_, header.clock.realtime);
     auto bytes = encode_preamble();
@@ -113,7 +112,7 @@ void JournalWriter::open_segment(const JournalHeader& header) {
     bytes_written_ += bytes.size();
 }
 
-void JournalWriter::write(const JournalChunk& chunk) {
+void Writer::write(const Chunk& chunk) {
     const auto bytes = encode_chunk(chunk, next_sequence_);
     try {
         segment_->append(bytes);
@@ -126,16 +125,16 @@ void JournalWriter::write(const JournalChunk& chunk) {
 }
 
 // If chunks cannot be written again either, the place where they were first is kept.
-void JournalWriter::give_up() noexcept {
+void Writer::give_up() noexcept {
     segment_.reset();
     if (!lost_from_) lost_from_ = RepeatedChunks{number_, first_unsynced_};
 }
 
-void JournalWriter::forget_unsynced() {
+void Writer::forget_unsynced() {
     unsynced_.clear();
     lost_from_.reset();
     first_unsynced_ = next_sequence_;
     synced_clock_ = newest_clock_;
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

@@ -4,7 +4,7 @@
 /// memory still holds.  Format: protocol/journal/journal-format.md.
 ///
 ///     repair_newest_segment(files, directory);  // journal_reader.hpp; before the writer exists.
-///     JournalWriter writer(files, directory);
+///     Writer writer(files, directory);
 ///     writer.begin_segment(header);             // Once per session.
 ///     writer.append(chunk, clock);              // Many times.
 ///     writer.sync();                            // A crash loses what follows the last one.
@@ -21,7 +21,7 @@
 #include "protocol/files/file_layer.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 /// Appends chunks to segments `NNNNNNNN_YYYYMMDDThhmmssZ.a351j`.  One writer per directory.
 ///
@@ -38,7 +38,7 @@ namespace a351::record {
 ///
 /// There are no locks: use an object from one thread at a time.  No clock is read: all times are
 /// arguments.  The destructor closes the segment without a sync.
-class JournalWriter {
+class Writer {
 public:
     /// Continues the segment counter found in `directory`, which is created when absent.
     ///
@@ -47,7 +47,7 @@ public:
     ///
     /// @param files  must outlive this object.
     /// @throws std::system_error  the directory cannot be created or listed.
-    JournalWriter(FileLayer& files, std::filesystem::path directory);
+    Writer(files::FileLayer& files, std::filesystem::path directory);
 
     /// Syncs and closes the current segment and begins a new one: writes and syncs its header, then
     /// syncs the directory.
@@ -60,7 +60,7 @@ public:
     /// @throws std::system_error  the segment could not be begun.  A file without a header is
     ///         removed, if the disk permits it.
     /// @throws std::invalid_argument  the header is larger than kMostPayloadBytes.
-    void begin_segment(const JournalHeader& header);
+    void begin_segment(const Header& header);
 
     /// Appends a chunk by one write.  If the segment is older than one hour of raw time or larger
     /// than 64 MiB, a new one is begun first, with the same header and `clock`.
@@ -68,15 +68,14 @@ public:
     ///
     /// The chunk is copied.  After std::system_error, append the same chunk again: it was not kept.
     ///
-    /// @param chunk  any kind but JournalHeader, which would end the segment for every reader; this
+    /// @param chunk  any kind but Header, which would end the segment for every reader; this
     ///               is not checked.  Use begin_segment() for a header.
     /// @param clock  present reading of the host's clocks; used only if a new segment is begun.
     /// @return  the header of a segment that was begun so; a reader finds it before `chunk`.
     /// @throws std::system_error  `chunk` is not written; earlier chunks are kept.
     /// @throws std::invalid_argument  the chunk is larger than kMostPayloadBytes, or violates the
     ///         format in another way that encode_chunk() refuses.  The writer is not affected.
-    std::optional<JournalHeader> append(const JournalChunk& chunk,
-                                        const timing::ClockReading& clock);
+    std::optional<Header> append(const Chunk& chunk, const timing::ClockReading& clock);
 
     /// Syncs all chunks to disk.
     ///
@@ -90,25 +89,25 @@ public:
     [[nodiscard]] std::uint64_t bytes_written() const noexcept { return bytes_written_; }
 
 private:
-    void open_segment(const JournalHeader& header);
-    void write(const JournalChunk& chunk);
+    void open_segment(const Header& header);
+    void write(const Chunk& chunk);
     void give_up() noexcept;
     void rewrite_unsynced();
     void forget_unsynced();
 
-    FileLayer& files_;
+    files::FileLayer& files_;
     std::filesystem::path directory_;
-    std::optional<JournalHeader> header_;  ///< Header of begin_segment() or of the last rotation.
-    std::optional<JournalHeader>
+    std::optional<Header> header_;  ///< Header of begin_segment() or of the last rotation.
+    std::optional<Header>
         unreported_header_;  ///< Header of a rotation that append() has to return.
-    std::unique_ptr<AppendFile> segment_;
+    std::unique_ptr<files::AppendFile> segment_;
     std::uint64_t number_ = 0;  ///< Number of the newest segment.
     std::uint32_t next_sequence_ = 0;
-    std::vector<JournalChunk> unsynced_;
+    std::vector<Chunk> unsynced_;
     std::optional<RepeatedChunks> lost_from_;  ///< First place of unsynced_, if that sync failed.
     std::uint32_t first_unsynced_ = 1;         ///< First unsynced chunk of the open segment.
     timing::ClockReading newest_clock_, synced_clock_;
     std::uint64_t bytes_written_ = 0;
 };
 
-}  // namespace a351::record
+}  // namespace a351::journal

@@ -4,7 +4,7 @@
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 namespace {
 
 std::optional<StreamEnd> end_within(const std::filesystem::path& segment) {
@@ -18,7 +18,7 @@ std::optional<StreamEnd> end_within(const std::filesystem::path& segment) {
 
     std::optional<StreamEnd> end;
     wire::BurstDecoder decoder(*layout, profile->count_step(header->output_rate_hz));
-    JournalReader reader(segment);
+    Reader reader(segment);
     while (const auto chunk = reader.next()) {
         const auto* const received = std::get_if<RxChunk>(&*chunk);
         if (received == nullptr) continue;
@@ -46,4 +46,4 @@ std::optional<StreamEnd> stream_end(const std::vector<std::filesystem::path>& se
     return std::nullopt;
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

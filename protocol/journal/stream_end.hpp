@@ -3,7 +3,7 @@
 /// The last frame in the journal.  A program that finds a sensor still sampling compares its
 /// counter with this one.  If it fits, the session continues, and no new one is started.
 ///
-///     const auto end = stream_end(journal_segments(directory));
+///     const auto end = stream_end(segment_files(directory));
 ///     if (end) listen(end->header.baud);  // Does COUNT continue from end->count, end->arrival?
 ///
 /// Repair the newest segment first (repair_newest_segment()), because frames after damage are not
@@ -16,13 +16,13 @@
 
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 /// Last known state of a stream.
 struct StreamEnd {
     /// Header of the segment that holds the frame: settings of the device, and the boot that
     /// defines the zero of `arrival`.
-    JournalHeader header;
+    Header header;
     std::uint16_t count = 0;  ///< COUNT of the last frame.
     RawTime arrival;          ///< Time of the last read() of the chunk that ends that frame.
 };
@@ -38,9 +38,9 @@ struct StreamEnd {
 /// a segment is not confirmed (BurstDecoder).  Normally only the newest segment is read, in a time
 /// proportional to its size.
 ///
-/// @param segments  result of journal_segments(), or the last of these.
+/// @param segments  result of segment_files(), or the last of these.
 /// @throws std::system_error  a segment cannot be read.
 [[nodiscard]] std::optional<StreamEnd> stream_end(
     const std::vector<std::filesystem::path>& segments);
 
-}  // namespace a351::record
+}  // namespace a351::journal

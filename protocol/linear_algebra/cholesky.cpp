@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace a351::corrector {
+namespace a351::linear_algebra {
 
 Cholesky::Cholesky(Eigen::MatrixXd matrix) : factor_(std::move(matrix)) {
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(factor_);
@@ -38,4 +38,4 @@ Eigen::MatrixXd Cholesky::inverse() const {
     return solve(Eigen::MatrixXd::Identity(factor_.rows(), factor_.cols()));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::linear_algebra

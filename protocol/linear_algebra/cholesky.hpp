@@ -14,7 +14,7 @@
 
 #include <Eigen/Core>
 
-namespace a351::corrector {
+namespace a351::linear_algebra {
 
 /// Decomposes a matrix and solves linear systems with it:
 ///
@@ -66,4 +66,4 @@ private:
     bool is_positive_definite_ = false;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::linear_algebra

@@ -1,6 +1,6 @@
 #include "protocol/linear_algebra/normal_matrix.hpp"
 
-namespace a351::corrector {
+namespace a351::linear_algebra {
 
 Eigen::MatrixXd normal_matrix(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
     Eigen::MatrixXd normal = columns.transpose() * columns;
@@ -8,4 +8,4 @@ Eigen::MatrixXd normal_matrix(const Eigen::Ref<const Eigen::MatrixXd>& columns) 
     return normal;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::linear_algebra

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace a351::corrector {
+namespace a351::linear_algebra {
 
 /// Returns the normal matrix of least squares in which every unknown has a prior:
 ///
@@ -28,4 +28,4 @@ namespace a351::corrector {
 /// @return (p, p), dimensionless.
 [[nodiscard]] Eigen::MatrixXd normal_matrix(const Eigen::Ref<const Eigen::MatrixXd>& columns);
 
-}  // namespace a351::corrector
+}  // namespace a351::linear_algebra

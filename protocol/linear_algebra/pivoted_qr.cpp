@@ -2,7 +2,7 @@
 
 #include <Eigen/QR>
 
-namespace a351::corrector {
+namespace a351::linear_algebra {
 
 struct PivotedQr::Decomposition {
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
@@ -32,4 +32,4 @@ Eigen::MatrixXd PivotedQr::cofactor_root() const {
     return qr.colsPermutation() * inverse_r;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::linear_algebra

@@ -17,7 +17,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-namespace a351::corrector {
+namespace a351::linear_algebra {
 
 /// Decomposes a matrix by Householder reflections with column pivoting, and solves least squares:
 ///
@@ -64,4 +64,4 @@ private:
     std::unique_ptr<const Decomposition> decomposition_;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::linear_algebra

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace a351::corrector {
+namespace a351::linear_algebra {
 
 /// Eigenvalues and eigenvectors of A:  A vectors.col(k) = values(k) vectors.col(k).
 ///
@@ -35,4 +35,4 @@ struct SymmetricEigen {
 /// Source: Eigen::SelfAdjointEigenSolver.
 [[nodiscard]] SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
-}  // namespace a351::corrector
+}  // namespace a351::linear_algebra

@@ -8,7 +8,7 @@
 
 #include "protocol/signal/decimator.hpp"
 
-namespace a351::corrector {
+namespace a351::signal {
 
 DecimationFilter design_decimation(int factor) {
     if (factor < 2 || factor > 1000) {
@@ -52,4 +52,4 @@ std::vector<double> decimate(std::span<const double> input, const DecimationFilt
     return output;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

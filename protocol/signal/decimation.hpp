@@ -18,7 +18,7 @@
 
 #include "protocol/core/time_series.hpp"
 
-namespace a351::corrector {
+namespace a351::signal {
 
 /// Symmetric low-pass and the decimation factor for which it was designed by design_decimation().
 ///
@@ -103,4 +103,4 @@ template <class Unit>
     return series;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace a351::corrector {
+namespace a351::signal {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
@@ -136,4 +136,4 @@ void Decimator::push_from(std::size_t k, std::span<const double> input,
     push_from(k + 1, made_[k], output);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

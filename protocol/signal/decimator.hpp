@@ -13,7 +13,7 @@
 #include "protocol/signal/decimation.hpp"
 #include "protocol/signal/tap_pairs.hpp"
 
-namespace a351::corrector {
+namespace a351::signal {
 
 /// Decimates a stream, with the outputs of decimate().  They do not depend on how the caller cuts
 /// the stream.
@@ -94,4 +94,4 @@ private:
     bool is_finished_ = false;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::signal {
 
 /// Standard deviation of Gaussian noise divided by its median absolute deviation, dimensionless:
 /// 1 / Phi^-1(3/4), rounded to four decimals.
@@ -29,4 +29,4 @@ inline constexpr double kGaussianPerMad = 1.4826;
     return *middle;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

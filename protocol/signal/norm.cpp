@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace a351::corrector {
+namespace a351::signal {
 namespace {
 
 bool same_grid(const TimeSeries<StandardGravity>& a, const TimeSeries<StandardGravity>& b) {
@@ -32,4 +32,4 @@ MilliGal rectification_bias(MilliGal rms_x, MilliGal rms_y, MilliGal gravity) {
     return MilliGal(squares / (2.0 * gravity.value()));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

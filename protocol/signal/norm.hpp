@@ -8,7 +8,7 @@
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::signal {
 
 /// Returns the norm of three axes, sample by sample:
 ///
@@ -48,4 +48,4 @@ namespace a351::corrector {
 /// @return the excess in mGal, >= 0.
 [[nodiscard]] MilliGal rectification_bias(MilliGal rms_x, MilliGal rms_y, MilliGal gravity);
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace a351::corrector {
+namespace a351::signal {
 namespace {
 
 /// Sums pairs of taps with explicit vectors, because g++ 12 unrolls the plain loop before it could
@@ -49,4 +49,4 @@ std::vector<SumTapPairs> sum_tap_pairs_variants() {
     return variants;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

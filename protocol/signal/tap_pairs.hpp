@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace a351::corrector {
+namespace a351::signal {
 
 /// Two equal taps and the positions of their samples for the first of the outputs.  Positions count
 /// from the begin of `samples`; output i uses the samples i places further.
@@ -46,4 +46,4 @@ using SumTapPairs = void (*)(std::span<const TapPair> pairs, const double* sampl
 /// loop gives the same bits as plain arithmetic").
 [[nodiscard]] std::vector<SumTapPairs> sum_tap_pairs_variants();
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

@@ -15,7 +15,7 @@
 
 #include "protocol/station/station_xml.hpp"
 
-namespace a351::record {
+namespace a351::station {
 
 /// Returns the document as text in UTF-8, indented by two blanks.  The same tree gives the same
 /// bytes.
@@ -38,4 +38,4 @@ namespace a351::record {
 [[nodiscard]] std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node node,
                                              const char* attribute);
 
-}  // namespace a351::record
+}  // namespace a351::station

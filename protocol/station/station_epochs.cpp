@@ -4,7 +4,7 @@
 
 #include "protocol/station/station_document.hpp"
 
-namespace a351::record {
+namespace a351::station {
 namespace {
 
 pugi::xml_node with_code(pugi::xml_node parent, const char* name, const char* code) {
@@ -94,7 +94,7 @@ private:
 }  // namespace
 
 std::optional<std::string> extend_station_xml(const std::filesystem::path& file,
-                                              const StationDescription& description) {
+                                              const Description& description) {
     auto document = load_station_document(file);
     auto root = document.child("FDSNStationXML");
     pugi::xml_document fresh;  // read like a file, where an empty text is absent
@@ -120,4 +120,4 @@ std::optional<std::string> extend_station_xml(const std::filesystem::path& file,
     return xml_text(document);
 }
 
-}  // namespace a351::record
+}  // namespace a351::station

@@ -15,7 +15,7 @@
 #include "protocol/station/station_document.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::record {
+namespace a351::station {
 
 namespace {
 
@@ -107,14 +107,14 @@ Orientation orientation_of(const std::string& suffix) {
     return {suffix == "2" ? 90.0 : 0.0, 0.0, false};
 }
 
-void add_position(pugi::xml_node parent, const StationDescription& description) {
+void add_position(pugi::xml_node parent, const Description& description) {
     add(parent, "Latitude", description.latitude.value());
     add(parent, "Longitude", description.longitude.value());
     add(parent, "Elevation", description.elevation.value());
 }
 
 /// Adds a channel with the attributes that all channels have; add_place() comes later.
-pugi::xml_node add_channel(pugi::xml_node station, const StationDescription& description,
+pugi::xml_node add_channel(pugi::xml_node station, const Description& description,
                            std::string_view code) {
     auto channel = station.append_child("Channel");
     channel.append_attribute("code").set_value(std::string(code).c_str());
@@ -123,7 +123,7 @@ pugi::xml_node add_channel(pugi::xml_node station, const StationDescription& des
     return channel;
 }
 
-void add_place(pugi::xml_node channel, const StationDescription& description,
+void add_place(pugi::xml_node channel, const Description& description,
                const Orientation& orientation, double rate_hz) {
     add_position(channel, description);
     add(channel, "Depth", 0.0);
@@ -132,7 +132,7 @@ void add_place(pugi::xml_node channel, const StationDescription& description,
     add(channel, "SampleRate", rate_hz);
 }
 
-void add_sensor(pugi::xml_node channel, const StationDescription& description) {
+void add_sensor(pugi::xml_node channel, const Description& description) {
     auto sensor = channel.append_child("Sensor");
     add(sensor, "Manufacturer", "Seiko Epson");
     add(sensor, "Model", printable(description.product_id));
@@ -140,11 +140,12 @@ void add_sensor(pugi::xml_node channel, const StationDescription& description) {
 }
 
 /// Adds a sampled channel, complete except for its response.
-pugi::xml_node add_sampled_channel(pugi::xml_node station, const StationDescription& description,
+pugi::xml_node add_sampled_channel(pugi::xml_node station, const Description& description,
                                    const std::string& instrument_and_axis,
                                    const std::string& content, const Orientation& orientation) {
     const int rate_hz = description.output_rate_hz;
-    auto channel = add_channel(station, description, channel_code(rate_hz, instrument_and_axis));
+    auto channel =
+        add_channel(station, description, archive::channel_code(rate_hz, instrument_and_axis));
     add_comment(channel, content);
     add_comment(channel, fmt::format("device profile {} ({})", description.profile,
                                      description.is_profile_verified ? "verified" : "unverified"));
@@ -173,16 +174,17 @@ struct SlowChannel {
 };
 
 constexpr SlowChannel kSlowChannels[] = {
-    {kSensorTemperature, "sensor temperature, mean over the second", kTemperature, 1000.0, true,
+    {archive::kSensorTemperature, "sensor temperature, mean over the second", kTemperature, 1000.0,
+     true, false},
+    {archive::kOvenTemperature, "oven, process value", kTemperature, 1000.0, false, true},
+    {archive::kOvenSetPoint, "oven, set point", kTemperature, 1000.0, false, true},
+    {archive::kOvenHeating, "oven, heating", "%", 100.0, false, true},
+    {archive::kClockError, "sample times less those by start and rate of a record", "s", 1e6, false,
      false},
-    {kOvenTemperature, "oven, process value", kTemperature, 1000.0, false, true},
-    {kOvenSetPoint, "oven, set point", kTemperature, 1000.0, false, true},
-    {kOvenHeating, "oven, heating", "%", 100.0, false, true},
-    {kClockError, "sample times less those by start and rate of a record", "s", 1e6, false, false},
-    {kTimingQuality, "timing quality", "%", 1.0, false, false},
+    {archive::kTimingQuality, "timing quality", "%", 1.0, false, false},
 };
 
-void add_slow_channel(pugi::xml_node station, const StationDescription& description,
+void add_slow_channel(pugi::xml_node station, const Description& description,
                       const SlowChannel& slow) {
     auto channel = add_channel(station, description, slow.code);
     add_comment(channel, slow.content);
@@ -196,11 +198,11 @@ void add_slow_channel(pugi::xml_node station, const StationDescription& descript
 
 }  // namespace
 
-std::string to_station_xml(const StationDescription& description) {
+std::string to_station_xml(const Description& description) {
     const auto* profile = wire::find_profile(description.profile);
     if (!profile) {
         throw std::invalid_argument(
-            fmt::format("StationDescription: profile = {}: unknown", description.profile));
+            fmt::format("Description: profile = {}: unknown", description.profile));
     }
     pugi::xml_document document;
     auto declaration = document.append_child(pugi::node_declaration);
@@ -257,4 +259,4 @@ std::string xml_text(const pugi::xml_document& document) {
     return text.str();
 }
 
-}  // namespace a351::record
+}  // namespace a351::station

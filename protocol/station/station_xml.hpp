@@ -21,14 +21,14 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/journal/journal.hpp"
 
-namespace a351::record {
+namespace a351::station {
 
 /// Station, sensor and settings, as the daemon knows them at the begin of a session.
 ///
 /// The values are not checked, except for the profile.  Sensor, filter and rates belong to the
 /// sampled channels; the position belongs to all channels.
-struct StationDescription {
-    StationCodes codes;           ///< Valid codes, see are_valid().
+struct Description {
+    journal::StationCodes codes;  ///< Valid codes, see are_valid().
     Degrees latitude, longitude;  ///< Position, WGS 84 in StationXML; north and east positive.
     Metres elevation;             ///< Elevation of station and channels; their depth is 0.
     UtcTime start;                ///< Start of the epoch.
@@ -63,7 +63,7 @@ struct StationDescription {
 ///
 /// Deterministic: no clock is read, and the time of creation is `start`.
 /// @throws std::invalid_argument  the profile is unknown.
-[[nodiscard]] std::string to_station_xml(const StationDescription& description);
+[[nodiscard]] std::string to_station_xml(const Description& description);
 
 /// Returns the content of a file, extended by a description.  A channel that differs from the
 /// description ends its epoch at `start` and begins a new one.  Earlier epochs are kept.  Stations
@@ -82,7 +82,7 @@ struct StationDescription {
 ///                                usable response or has a date that is not an instant.
 /// @throws std::invalid_argument  the profile is unknown.
 [[nodiscard]] std::optional<std::string> extend_station_xml(const std::filesystem::path& file,
-                                                            const StationDescription& description);
+                                                            const Description& description);
 
 /// Conversion of a channel's counts to physical values: value = offset + gain x counts.
 ///
@@ -96,10 +96,10 @@ struct ChannelScale {
 };
 
 /// Content of a station's epochs at one instant.
-struct StationMetadata {
+struct Metadata {
     /// Codes of the station.  `axes` are the last letters of the acceleration channels in the order
     /// of the file, which is x, y, z in files of this project.
-    StationCodes codes;
+    journal::StationCodes codes;
     /// Scales in the order of the file, one per channel code.
     std::vector<ChannelScale> channels;
     std::string serial_number = {};  ///< Serial number of the sensor; empty if unknown.
@@ -119,7 +119,7 @@ struct StationMetadata {
 /// @throws InputError  the file is missing, is not StationXML, lacks a response, or does not have
 ///                     three acceleration channels.  A number or a date that cannot be read, and a
 ///                     sensitivity that is not positive, are refused too.
-[[nodiscard]] StationMetadata read_station_xml(const std::filesystem::path& file,
-                                               std::optional<UtcTime> at = std::nullopt);
+[[nodiscard]] Metadata read_station_xml(const std::filesystem::path& file,
+                                        std::optional<UtcTime> at = std::nullopt);
 
-}  // namespace a351::record
+}  // namespace a351::station

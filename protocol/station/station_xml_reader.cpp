@@ -9,7 +9,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/station/station_document.hpp"
 
-namespace a351::record {
+namespace a351::station {
 
 namespace {
 
@@ -64,9 +64,9 @@ bool is_in_force(const std::filesystem::path& file, pugi::xml_node channel,
            *at < end.value_or(UtcTime::max());
 }
 
-StationMetadata channels_in_force(const std::filesystem::path& file,
-                                  const pugi::xml_document& document, std::optional<UtcTime> at) {
-    StationMetadata metadata;
+Metadata channels_in_force(const std::filesystem::path& file, const pugi::xml_document& document,
+                           std::optional<UtcTime> at) {
+    Metadata metadata;
     for (const auto network : document.child("FDSNStationXML").children("Network")) {
         for (const auto station : network.children("Station")) {
             for (const auto channel : station.children("Channel")) {
@@ -124,9 +124,9 @@ pugi::xml_document load_station_document(const std::filesystem::path& file) {
     return document;
 }
 
-StationMetadata read_station_xml(const std::filesystem::path& file, std::optional<UtcTime> at) {
+Metadata read_station_xml(const std::filesystem::path& file, std::optional<UtcTime> at) {
     const auto document = load_station_document(file);
-    StationMetadata metadata = channels_in_force(file, document, at);
+    Metadata metadata = channels_in_force(file, document, at);
     if (at && metadata.channels.empty()) metadata = channels_in_force(file, document, {});
     std::vector<std::string> axes;
     for (const ChannelScale& channel : metadata.channels)
@@ -139,4 +139,4 @@ StationMetadata read_station_xml(const std::filesystem::path& file, std::optiona
     return metadata;
 }
 
-}  // namespace a351::record
+}  // namespace a351::station

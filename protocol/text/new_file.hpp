@@ -12,7 +12,7 @@
 ///     file.publish();  // now the name has the new content
 ///
 /// Nothing is synced: a reader never sees half a file, but after a power failure the content may be
-/// lost.  Use record::replace_file() where it must survive.
+/// lost.  Use files::replace_file() where it must survive.
 
 #include <filesystem>
 #include <fstream>

@@ -138,7 +138,7 @@ std::optional<SampleTime> SampleClock::time_of(std::int64_t index) const {
     if (is_given_) {
         const Nanoseconds uncertainty = piece_of(index).uncertainty;
         return SampleTime{published(index), uncertainty,
-                          uncertainty <= kLocked ? TimingState::locked : TimingState::coarse,
+                          uncertainty <= kLocked ? State::locked : State::coarse,
                           is_given_synchronised_};
     }
     if (!line_ || mapping_.is_empty()) return std::nullopt;
@@ -167,10 +167,10 @@ std::optional<std::int64_t> SampleClock::index_at(UtcTime utc) const {
     return low;
 }
 
-TimingState SampleClock::state() const noexcept {
-    if (!last_ || period_.of(*last_ - *first_) < kUnlocked) return TimingState::unlocked;
-    if (mapping_.is_held()) return TimingState::holdover;
-    return line_ && line_->uncertainty <= kLocked ? TimingState::locked : TimingState::coarse;
+State SampleClock::state() const noexcept {
+    if (!last_ || period_.of(*last_ - *first_) < kUnlocked) return State::unlocked;
+    if (mapping_.is_held()) return State::holdover;
+    return line_ && line_->uncertainty <= kLocked ? State::locked : State::coarse;
 }
 
 std::optional<MeasuredRate> SampleClock::measured_rate() const {

@@ -24,7 +24,7 @@ namespace a351::timing {
 
 /// State of the sample clock.  Times are given in every state; judge them by their uncertainty.  A
 /// record is marked as locked only if the state is `locked` and the host is synchronised.
-enum class TimingState {
+enum class State {
     unlocked,  ///< Less than 60 s of data.
     coarse,    ///< None of the other states.
     locked,    ///< Line known to 3 ms, the best behind a 16 ms timer in step with the sensor.
@@ -35,7 +35,7 @@ enum class TimingState {
 struct SampleTime {
     UtcTime utc;                 ///< Instant of the sample, fixed delay removed.
     Nanoseconds uncertainty{0};  ///< Uncertainty of `utc`, 95 %: line and host clock together.
-    TimingState state = TimingState::unlocked;
+    State state = State::unlocked;
     bool is_host_synchronised = false;  ///< UtcMapping::is_synchronised().
 };
 
@@ -150,7 +150,7 @@ public:
 
     /// Returns the state at the newest sample observed.  It describes the fitted line, so it means
     /// nothing for times given by use(); SampleTime::state does.
-    [[nodiscard]] TimingState state() const noexcept;
+    [[nodiscard]] State state() const noexcept;
 
     /// Returns the rate of the sensor's oscillator, from the newest sample and that earlier one (of
     /// the remembered 24 h, after the last break) which gives the least uncertainty.  std::nullopt

@@ -23,7 +23,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
-namespace a351::corrector {
+namespace a351::unit {
 
 /// Estimated coefficients with the covariance of their fit; its users widen it.
 ///
@@ -123,4 +123,4 @@ struct Calibration {
 /// @throws InputError  as read_calibration(); the message begins with `origin`.
 [[nodiscard]] Calibration parse_calibration(std::string_view text, std::filesystem::path origin);
 
-}  // namespace a351::corrector
+}  // namespace a351::unit

@@ -10,7 +10,7 @@
 #include "protocol/text/text_file.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector {
+namespace a351::unit {
 namespace {
 
 /// Largest magnitude of a covariance, squares of the values' units; a larger one has no
@@ -94,7 +94,7 @@ std::optional<CalibratedCoefficients<kCount>> coefficients_of(
     part.values = Eigen::Map<const Eigen::Matrix<double, kCount, 1>>(values.data());
     part.covariance = Eigen::Map<const Matrix>(covariance.data());
     if (part.covariance != part.covariance.transpose() ||
-        !Cholesky(part.covariance).is_positive_definite())
+        !linear_algebra::Cholesky(part.covariance).is_positive_definite())
         table.refuse("covariance", "not a covariance matrix",
                      "a symmetric, positive definite matrix");
     return part;
@@ -150,4 +150,4 @@ Calibration read_calibration(const std::filesystem::path& file) {
     return parse_calibration(text::read_text_file(file), file);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::unit

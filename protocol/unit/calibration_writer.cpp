@@ -5,7 +5,7 @@
 #include "protocol/text/csv.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector {
+namespace a351::unit {
 namespace {
 
 /// Returns a TOML string: the escapes of JSON are valid in TOML, but DEL must be escaped too.
@@ -67,4 +67,4 @@ std::string to_toml(const Calibration& calibration) {
     return text;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::unit

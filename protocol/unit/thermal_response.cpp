@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace a351::corrector {
+namespace a351::unit {
 
 namespace {
 
@@ -75,4 +75,4 @@ std::complex<double> ThermalEffect::at(double period_s) const {
            fast * kSecondsPerHour * turn / (1.0 + turn * fast_lag_s);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::unit

@@ -35,7 +35,7 @@
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector {
+namespace a351::unit {
 
 /// Parameters rA, rS, rF, ln tF, ln tS, in the order of calibrations and their covariances.
 ///
@@ -143,4 +143,4 @@ struct ThermalEffect {
     [[nodiscard]] std::complex<double> at(double period_s) const;
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::unit

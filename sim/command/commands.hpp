@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-namespace a351::sim {
+namespace a351::sim::command {
 
 /// Begins to catch the signals that end a command.  @return a predicate: true once one has arrived.
 using UntilStopped = std::function<bool()> (*)();
@@ -31,4 +31,4 @@ void add_survey_command(CLI::App& app);
 /// instant.  Its run throws as write_plan().
 void add_plan_command(CLI::App& app);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::command

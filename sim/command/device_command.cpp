@@ -16,7 +16,7 @@
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/signal_source.hpp"
 
-namespace a351::sim {
+namespace a351::sim::command {
 namespace {
 
 struct DeviceCommand {
@@ -33,10 +33,10 @@ struct DeviceCommand {
 
 /// Returns a store that writes the flash memory to `file`; the device reports a failure as
 /// FLASH_BU_ERR.
-RegisterMachine::FlashStore store_in(const std::string& file) {
-    return [file](const FlashMemory& memory) {
+device::RegisterMachine::FlashStore store_in(const std::string& file) {
+    return [file](const device::FlashMemory& memory) {
         try {
-            write_flash_file(file, memory);
+            device::write_flash_file(file, memory);
         } catch (const std::system_error&) {
             return false;
         }
@@ -46,13 +46,13 @@ RegisterMachine::FlashStore store_in(const std::string& file) {
 
 /// Checks every path before any file, socket or terminal is made.
 void check_paths(const DeviceCommand& command) {
-    Pty::require_place(command.link);
-    if (!command.oven_link.empty()) Pty::require_place(command.oven_link);
-    if (!command.control.empty()) ControlSocket::require_place(command.control);
+    line::Pty::require_place(command.link);
+    if (!command.oven_link.empty()) line::Pty::require_place(command.oven_link);
+    if (!command.control.empty()) line::ControlSocket::require_place(command.control);
     for (const std::string& file : {command.truth, command.report, command.state}) {
-        if (!file.empty()) require_file_place(file);
+        if (!file.empty()) line::require_file_place(file);
     }
-    if (!command.truth.empty()) TruthWriter::require_own(command.truth);
+    if (!command.truth.empty()) truth::Writer::require_own(command.truth);
 }
 
 /// Runs every step even if others fail; then throws the first error.
@@ -72,36 +72,37 @@ void say(const std::string& trouble) { std::cerr << "a351-sim: " << trouble << s
 
 void run(const DeviceCommand& command, const std::function<bool()>& should_stop) {
     check_paths(command);
-    const Scenario scenario = load_scenario(command.day.scenario);
+    const scenario::Scenario scenario = scenario::load_scenario(command.day.scenario);
     const wire::DeviceProfile& profile = profile_of(command.unit.profile);
-    const MachineIdentity identity{product_of(command.unit), command.unit.serial, command.firmware,
-                                   !command.lacks_id_register};
-    const FlashMemory flash =
-        command.state.empty() ? FlashMemory() : read_flash_file(command.state, profile);
+    const device::MachineIdentity identity{product_of(command.unit), command.unit.serial,
+                                           command.firmware, !command.lacks_id_register};
+    const device::FlashMemory flash = command.state.empty()
+                                          ? device::FlashMemory()
+                                          : device::read_flash_file(command.state, profile);
     const ClockScale clock = clock_of(command.clock, command.speed, scenario.start());
-    FaultRules rules{profile, clock.factor};
-    if (!command.oven_link.empty()) rules.oven_kinds = OvenPort::fault_kinds();
-    FaultScript script;
+    line::FaultRules rules{profile, clock.factor};
+    if (!command.oven_link.empty()) rules.oven_kinds = oven::Port::fault_kinds();
+    line::FaultScript script;
     if (!command.faults.empty())
-        script = read_fault_script(command.faults, scenario.start(), rules);
+        script = line::read_fault_script(command.faults, scenario.start(), rules);
 
-    Pty pty(command.link);
-    std::optional<TruthWriter> truth;
-    SignalSource source(scenario, profile, command.day.seed);
-    RegisterMachine machine(profile, identity, steady_now(), flash);
+    line::Pty pty(command.link);
+    std::optional<truth::Writer> truth;
+    signal::Source source(scenario, profile, command.day.seed);
+    device::RegisterMachine machine(profile, identity, line::steady_now(), flash);
     if (!command.state.empty()) machine.on_flash_written(store_in(command.state));
-    DeviceStream stream(source, machine);
-    Line line(scenario.line, command.day.seed, scenario.start(),
-              [&truth](const TruthRecord& record) {
-                  if (truth) truth->append(record);
-              });
-    std::optional<OvenPort> oven;
+    device::DeviceStream stream(source, machine);
+    line::Line line(scenario.line, command.day.seed, scenario.start(),
+                    [&truth](const truth::Record& record) {
+                        if (truth) truth->append(record);
+                    });
+    std::optional<oven::Port> oven;
     if (!command.oven_link.empty()) oven.emplace(command.oven_link, source.oven());
-    FaultInjector faults(script, scenario.start(), line, machine, profile, identity,
-                         [&oven](std::string_view kind, int count) {
-                             return oven && oven->apply_fault(kind, count);
-                         });
-    SensorPort port(pty, stream, line, &faults, say);
+    line::FaultInjector faults(script, scenario.start(), line, machine, profile, identity,
+                               [&oven](std::string_view kind, int count) {
+                                   return oven && oven->apply_fault(kind, count);
+                               });
+    line::SensorPort port(pty, stream, line, &faults, say);
 
     const auto report = [&] {
         return ExitReport{command.day.scenario,
@@ -116,28 +117,30 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
                           oven ? std::optional(oven->report()) : std::nullopt};
     };
     bool is_asked_to_quit = false;
-    const ControlActions actions{
+    const line::ControlActions actions{
         [&report] { return to_json(report(), -1); },
-        [&machine] { machine.external_edge(steady_now()); },
+        [&machine] { machine.external_edge(line::steady_now()); },
         [&is_asked_to_quit] { is_asked_to_quit = true; },
-        [&](const Fault& fault) { faults.apply(fault, clock.simulated(host_now())); }};
-    std::optional<ControlSocket> control;
+        [&](const line::Fault& fault) { faults.apply(fault, clock.simulated(line::host_now())); }};
+    std::optional<line::ControlSocket> control;
     if (!command.control.empty()) {
-        control.emplace(command.control,
-                        [&](const std::string& order) { return execute(order, actions, rules); });
+        control.emplace(command.control, [&](const std::string& order) {
+            return line::execute(order, actions, rules);
+        });
     }
 
     if (!command.truth.empty()) truth.emplace(command.truth);
 
-    std::vector<Service*> services{&port};
+    std::vector<line::Service*> services{&port};
     if (oven) services.push_back(&*oven);
     if (control) services.push_back(&*control);
     const auto should_end = [&] { return is_asked_to_quit || should_stop() || port.is_finished(); };
     const auto write_report = [&] {
-        if (!command.report.empty()) write_text_file(command.report, to_json(report(), 2) + "\n");
+        if (!command.report.empty())
+            scenario::write_text_file(command.report, to_json(report(), 2) + "\n");
     };
-    take_all({[&] { attend(services, clock, should_end); },
-              [&] { port.finish(clock.simulated(host_now())); },
+    take_all({[&] { line::attend(services, clock, should_end); },
+              [&] { port.finish(clock.simulated(line::host_now())); },
               [&] {
                   if (truth) truth->close();
               },
@@ -189,4 +192,4 @@ void add_device_command(CLI::App& app, UntilStopped until_stopped) {
     device->callback([command, until_stopped] { run(*command, until_stopped()); });
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::command

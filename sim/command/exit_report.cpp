@@ -5,33 +5,33 @@
 
 #include "sim/oven/oven_port.hpp"
 
-namespace a351::sim {
+namespace a351::sim::command {
 namespace {
 
 using nlohmann::ordered_json;
 
 double seconds(Nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
 
-ordered_json runs_of(const LineReport& line) {
+ordered_json runs_of(const line::Report& line) {
     ordered_json runs = ordered_json::array();
-    for (const LineReport::Run& run : line.runs) {
+    for (const line::Report::Run& run : line.runs) {
         runs.push_back({{"first_index", run.first_index}, {"frames", run.frames}});
     }
     return runs;
 }
 
-ordered_json by_kind(const FaultReport& faults) {
+ordered_json by_kind(const line::FaultReport& faults) {
     ordered_json kinds = ordered_json::object();
-    for (std::size_t i = 0; i < fault_kinds().size(); ++i) {
-        if (faults.by_kind[i] > 0) kinds[std::string(fault_kinds()[i])] = faults.by_kind[i];
+    for (std::size_t i = 0; i < line::fault_kinds().size(); ++i) {
+        if (faults.by_kind[i] > 0) kinds[std::string(line::fault_kinds()[i])] = faults.by_kind[i];
     }
     if (faults.by_kind.back() > 0) kinds["oven"] = faults.by_kind.back();
     return kinds;
 }
 
-ordered_json applied(const FaultReport& faults) {
+ordered_json applied(const line::FaultReport& faults) {
     ordered_json list = ordered_json::array();
-    for (const AppliedFault& fault : faults.applied) {
+    for (const line::AppliedFault& fault : faults.applied) {
         list.push_back({{"kind", fault.name},
                         {"utc", to_rfc3339(fault.at)},
                         {"frames_made", fault.frames_made}});
@@ -39,19 +39,19 @@ ordered_json applied(const FaultReport& faults) {
     return list;
 }
 
-ordered_json refused(const FaultReport& faults) {
+ordered_json refused(const line::FaultReport& faults) {
     ordered_json list = ordered_json::array();
-    for (const RefusedFault& fault : faults.refused) {
+    for (const line::RefusedFault& fault : faults.refused) {
         list.push_back(
             {{"kind", fault.name}, {"utc", to_rfc3339(fault.at)}, {"reason", fault.reason}});
     }
     return list;
 }
 
-ordered_json to_json(const OvenReport& oven) {
-    const auto kinds = OvenPort::fault_kinds();
+ordered_json to_json(const oven::Report& oven) {
+    const auto kinds = oven::Port::fault_kinds();
     ordered_json faults = ordered_json::object();
-    for (std::size_t i = 0; i < kOvenFaultCount; ++i) {
+    for (std::size_t i = 0; i < oven::kOvenFaultCount; ++i) {
         if (oven.faults[i] > 0) faults[std::string(kinds[i])] = oven.faults[i];
     }
     return {{"answers", oven.answers},
@@ -68,7 +68,7 @@ ordered_json to_json(const OvenReport& oven) {
 }  // namespace
 
 std::string to_json(const ExitReport& report, int indent) {
-    const LineReport& line = report.line;
+    const line::Report& line = report.line;
     const double lateness_s = seconds(line.largest_lateness);
     const double rate_hz = report.real_seconds > 0.0
                                ? static_cast<double>(line.frames_sent) / report.real_seconds
@@ -111,4 +111,4 @@ std::string to_json(const ExitReport& report, int indent) {
     return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::command

@@ -8,7 +8,7 @@
 #include "sim/line/line.hpp"
 #include "sim/oven/modbus_server.hpp"
 
-namespace a351::sim {
+namespace a351::sim::command {
 
 /// Counts of what the emulator did; tests compare them with the counts of a host.
 struct ExitReport {
@@ -19,13 +19,13 @@ struct ExitReport {
     std::uint64_t commands = 0;
     bool was_drained = false;      ///< Nothing was under way at the end, and the host had read all.
     std::size_t bytes_unread = 0;  ///< Not read by the host at hang-ups and at the end.
-    LineReport line;
-    FaultReport faults;
-    std::optional<OvenReport> oven;  ///< Empty: the oven was not served.
+    line::Report line;
+    line::FaultReport faults;
+    std::optional<oven::Report> oven;  ///< Empty: the oven was not served.
 };
 
 /// Returns the report as one JSON object; keys: a351-sim(1), REPORT.
 /// @param indent  spaces per level; negative: everything in one line.
 [[nodiscard]] std::string to_json(const ExitReport& report, int indent);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::command

@@ -4,7 +4,7 @@
 #include "sim/device/register_machine.hpp"
 #include "sim/line/service.hpp"
 
-namespace a351::sim {
+namespace a351::sim::command {
 namespace {
 
 CLI::Validator eight_characters() {
@@ -45,7 +45,7 @@ void add_unit(CLI::App& command, UnitOptions& unit, const std::string& used_for)
 const wire::DeviceProfile& profile_of(const std::string& name) { return *wire::find_profile(name); }
 
 std::string product_of(const UnitOptions& unit) {
-    return unit.product.empty() ? product_id_of(profile_of(unit.profile)) : unit.product;
+    return unit.product.empty() ? device::product_id_of(profile_of(unit.profile)) : unit.product;
 }
 
 CLI::Option* add_clock(CLI::App& command, std::string& clock) {
@@ -57,7 +57,7 @@ CLI::Option* add_clock(CLI::App& command, std::string& clock) {
 }
 
 ClockScale clock_of(const std::string& clock, double factor, UtcTime start) {
-    const UtcTime now = host_now();
+    const UtcTime now = line::host_now();
     if (clock.empty()) return {factor, start, now};
     const auto scale = parse_clock_scale(clock, now);
     if (!scale)
@@ -65,4 +65,4 @@ ClockScale clock_of(const std::string& clock, double factor, UtcTime start) {
     return *scale;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::command

@@ -9,7 +9,7 @@
 #include "protocol/core/clock_scale.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::sim {
+namespace a351::sim::command {
 
 /// Scenario and seed, which together determine a simulated day.
 struct DayOptions {
@@ -44,4 +44,4 @@ CLI::Option* add_clock(CLI::App& command, std::string& clock);
 /// @throws InputError  `clock` is neither empty nor a clock scale.
 [[nodiscard]] ClockScale clock_of(const std::string& clock, double factor, UtcTime start);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::command

@@ -10,7 +10,7 @@
 #include "sim/line/sensor_port.hpp"
 #include "sim/replay/replay_device.hpp"
 
-namespace a351::sim {
+namespace a351::sim::command {
 namespace {
 
 struct ReplayCommand {
@@ -42,28 +42,30 @@ std::array<std::string, 3> axes_of(const std::string& text) {
     return {text.substr(0, 1), text.substr(2, 1), text.substr(4, 1)};
 }
 
-RecordingFiles files_of(const ReplayCommand& command) {
-    RecordedUnit unit{&profile_of(command.unit.profile), {}, 460800};
+replay::RecordingFiles files_of(const ReplayCommand& command) {
+    replay::RecordedUnit unit{&profile_of(command.unit.profile), {}, 460800};
     unit.identity.product_id = product_of(command.unit);
     unit.identity.serial_number = command.unit.serial;
     return {command.files, axes_of(command.axes), unit};
 }
 
-ReplayTiming timing_of(const ReplayCommand& command) {
-    if (!command.clock.empty()) return ReplayTiming::as_recorded;
-    return command.speed == "max" ? ReplayTiming::as_fast_as_read : ReplayTiming::from_host_start;
+replay::Timing timing_of(const ReplayCommand& command) {
+    if (!command.clock.empty()) return replay::Timing::as_recorded;
+    return command.speed == "max" ? replay::Timing::as_fast_as_read
+                                  : replay::Timing::from_host_start;
 }
 
 void run(const ReplayCommand& command, const std::function<bool()>& should_stop) {
-    ReplayDevice device(open_recording(files_of(command)), timing_of(command), steady_now());
+    replay::Device device(replay::open_recording(files_of(command)), timing_of(command),
+                          line::steady_now());
     const double factor = command.speed == "max" ? 1.0 : factor_of(command.speed);
     const ClockScale clock = clock_of(command.clock, factor, device.first_due());
-    Line line({}, 0, clock.utc, [](const TruthRecord&) {});
-    Pty pty(command.link, device.baud());
-    SensorPort port(pty, device, line);
-    std::array<Service*, 1> services{&port};
-    attend(services, clock, [&] { return should_stop() || port.is_finished(); });
-    for (const RecordingDamage& damage : device.recording().damage()) {
+    line::Line line({}, 0, clock.utc, [](const truth::Record&) {});
+    line::Pty pty(command.link, device.baud());
+    line::SensorPort port(pty, device, line);
+    std::array<line::Service*, 1> services{&port};
+    line::attend(services, clock, [&] { return should_stop() || port.is_finished(); });
+    for (const replay::RecordingDamage& damage : device.recording().damage()) {
         std::cerr << "a351-sim: " << damage.file.string() << ": " << damage.byte_count
                   << " bytes from offset " << damage.offset
                   << " on were not replayed: " << damage.reason << '\n';
@@ -105,4 +107,4 @@ void add_replay_command(CLI::App& app, UntilStopped until_stopped) {
     replay->callback([command, until_stopped] { run(*command, until_stopped()); });
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::command

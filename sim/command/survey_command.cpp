@@ -5,7 +5,7 @@
 #include "sim/command/options.hpp"
 #include "sim/survey/direct_survey.hpp"
 
-namespace a351::sim {
+namespace a351::sim::command {
 namespace {
 
 struct SurveyCommand {
@@ -27,8 +27,8 @@ void add_survey_command(CLI::App& app) {
         ->required();
     survey->callback([command] {
         const auto written =
-            write_survey(load_scenario(command->day.scenario), profile_of(command->profile),
-                         command->day.seed, command->out);
+            survey::write_survey(scenario::load_scenario(command->day.scenario),
+                                 profile_of(command->profile), command->day.seed, command->out);
         std::cerr << written.frames << " frames, " << written.records << " records\n";
     });
 }
@@ -42,11 +42,11 @@ void add_plan_command(CLI::App& app) {
         ->type_name("DIR")
         ->required();
     plan->callback([command] {
-        const Scenario scenario = load_scenario(command->day.scenario);
-        write_plan(scenario, command->day.seed, command->out);
+        const scenario::Scenario scenario = scenario::load_scenario(command->day.scenario);
+        survey::write_plan(scenario, command->day.seed, command->out);
         std::cout << "start_utc=" << to_rfc3339(scenario.start())
                   << " end_utc=" << to_rfc3339(scenario.end()) << '\n';
     });
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::command

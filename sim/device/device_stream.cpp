@@ -1,6 +1,6 @@
 #include "sim/device/device_stream.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 namespace {
 
 /// Most samples in one call: a device that is hours behind must still answer commands at once.
@@ -8,7 +8,7 @@ constexpr int kMostAtOnce = 1024;
 
 }  // namespace
 
-DeviceStream::DeviceStream(SampleSource& source, RegisterMachine& machine)
+DeviceStream::DeviceStream(signal::SampleSource& source, RegisterMachine& machine)
     : source_(source), machine_(machine) {}
 
 bool DeviceStream::is_holding() const {
@@ -50,9 +50,10 @@ void DeviceStream::send_sample(UtcTime due, LineSink& line) {
     bytes_.clear();
     const auto values = machine_.sample(held_->values, bytes_);
     if (!values) return;
-    const TruthRecord truth{instant(), *values, static_cast<std::uint16_t>(machine_.sampling_run()),
-                            static_cast<std::uint32_t>(held_->index)};
+    const truth::Record truth{instant(), *values,
+                              static_cast<std::uint16_t>(machine_.sampling_run()),
+                              static_cast<std::uint32_t>(held_->index)};
     line.send(bytes_, due, &truth);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

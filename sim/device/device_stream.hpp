@@ -11,7 +11,7 @@
 #include "sim/device/register_machine.hpp"
 #include "sim/signal/sample_source.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 /// The grid of samples is fixed in simulated time.  A sample due in sampling mode is sent; in other
 /// modes samples are taken but not sent.
@@ -21,7 +21,7 @@ namespace a351::sim {
 class DeviceStream final : public LineDevice {
 public:
     /// Both arguments must outlive this.
-    DeviceStream(SampleSource& source, RegisterMachine& machine);
+    DeviceStream(signal::SampleSource& source, RegisterMachine& machine);
 
     void receive(std::span<const std::byte> bytes, const Instant& now, LineSink& line) override;
     void advance_to(const Instant& now, LineSink& line) override;
@@ -33,12 +33,12 @@ private:
     [[nodiscard]] UtcTime instant() const;
     void send_sample(UtcTime due, LineSink& line);
 
-    SampleSource& source_;
+    signal::SampleSource& source_;
     RegisterMachine& machine_;
-    std::optional<TimedSample> held_;  ///< Sample whose repeats are not all sent.
-    int held_rate_hz_ = 0;             ///< Output rate for which held_ is valid.
-    int repeat_ = 0;                   ///< Next repeat of held_.
-    std::vector<std::byte> bytes_;     ///< A member to reuse its memory.
+    std::optional<signal::TimedSample> held_;  ///< Sample whose repeats are not all sent.
+    int held_rate_hz_ = 0;                     ///< Output rate for which held_ is valid.
+    int repeat_ = 0;                           ///< Next repeat of held_.
+    std::vector<std::byte> bytes_;             ///< A member to reuse its memory.
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

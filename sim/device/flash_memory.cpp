@@ -10,7 +10,7 @@
 #include "protocol/text/strict_toml.hpp"
 #include "sim/device/register_file.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 namespace {
 
 constexpr std::int64_t kFormat = 1;
@@ -80,7 +80,7 @@ FlashMemory read_flash_file(const std::filesystem::path& file, const wire::Devic
 
 void write_flash_file(const std::filesystem::path& file, const FlashMemory& memory) {
     const std::string text = to_toml(memory);
-    record::replace_file(record::posix_files(), file, std::as_bytes(std::span(text)));
+    files::replace_file(files::posix_files(), file, std::as_bytes(std::span(text)));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -18,7 +18,7 @@
 #include "protocol/wire/device_profile.hpp"
 #include "protocol/wire/registers.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 struct FlashMemory {
     static constexpr auto kSavedCount = static_cast<std::size_t>(
@@ -61,4 +61,4 @@ struct FlashMemory {
 /// @throws std::system_error  the file cannot be replaced; names the path.
 void write_flash_file(const std::filesystem::path& file, const FlashMemory& memory);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

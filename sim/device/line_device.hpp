@@ -7,7 +7,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "sim/truth/truth_file.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 /// One moment on both clocks of the emulator.  Samples follow the scenario's clock.  Start-up and
 /// answers follow the host's steady clock, because hosts wait in real time.
@@ -24,7 +24,7 @@ public:
     /// Sends bytes without a pause; the last one leaves the device at `leaves`.
     /// @param frame  the frame's content; null for an answer to a command.
     virtual void send(std::span<const std::byte> bytes, UtcTime leaves,
-                      const TruthRecord* frame) = 0;
+                      const truth::Record* frame) = 0;
 
     /// Returns true if so many bytes wait to be read that the device should pause.  Sending more
     /// loses nothing but uses memory.
@@ -50,4 +50,4 @@ public:
     [[nodiscard]] virtual int baud() const = 0;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

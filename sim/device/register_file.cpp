@@ -4,7 +4,7 @@
 
 #include "sim/device/signal_path.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 namespace {
 
 std::size_t bank_of(const wire::Register& reg) { return static_cast<std::size_t>(reg.window); }
@@ -75,4 +75,4 @@ bool has_rate_for_long_filter(const wire::DeviceProfile& profile, const Register
            LongTermFilter::kHighestRateHz;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -12,7 +12,7 @@
 #include "protocol/wire/device_profile.hpp"
 #include "protocol/wire/registers.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 inline constexpr const wire::Register& kBurst = wire::require_register(wire::Window::w0, 0x00);
 inline constexpr const wire::Register& kCount = wire::require_register(wire::Window::w0, 0x0A);
@@ -67,4 +67,4 @@ private:
 [[nodiscard]] bool has_rate_for_long_filter(const wire::DeviceProfile& profile,
                                             const RegisterFile& registers);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-namespace a351::sim {
+namespace a351::sim::device {
 namespace {
 
 using wire::Register;
@@ -293,4 +293,4 @@ void RegisterMachine::rename(MachineIdentity identity) {
     put_identity();
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -37,7 +37,7 @@
 #include "sim/device/uart.hpp"
 #include "sim/signal/sample_source.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 struct MachineIdentity {
     std::string product_id = "A351AU10";     ///< Eight characters; the suffix is an assumption.
@@ -100,7 +100,7 @@ public:
     /// with UART_AUTO, appended to `frames` as a frame; otherwise nothing happens.  With EXT_SEL
     /// only the sample after an external_edge() is used; COUNT advances in between.
     /// @return the values of the frame that was appended, if any.
-    std::optional<wire::BurstValues> sample(const SensorSample& sample,
+    std::optional<wire::BurstValues> sample(const signal::SensorSample& sample,
                                             std::vector<std::byte>& frames);
 
     /// Skips one sample at the output rate, as when the line is cut: only COUNT advances.
@@ -176,8 +176,8 @@ private:
     // Samples: register_machine_samples.cpp.
     void start_sampling();
     [[nodiscard]] bool begin_sample();
-    void store(const SensorSample& sample);
-    [[nodiscard]] std::array<std::int32_t, 3> filtered(const SensorSample& sample);
+    void store(const signal::SensorSample& sample);
+    [[nodiscard]] std::array<std::int32_t, 3> filtered(const signal::SensorSample& sample);
     [[nodiscard]] wire::BurstValues take_values(const wire::BurstLayout& layout);
     [[nodiscard]] std::uint16_t flag() const;
     [[nodiscard]] std::optional<wire::BurstLayout> layout() const;
@@ -217,7 +217,7 @@ private:
     double user_gain_ = 1.0;
     LongTermFilter long_filter_;
     TransmitBuffer transmit_;
-    std::optional<SensorSample> latest_;  ///< Newest sample of the sensor, in any mode.
+    std::optional<signal::SensorSample> latest_;  ///< Newest sample of the sensor, in any mode.
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -6,7 +6,7 @@
 
 #include "sim/device/register_machine.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 namespace {
 
 constexpr std::size_t kAxes = 3;
@@ -96,7 +96,7 @@ bool RegisterMachine::begin_sample() {
 
 void RegisterMachine::skip_sample() { static_cast<void>(begin_sample()); }
 
-std::optional<wire::BurstValues> RegisterMachine::sample(const SensorSample& sample,
+std::optional<wire::BurstValues> RegisterMachine::sample(const signal::SensorSample& sample,
                                                          std::vector<std::byte>& frames) {
     latest_ = sample;
     if (!begin_sample()) return std::nullopt;
@@ -114,7 +114,7 @@ std::optional<wire::BurstValues> RegisterMachine::sample(const SensorSample& sam
     return values;
 }
 
-std::array<std::int32_t, 3> RegisterMachine::filtered(const SensorSample& sample) {
+std::array<std::int32_t, 3> RegisterMachine::filtered(const signal::SensorSample& sample) {
     using Limits = std::numeric_limits<std::int32_t>;
     std::array<std::int32_t, 3> counts = sample.axes_counts;
     for (std::int32_t& axis : counts) {
@@ -124,7 +124,7 @@ std::array<std::int32_t, 3> RegisterMachine::filtered(const SensorSample& sample
     return long_filter_.next(counts);
 }
 
-void RegisterMachine::store(const SensorSample& sample) {
+void RegisterMachine::store(const signal::SensorSample& sample) {
     registers_.put32(kTemperature, sample.temperature_counts);
     const std::array<std::int32_t, 3> counts = filtered(sample);
     const bool is_invalid = is_aliased_ && !has(wire::kMscCtrl, wire::kMscExternalTrigger);
@@ -182,4 +182,4 @@ void RegisterMachine::clear_after_read(std::uint8_t address) {
     if (value < 2 * kAxes) new_data_ = without(new_data_, kNewX >> value % kAxes);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -5,7 +5,7 @@
 
 #include "protocol/wire/registers.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 namespace {
 
 // High byte of MSC_CTRL (7.10).
@@ -19,7 +19,7 @@ constexpr unsigned kTogether = kAccelerationTest | kTemperatureTest | kSupplyTes
 constexpr double kLeastVector_g = 0.8;  // Section 5.7.
 constexpr double kLargestVector_g = 1.2;
 
-bool is_resting(const SensorSample& sample, const wire::DeviceProfile& profile) {
+bool is_resting(const signal::SensorSample& sample, const wire::DeviceProfile& profile) {
     double sum = 0.0;
     for (const std::int32_t counts : sample.axes_counts) {
         const double g = profile.acceleration(counts).value();
@@ -47,7 +47,7 @@ void SelfTest::start(std::uint8_t high_byte, Nanoseconds now) {
 }
 
 std::uint16_t SelfTest::end_due(Nanoseconds now, std::uint16_t failing,
-                                const std::optional<SensorSample>& sample,
+                                const std::optional<signal::SensorSample>& sample,
                                 const wire::DeviceProfile& profile) {
     if (running_ == 0 || now < ends_at_) return 0;
     unsigned raised = 0;
@@ -64,4 +64,4 @@ std::uint16_t SelfTest::end_due(Nanoseconds now, std::uint16_t failing,
     return static_cast<std::uint16_t>(raised);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

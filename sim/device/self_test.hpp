@@ -11,7 +11,7 @@
 #include "protocol/wire/device_profile.hpp"
 #include "sim/signal/sample_source.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 // DIAG_STAT (7.3): the results of tests, and of FLASH_BACKUP and FLASH_RST.
 inline constexpr std::uint16_t kDiagAccelerationVector = 0x8000;
@@ -42,7 +42,7 @@ public:
     ///                 outside 0.8 ... 1.2 g.  Without a sample the length is not tested.
     /// @return         DIAG_STAT bits that the ended tests raise.
     [[nodiscard]] std::uint16_t end_due(Nanoseconds now, std::uint16_t failing,
-                                        const std::optional<SensorSample>& sample,
+                                        const std::optional<signal::SensorSample>& sample,
                                         const wire::DeviceProfile& profile);
 
     void abort() noexcept { running_ = 0; }
@@ -52,4 +52,4 @@ private:
     Nanoseconds ends_at_{0};
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace a351::sim {
+namespace a351::sim::device {
 namespace {
 
 constexpr std::uint8_t kReadCommand = 1;
@@ -107,4 +107,4 @@ std::int32_t tilt_counts(std::int32_t acceleration_counts,
     return std::clamp(static_cast<std::int32_t>(counts), -kLargestTiltCounts, kLargestTiltCounts);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

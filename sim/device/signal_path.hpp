@@ -15,7 +15,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 class UserFilter {
 public:
@@ -112,4 +112,4 @@ inline constexpr std::int32_t kLargestTiltCounts = 0x2182A470;
 [[nodiscard]] std::int32_t tilt_counts(std::int32_t acceleration_counts,
                                        const wire::DeviceProfile& profile) noexcept;
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

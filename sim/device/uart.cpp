@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace a351::sim {
+namespace a351::sim::device {
 namespace {
 
 constexpr std::byte kCarriageReturn{0x0D};
@@ -44,4 +44,4 @@ Nanoseconds TransmitBuffer::next_wait(int baud, int rate_hz) const {
     return Nanoseconds(waiting * kNanosecondsPerSecond / (std::int64_t{rate_hz} * baud));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -11,7 +11,7 @@
 
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 struct HostCommand {
     std::uint8_t address = 0;  ///< Bit 7: a write.
@@ -57,4 +57,4 @@ private:
     std::int64_t backlog_ = 0;  ///< Bits times output rate in Hz: an integer at any rate.
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -16,7 +16,7 @@
 #include "protocol/core/input_error.hpp"
 #include "sim/line/place.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,7 +93,7 @@ ControlSocket::~ControlSocket() {
         ::unlink(path_.c_str());
 }
 
-void ControlSocket::serve(const Instant&) {
+void ControlSocket::serve(const device::Instant&) {
     greet();
     std::erase_if(clients_, [this](Client& client) {
         const bool is_there = read(client);
@@ -157,7 +157,7 @@ void ControlSocket::watch(std::vector<pollfd>& descriptors) const {
     }
 }
 
-Nanoseconds ControlSocket::patience(const Instant&, const ClockScale&) const {
+Nanoseconds ControlSocket::patience(const device::Instant&, const ClockScale&) const {
     return std::chrono::seconds(1);  // All its events wake a descriptor.
 }
 
@@ -174,4 +174,4 @@ std::string execute(const std::string& line, const ControlActions& actions,
     return {};
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

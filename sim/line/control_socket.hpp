@@ -10,7 +10,7 @@
 #include "sim/line/fault.hpp"
 #include "sim/line/service.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 /// A Unix stream socket that takes orders: one line in, one line out, `ok ...` or `error ...`.
 /// A client that misbehaves (endless line, answers not read, too many clients) is disconnected; the
@@ -40,9 +40,10 @@ public:
     ControlSocket(const ControlSocket&) = delete;
     ControlSocket& operator=(const ControlSocket&) = delete;
 
-    void serve(const Instant& now) override;
+    void serve(const device::Instant& now) override;
     void watch(std::vector<pollfd>& descriptors) const override;
-    [[nodiscard]] Nanoseconds patience(const Instant& now, const ClockScale& clock) const override;
+    [[nodiscard]] Nanoseconds patience(const device::Instant& now,
+                                       const ClockScale& clock) const override;
 
 private:
     struct Client {
@@ -77,4 +78,4 @@ struct ControlActions {
 [[nodiscard]] std::string execute(const std::string& line, const ControlActions& actions,
                                   const FaultRules& rules);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -10,7 +10,7 @@
 #include "protocol/wire/burst_frame.hpp"
 #include "protocol/wire/registers.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 /// Names in the order of FaultKind.
@@ -112,7 +112,7 @@ Fault read_fault(text::TomlTable& table, const std::string& kind, const FaultRul
     if (is(garbage)) fault.bytes = integer(table, "bytes", 100, 1, kMostBytes);
     if (fault.kind <= lose_frames || is(counter_jump, counter_stuck, error_flags))
         fault.count = integer(table, "count", 1, 1, kMostFrames);
-    if (is(oven)) fault.count = integer(table, "count", 1, -1, kMostFrames);  // -1: see OvenPort.
+    if (is(oven)) fault.count = integer(table, "count", 1, -1, kMostFrames);  // -1: see oven::Port.
     if (is(counter_jump)) fault.ticks = integer(table, "ticks", 0, 1, 0xFFFF);
     if (is(error_flags, failing_tests)) {
         const int least = is(error_flags) ? 1 : 0;
@@ -153,4 +153,4 @@ Fault parse_fault(std::string_view words, const FaultRules& rules) {
     return fault;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -14,7 +14,7 @@
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/wire/device_profile.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 enum class FaultKind {
     // Faults of frames come first: each damages the next `count` frames; a frame has one at most.
@@ -44,7 +44,7 @@ enum class FaultKind {
     stall,
     hang_up,
     overrun,
-    // Faults of the oven, whose kinds OvenPort knows by name.
+    // Faults of the oven, whose kinds oven::Port knows by name.
     oven,
 };
 
@@ -96,4 +96,4 @@ struct FaultRules {
 /// Returns the names of all faults except those of the oven.
 [[nodiscard]] std::span<const std::string_view> fault_kinds() noexcept;
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

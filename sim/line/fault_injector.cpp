@@ -6,7 +6,7 @@
 
 #include "protocol/core/input_error.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 using namespace std::chrono_literals;
@@ -22,9 +22,9 @@ std::uint16_t high_code(std::span<const wire::Coded> values, int value) {
 
 /// Changes settings of a device and starts sampling, as if it had restarted with them.  The window
 /// that the host selected and a partial command are kept.
-void change_settings(RegisterMachine& machine, const wire::DeviceProfile& profile,
+void change_settings(device::RegisterMachine& machine, const wire::DeviceProfile& profile,
                      const Fault& fault, Nanoseconds now) {
-    std::vector<RegisterChange> changes;
+    std::vector<device::RegisterChange> changes;
     if (fault.output_rate_hz > 0) {
         changes.push_back({wire::kSmplCtrl,
                            high_code(profile.output_rates_hz, fault.output_rate_hz),
@@ -47,8 +47,8 @@ void change_settings(RegisterMachine& machine, const wire::DeviceProfile& profil
 }  // namespace
 
 FaultInjector::FaultInjector(const FaultScript& script, UtcTime start, Line& line,
-                             RegisterMachine& machine, const wire::DeviceProfile& profile,
-                             MachineIdentity identity, OvenHandler oven)
+                             device::RegisterMachine& machine, const wire::DeviceProfile& profile,
+                             device::MachineIdentity identity, OvenHandler oven)
     : schedule_(script, start),
       answers_cut_frames_(script.answers_cut_frames),
       line_(line),
@@ -68,10 +68,10 @@ bool FaultInjector::sends_frames() const {
 }
 
 void FaultInjector::send(std::span<const std::byte> bytes, UtcTime leaves,
-                         const TruthRecord* frame) {
+                         const truth::Record* frame) {
     if (frame == nullptr) return send_answer(bytes, leaves);
     last_frame_ = leaves;
-    TruthRecord truth = *frame;
+    truth::Record truth = *frame;
     run_faults_.follow(truth);
     apply_due(truth.utc, leaves);
     run_faults_.begin_with(truth);
@@ -97,15 +97,15 @@ void FaultInjector::release_answer(UtcTime leaves) {
 }
 
 void FaultInjector::send_frame(std::span<const std::byte> bytes, UtcTime leaves,
-                               TruthRecord truth) {
+                               truth::Record truth) {
     if (leaves < muted_until_) {
         count(FaultKind::silence);
-        truth.fate = Fate::lost;
+        truth.fate = truth::Fate::lost;
         line_.send({}, leaves, &truth);
         return;
     }
     if (!held_answer_.empty()) {
-        truth.fate = Fate::damaged;
+        truth.fate = truth::Fate::damaged;
         line_.send(cut_by_answer(bytes, held_answer_, places_), leaves, &truth);
         held_answer_.clear();
         ++report_.frames_cut;
@@ -124,9 +124,9 @@ void FaultInjector::send_frame(std::span<const std::byte> bytes, UtcTime leaves,
 }
 
 void FaultInjector::spoil(const Fault& fault, std::span<const std::byte> bytes, UtcTime leaves,
-                          TruthRecord truth) {
+                          truth::Record truth) {
     const auto send_damaged = [&](const Bytes& spoilt) {
-        truth.fate = Fate::damaged;
+        truth.fate = truth::Fate::damaged;
         line_.send(spoilt, leaves, &truth);
     };
     switch (fault.kind) {
@@ -148,7 +148,7 @@ void FaultInjector::spoil(const Fault& fault, std::span<const std::byte> bytes, 
             return send_damaged(front);
         }
         case FaultKind::lose_frames:
-            truth.fate = Fate::lost;
+            truth.fate = truth::Fate::lost;
             return line_.send({}, leaves, &truth);
         case FaultKind::garbage:
             report_.bytes_garbage += fault.bytes;
@@ -156,7 +156,7 @@ void FaultInjector::spoil(const Fault& fault, std::span<const std::byte> bytes, 
             return line_.send(bytes, leaves, &truth);
         case FaultKind::duplicate_frame:
             line_.send(bytes, leaves, &truth);
-            truth.fate = Fate::repeated;
+            truth.fate = truth::Fate::repeated;
             return line_.send(bytes, leaves, &truth);
         case FaultKind::reorder_frames:
             held_frame_ = HeldFrame{Bytes(bytes.begin(), bytes.end()), truth};
@@ -168,7 +168,7 @@ void FaultInjector::spoil(const Fault& fault, std::span<const std::byte> bytes, 
 
 void FaultInjector::release_held(UtcTime leaves) {
     if (!held_frame_) return;
-    held_frame_->truth.fate = Fate::misplaced;
+    held_frame_->truth.fate = truth::Fate::misplaced;
     line_.send(held_frame_->bytes, leaves, &held_frame_->truth);
     held_frame_.reset();
 }
@@ -250,7 +250,7 @@ void FaultInjector::pull_out(const HangUp& asked, UtcTime simulated) {
     line_.unplug(simulated);
 }
 
-void FaultInjector::catch_up(const Instant& now) {
+void FaultInjector::catch_up(const device::Instant& now) {
     const bool comes_nothing =
         !sends_frames() || (now.simulated - last_frame_ > kNoFrames && !line_.is_full());
     if (!comes_nothing) return;
@@ -266,11 +266,11 @@ std::optional<FaultInjector::HangUp> FaultInjector::take_hang_up() {
     return std::exchange(hang_up_, std::nullopt);
 }
 
-void FaultInjector::end_hang_up(const HangUp& hang_up, const Instant& now) {
+void FaultInjector::end_hang_up(const HangUp& hang_up, const device::Instant& now) {
     steady_ = now.steady;
     line_.plug_in();
     if (is_unit_waiting_) return put_other_unit();
     if (hang_up.loses_power) machine_.power_cycle(now.steady);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

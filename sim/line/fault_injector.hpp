@@ -16,7 +16,7 @@
 #include "sim/line/line.hpp"
 #include "sim/line/run_faults.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 struct AppliedFault {
     std::string name;
@@ -44,7 +44,7 @@ struct FaultReport {
 
 /// A frame has one fault at most: waiting faults take the next frames in turn.  A fault of the
 /// device that is triggered by a frame shows from the next frame on.
-class FaultInjector final : public LineSink {
+class FaultInjector final : public device::LineSink {
 public:
     /// Applies an oven fault by name; returns false if the oven does not know it.
     using OvenHandler = std::function<bool(std::string_view kind, int count)>;
@@ -56,19 +56,21 @@ public:
     };
 
     /// `line`, `machine` and `profile` must outlive this.  @param start  start of the simulation.
-    FaultInjector(const FaultScript& script, UtcTime start, Line& line, RegisterMachine& machine,
-                  const wire::DeviceProfile& profile, MachineIdentity identity, OvenHandler oven);
+    FaultInjector(const FaultScript& script, UtcTime start, Line& line,
+                  device::RegisterMachine& machine, const wire::DeviceProfile& profile,
+                  device::MachineIdentity identity, OvenHandler oven);
     FaultInjector(const FaultInjector&) = delete;
     FaultInjector& operator=(const FaultInjector&) = delete;
 
-    void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override;
+    void send(std::span<const std::byte> bytes, UtcTime leaves,
+              const truth::Record* frame) override;
     [[nodiscard]] bool is_full() const override { return line_.is_full(); }
 
     /// Sets the steady time of the next faults of the device.  Call it before the device is served.
-    void begin(const Instant& now) { steady_ = now.steady; }
+    void begin(const device::Instant& now) { steady_ = now.steady; }
 
     /// Applies faults that are due although no frames come.  Call it after the device was served.
-    void catch_up(const Instant& now);
+    void catch_up(const device::Instant& now);
 
     /// Applies a fault now.
     /// @throws InputError         the oven does not know the fault, or its link is taken.
@@ -79,7 +81,7 @@ public:
     [[nodiscard]] std::optional<HangUp> take_hang_up();
 
     /// Ends a hang-up: the port has been out as requested and is plugged in again.
-    void end_hang_up(const HangUp& hang_up, const Instant& now);
+    void end_hang_up(const HangUp& hang_up, const device::Instant& now);
 
     /// Returns true while the receiver loses bytes for which it has no room.
     [[nodiscard]] bool is_overrun(UtcTime now) const noexcept { return now < overrun_until_; }
@@ -93,11 +95,11 @@ private:
     };
     struct HeldFrame {
         Bytes bytes;
-        TruthRecord truth;
+        truth::Record truth;
     };
-    void send_frame(std::span<const std::byte> bytes, UtcTime leaves, TruthRecord truth);
+    void send_frame(std::span<const std::byte> bytes, UtcTime leaves, truth::Record truth);
     void spoil(const Fault& fault, std::span<const std::byte> bytes, UtcTime leaves,
-               TruthRecord truth);
+               truth::Record truth);
     void send_answer(std::span<const std::byte> bytes, UtcTime leaves);
     void release_answer(UtcTime leaves);
     void release_held(UtcTime leaves);
@@ -110,11 +112,11 @@ private:
     FaultSchedule schedule_;
     bool answers_cut_frames_;
     Line& line_;
-    RegisterMachine& machine_;
+    device::RegisterMachine& machine_;
     const wire::DeviceProfile& profile_;
-    MachineIdentity identity_;
+    device::MachineIdentity identity_;
     OvenHandler oven_;
-    RandomStream places_;
+    noise::RandomStream places_;
     Nanoseconds steady_{0};
     std::int64_t frames_made_ = 0;
     UtcTime last_frame_;  ///< Instant at which the last frame left.
@@ -129,4 +131,4 @@ private:
     RunFaults run_faults_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

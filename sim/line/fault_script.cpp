@@ -5,7 +5,7 @@
 
 #include "protocol/text/text_file.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 constexpr double kLatest_s = 1e9;
@@ -70,8 +70,8 @@ FaultScript read_fault_script(const std::filesystem::path& file, UtcTime start,
 
 FaultSchedule::FaultSchedule(const FaultScript& script, UtcTime start) : planned_(script.planned) {
     for (const RandomFaults& faults : script.random) {
-        random_.push_back(
-            {faults.fault, faults.per_h, RandomStream(script.seed, faults.fault.name), start});
+        random_.push_back({faults.fault, faults.per_h,
+                           noise::RandomStream(script.seed, faults.fault.name), start});
         draw_next(random_.back());
     }
     find_next();
@@ -111,4 +111,4 @@ std::optional<Fault> FaultSchedule::take_due(UtcTime now, std::int64_t frames_ma
     return due;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

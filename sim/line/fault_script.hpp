@@ -12,7 +12,7 @@
 #include "sim/line/fault.hpp"
 #include "sim/noise/random.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 struct PlannedFault {
     Fault fault;
@@ -59,7 +59,7 @@ private:
     struct RandomKind {
         Fault fault;
         double per_h = 0.0;
-        RandomStream waits;
+        noise::RandomStream waits;
         UtcTime next;
     };
     static void draw_next(RandomKind& kind);
@@ -71,4 +71,4 @@ private:
     std::int64_t next_frame_ = 0;       ///< Smallest at_frame not yet taken.
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

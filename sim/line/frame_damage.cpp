@@ -5,13 +5,13 @@
 
 #include "protocol/wire/burst_frame.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 constexpr std::size_t kTail = 3;  ///< Checksum and end marker.
 
 /// Returns a number from 0 to count - 1.
-std::size_t draw(std::size_t count, RandomStream& random) {
+std::size_t draw(std::size_t count, noise::RandomStream& random) {
     return static_cast<std::size_t>(random.bits() % count);
 }
 
@@ -26,7 +26,7 @@ bool holds_frame(std::span<const std::byte> bytes, std::size_t size, bool has_ch
     return false;
 }
 
-Bytes drawn(int count, bool has_markers, RandomStream& random) {
+Bytes drawn(int count, bool has_markers, noise::RandomStream& random) {
     Bytes bytes(static_cast<std::size_t>(count));
     for (std::byte& byte : bytes) {
         do {
@@ -50,7 +50,7 @@ bool has_right_checksum(std::span<const std::byte> frame) {
     return wire::word_at(frame, at) == wire::burst_checksum(frame.subspan(1, at - 1));
 }
 
-Bytes with_flipped_bits(std::span<const std::byte> frame, int bits, RandomStream& random) {
+Bytes with_flipped_bits(std::span<const std::byte> frame, int bits, noise::RandomStream& random) {
     Bytes bytes(frame.begin(), frame.end());
     const std::size_t words = (frame.size() - 2) / 2;
     const std::size_t place = draw(words + 2, random);  // The last two are the markers.
@@ -68,7 +68,7 @@ Bytes with_flipped_bits(std::span<const std::byte> frame, int bits, RandomStream
     return bytes;
 }
 
-Bytes with_bad_checksum(std::span<const std::byte> frame, RandomStream& random) {
+Bytes with_bad_checksum(std::span<const std::byte> frame, noise::RandomStream& random) {
     assert(has_right_checksum(frame));
     Bytes bytes(frame.begin(), frame.end());
     const std::size_t change = 1 + draw(0xFFFF, random);
@@ -77,7 +77,7 @@ Bytes with_bad_checksum(std::span<const std::byte> frame, RandomStream& random) 
     return bytes;
 }
 
-Bytes without_bytes(std::span<const std::byte> frame, int count, RandomStream& random) {
+Bytes without_bytes(std::span<const std::byte> frame, int count, noise::RandomStream& random) {
     const std::size_t dropped = std::min(static_cast<std::size_t>(count), frame.size() - 1);
     const std::size_t at = draw(frame.size() - dropped + 1, random);
     Bytes bytes(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(at));
@@ -86,7 +86,7 @@ Bytes without_bytes(std::span<const std::byte> frame, int count, RandomStream& r
     return bytes;
 }
 
-Bytes with_more_bytes(std::span<const std::byte> frame, int count, RandomStream& random) {
+Bytes with_more_bytes(std::span<const std::byte> frame, int count, noise::RandomStream& random) {
     const bool has_checksum = has_right_checksum(frame);
     const std::size_t places = frame.size() - 1;
     const std::size_t first = draw(places, random);
@@ -99,18 +99,18 @@ Bytes with_more_bytes(std::span<const std::byte> frame, int count, RandomStream&
     return bytes;
 }
 
-Bytes cut_short(std::span<const std::byte> frame, RandomStream& random) {
+Bytes cut_short(std::span<const std::byte> frame, noise::RandomStream& random) {
     const std::size_t kept = 1 + draw(frame.size() - 1, random);
     return {frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(kept)};
 }
 
-Bytes garbage_before(std::span<const std::byte> frame, int count, RandomStream& random) {
+Bytes garbage_before(std::span<const std::byte> frame, int count, noise::RandomStream& random) {
     return drawn(count, has_right_checksum(frame), random);
 }
 
 Bytes cut_by_answer(std::span<const std::byte> frame, std::span<const std::byte> answer,
-                    RandomStream& random) {
+                    noise::RandomStream& random) {
     return joined(frame, 1 + draw(frame.size() - 1, random), answer);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

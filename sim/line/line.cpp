@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 using namespace std::chrono_literals;
@@ -56,7 +56,7 @@ std::vector<std::byte> received_at_baud(std::span<const std::byte> bytes, int se
     return heard;
 }
 
-Line::Line(const LineParameters& parameters, std::uint64_t seed, UtcTime start,
+Line::Line(const scenario::LineParameters& parameters, std::uint64_t seed, UtcTime start,
            SettledHandler on_settled)
     : parameters_(parameters),
       transport_(parameters, seed, start),
@@ -72,7 +72,7 @@ void Line::set_speeds(int device_baud, int host_baud) noexcept {
     host_baud_ = host_baud;
 }
 
-void Line::send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) {
+void Line::send(std::span<const std::byte> bytes, UtcTime leaves, const truth::Record* frame) {
     Mark mark;
     if (frame != nullptr) {
         mark.content = Content::frame;
@@ -97,7 +97,7 @@ void Line::put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark) {
         std::vector<std::byte> heard;
         if (host_baud_ > 0) heard = received_at_baud(bytes, device_baud_, host_baud_);
         queue_.insert(queue_.end(), heard.begin(), heard.end());
-        mark.truth.fate = heard.empty() ? Fate::lost : Fate::damaged;
+        mark.truth.fate = heard.empty() ? truth::Fate::lost : truth::Fate::damaged;
     }
     mark.end = gone_ + pending_size();
     marks_.push_back(mark);
@@ -160,19 +160,19 @@ void Line::settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown) {
     const auto arrived = static_cast<std::int64_t>(mark.end - mark.begin - mark.bytes_lost);
     if (mark.content == Content::answer) report_.bytes_of_answers += arrived;
     if (mark.content != Content::frame) return;
-    Fate& fate = mark.truth.fate;
-    if (fate == Fate::lost) {  // Lost on purpose, before it came here.
+    truth::Fate& fate = mark.truth.fate;
+    if (fate == truth::Fate::lost) {  // Lost on purpose, before it came here.
         ++report_.frames_lost;
     } else if (mark.bytes_lost > 0 && arrived == 0) {
-        fate = Fate::lost;
+        fate = truth::Fate::lost;
         if (way == Way::abandoned) {
             ++report_.frames_pending;
         } else {
             ++report_.frames_lost;
             ++(way == Way::overrun ? report_.lost_by_overrun : report_.lost_unplugged);
         }
-    } else if (mark.bytes_lost > 0 || fate == Fate::damaged) {
-        fate = Fate::damaged;
+    } else if (mark.bytes_lost > 0 || fate == truth::Fate::damaged) {
+        fate = truth::Fate::damaged;
         ++report_.frames_damaged;
     } else {
         report_.bytes_of_frames += arrived;
@@ -181,15 +181,15 @@ void Line::settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown) {
     on_settled_(mark.truth);
 }
 
-void Line::count_sent(const TruthRecord& truth, Nanoseconds lateness) {
+void Line::count_sent(const truth::Record& truth, Nanoseconds lateness) {
     if (truth.sampling_run != last_run_) {
         last_run_ = truth.sampling_run;
         report_.runs.push_back({truth.grid_index, 0});
     }
     ++report_.runs.back().frames;
     ++report_.frames_sent;
-    if (truth.fate == Fate::repeated) ++report_.frames_repeated;
-    if (truth.fate == Fate::misplaced) ++report_.frames_misplaced;
+    if (truth.fate == truth::Fate::repeated) ++report_.frames_repeated;
+    if (truth.fate == truth::Fate::misplaced) ++report_.frames_misplaced;
     constexpr unsigned kTroubles = wire::kFlagError | wire::kFlagAliasing | wire::kFlagAlarms;
     if ((truth.values.flag & kTroubles) != 0) ++report_.frames_flagged;
     report_.largest_lateness = std::max(report_.largest_lateness, lateness);
@@ -201,4 +201,4 @@ void Line::count_sent(const TruthRecord& truth, Nanoseconds lateness) {
     if (lateness > kPunctual) ++report_.frames_late;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

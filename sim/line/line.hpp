@@ -14,7 +14,7 @@
 #include "sim/device/line_device.hpp"
 #include "sim/line/transport.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 /// Returns the bytes that a UART set to `heard_baud` receives when `bytes` are sent without a pause
 /// at `sent_baud`, 8N1, with an idle line before and after.  The UART waits for a falling edge and
@@ -24,7 +24,7 @@ namespace a351::sim {
                                                       int sent_baud, int heard_baud);
 
 /// Counts of frames whose fate is settled: handed over or lost.
-struct LineReport {
+struct Report {
     struct Run {
         std::int64_t first_index = 0;  ///< Index on the source's grid.
         std::int64_t frames = 0;
@@ -50,16 +50,17 @@ struct LineReport {
     std::int64_t frames_late = 0;  ///< Sent more than 1 ms (simulated) after the due time.
 };
 
-class Line final : public LineSink {
+class Line final : public device::LineSink {
 public:
     /// Takes each frame once its last byte has been handed over or lost.
-    using SettledHandler = std::function<void(const TruthRecord&)>;
+    using SettledHandler = std::function<void(const truth::Record&)>;
 
     /// @param start  start of the simulation; no byte is sent before it.
-    Line(const LineParameters& parameters, std::uint64_t seed, UtcTime start,
+    Line(const scenario::LineParameters& parameters, std::uint64_t seed, UtcTime start,
          SettledHandler on_settled);
 
-    void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override;
+    void send(std::span<const std::byte> bytes, UtcTime leaves,
+              const truth::Record* frame) override;
 
     /// Sends bytes that do not come from the device.
     void send_garbage(std::span<const std::byte> bytes, UtcTime leaves);
@@ -99,7 +100,7 @@ public:
     void abandon(UtcTime simulated) { remove(pending_size(), Way::abandoned, simulated); }
     void plug_in() noexcept { is_plugged_in_ = true; }
 
-    [[nodiscard]] const LineReport& report() const noexcept { return report_; }
+    [[nodiscard]] const Report& report() const noexcept { return report_; }
 
 private:
     enum class Content { answer, frame, garbage };
@@ -112,16 +113,16 @@ private:
         std::uint64_t begin = 0, end = 0;
         std::uint64_t bytes_lost = 0;
         Content content = Content::answer;
-        TruthRecord truth{};
+        truth::Record truth{};
     };
     [[nodiscard]] std::size_t pending_size() const noexcept { return queue_.size() - queue_start_; }
     void put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark);
     void carry(std::size_t byte_count, UtcTime leaves);
     void remove(std::size_t byte_count, Way way, UtcTime simulated);
     void settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown);
-    void count_sent(const TruthRecord& truth, Nanoseconds lateness);
+    void count_sent(const truth::Record& truth, Nanoseconds lateness);
 
-    LineParameters parameters_;
+    scenario::LineParameters parameters_;
     Transport transport_;
     SettledHandler on_settled_;
     int device_baud_ = 0, host_baud_ = 0;  ///< Both 0: equal.
@@ -133,7 +134,7 @@ private:
     int last_run_ = 0;
     Nanoseconds least_lateness_ = Nanoseconds::max();  ///< In the present block of 50 frames.
     std::optional<UtcTime> last_frame_;                ///< Instant of the last frame sent here.
-    LineReport report_;
+    Report report_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -9,7 +9,7 @@
 
 #include "protocol/core/input_error.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,4 +54,4 @@ void require_file_place(const fs::path& path) {
     if (error) refuse(path, error, "a file that can be written");
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 /// Checks that the directory of `path` exists.
 /// @param what  noun with article for the message, such as "a link".
@@ -19,4 +19,4 @@ namespace a351::sim {
 /// @throws InputError  as require_directory(); the path is a directory or cannot be written.
 void require_file_place(const std::filesystem::path& path);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

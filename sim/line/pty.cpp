@@ -17,7 +17,7 @@
 #include "protocol/core/input_error.hpp"
 #include "sim/line/place.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,4 +174,4 @@ std::size_t Pty::unread() const {
     return static_cast<std::size_t>(waiting);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 /// A pseudo-terminal whose other side acts as the serial port: raw, non-blocking, with a symbolic
 /// link to it.  It keeps its own slave descriptor open, so that hosts can connect and disconnect.
@@ -82,4 +82,4 @@ private:
     std::unique_ptr<Terminal> terminal_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

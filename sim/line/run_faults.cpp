@@ -2,20 +2,20 @@
 
 #include <utility>
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 constexpr unsigned kHalfRange = 0x8000;
 
 /// Returns the fate of a frame whose COUNT is `ticks` after that of the frame before.
-Fate fate_of(std::uint16_t ticks, std::uint16_t step) {
-    if (ticks == 0) return Fate::repeated;
-    return ticks % step == 0 && ticks < kHalfRange ? Fate::intact : Fate::misplaced;
+truth::Fate fate_of(std::uint16_t ticks, std::uint16_t step) {
+    if (ticks == 0) return truth::Fate::repeated;
+    return ticks % step == 0 && ticks < kHalfRange ? truth::Fate::intact : truth::Fate::misplaced;
 }
 
 }  // namespace
 
-RunFaults::RunFaults(RegisterMachine& machine, const wire::DeviceProfile& profile,
+RunFaults::RunFaults(device::RegisterMachine& machine, const wire::DeviceProfile& profile,
                      FaultCounts& by_kind)
     : machine_(machine), profile_(profile), by_kind_(by_kind) {}
 
@@ -23,7 +23,7 @@ std::uint16_t RunFaults::count_step() const {
     return profile_.count_step(machine_.output_rate_hz());
 }
 
-void RunFaults::follow(TruthRecord& frame) {
+void RunFaults::follow(truth::Record& frame) {
     if (begun_.run != machine_.sampling_run()) {
         begun_ = {};
         begun_.run = machine_.sampling_run();
@@ -32,9 +32,9 @@ void RunFaults::follow(TruthRecord& frame) {
     follow_flags(frame);
 }
 
-void RunFaults::follow_counter(TruthRecord& frame) {
+void RunFaults::follow_counter(truth::Record& frame) {
     if (begun_.stuck_left > 0) {
-        frame.fate = Fate::repeated;
+        frame.fate = truth::Fate::repeated;
         count(FaultKind::counter_stuck);
         const int steps = --begun_.stuck_left == 0 ? begun_.stuck_frames : -1;
         machine_.jump_counter(static_cast<std::uint16_t>(steps * count_step()));
@@ -42,7 +42,7 @@ void RunFaults::follow_counter(TruthRecord& frame) {
     if (const auto fate = std::exchange(begun_.next, std::nullopt)) frame.fate = *fate;
 }
 
-void RunFaults::follow_flags(const TruthRecord& frame) {
+void RunFaults::follow_flags(const truth::Record& frame) {
     if (begun_.flagged_left == 0) return;
     if ((frame.values.flag & wire::kFlagError) == 0) {
         begun_.flagged_left = 0;  // The host has read DIAG_STAT, or frames carry no FLAG.
@@ -52,12 +52,12 @@ void RunFaults::follow_flags(const TruthRecord& frame) {
     if (--begun_.flagged_left == 0) machine_.clear_diagnostics();
 }
 
-void RunFaults::begin_with(const TruthRecord& frame) {
+void RunFaults::begin_with(const truth::Record& frame) {
     if (!machine_.is_sampling() || machine_.sampling_run() != begun_.run) return;
     for (const Fault& fault : std::exchange(waiting_, {})) begin(fault, frame);
 }
 
-void RunFaults::begin(const Fault& fault, const TruthRecord& frame) {
+void RunFaults::begin(const Fault& fault, const truth::Record& frame) {
     switch (fault.kind) {
         case FaultKind::counter_stuck:  // The next frames show the COUNT of this one.
             if (begun_.stuck_left > 0) return;
@@ -67,7 +67,7 @@ void RunFaults::begin(const Fault& fault, const TruthRecord& frame) {
             begun_.flagged_left = fault.count;
             return machine_.raise_diagnostics(static_cast<std::uint16_t>(fault.diag_stat));
         case FaultKind::counter_reset:
-            jump(static_cast<std::uint16_t>(-machine_.value_of(kCount)), frame);
+            jump(static_cast<std::uint16_t>(-machine_.value_of(device::kCount)), frame);
             break;
         default: {
             const int ticks = fault.ticks > 0 ? fault.ticks : fault.count * count_step();
@@ -77,10 +77,10 @@ void RunFaults::begin(const Fault& fault, const TruthRecord& frame) {
     count(fault.kind);
 }
 
-void RunFaults::jump(std::uint16_t ticks, const TruthRecord& frame) {
+void RunFaults::jump(std::uint16_t ticks, const truth::Record& frame) {
     machine_.jump_counter(ticks);
-    const int next = machine_.value_of(kCount) + count_step();
+    const int next = machine_.value_of(device::kCount) + count_step();
     begun_.next = fate_of(static_cast<std::uint16_t>(next - frame.values.count), count_step());
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -7,7 +7,7 @@
 
 #include "protocol/core/input_error.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 using namespace std::chrono_literals;
@@ -28,16 +28,16 @@ constexpr int kMostTurns = 1000;
 
 }  // namespace
 
-SensorPort::SensorPort(Pty& pty, LineDevice& device, Line& line, FaultInjector* faults,
+SensorPort::SensorPort(Pty& pty, device::LineDevice& device, Line& line, FaultInjector* faults,
                        TroubleHandler on_trouble)
     : pty_(pty),
       device_(device),
       line_(line),
       faults_(faults),
-      sink_(faults != nullptr ? static_cast<LineSink&>(*faults) : line),
+      sink_(faults != nullptr ? static_cast<device::LineSink&>(*faults) : line),
       on_trouble_(std::move(on_trouble)) {}
 
-void SensorPort::serve(const Instant& now) {
+void SensorPort::serve(const device::Instant& now) {
     set_speeds();
     if (faults_ != nullptr) faults_->begin(now);
     device_.advance_to({now.simulated + line_.lead(), now.steady}, sink_);
@@ -53,7 +53,7 @@ void SensorPort::set_speeds() {
     line_.set_speeds(device_.baud(), host_baud_);
 }
 
-void SensorPort::take_commands(const Instant& now) {
+void SensorPort::take_commands(const device::Instant& now) {
     const auto commands = pty_.read();
     if (commands.empty() || plug_ != Plug::in) return;
     if (device_.baud() == host_baud_) {
@@ -64,7 +64,7 @@ void SensorPort::take_commands(const Instant& now) {
     set_speeds();
 }
 
-void SensorPort::hand_over(const Instant& now) {
+void SensorPort::hand_over(const device::Instant& now) {
     const std::int64_t sent_before = line_.report().frames_sent;
     is_blocked_ = false;
     while (!is_blocked_ && !line_.shown(now.simulated).empty()) is_blocked_ = !hand_over_some(now);
@@ -74,7 +74,7 @@ void SensorPort::hand_over(const Instant& now) {
 }
 
 /// Hands over some bytes.  @return false when the terminal is full.
-bool SensorPort::hand_over_some(const Instant& now) {
+bool SensorPort::hand_over_some(const device::Instant& now) {
     std::span<const std::byte> bytes = line_.shown(now.simulated);
     const bool loses = faults_ != nullptr && faults_->is_overrun(now.simulated);
     if (loses)
@@ -85,7 +85,7 @@ bool SensorPort::hand_over_some(const Instant& now) {
     return taken > 0 || loses;
 }
 
-void SensorPort::move_plug(const Instant& now) {
+void SensorPort::move_plug(const device::Instant& now) {
     if (faults_ == nullptr) return;
     if (const auto asked = faults_->take_hang_up()) {
         if (plug_ == Plug::in) {
@@ -109,7 +109,7 @@ void SensorPort::move_plug(const Instant& now) {
 
 /// Plugs the port in.  If something else is at the path of the link, the port stays out, and the
 /// next turn tries again.
-void SensorPort::plug_in(const Instant& now) {
+void SensorPort::plug_in(const device::Instant& now) {
     try {
         pty_.come_back();
     } catch (const InputError& error) {
@@ -122,7 +122,7 @@ void SensorPort::plug_in(const Instant& now) {
     plug_ = Plug::in;
 }
 
-void SensorPort::watch_for_the_end(const Instant& now) {
+void SensorPort::watch_for_the_end(const device::Instant& now) {
     if (device_.next_due() || !line_.is_empty()) {
         ended_at_.reset();
         return;
@@ -149,7 +149,7 @@ void SensorPort::watch(std::vector<pollfd>& descriptors) const {
     descriptors.push_back(pty_.watched(is_blocked_));
 }
 
-Nanoseconds SensorPort::patience(const Instant& now, const ClockScale& clock) const {
+Nanoseconds SensorPort::patience(const device::Instant& now, const ClockScale& clock) const {
     if (is_blocked_) return kLongestWait;
     const std::optional<UtcTime> due = device_.next_due();
     const std::optional<UtcTime> shown = line_.next_shown();
@@ -167,4 +167,4 @@ double SensorPort::real_seconds() const noexcept {
     return std::chrono::duration<double>(last_sent_ - first_sent_).count();
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -8,7 +8,7 @@
 #include "sim/line/pty.hpp"
 #include "sim/line/service.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 /// The sensor's port: connects a device, its line and the pseudo-terminal.  Frames keep an absolute
 /// grid.  When the terminal is full they wait, and are sent late but not lost; with the fault
@@ -26,12 +26,13 @@ public:
 
     /// All arguments must outlive this.
     /// @param faults  null: no faults, and the device sends directly to the line.
-    SensorPort(Pty& pty, LineDevice& device, Line& line, FaultInjector* faults = nullptr,
+    SensorPort(Pty& pty, device::LineDevice& device, Line& line, FaultInjector* faults = nullptr,
                TroubleHandler on_trouble = {});
 
-    void serve(const Instant& now) override;
+    void serve(const device::Instant& now) override;
     void watch(std::vector<pollfd>& descriptors) const override;
-    [[nodiscard]] Nanoseconds patience(const Instant& now, const ClockScale& clock) const override;
+    [[nodiscard]] Nanoseconds patience(const device::Instant& now,
+                                       const ClockScale& clock) const override;
 
     /// Returns true when the device has nothing more to send, and the host has read everything.
     /// If the host reads nothing, returns true 2 s after the device's last byte.
@@ -53,18 +54,19 @@ private:
     enum class Plug { in, leaving, out };
 
     void set_speeds();
-    void take_commands(const Instant& now);
-    void hand_over(const Instant& now);
-    [[nodiscard]] bool hand_over_some(const Instant& now);
-    void move_plug(const Instant& now);
-    void plug_in(const Instant& now);
-    void watch_for_the_end(const Instant& now);
+    void take_commands(const device::Instant& now);
+    void hand_over(const device::Instant& now);
+    [[nodiscard]] bool hand_over_some(const device::Instant& now);
+    void move_plug(const device::Instant& now);
+    void plug_in(const device::Instant& now);
+    void watch_for_the_end(const device::Instant& now);
 
     Pty& pty_;
-    LineDevice& device_;
+    device::LineDevice& device_;
     Line& line_;
     FaultInjector* faults_;
-    LineSink& sink_;  ///< Takes the bytes of the device: the faults, or without them the line.
+    device::LineSink&
+        sink_;  ///< Takes the bytes of the device: the faults, or without them the line.
     TroubleHandler on_trouble_;
     int host_baud_ = 0;
     bool is_blocked_ = false;  ///< The terminal takes no more.
@@ -79,4 +81,4 @@ private:
     bool was_drained_ = false;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <system_error>
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 using namespace std::chrono_literals;
@@ -29,13 +29,15 @@ Nanoseconds steady_now() { return std::chrono::steady_clock::now().time_since_ep
 
 void attend(std::span<Service* const> services, const ClockScale& clock,
             const std::function<bool()>& should_stop) {
-    const auto instant = [&clock] { return Instant{clock.simulated(host_now()), steady_now()}; };
+    const auto instant = [&clock] {
+        return device::Instant{clock.simulated(host_now()), steady_now()};
+    };
     std::vector<pollfd> descriptors;
     while (!should_stop()) {
         for (Service* service : services) service->serve(instant());
         descriptors.clear();
         Nanoseconds patience = kLongestPatience;
-        const Instant now = instant();
+        const device::Instant now = instant();
         for (const Service* service : services) {
             service->watch(descriptors);
             patience = std::min(patience, service->patience(now, clock));
@@ -44,4 +46,4 @@ void attend(std::span<Service* const> services, const ClockScale& clock,
     }
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -9,7 +9,7 @@
 #include "protocol/core/clock_scale.hpp"
 #include "sim/device/line_device.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 /// A part of the emulator, served in turn: the sensor's port, the oven's port, the control socket.
 class Service {
@@ -17,13 +17,13 @@ public:
     virtual ~Service() = default;
 
     /// Does everything that can be done now without waiting.
-    virtual void serve(const Instant& now) = 0;
+    virtual void serve(const device::Instant& now) = 0;
 
     /// Adds the descriptors whose events should wake it.
     virtual void watch(std::vector<pollfd>& descriptors) const = 0;
 
     /// Returns the real time after which it must be served even without an event; >= 0.
-    [[nodiscard]] virtual Nanoseconds patience(const Instant& now,
+    [[nodiscard]] virtual Nanoseconds patience(const device::Instant& now,
                                                const ClockScale& clock) const = 0;
 };
 
@@ -37,4 +37,4 @@ void attend(std::span<Service* const> services, const ClockScale& clock,
 [[nodiscard]] UtcTime host_now();
 [[nodiscard]] Nanoseconds steady_now();
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace a351::sim {
+namespace a351::sim::line {
 namespace {
 
 /// Returns the first instant of a grid at or after `time`; `time` without a period.
@@ -17,7 +17,7 @@ UtcTime next_on_grid(UtcTime start, UtcTime time, double period_s, double phase)
 
 }  // namespace
 
-Transport::Transport(const LineParameters& parameters, std::uint64_t seed, UtcTime start)
+Transport::Transport(const scenario::LineParameters& parameters, std::uint64_t seed, UtcTime start)
     : parameters_(parameters),
       start_(start),
       jitter_(seed, "line jitter"),
@@ -27,7 +27,7 @@ Transport::Transport(const LineParameters& parameters, std::uint64_t seed, UtcTi
       hold_until_(start),
       last_arrival_(start),
       last_shown_(start) {
-    RandomStream phases(seed, "line phases");
+    noise::RandomStream phases(seed, "line phases");
     timer_phase_ = phases.uniform();
     poll_phase_ = phases.uniform();
 }
@@ -111,4 +111,4 @@ void Transport::hold_until(UtcTime end) {
     for (Packet& packet : packets_) packet.shown = std::max(packet.shown, end);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

@@ -11,7 +11,7 @@
 #include "sim/noise/random.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 /// Bytes travel in packets that never overtake each other.  A packet is closed at the next tick of
 /// the adapter's latency timer or when it holds kPacketSize bytes.  The host fetches it at its next
@@ -28,7 +28,7 @@ public:
     static constexpr std::size_t kPacketSize = 62;
 
     /// @param start  origin of the grids; no byte arrives before it.
-    Transport(const LineParameters& parameters, std::uint64_t seed, UtcTime start);
+    Transport(const scenario::LineParameters& parameters, std::uint64_t seed, UtcTime start);
 
     /// Takes bytes that arrive at the adapter together, after those of earlier calls.
     void carry(std::size_t byte_count, UtcTime arrives);
@@ -57,9 +57,9 @@ private:
     };
     [[nodiscard]] UtcTime after_stalls(UtcTime time);
 
-    LineParameters parameters_;
+    scenario::LineParameters parameters_;
     UtcTime start_;
-    RandomStream jitter_, stalls_;
+    noise::RandomStream jitter_, stalls_;
     double timer_phase_, poll_phase_;  ///< Phases in periods, 0 to 1.
     UtcTime stall_start_, stall_end_;  ///< Limits of the present or next stall.
     UtcTime hold_until_;
@@ -68,4 +68,4 @@ private:
     std::deque<Packet> packets_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

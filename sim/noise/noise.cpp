@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace a351::sim {
+namespace a351::sim::noise {
 namespace {
 
 /// Run-in of a resonance, in time constants Q P / pi: enough to forget the start for any Q used
@@ -63,4 +63,4 @@ double ResonantNoise::next() noexcept {
     return value;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::noise

@@ -6,7 +6,7 @@
 
 #include "sim/noise/random.hpp"
 
-namespace a351::sim {
+namespace a351::sim::noise {
 
 /// Flicker noise: power spectrum 1/f between two periods, as the sum of Ornstein-Uhlenbeck
 /// processes of equal variance whose time constants are spaced by a factor of two at most.
@@ -42,4 +42,4 @@ private:
     double last_ = 0.0, before_ = 0.0;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::noise

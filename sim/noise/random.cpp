@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace a351::sim {
+namespace a351::sim::noise {
 namespace {
 
 constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;
@@ -98,4 +98,4 @@ double normal_quantile(double p) noexcept {
     return q < 0.0 ? -x : x;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::noise

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace a351::sim {
+namespace a351::sim::noise {
 
 /// Reproducible random numbers: one stream per noise source, so that a change of one source does
 /// not change the others.  The n-th draw depends on (seed, name, n) only.
@@ -36,4 +36,4 @@ private:
 /// Source: M. J. Wichura, Algorithm AS 241, Appl. Statist. 37(3), 477-484, 1988, PPND16.
 [[nodiscard]] double normal_quantile(double p) noexcept;
 
-}  // namespace a351::sim
+}  // namespace a351::sim::noise

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-namespace a351::sim {
+namespace a351::sim::oven {
 
 std::uint16_t modbus_crc(std::span<const std::byte> bytes) noexcept {
     std::uint16_t crc = 0xFFFF;
@@ -51,4 +51,4 @@ void append_word(std::vector<std::byte>& frame, std::uint16_t word) {
     frame.push_back(static_cast<std::byte>(word & 0xFF));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace a351::sim {
+namespace a351::sim::oven {
 
 inline constexpr std::byte kReadRegisters{0x03};
 inline constexpr std::byte kWriteRegister{0x06};
@@ -37,4 +37,4 @@ inline constexpr std::byte kWriteRegisters{0x10};
 [[nodiscard]] std::uint16_t word_at(std::span<const std::byte> frame, std::size_t offset) noexcept;
 void append_word(std::vector<std::byte>& frame, std::uint16_t word);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace a351::sim {
+namespace a351::sim::oven {
 namespace {
 
 using namespace std::chrono_literals;
@@ -25,7 +25,7 @@ constexpr Nanoseconds characters(double count) {
 /// Silence that ends a frame: Modbus over Serial Line V1.02, 2.5.1.1.
 constexpr Nanoseconds kSilence = characters(3.5);
 
-std::size_t index_of(OvenFault fault) { return static_cast<std::size_t>(fault); }
+std::size_t index_of(Fault fault) { return static_cast<std::size_t>(fault); }
 
 std::vector<std::byte> refused(std::span<const std::byte> request, Refusal reason) {
     return {request[0], request[1] | std::byte{0x80}, std::byte(reason)};
@@ -123,17 +123,17 @@ void ModbusServer::handle(std::span<const std::byte> request, Nanoseconds now) {
         ++report_.for_other_units;
         return;
     }
-    const std::optional<OvenFault> fault = next_fault();
-    if (fault == OvenFault::silence) {
+    const std::optional<Fault> fault = next_fault();
+    if (fault == Fault::silence) {
         spend(*fault);
         ++report_.faults[index_of(*fault)];
         return;
     }
     Answer answer{{}, {}, fault, false};
-    if (fault == OvenFault::babble) {
+    if (fault == Fault::babble) {
         answer.bytes = nonsense(modbus_crc(request.first(request.size() - 2)));
     } else {
-        std::vector<std::byte> frame = fault == OvenFault::exception
+        std::vector<std::byte> frame = fault == Fault::exception
                                            ? refused(request, Refusal::operation)
                                            : answer_to(request, now);
         if (frame.empty()) {
@@ -141,7 +141,7 @@ void ModbusServer::handle(std::span<const std::byte> request, Nanoseconds now) {
             return;
         }
         answer.is_exception = (frame[1] & std::byte{0x80}) != std::byte{0};
-        if (fault == OvenFault::wrong_unit) frame[0] = static_cast<std::byte>(kUnit + 1);
+        if (fault == Fault::wrong_unit) frame[0] = static_cast<std::byte>(kUnit + 1);
         answer.bytes = sealed(std::move(frame));
     }
     if (fault) spend(*fault);
@@ -188,24 +188,24 @@ std::vector<std::byte> ModbusServer::answer_to(std::span<const std::byte> reques
     return refusal ? refused(request, *refusal) : confirmed(request);
 }
 
-std::optional<OvenFault> ModbusServer::next_fault() const {
+std::optional<Fault> ModbusServer::next_fault() const {
     for (std::size_t i = 0; i < kOvenFaultCount; ++i) {
-        if (remaining_[i] != 0) return static_cast<OvenFault>(i);
+        if (remaining_[i] != 0) return static_cast<Fault>(i);
     }
     return std::nullopt;
 }
 
-void ModbusServer::spend(OvenFault fault) {
+void ModbusServer::spend(Fault fault) {
     int& remaining = remaining_[index_of(fault)];
     if (remaining > 0) --remaining;
 }
 
 void ModbusServer::reply(Answer answer, std::size_t request_size, Nanoseconds now) {
-    if (answer.fault == OvenFault::crc_error) answer.bytes.back() ^= std::byte{1};
-    if (answer.fault == OvenFault::truncated) answer.bytes.resize(answer.bytes.size() / 2);
+    if (answer.fault == Fault::crc_error) answer.bytes.back() ^= std::byte{1};
+    if (answer.fault == Fault::truncated) answer.bytes.resize(answer.bytes.size() / 2);
     const double on_the_line = static_cast<double>(request_size + answer.bytes.size());
     answer.due = now + characters(on_the_line) + kAnswerWait;
-    if (answer.fault == OvenFault::delay) answer.due += kFaultDelay;
+    if (answer.fault == Fault::delay) answer.due += kFaultDelay;
     answer_ = std::move(answer);
 }
 
@@ -232,4 +232,4 @@ std::optional<Nanoseconds> ModbusServer::next_due() const {
     return std::nullopt;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

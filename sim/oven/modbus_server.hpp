@@ -10,11 +10,11 @@
 #include "sim/oven/modbus_frame.hpp"
 #include "sim/oven/oven_controller.hpp"
 
-namespace a351::sim {
+namespace a351::sim::oven {
 
 /// A fault of the answer to one request.  With `silence`, `babble` or `exception` the request is
 /// not executed.
-enum class OvenFault {
+enum class Fault {
     silence,     ///< No answer.
     babble,      ///< 64 bytes of nonsense.
     exception,   ///< Exception 04.
@@ -27,7 +27,7 @@ inline constexpr std::size_t kOvenFaultCount = 7;
 
 /// Counts of the received requests.  Every request, and every run of stray bytes up to a silence,
 /// is counted exactly once when it is over; an answer is counted when it leaves.
-struct OvenReport {
+struct Report {
     std::int64_t answers = 0;          ///< Correct answers, including exceptions.
     std::int64_t exceptions = 0;       ///< Part of the answers: refused by the controller.
     std::int64_t answers_lost = 0;     ///< No master at the other end, or power off before.
@@ -52,7 +52,7 @@ class ModbusServer {
 public:
     static constexpr int kBaud = 9600;  ///< Factory setting.
 
-    explicit ModbusServer(OvenController& controller) : controller_(controller) {}
+    explicit ModbusServer(Controller& controller) : controller_(controller) {}
 
     void receive(std::span<const std::byte> bytes, Nanoseconds now);
 
@@ -67,21 +67,19 @@ public:
     [[nodiscard]] std::optional<Nanoseconds> next_due() const;
 
     /// Gives the next `count` answers this fault; -1: all answers from now on; 0: none any more.
-    /// If several kinds are active, the first in the order of OvenFault is applied.
-    void fail_next(OvenFault kind, int count) {
-        remaining_[static_cast<std::size_t>(kind)] = count;
-    }
+    /// If several kinds are active, the first in the order of Fault is applied.
+    void fail_next(Fault kind, int count) { remaining_[static_cast<std::size_t>(kind)] = count; }
 
     /// Switches the power off and on.
     void restart(Nanoseconds now);
 
-    [[nodiscard]] const OvenReport& report() const noexcept { return report_; }
+    [[nodiscard]] const Report& report() const noexcept { return report_; }
 
 private:
     struct Answer {
         Nanoseconds due{0};
         std::vector<std::byte> bytes;
-        std::optional<OvenFault> fault;
+        std::optional<Fault> fault;
         bool is_exception = false;
     };
 
@@ -92,11 +90,11 @@ private:
     void handle(std::span<const std::byte> request, Nanoseconds now);
     [[nodiscard]] std::vector<std::byte> answer_to(std::span<const std::byte> request,
                                                    Nanoseconds now);
-    [[nodiscard]] std::optional<OvenFault> next_fault() const;
-    void spend(OvenFault fault);
+    [[nodiscard]] std::optional<Fault> next_fault() const;
+    void spend(Fault fault);
     void reply(Answer answer, std::size_t request_size, Nanoseconds now);
 
-    OvenController& controller_;
+    Controller& controller_;
     std::vector<std::byte> received_;
     Nanoseconds last_byte_{0};
     bool is_ignoring_ = false;  ///< Ignores the rest of a run already counted.
@@ -104,7 +102,7 @@ private:
     Nanoseconds restarted_at_{0};
     bool is_restarting_ = false;
     std::array<int, kOvenFaultCount> remaining_{};
-    OvenReport report_;
+    Report report_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace a351::sim {
+namespace a351::sim::oven {
 namespace {
 
 constexpr std::size_t kMostRead = 106, kMostWritten = 104;  // H175, 4-4-1 and 4-4-2.
@@ -70,7 +70,7 @@ bool lies_within(std::int32_t value, std::int32_t low, std::int32_t high) {
 
 }  // namespace
 
-OvenController::OvenController(OvenPlant& plant) : plant_(plant) {
+Controller::Controller(plant::OvenPlant& plant) : plant_(plant) {
     settings_.set_point = to_tenths(plant.set_point());
     settings_.alarm_1 = kTenDegrees;
     settings_.proportional_band = rounded(plant.tuning().proportional_band_degc * 10.0);
@@ -79,15 +79,15 @@ OvenController::OvenController(OvenPlant& plant) : plant_(plant) {
     stored_ = settings_;
 }
 
-std::int32_t OvenController::shown(std::int32_t tenths) const {
+std::int32_t Controller::shown(std::int32_t tenths) const {
     return settings_.input_type == kTypeKInTenths ? tenths : rounded(tenths / 10.0);
 }
 
-std::int32_t OvenController::process_value() const {
+std::int32_t Controller::process_value() const {
     return plant_.is_sensor_broken() ? kInputRangeHigh : to_tenths(plant_.controller_reading());
 }
 
-std::uint32_t OvenController::sensor_status() const {
+std::uint32_t Controller::sensor_status() const {
     std::uint32_t bits = 0;
     if (plant_.is_sensor_broken()) bits |= oven_status::kInputError;
     const bool is_high = process_value() >= settings_.set_point + settings_.alarm_1;
@@ -95,7 +95,7 @@ std::uint32_t OvenController::sensor_status() const {
     return bits;
 }
 
-std::uint32_t OvenController::status() const {
+std::uint32_t Controller::status() const {
     std::uint32_t bits = is_in_setup_ ? held_status_ : sensor_status();
     if (plant_.drive() > 0.0) bits |= oven_status::kHeating;
     if (is_in_ram_mode_) bits |= oven_status::kRamMode;
@@ -106,7 +106,7 @@ std::uint32_t OvenController::status() const {
     return bits;
 }
 
-const OvenController::Setting* OvenController::find_setting(Variable variable) {
+const Controller::Setting* Controller::find_setting(Variable variable) {
     using Limits = std::numeric_limits<std::int32_t>;
     constexpr std::int32_t kLow = Limits::min(), kHigh = Limits::max();  // Only the display's.
     static constexpr std::array kSettings{
@@ -125,7 +125,7 @@ const OvenController::Setting* OvenController::find_setting(Variable variable) {
     return found == kSettings.end() ? nullptr : &*found;
 }
 
-std::int32_t OvenController::value(Variable variable) const {
+std::int32_t Controller::value(Variable variable) const {
     if (const Setting* const setting = find_setting(variable)) {
         const std::int32_t value = settings_.*setting->place;
         return setting->is_temperature ? shown(value) : value;
@@ -144,14 +144,14 @@ std::int32_t OvenController::value(Variable variable) const {
         case Variable::decimal_point:
             return settings_.input_type == kTypeKInTenths ? 1 : 0;
         case Variable::control_kind:
-            return settings_.kind == ControllerKind::on_off ? 0 : 1;
+            return settings_.kind == plant::ControllerKind::on_off ? 0 : 1;
         default:
             return 0;  // Heater current, cooling and status 2.
     }
 }
 
-std::variant<std::vector<std::uint16_t>, Refusal> OvenController::read(std::uint16_t address,
-                                                                       std::size_t count) const {
+std::variant<std::vector<std::uint16_t>, Refusal> Controller::read(std::uint16_t address,
+                                                                   std::size_t count) const {
     const bool is_two_byte = is_two_byte_address(address);
     if (find_variable(address) == nullptr) return Refusal::address;
     if (!is_two_byte && count % 2 != 0) return Refusal::address;
@@ -168,13 +168,13 @@ std::variant<std::vector<std::uint16_t>, Refusal> OvenController::read(std::uint
     return words;
 }
 
-std::optional<Refusal> OvenController::set(Variable variable, std::int32_t digits,
-                                           Settings& next) const {
+std::optional<Refusal> Controller::set(Variable variable, std::int32_t digits,
+                                       Settings& next) const {
     if (!lies_within(digits, kDisplayLow, kDisplayHigh)) return Refusal::data;
     const std::int32_t tenths = settings_.input_type == kTypeKInTenths ? digits : 10 * digits;
     if (variable == Variable::control_kind) {
         if (!lies_within(digits, 0, 1)) return Refusal::data;
-        next.kind = digits == 0 ? ControllerKind::on_off : ControllerKind::pi;
+        next.kind = digits == 0 ? plant::ControllerKind::on_off : plant::ControllerKind::pi;
         return std::nullopt;
     }
     const Setting* const setting = find_setting(variable);
@@ -185,8 +185,8 @@ std::optional<Refusal> OvenController::set(Variable variable, std::int32_t digit
     return std::nullopt;
 }
 
-std::optional<Refusal> OvenController::write(std::uint16_t address,
-                                             std::span<const std::uint16_t> words) {
+std::optional<Refusal> Controller::write(std::uint16_t address,
+                                         std::span<const std::uint16_t> words) {
     const bool is_two_byte = is_two_byte_address(address);
     const std::size_t step = is_two_byte ? 1 : 2;
     if (find_variable(address) == nullptr) return Refusal::address;
@@ -210,7 +210,7 @@ std::optional<Refusal> OvenController::write(std::uint16_t address,
     return std::nullopt;
 }
 
-void OvenController::put_in_force(const Settings& next) {
+void Controller::put_in_force(const Settings& next) {
     if (next.set_point != settings_.set_point) plant_.set_set_point(DegC(next.set_point / 10.0));
     if (next.proportional_band != settings_.proportional_band ||
         next.integral_time_s != settings_.integral_time_s) {
@@ -222,25 +222,25 @@ void OvenController::put_in_force(const Settings& next) {
     plant_.set_running(settings_.is_running && !is_in_setup_);
 }
 
-void OvenController::enter_setup_area(bool is_in_setup) {
+void Controller::enter_setup_area(bool is_in_setup) {
     held_status_ = sensor_status();
     is_in_setup_ = is_in_setup;
 }
 
-void OvenController::restart() {
+void Controller::restart() {
     is_in_ram_mode_ = false;
     enter_setup_area(false);
     put_in_force(stored_);
 }
 
-std::optional<Refusal> OvenController::operate(std::uint8_t command, std::uint8_t parameter) {
+std::optional<Refusal> Controller::operate(std::uint8_t command, std::uint8_t parameter) {
     if (!is_known(command, parameter)) return Refusal::data;
     if (command != kCommunicationWriting && !settings_.is_writing_enabled)
         return Refusal::operation;
     return execute(command, parameter);
 }
 
-std::optional<Refusal> OvenController::execute(std::uint8_t command, std::uint8_t parameter) {
+std::optional<Refusal> Controller::execute(std::uint8_t command, std::uint8_t parameter) {
     const auto unless = [](bool is_refused) {
         return is_refused ? std::optional(Refusal::operation) : std::nullopt;
     };
@@ -282,4 +282,4 @@ std::optional<Refusal> OvenController::execute(std::uint8_t command, std::uint8_
     return std::nullopt;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

@@ -14,7 +14,7 @@
 #include "sim/oven/oven_variables.hpp"
 #include "sim/plant/oven_plant.hpp"
 
-namespace a351::sim {
+namespace a351::sim::oven {
 
 /// Reason for which a request is answered by an exception.  If several apply, the lowest is given.
 enum class Refusal : std::uint8_t {
@@ -50,9 +50,9 @@ inline constexpr std::uint8_t kSoftwareReset = 0x06;
 ///
 /// Assumed, because the manual does not say: an input error shows the upper end of the range;
 /// registers that are not in the map read 0 if the first register of the request exists.
-class OvenController {
+class Controller {
 public:
-    explicit OvenController(OvenPlant& plant);
+    explicit Controller(plant::OvenPlant& plant);
 
     /// Reads `count` registers, 1 ... 106, from `address` on; in four-byte mode both are even.
     [[nodiscard]] std::variant<std::vector<std::uint16_t>, Refusal> read(std::uint16_t address,
@@ -83,7 +83,7 @@ private:
         std::int32_t integral_time_s = 0, derivative_time_s = 0;
         std::int32_t input_filter = 0;
         std::int32_t input_type = 6;
-        ControllerKind kind = ControllerKind::pi;
+        plant::ControllerKind kind = plant::ControllerKind::pi;
         bool is_running = true;
         bool is_writing_enabled = false;
 
@@ -110,7 +110,7 @@ private:
     void enter_setup_area(bool is_in_setup);
     [[nodiscard]] std::optional<Refusal> execute(std::uint8_t command, std::uint8_t parameter);
 
-    OvenPlant& plant_;
+    plant::OvenPlant& plant_;
     Settings settings_;
     Settings stored_;
     bool is_in_ram_mode_ = false;
@@ -119,4 +119,4 @@ private:
     bool speaks_modbus_ = true;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

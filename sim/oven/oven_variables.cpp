@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace a351::sim {
+namespace a351::sim::oven {
 namespace {
 
 using enum Variable;
@@ -45,4 +45,4 @@ const VariableEntry* find_variable(std::uint16_t address) noexcept {
     return found == kEntries.end() ? nullptr : &*found;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

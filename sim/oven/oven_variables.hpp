@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace a351::sim {
+namespace a351::sim::oven {
 
 enum class Variable {
     process_value,
@@ -58,4 +58,4 @@ inline constexpr std::uint16_t kFirstTwoByteAddress = 0x2000;
 /// @return  null if the map has no variable there; also for an odd address of four-byte mode.
 [[nodiscard]] const VariableEntry* find_variable(std::uint16_t address) noexcept;
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

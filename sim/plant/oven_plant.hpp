@@ -5,7 +5,7 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::sim {
+namespace a351::sim::plant {
 
 enum class ControllerKind { pi, on_off };
 
@@ -37,4 +37,4 @@ public:
     virtual void set_tuning(const ControllerTuning& tuning) = 0;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::plant

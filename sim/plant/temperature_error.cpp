@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace a351::sim {
+namespace a351::sim::plant {
 
 TemperatureError::TemperatureError(const TemperatureErrorParameters& parameters, DegC body,
                                    double step_s)
@@ -25,4 +25,4 @@ MilliGal TemperatureError::next(DegC body, double since_power_on_s) noexcept {
                     terms_.warm_up_mgal);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::plant

@@ -2,7 +2,7 @@
 
 #include "protocol/core/units.hpp"
 
-namespace a351::sim {
+namespace a351::sim::plant {
 
 struct TemperatureErrorParameters {
     double reference_degc = 0.0;
@@ -49,4 +49,4 @@ private:
     TemperatureErrorTerms terms_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::plant

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace a351::sim {
+namespace a351::sim::plant {
 
 ThermalPlant::ThermalPlant(const OvenParameters& parameters, DegC ambient)
     : p_(parameters), heater_degc_(p_.set_point_degc), thermocouple_degc_(p_.set_point_degc) {
@@ -68,4 +68,4 @@ void ThermalPlant::step(DegC ambient) {
     body_degc_ += dt * body_w / p_.body_capacity_j_per_k;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::plant

@@ -9,7 +9,7 @@
 #include "protocol/core/units.hpp"
 #include "sim/plant/oven_plant.hpp"
 
-namespace a351::sim {
+namespace a351::sim::plant {
 
 struct OvenParameters {
     double heater_capacity_j_per_k = 0.0;
@@ -81,4 +81,4 @@ private:
     bool is_sensor_broken_ = false;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::plant

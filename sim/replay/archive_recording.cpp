@@ -10,7 +10,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/files/file_bytes.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,11 +22,11 @@ constexpr std::size_t kTemperatureField = 3;
 constexpr int kMostSuppressed = 2 * 4096 + 127;
 
 /// Returns the header of the first record of a file.
-record::RecordHeader first_header(const fs::path& file) {
-    std::array<std::byte, record::kRecordSize> bytes{};
+archive::RecordHeader first_header(const fs::path& file) {
+    std::array<std::byte, archive::kRecordSize> bytes{};
     std::ifstream in(file, std::ios::binary);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    auto decoded = in ? record::decode_record(bytes) : std::nullopt;
+    auto decoded = in ? archive::decode_record(bytes) : std::nullopt;
     if (!decoded) {
         throw InputError(
             fmt::format("{}: begins with no record of an archive; allowed: journal segments, or "
@@ -92,12 +92,12 @@ private:
             if (offset_ == bytes_.size()) {
                 if (file_ == files_.size()) return;
                 path_ = files_[file_++].path;
-                bytes_ = record::read_bytes(path_);
+                bytes_ = files::read_bytes(path_);
                 offset_ = 0;
             }
             const std::size_t from = offset_;
-            auto record = record::next_record(bytes_, name_, offset_);
-            const std::size_t found = record ? offset_ - record::kRecordSize : offset_;
+            auto record = archive::next_record(bytes_, name_, offset_);
+            const std::size_t found = record ? offset_ - archive::kRecordSize : offset_;
             if (found > from) {
                 damage_.push_back({path_, from, found - from, "no record of " + name_});
             }
@@ -112,7 +112,7 @@ private:
     fs::path path_;
     std::vector<std::byte> bytes_;
     std::size_t offset_ = 0;
-    record::DecodedRecord record_;
+    archive::DecodedRecord record_;
     std::size_t sample_ = 0;
 };
 
@@ -120,7 +120,7 @@ ArchiveSource::ArchiveSource(const std::vector<fs::path>& files,
                              const std::array<std::string, 3>& axes) {
     std::string station;
     for (const fs::path& file : files) {
-        const record::RecordHeader header = first_header(file);
+        const archive::RecordHeader header = first_header(file);
         const auto field = field_of(file, header.channel, axes);
         if (!field) continue;
         const std::string codes =
@@ -157,15 +157,15 @@ std::optional<UtcTime> ArchiveSource::next_instant() const {
     return next_ ? std::optional(next_->instant) : std::nullopt;
 }
 
-TimedSample ArchiveSource::next() {
-    const TimedSample sample = *next_;
+signal::TimedSample ArchiveSource::next() {
+    const signal::TimedSample sample = *next_;
     advance();
     return sample;
 }
 
 void ArchiveSource::advance() {
     const double period_s = 1.0 / rate_hz_;
-    const TimedSample before = *next_;
+    const signal::TimedSample before = *next_;
     begins_run_ = false;
     while (true) {
         std::optional<UtcTime> earliest;
@@ -176,7 +176,7 @@ void ArchiveSource::advance() {
         next_.reset();
         if (!earliest) return;
 
-        TimedSample sample;
+        signal::TimedSample sample;
         sample.instant = *earliest;
         bool is_whole = true;
         for (std::size_t field = 0; field < channels_.size(); ++field) {
@@ -207,14 +207,15 @@ void ArchiveSource::advance() {
 ArchiveRecording::ArchiveRecording(std::unique_ptr<ArchiveSource> source, RecordedUnit unit)
     : source_(std::move(source)), unit_(std::move(unit)) {}
 
-std::optional<UtcTime> ArchiveRecording::next_due(const RegisterMachine& machine) const {
+std::optional<UtcTime> ArchiveRecording::next_due(const device::RegisterMachine& machine) const {
     const auto instant = source_->next_instant();
     if (!instant || is_session_over_) return std::nullopt;
     return *instant + machine.frame_delay();
 }
 
-void ArchiveRecording::send_next(RegisterMachine& machine, UtcTime leaves, LineSink& line) {
-    const TimedSample sample = source_->next();
+void ArchiveRecording::send_next(device::RegisterMachine& machine, UtcTime leaves,
+                                 device::LineSink& line) {
+    const signal::TimedSample sample = source_->next();
     bytes_.clear();
     std::optional<wire::BurstValues> values;
     if (machine.sampling_run() == run_) {
@@ -228,8 +229,8 @@ void ArchiveRecording::send_next(RegisterMachine& machine, UtcTime leaves, LineS
     next_index_ = sample.index + 1;
     is_session_over_ = source_->begins_run();
     if (!values) return;
-    const TruthRecord truth{sample.instant, *values, static_cast<std::uint16_t>(run_),
-                            static_cast<std::uint32_t>(sample.index)};
+    const truth::Record truth{sample.instant, *values, static_cast<std::uint16_t>(run_),
+                              static_cast<std::uint32_t>(sample.index)};
     line.send(bytes_, leaves, &truth);
 }
 
@@ -238,7 +239,7 @@ bool ArchiveRecording::begin_next_session() {
     return source_->next_instant().has_value();
 }
 
-std::string ArchiveRecording::objection(const RegisterMachine& machine) const {
+std::string ArchiveRecording::objection(const device::RegisterMachine& machine) const {
     if (machine.output_rate_hz() != source_->rate_hz()) {
         return fmt::format("the host asks for {} Hz; the archive has {} Hz",
                            machine.output_rate_hz(), source_->rate_hz());
@@ -261,4 +262,4 @@ std::string ArchiveRecording::objection(const RegisterMachine& machine) const {
     return {};
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

@@ -13,7 +13,7 @@
 #include "sim/replay/recording.hpp"
 #include "sim/signal/sample_source.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 
 /// Samples of three axes and temperature, joined by time: values within half a sampling period of
 /// each other are one sample.  An instant that some channel lacks is left out.  The index advances
@@ -21,7 +21,7 @@ namespace a351::sim {
 /// gaps.  Times are those of the records.
 ///
 /// Holds one day file of each channel in memory.
-class ArchiveSource final : public SampleSource {
+class ArchiveSource final : public signal::SampleSource {
 public:
     static constexpr std::array<const char*, 4> kFields{"x", "y", "z", "temperature"};
 
@@ -35,7 +35,7 @@ public:
 
     [[nodiscard]] int rate_hz() const noexcept override { return rate_hz_; }
     [[nodiscard]] std::optional<UtcTime> next_instant() const override;
-    [[nodiscard]] TimedSample next() override;
+    [[nodiscard]] signal::TimedSample next() override;
 
     /// Returns true if the sample that next() would return is the first of a run of sampling, as
     /// marked in its record.
@@ -57,7 +57,7 @@ private:
     std::array<std::unique_ptr<Channel>, 4> channels_;
     int rate_hz_ = 0;
     std::vector<RecordingDamage> damage_;
-    std::optional<TimedSample> next_;
+    std::optional<signal::TimedSample> next_;
     bool begins_run_ = false;  ///< next_ is the first sample of a run.
     std::int64_t incomplete_ = 0;
 };
@@ -73,10 +73,12 @@ public:
     ArchiveRecording(std::unique_ptr<ArchiveSource> source, RecordedUnit unit);
 
     [[nodiscard]] const RecordedUnit& unit() const override { return unit_; }
-    [[nodiscard]] std::optional<UtcTime> next_due(const RegisterMachine& machine) const override;
-    void send_next(RegisterMachine& machine, UtcTime leaves, LineSink& line) override;
+    [[nodiscard]] std::optional<UtcTime> next_due(
+        const device::RegisterMachine& machine) const override;
+    void send_next(device::RegisterMachine& machine, UtcTime leaves,
+                   device::LineSink& line) override;
     bool begin_next_session() override;
-    [[nodiscard]] std::string objection(const RegisterMachine& machine) const override;
+    [[nodiscard]] std::string objection(const device::RegisterMachine& machine) const override;
     [[nodiscard]] const std::vector<RecordingDamage>& damage() const override {
         return source_->damage();
     }
@@ -91,4 +93,4 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

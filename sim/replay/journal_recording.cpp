@@ -6,10 +6,10 @@
 
 #include "protocol/core/input_error.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 namespace {
 
-using record::JournalHeader;
+using journal::Header;
 
 constexpr std::size_t kIdentifierSize = 8;
 
@@ -23,10 +23,10 @@ std::string identifier(std::string text) {
     return text;
 }
 
-JournalHeader read_header(const std::filesystem::path& file) {
-    record::JournalReader reader(file);
+journal::Header read_header(const std::filesystem::path& file) {
+    journal::Reader reader(file);
     const auto chunk = reader.next();
-    const auto* header = chunk ? std::get_if<JournalHeader>(&*chunk) : nullptr;
+    const auto* header = chunk ? std::get_if<journal::Header>(&*chunk) : nullptr;
     if (header == nullptr) {
         throw InputError(fmt::format("{}: {}; allowed: journal segments with a whole header",
                                      file.string(), reader.damage()->reason));
@@ -34,7 +34,7 @@ JournalHeader read_header(const std::filesystem::path& file) {
     return *header;
 }
 
-void require_known_settings(const std::filesystem::path& file, const JournalHeader& header) {
+void require_known_settings(const std::filesystem::path& file, const journal::Header& header) {
     const auto* profile = wire::find_profile(header.profile);
     if (profile == nullptr) {
         throw InputError(fmt::format("{}: profile {}: unknown; allowed: A351, A352AD10",
@@ -55,7 +55,7 @@ void require_known_settings(const std::filesystem::path& file, const JournalHead
 
 /// Returns true if both were recorded in the same boot.  Raw time restarts with each boot and only
 /// rises within it.
-bool is_same_boot(const JournalHeader& before, const JournalHeader& after) {
+bool is_same_boot(const journal::Header& before, const journal::Header& after) {
     return before.boot_id == after.boot_id && before.clock.raw <= after.clock.raw;
 }
 
@@ -97,9 +97,9 @@ void JournalRecording::open(std::size_t segment) {
 bool JournalRecording::load_chunk() {
     while (true) {
         while (auto chunk = reader_->next()) {
-            const std::uint64_t number = record::segment_number(segments_[at_].file).value_or(0);
+            const std::uint64_t number = journal::segment_number(segments_[at_].file).value_or(0);
             if (repetitions_.is_repeated(number, reader_->sequence(), *chunk)) continue;
-            auto* received = std::get_if<record::RxChunk>(&*chunk);
+            auto* received = std::get_if<journal::RxChunk>(&*chunk);
             if (received == nullptr || received->bytes.empty()) continue;
             chunk_ = std::move(*received);
             read_ = 0;
@@ -107,7 +107,7 @@ bool JournalRecording::load_chunk() {
         }
         if (const auto& damage = reader_->damage()) damage_.push_back(*damage);
         if (at_ + 1 == segments_.size()) return false;
-        const JournalHeader& next = segments_[at_ + 1].header;
+        const journal::Header& next = segments_[at_ + 1].header;
         if (next.session != header().session || !is_same_boot(header(), next)) return false;
         open(at_ + 1);
     }
@@ -121,11 +121,11 @@ void JournalRecording::load_piece() {
     due_ = std::max(due_, recorded);
 }
 
-std::optional<UtcTime> JournalRecording::next_due(const RegisterMachine&) const {
+std::optional<UtcTime> JournalRecording::next_due(const device::RegisterMachine&) const {
     return has_piece_ ? std::optional(due_) : std::nullopt;
 }
 
-void JournalRecording::send_next(RegisterMachine&, UtcTime leaves, LineSink& line) {
+void JournalRecording::send_next(device::RegisterMachine&, UtcTime leaves, device::LineSink& line) {
     const std::size_t begin = read_ == 0 ? 0 : chunk_.reads[read_ - 1].end;
     line.send(std::span(chunk_.bytes).subspan(begin, chunk_.reads[read_].end - begin), leaves,
               nullptr);
@@ -141,7 +141,7 @@ bool JournalRecording::begin_next_session() {
     return has_piece_;
 }
 
-std::string JournalRecording::objection(const RegisterMachine& machine) const {
+std::string JournalRecording::objection(const device::RegisterMachine& machine) const {
     const auto burst_ctrl = static_cast<std::uint16_t>(machine.value_of(wire::kBurstCtrl) &
                                                        wire::kBurstCtrl.defined_bits);
     const auto* filter = unit_.profile->filter_coded(
@@ -160,4 +160,4 @@ std::string JournalRecording::objection(const RegisterMachine& machine) const {
         settings_text(header().output_rate_hz, header().filter, header().burst_ctrl));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

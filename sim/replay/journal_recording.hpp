@@ -10,7 +10,7 @@
 
 #include "sim/replay/recording.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 
 /// A piece is the result of one read().  It is due at the host's raw time of its read, converted to
 /// UTC by the first clock reading of each boot of the recording host.  Later steps of that host's
@@ -28,20 +28,22 @@ public:
                               std::vector<RecordingDamage> damage = {});
 
     [[nodiscard]] const RecordedUnit& unit() const override { return unit_; }
-    [[nodiscard]] std::optional<UtcTime> next_due(const RegisterMachine& machine) const override;
-    void send_next(RegisterMachine& machine, UtcTime leaves, LineSink& line) override;
+    [[nodiscard]] std::optional<UtcTime> next_due(
+        const device::RegisterMachine& machine) const override;
+    void send_next(device::RegisterMachine& machine, UtcTime leaves,
+                   device::LineSink& line) override;
     bool begin_next_session() override;
-    [[nodiscard]] std::string objection(const RegisterMachine& machine) const override;
+    [[nodiscard]] std::string objection(const device::RegisterMachine& machine) const override;
     [[nodiscard]] const std::vector<RecordingDamage>& damage() const override { return damage_; }
 
 private:
     struct Segment {
         std::filesystem::path file;
-        record::JournalHeader header;
+        journal::Header header;
         Nanoseconds utc_minus_raw{0};
     };
 
-    [[nodiscard]] const record::JournalHeader& header() const { return segments_[at_].header; }
+    [[nodiscard]] const journal::Header& header() const { return segments_[at_].header; }
     void open(std::size_t segment);
     bool load_chunk();
     void load_piece();
@@ -49,13 +51,13 @@ private:
     std::vector<Segment> segments_;
     std::size_t at_ = 0;  ///< Index of the segment being read.
     RecordedUnit unit_;
-    std::optional<record::JournalReader> reader_;
-    record::Repetitions repetitions_;
-    record::RxChunk chunk_;
+    std::optional<journal::Reader> reader_;
+    journal::Repetitions repetitions_;
+    journal::RxChunk chunk_;
     std::size_t read_ = 0;  ///< Index of the next read of chunk_.
     UtcTime due_;           ///< Due time of that read.
     bool has_piece_ = false;
     std::vector<RecordingDamage> damage_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

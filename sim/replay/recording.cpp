@@ -8,7 +8,7 @@
 #include "sim/replay/archive_recording.hpp"
 #include "sim/replay/journal_recording.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,7 +20,7 @@ bool is_day_file(const fs::path& file) {
     constexpr std::string_view kShape = ".####.###";
     const std::string name = file.filename().string();
     return name.size() >= kShape.size() &&
-           record::has_shape(std::string_view(name).substr(name.size() - kShape.size()), kShape);
+           files::has_shape(std::string_view(name).substr(name.size() - kShape.size()), kShape);
 }
 
 struct Expanded {
@@ -34,7 +34,7 @@ void add_segments(const fs::path& directory, const std::vector<fs::path>& segmen
                   Expanded& expanded) {
     const std::size_t before = expanded.files.size();
     for (const fs::path& segment : segments) {
-        record::JournalReader reader(segment);
+        journal::Reader reader(segment);
         if (!reader.next() && reader.damage())
             expanded.damage.push_back(*reader.damage());
         else
@@ -65,7 +65,7 @@ Expanded expand(const std::vector<fs::path>& given) {
         if (!fs::exists(path)) throw InputError(path.string() + ": no such file" + kAllowed);
         if (!fs::is_directory(path)) {
             expanded.files.push_back(path);
-        } else if (const auto segments = record::journal_segments(path); !segments.empty()) {
+        } else if (const auto segments = journal::segment_files(path); !segments.empty()) {
             add_segments(path, segments, expanded);
         } else {
             add_day_files(path, expanded);
@@ -75,22 +75,22 @@ Expanded expand(const std::vector<fs::path>& given) {
 }
 
 bool is_journal(const fs::path& file) {
-    std::array<char, record::kJournalMagic.size()> magic{};
+    std::array<char, journal::kMagic.size()> magic{};
     std::ifstream in(file, std::ios::binary);
     if (!in) throw InputError(file.string() + ": cannot be read" + kAllowed);
     in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
     if (in.gcount() == 0) throw InputError(file.string() + ": empty" + kAllowed);
-    return std::string_view(magic.data(), magic.size()) == record::kJournalMagic;
+    return std::string_view(magic.data(), magic.size()) == journal::kMagic;
 }
 
 /// Sorts the segments by their numbers, within neighbours of the same directory that have numbers.
 void order_segments(std::vector<fs::path>& files) {
     for (auto begin = files.begin(); begin != files.end();) {
         const auto end = std::find_if(begin, files.end(), [&](const fs::path& file) {
-            return file.parent_path() != begin->parent_path() || !record::segment_number(file);
+            return file.parent_path() != begin->parent_path() || !journal::segment_number(file);
         });
         std::stable_sort(begin, end, [](const fs::path& a, const fs::path& b) {
-            return *record::segment_number(a) < *record::segment_number(b);
+            return *journal::segment_number(a) < *journal::segment_number(b);
         });
         begin = end == begin ? std::next(begin) : end;
     }
@@ -114,4 +114,4 @@ std::unique_ptr<Recording> open_recording(const RecordingFiles& input) {
     return std::make_unique<JournalRecording>(std::move(files), std::move(damage));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

@@ -12,19 +12,19 @@
 #include "sim/device/line_device.hpp"
 #include "sim/device/register_machine.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 
 /// The unit that a recording was made with.
 struct RecordedUnit {
     const wire::DeviceProfile* profile = nullptr;  ///< Not null.
-    MachineIdentity identity;
+    device::MachineIdentity identity;
     int baud = 460800;
 
     bool operator==(const RecordedUnit&) const = default;
 };
 
 /// Bytes of a file that could not be replayed.
-using RecordingDamage = record::JournalDamage;
+using RecordingDamage = journal::Damage;
 
 /// A recording: sessions, each one run of sampling, made of pieces.  The first session is the
 /// current one at the beginning.
@@ -37,19 +37,21 @@ public:
 
     /// Returns when the next piece left the device, by the recording's own clock; std::nullopt at
     /// the end of the session.  The times of successive pieces never decrease.
-    [[nodiscard]] virtual std::optional<UtcTime> next_due(const RegisterMachine& machine) const = 0;
+    [[nodiscard]] virtual std::optional<UtcTime> next_due(
+        const device::RegisterMachine& machine) const = 0;
 
     /// Hands over the next piece.  Precondition: next_due() has a value.
     /// @param machine  the emulated unit, in sampling mode.
     /// @param leaves   when the last byte leaves, in simulated time.
-    virtual void send_next(RegisterMachine& machine, UtcTime leaves, LineSink& line) = 0;
+    virtual void send_next(device::RegisterMachine& machine, UtcTime leaves,
+                           device::LineSink& line) = 0;
 
     /// Moves to the next session.  @return false if there is none.
     virtual bool begin_next_session() = 0;
 
     /// Returns, in words, how the settings of `machine` differ from the recorded ones; empty if
     /// they fit.
-    [[nodiscard]] virtual std::string objection(const RegisterMachine& machine) const = 0;
+    [[nodiscard]] virtual std::string objection(const device::RegisterMachine& machine) const = 0;
 
     /// Returns the damage found so far.
     [[nodiscard]] virtual const std::vector<RecordingDamage>& damage() const = 0;
@@ -73,4 +75,4 @@ struct RecordingFiles {
 ///         JournalRecording or ArchiveSource refuses the files.
 [[nodiscard]] std::unique_ptr<Recording> open_recording(const RecordingFiles& input);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

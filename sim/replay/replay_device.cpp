@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace a351::sim {
+namespace a351::sim::replay {
 namespace {
 
 /// Wait while the host does not sample: nothing is due, and the host's commands wake the port.
 constexpr Nanoseconds kIdle = std::chrono::hours(1);
 
 /// Returns the factory state with the recorded baud rate.
-FlashMemory flash_of(const RecordedUnit& unit) {
-    FlashMemory flash;
+device::FlashMemory flash_of(const RecordedUnit& unit) {
+    device::FlashMemory flash;
     std::size_t i = 0;
     for (const wire::Register& reg : wire::kRegisters) {
         if (&reg == &wire::kUartCtrl) {
@@ -26,45 +26,45 @@ FlashMemory flash_of(const RecordedUnit& unit) {
 
 }  // namespace
 
-ReplayDevice::ReplayDevice(std::unique_ptr<Recording> recording, ReplayTiming timing,
-                           Nanoseconds now)
+Device::Device(std::unique_ptr<Recording> recording, Timing timing, Nanoseconds now)
     : recording_(std::move(recording)), timing_(timing) {
     install_unit(now);
     first_due_ = *recording_->next_due(*machine_);
 }
 
 /// Replaces the machine by the recorded unit, long enough after power-on to be ready.
-void ReplayDevice::install_unit(Nanoseconds now) {
+void Device::install_unit(Nanoseconds now) {
     const RecordedUnit& unit = recording_->unit();
-    machine_ = std::make_unique<RegisterMachine>(
-        *unit.profile, unit.identity, now - RegisterMachine::kPowerOnTime, flash_of(unit));
+    machine_ = std::make_unique<device::RegisterMachine>(
+        *unit.profile, unit.identity, now - device::RegisterMachine::kPowerOnTime, flash_of(unit));
     run_ = machine_->sampling_run();
 }
 
-void ReplayDevice::receive(std::span<const std::byte> bytes, const Instant& now, LineSink& line) {
+void Device::receive(std::span<const std::byte> bytes, const device::Instant& now,
+                     device::LineSink& line) {
     answers_.clear();
     machine_->receive(bytes, now.steady, answers_);
     if (!answers_.empty()) line.send(answers_, now.simulated, nullptr);
     if (machine_->is_sampling() && machine_->sampling_run() != run_) begin_sampling(now.simulated);
 }
 
-void ReplayDevice::begin_sampling(UtcTime now) {
+void Device::begin_sampling(UtcTime now) {
     run_ = machine_->sampling_run();
     sampling_since_ = now;
     const std::string objection = recording_->objection(*machine_);
     if (!objection.empty()) throw std::runtime_error(objection);
     if (is_over_) return;
-    if (report_.sessions == 0 && timing_ == ReplayTiming::from_host_start)
+    if (report_.sessions == 0 && timing_ == Timing::from_host_start)
         shift_ = now - *recording_->next_due(*machine_);
     if (!has_begun_) ++report_.sessions;
     has_begun_ = true;
 }
 
-UtcTime ReplayDevice::simulated(UtcTime recorded) const {
-    return timing_ == ReplayTiming::as_fast_as_read ? now_ : recorded + shift_;
+UtcTime Device::simulated(UtcTime recorded) const {
+    return timing_ == Timing::as_fast_as_read ? now_ : recorded + shift_;
 }
 
-void ReplayDevice::advance_to(const Instant& now, LineSink& line) {
+void Device::advance_to(const device::Instant& now, device::LineSink& line) {
     now_ = now.simulated;
     if (is_over_ || !machine_->is_sampling()) return;
     while (const auto due = recording_->next_due(*machine_)) {
@@ -75,7 +75,7 @@ void ReplayDevice::advance_to(const Instant& now, LineSink& line) {
     end_session(now.steady);
 }
 
-void ReplayDevice::end_session(Nanoseconds now) {
+void Device::end_session(Nanoseconds now) {
     machine_->fall_back_to_configuration();
     has_begun_ = false;
     const RecordedUnit before = recording_->unit();
@@ -83,11 +83,11 @@ void ReplayDevice::end_session(Nanoseconds now) {
     if (!is_over_ && before != recording_->unit()) install_unit(now);
 }
 
-std::optional<UtcTime> ReplayDevice::next_due() const {
+std::optional<UtcTime> Device::next_due() const {
     if (is_over_) return std::nullopt;
     if (!machine_->is_sampling()) return now_ + kIdle;
     const auto due = recording_->next_due(*machine_);
     return due ? simulated(*due) : now_;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

@@ -7,15 +7,15 @@
 
 #include "sim/replay/recording.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 
-enum class ReplayTiming {
+enum class Timing {
     as_recorded,      ///< Each piece leaves when simulated time reaches its recorded instant.
     from_host_start,  ///< The same, with recorded time shifted to the host's start of sampling.
     as_fast_as_read,  ///< Each piece leaves as soon as the line takes it.
 };
 
-struct ReplayReport {
+struct Report {
     std::int64_t pieces = 0;  ///< Reads of a journal, samples of an archive.
     int sessions = 0;         ///< Sessions begun.
 };
@@ -25,15 +25,16 @@ struct ReplayReport {
 /// that nothing is left out if the host is late.  When the host stops and starts again, the next
 /// piece follows.  At the end of a session the device is silent in configuration mode; the next
 /// session begins when the host starts sampling again.
-class ReplayDevice final : public LineDevice {
+class Device final : public device::LineDevice {
 public:
     /// @param now  time on the steady clock of Instant.
-    ReplayDevice(std::unique_ptr<Recording> recording, ReplayTiming timing, Nanoseconds now);
+    Device(std::unique_ptr<Recording> recording, Timing timing, Nanoseconds now);
 
     /// @throws std::runtime_error  sampling was started with settings other than the recorded ones;
     ///         one line that names both.
-    void receive(std::span<const std::byte> bytes, const Instant& now, LineSink& line) override;
-    void advance_to(const Instant& now, LineSink& line) override;
+    void receive(std::span<const std::byte> bytes, const device::Instant& now,
+                 device::LineSink& line) override;
+    void advance_to(const device::Instant& now, device::LineSink& line) override;
     [[nodiscard]] std::optional<UtcTime> next_due() const override;
     [[nodiscard]] int baud() const override { return machine_->baud(); }
 
@@ -41,7 +42,7 @@ public:
     [[nodiscard]] UtcTime first_due() const noexcept { return first_due_; }
 
     [[nodiscard]] const Recording& recording() const noexcept { return *recording_; }
-    [[nodiscard]] const ReplayReport& report() const noexcept { return report_; }
+    [[nodiscard]] const Report& report() const noexcept { return report_; }
 
 private:
     void install_unit(Nanoseconds now);
@@ -50,8 +51,8 @@ private:
     [[nodiscard]] UtcTime simulated(UtcTime recorded) const;
 
     std::unique_ptr<Recording> recording_;
-    ReplayTiming timing_;
-    std::unique_ptr<RegisterMachine> machine_;
+    Timing timing_;
+    std::unique_ptr<device::RegisterMachine> machine_;
     int run_ = 0;             ///< Sampling run of the machine that was last seen to begin.
     bool has_begun_ = false;  ///< The current session has begun.
     bool is_over_ = false;    ///< There is no further session.
@@ -60,7 +61,7 @@ private:
     UtcTime sampling_since_;
     UtcTime now_;  ///< Simulated time of the last call.
     std::vector<std::byte> answers_;
-    ReplayReport report_;
+    Report report_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

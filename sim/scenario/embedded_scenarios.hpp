@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-namespace a351::sim {
+namespace a351::sim::scenario {
 
 struct EmbeddedScenario {
     std::string_view name;
@@ -13,4 +13,4 @@ struct EmbeddedScenario {
 /// Returns the files of config/scenarios, which CMake compiles into the program.
 [[nodiscard]] std::span<const EmbeddedScenario> embedded_scenarios() noexcept;
 
-}  // namespace a351::sim
+}  // namespace a351::sim::scenario

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace a351::sim {
+namespace a351::sim::scenario {
 
 UtcTime Scenario::start() const {
     return fixed_record ? fixed_record->start
@@ -40,4 +40,4 @@ DegC ambient_at(const std::vector<AmbientKnot>& knots, UtcTime time) {
     return DegC(before.degc + share * (after->degc - before.degc));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::scenario

@@ -15,7 +15,7 @@
 #include "sim/plant/temperature_error.hpp"
 #include "sim/plant/thermal_plant.hpp"
 
-namespace a351::sim {
+namespace a351::sim::scenario {
 
 /// Angles between the box and the vertical.
 struct Levelling {
@@ -160,8 +160,8 @@ struct Scenario {
     std::vector<ListedOpenLid> open_lids;
     ScheduleParameters schedule;
     CoolBoxParameters cool_box;
-    OvenParameters oven;
-    TemperatureErrorParameters error;
+    plant::OvenParameters oven;
+    plant::TemperatureErrorParameters error;
     double unit_scatter = 0.0;  ///< `error` is drawn per unit within +- this share.
     SensorParameters sensor;
     ClockParameters clock;
@@ -192,4 +192,4 @@ struct Scenario {
 
 [[nodiscard]] std::vector<std::string_view> scenario_names();
 
-}  // namespace a351::sim
+}  // namespace a351::sim::scenario

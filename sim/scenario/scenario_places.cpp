@@ -7,7 +7,7 @@
 
 #include "protocol/text/csv.hpp"
 
-namespace a351::sim {
+namespace a351::sim::scenario {
 namespace {
 
 constexpr double kColdestDegC = -40.0, kWarmestDegC = 80.0;
@@ -269,4 +269,4 @@ void read_places(text::TomlTable& document, Scenario& scenario) {
     require_fit(document, scenario);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::scenario

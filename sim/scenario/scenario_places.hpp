@@ -5,7 +5,7 @@
 #include "protocol/text/strict_toml.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace a351::sim {
+namespace a351::sim::scenario {
 
 /// Reads [[site]], [[occupation]], [[ambient]] and [[lid_open]].  Each list in the file replaces
 /// the whole list of the base; [[occupation]] also removes the base's [[ambient]] and [[lid_open]].
@@ -23,4 +23,4 @@ void read_places(text::TomlTable& document, Scenario& scenario);
                                      double high);
 [[nodiscard]] UtcTime required_instant(text::TomlTable& table, std::string_view key);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::scenario

@@ -11,7 +11,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/scenario_places.hpp"
 
-namespace a351::sim {
+namespace a351::sim::scenario {
 namespace {
 
 /// One table of the file.  Without a base every key is required, so that no value of a scenario is
@@ -100,13 +100,13 @@ void read_cool_box(Section& s, CoolBoxParameters& p) {
 /// brings it to its neighbours' temperature: explicit Euler would be unstable.
 void require_stable(const Section& s, std::string_view key, double capacity_j_per_k,
                     double conductance_w_per_k) {
-    const double least_j_per_k = conductance_w_per_k * ThermalPlant::kStepSeconds;
+    const double least_j_per_k = conductance_w_per_k * plant::ThermalPlant::kStepSeconds;
     if (capacity_j_per_k >= least_j_per_k) return;
     s.refuse(key, "too small for its thermal resistances with the plant's step of 1 s",
              text::shortest(least_j_per_k) + " or more, or larger resistances");
 }
 
-void read_oven(Section& s, OvenParameters& p) {
+void read_oven(Section& s, plant::OvenParameters& p) {
     s.number("heater_capacity_j_per_k", p.heater_capacity_j_per_k, 1.0, 1e6);
     s.number("body_capacity_j_per_k", p.body_capacity_j_per_k, 1.0, 1e6);
     s.number("heater_body_k_per_w", p.heater_body_k_per_w, 0.01, 1e4);
@@ -121,9 +121,9 @@ void read_oven(Section& s, OvenParameters& p) {
     s.number("proportional_per_degc", p.proportional_per_degc, 0.0, 1000.0);
     s.number("integral_per_degc_s", p.integral_per_degc_s, 0.0, 1000.0);
     s.number("run_in_h", p.run_in_h, 0.0, 100.0);
-    const std::string now = p.controller == ControllerKind::on_off ? "onoff" : "pi";
+    const std::string now = p.controller == plant::ControllerKind::on_off ? "onoff" : "pi";
     const bool is_on_off = s.word("controller", now, {"pi", "onoff"}) == "onoff";
-    p.controller = is_on_off ? ControllerKind::on_off : ControllerKind::pi;
+    p.controller = is_on_off ? plant::ControllerKind::on_off : plant::ControllerKind::pi;
     const double body_w_per_k = 1.0 / p.heater_body_k_per_w;
     require_stable(s, "heater_capacity_j_per_k", p.heater_capacity_j_per_k,
                    body_w_per_k + 1.0 / p.heater_ambient_k_per_w);
@@ -131,7 +131,7 @@ void read_oven(Section& s, OvenParameters& p) {
                    body_w_per_k + 1.0 / p.body_ambient_k_per_w);
 }
 
-void read_error(Section& s, TemperatureErrorParameters& p, double& unit_scatter) {
+void read_error(Section& s, plant::TemperatureErrorParameters& p, double& unit_scatter) {
     s.number("reference_degc", p.reference_degc, 0.0, 80.0);
     s.number("crystal_static_mgal_per_degc", p.crystal_static_mgal_per_degc, -1e5, 1e5);
     s.number("crystal_dynamic_mgal_per_degc", p.crystal_dynamic_mgal_per_degc, -1e5, 1e5);
@@ -295,4 +295,4 @@ std::vector<std::string_view> scenario_names() {
     return names;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::scenario

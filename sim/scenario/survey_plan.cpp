@@ -12,7 +12,7 @@
 #include "protocol/text/csv.hpp"
 #include "sim/noise/random.hpp"
 
-namespace a351::sim {
+namespace a351::sim::scenario {
 namespace {
 
 using text::shortest;
@@ -36,7 +36,7 @@ struct Interval {
 
 /// Draws the times of each occupation, and from when on its site's gravity acts.
 std::vector<Interval> draw_intervals(const Scenario& scenario, std::uint64_t seed) {
-    RandomStream stream(seed, "schedule");
+    noise::RandomStream stream(seed, "schedule");
     const ScheduleParameters& p = scenario.schedule;
     std::vector<Interval> intervals;
     for (const ListedOccupation& listed : scenario.occupations) {
@@ -92,7 +92,7 @@ public:
 
 private:
     double sigma_rad_, placement_rms_mgal_;
-    RandomStream levelling_, placement_;
+    noise::RandomStream levelling_, placement_;
 };
 
 }  // namespace
@@ -136,10 +136,10 @@ std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t se
     return plan;
 }
 
-TemperatureErrorParameters drawn_unit(const Scenario& scenario, std::uint64_t seed) {
-    TemperatureErrorParameters unit = scenario.error;
+plant::TemperatureErrorParameters drawn_unit(const Scenario& scenario, std::uint64_t seed) {
+    plant::TemperatureErrorParameters unit = scenario.error;
     if (scenario.unit_scatter == 0.0) return unit;
-    RandomStream stream(seed, "unit");
+    noise::RandomStream stream(seed, "unit");
     for (double* value : {&unit.crystal_static_mgal_per_degc, &unit.crystal_dynamic_mgal_per_degc,
                           &unit.crystal_tau_s, &unit.clock_mgal_per_degc, &unit.clock_tau_s,
                           &unit.warm_up_mgal, &unit.warm_up_tau_h}) {
@@ -176,4 +176,4 @@ void write_text_file(const std::filesystem::path& file, const std::string& text)
     if (!out) throw std::system_error(errno, std::generic_category(), file.string());
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::scenario

@@ -7,7 +7,7 @@
 
 #include "sim/scenario/scenario.hpp"
 
-namespace a351::sim {
+namespace a351::sim::scenario {
 
 /// One set-up of the box at a site, with its drawn times.  A stay has one or several set-ups.
 struct PlannedSetUp {
@@ -33,7 +33,8 @@ struct PlannedSetUp {
 [[nodiscard]] std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t seed);
 
 /// Returns the temperature error of the simulated unit: the scenario's, drawn within its scatter.
-[[nodiscard]] TemperatureErrorParameters drawn_unit(const Scenario& scenario, std::uint64_t seed);
+[[nodiscard]] plant::TemperatureErrorParameters drawn_unit(const Scenario& scenario,
+                                                           std::uint64_t seed);
 
 /// Returns the table site,longitude_deg,latitude_deg,altitude_m,gravity_mgal.
 [[nodiscard]] std::string sites_csv(const Scenario& scenario);
@@ -45,4 +46,4 @@ struct PlannedSetUp {
 /// Writes or replaces a file.  @throws std::system_error  it cannot be written; names the file.
 void write_text_file(const std::filesystem::path& file, const std::string& text);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::scenario

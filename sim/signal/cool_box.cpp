@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
-CoolBox::CoolBox(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
-                 std::uint64_t seed)
+CoolBox::CoolBox(const scenario::Scenario& scenario,
+                 const std::vector<scenario::PlannedSetUp>& plan, std::uint64_t seed)
     : time_(scenario.start()),
       course_(scenario.ambient_knots()),
       walk_(seed, "ambient"),
       kick_degc_(scenario.cool_box.walk_degc_per_sqrt_h * std::sqrt(kStepSeconds / 3600.0)),
       open_gain_(1.0 - std::exp(-kStepSeconds / scenario.cool_box.open_tau_s)),
       closed_keep_(std::exp(-kStepSeconds / scenario.cool_box.closed_tau_s)) {
-    for (const ListedOpenLid& listed : scenario.open_lids) {
+    for (const scenario::ListedOpenLid& listed : scenario.open_lids) {
         if (listed.site.empty()) {
             open_lids_.push_back({listed.from, listed.to, listed.outside_degc});
             continue;
         }
-        for (const PlannedSetUp& set_up : plan) {
+        for (const scenario::PlannedSetUp& set_up : plan) {
             if (set_up.site.name == listed.site && set_up.number == listed.number) {
                 open_lids_.push_back({set_up.start, set_up.end, listed.outside_degc});
             }
@@ -27,7 +27,7 @@ CoolBox::CoolBox(const Scenario& scenario, const std::vector<PlannedSetUp>& plan
 }
 
 DegC CoolBox::next() {
-    const double closed_degc = ambient_at(course_, time_).value() + walk_degc_;
+    const double closed_degc = scenario::ambient_at(course_, time_).value() + walk_degc_;
     const DegC inside(closed_degc + lid_degc_);
     const auto open = std::find_if(open_lids_.begin(), open_lids_.end(), [this](const auto& lid) {
         return lid.from <= time_ && time_ < lid.to;
@@ -42,4 +42,4 @@ DegC CoolBox::next() {
     return inside;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

@@ -8,7 +8,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/survey_plan.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 /// Air inside the cool box, around the oven; one value a second from the start of the record:
 ///
@@ -18,7 +18,8 @@ class CoolBox {
 public:
     static constexpr double kStepSeconds = 1.0;
 
-    CoolBox(const Scenario& scenario, const std::vector<PlannedSetUp>& plan, std::uint64_t seed);
+    CoolBox(const scenario::Scenario& scenario, const std::vector<scenario::PlannedSetUp>& plan,
+            std::uint64_t seed);
 
     /// Returns the value at the start of the record, then the next one with each call.
     [[nodiscard]] DegC next();
@@ -30,11 +31,11 @@ private:
     };
 
     UtcTime time_;
-    std::vector<AmbientKnot> course_;
+    std::vector<scenario::AmbientKnot> course_;
     std::vector<OpenLid> open_lids_;
-    RandomStream walk_;
+    noise::RandomStream walk_;
     double kick_degc_, open_gain_, closed_keep_;
     double walk_degc_ = 0.0, lid_degc_ = 0.0;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

@@ -7,14 +7,17 @@
 #include "protocol/core/units.hpp"
 #include "sim/noise/random.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 namespace {
 
-double draw(RandomStream& stream, Range range) { return stream.uniform(range.low, range.high); }
+double draw(noise::RandomStream& stream, scenario::Range range) {
+    return stream.uniform(range.low, range.high);
+}
 
 /// Draws a burst: length and strength once; frequency, phase and share of the strength per axis.
-Burst& draw_burst(std::vector<Burst>& bursts, RandomStream& stream, Burst::Envelope envelope,
-                  Range length_s, Range hz, Range peak_gal, Range axis_share) {
+Burst& draw_burst(std::vector<Burst>& bursts, noise::RandomStream& stream, Burst::Envelope envelope,
+                  scenario::Range length_s, scenario::Range hz, scenario::Range peak_gal,
+                  scenario::Range axis_share) {
     Burst& burst = bursts.emplace_back();
     burst.envelope = envelope;
     burst.length_s = draw(stream, length_s);
@@ -43,13 +46,14 @@ double envelope_at(const Burst& burst, double u) {
 
 }  // namespace
 
-std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
+std::vector<Burst> draw_bursts(const scenario::Scenario& scenario,
+                               const std::vector<scenario::PlannedSetUp>& plan,
                                std::uint64_t seed) {
-    const VibrationParameters& p = scenario.vibration;
+    const scenario::VibrationParameters& p = scenario.vibration;
     const double record_s = seconds_between(scenario.start(), scenario.end());
     std::vector<Burst> bursts;
 
-    RandomStream vehicles(seed, "vehicles");
+    noise::RandomStream vehicles(seed, "vehicles");
     if (p.vehicles_per_h > 0.0) {
         const double mean_wait_s = 3600.0 / p.vehicles_per_h;
         double t = mean_wait_s * vehicles.exponential();
@@ -61,9 +65,9 @@ std::vector<Burst> draw_bursts(const Scenario& scenario, const std::vector<Plann
         }
     }
 
-    RandomStream handling(seed, "handling");
-    RandomStream knocks(seed, "knocks");
-    for (const PlannedSetUp& set_up : plan) {
+    noise::RandomStream handling(seed, "handling");
+    noise::RandomStream knocks(seed, "knocks");
+    for (const scenario::PlannedSetUp& set_up : plan) {
         if (!set_up.is_occupied) continue;
         const double start_s = seconds_between(scenario.start(), set_up.start);
         const double end_s = seconds_between(scenario.start(), set_up.end);
@@ -109,4 +113,4 @@ void Disturbances::add_to(std::array<double, 3>& axes_mgal, double elapsed_s) {
     }
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

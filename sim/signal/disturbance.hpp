@@ -10,7 +10,7 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/survey_plan.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 /// An oscillation on all axes under an envelope.
 struct Burst {
@@ -24,8 +24,8 @@ struct Burst {
 };
 
 /// Draws all bursts of a record, in the order of their starts.
-[[nodiscard]] std::vector<Burst> draw_bursts(const Scenario& scenario,
-                                             const std::vector<PlannedSetUp>& plan,
+[[nodiscard]] std::vector<Burst> draw_bursts(const scenario::Scenario& scenario,
+                                             const std::vector<scenario::PlannedSetUp>& plan,
                                              std::uint64_t seed);
 
 /// Sum of the bursts, asked at rising instants.
@@ -43,4 +43,4 @@ private:
     std::vector<Burst> active_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

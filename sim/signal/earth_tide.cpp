@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace a351::sim {
+namespace a351::sim::signal {
 namespace {
 
 // Longman's table 1: centimetre, gram, second.
@@ -87,4 +87,4 @@ MilliGal earth_tide(Degrees latitude, Degrees longitude, Metres height, UtcTime 
     return MilliGal(-1000.0 * factor * up_gal);
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

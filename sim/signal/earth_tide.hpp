@@ -3,7 +3,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 /// Returns the effect of Sun and Moon on gravity, positive where gravity is larger, by Longman's
 /// closed formulas.  The simulator has its own tide so that the corrector is tested against
@@ -18,4 +18,4 @@ namespace a351::sim {
 [[nodiscard]] MilliGal earth_tide(Degrees latitude, Degrees longitude, Metres height, UtcTime time,
                                   double factor);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

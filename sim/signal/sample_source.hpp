@@ -6,7 +6,7 @@
 
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 /// One sample in counts of the device.
 struct SensorSample {
@@ -36,4 +36,4 @@ public:
     [[nodiscard]] virtual TimedSample next() = 0;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

@@ -5,9 +5,9 @@
 
 #include "sim/signal/slow_signal.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
-SensorClock::SensorClock(const ClockParameters& parameters, DegC reference, UtcTime start,
+SensorClock::SensorClock(const scenario::ClockParameters& parameters, DegC reference, UtcTime start,
                          std::uint64_t seed)
     : p_(parameters),
       reference_degc_(reference.value()),
@@ -30,15 +30,16 @@ UtcTime SensorClock::at(double share) const {
            from_seconds(late_s_ + share * longer_s_);
 }
 
-std::vector<PlannedSetUp> by_true_time(const Scenario& scenario,
-                                       const std::vector<PlannedSetUp>& plan, std::uint64_t seed) {
-    std::vector<PlannedSetUp> turned = plan;
-    const ClockParameters& p = scenario.clock;
+std::vector<scenario::PlannedSetUp> by_true_time(const scenario::Scenario& scenario,
+                                                 const std::vector<scenario::PlannedSetUp>& plan,
+                                                 std::uint64_t seed) {
+    std::vector<scenario::PlannedSetUp> turned = plan;
+    const scenario::ClockParameters& p = scenario.clock;
     const bool is_true =
         p.error_ppm == 0.0 && p.wander_ppm_per_sqrt_h == 0.0 && p.temperature_ppm_per_degc == 0.0;
     if (is_true) return turned;
     std::vector<UtcTime*> limits;
-    for (PlannedSetUp& set_up : turned) {
+    for (scenario::PlannedSetUp& set_up : turned) {
         limits.insert(limits.end(), {&set_up.from, &set_up.start, &set_up.end});
     }
     std::ranges::stable_sort(limits, {}, [](const UtcTime* limit) { return *limit; });
@@ -56,4 +57,4 @@ std::vector<PlannedSetUp> by_true_time(const Scenario& scenario,
     return turned;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

@@ -8,7 +8,7 @@
 #include "sim/noise/random.hpp"
 #include "sim/scenario/survey_plan.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 /// True time of the sensor's samples.  The sensor's clock runs fast by
 ///
@@ -18,7 +18,7 @@ namespace a351::sim {
 class SensorClock {
 public:
     /// @param reference  T0.
-    SensorClock(const ClockParameters& parameters, DegC reference, UtcTime start,
+    SensorClock(const scenario::ClockParameters& parameters, DegC reference, UtcTime start,
                 std::uint64_t seed);
 
     /// Begins the first or the next second of the clock, at this temperature.
@@ -29,10 +29,10 @@ public:
     [[nodiscard]] UtcTime at(double share) const;
 
 private:
-    ClockParameters p_;
+    scenario::ClockParameters p_;
     double reference_degc_;
     UtcTime start_;
-    RandomStream walk_;
+    noise::RandomStream walk_;
     std::int64_t second_ = -1;
     double walk_ppm_ = 0.0;
     double late_s_ = 0.0;    ///< Start of the second minus its nominal instant.
@@ -41,8 +41,8 @@ private:
 
 /// Returns the plan with its limits converted from the sensor's time, in which a scenario is
 /// written, to UTC.  With a true clock the plan is unchanged.
-[[nodiscard]] std::vector<PlannedSetUp> by_true_time(const Scenario& scenario,
-                                                     const std::vector<PlannedSetUp>& plan,
-                                                     std::uint64_t seed);
+[[nodiscard]] std::vector<scenario::PlannedSetUp> by_true_time(
+    const scenario::Scenario& scenario, const std::vector<scenario::PlannedSetUp>& plan,
+    std::uint64_t seed);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

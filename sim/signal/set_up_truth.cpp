@@ -10,7 +10,7 @@
 #include "sim/signal/disturbance.hpp"
 #include "sim/signal/signal_source.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -26,14 +26,15 @@ double rounded(double value) {
 }
 
 /// Returns the time left out at either end, because handling disturbs it.
-Nanoseconds margin(const PlannedSetUp& set_up) {
+Nanoseconds margin(const scenario::PlannedSetUp& set_up) {
     return std::min<Nanoseconds>(std::chrono::minutes(1), (set_up.end - set_up.start) / 4);
 }
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Returns the means of the slow signal over each set-up.
-std::vector<SetUpTruth> slow_means(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
+std::vector<SetUpTruth> slow_means(const scenario::Scenario& scenario,
+                                   const std::vector<scenario::PlannedSetUp>& plan,
                                    std::uint64_t seed) {
     std::vector<SetUpTruth> truth(plan.size());
     std::vector<int> counts(plan.size());
@@ -41,7 +42,7 @@ std::vector<SetUpTruth> slow_means(const Scenario& scenario, const std::vector<P
     UtcTime now = scenario.start();
     while (now < plan.back().end) {
         const SlowValue value = slow.next();
-        const PlannedSetUp& set_up = plan[value.set_up];
+        const scenario::PlannedSetUp& set_up = plan[value.set_up];
         const UtcTime start = set_up.start + margin(set_up);
         if (start <= now && now < set_up.end - margin(set_up)) {
             SetUpTruth& sums = truth[value.set_up];
@@ -62,8 +63,8 @@ std::vector<SetUpTruth> slow_means(const Scenario& scenario, const std::vector<P
 
 /// Adds the terms that the vertical component alone does not give: biases, bursts, and noise across
 /// the vertical.
-void add_vector_terms(const Scenario& scenario, const PlannedSetUp& set_up, const Vector& bias_mgal,
-                      Disturbances& disturbances, SetUpTruth& truth) {
+void add_vector_terms(const scenario::Scenario& scenario, const scenario::PlannedSetUp& set_up,
+                      const Vector& bias_mgal, Disturbances& disturbances, SetUpTruth& truth) {
     const Vector vertical = tilted_vertical(set_up);
     double force_mgal = set_up.site.gravity->value();
     for (const double term : truth.terms_mgal) force_mgal += term;
@@ -75,7 +76,7 @@ void add_vector_terms(const Scenario& scenario, const PlannedSetUp& set_up, cons
     total_mgal[2] += force_mgal - along_vertical_mgal;
     truth.tilt_mgal = std::sqrt(dot(total_mgal, total_mgal)) - force_mgal;
 
-    constexpr double kRate = SignalSource::kRateHz;
+    constexpr double kRate = Source::kRateHz;
     const auto first = static_cast<std::int64_t>(
         std::ceil(kRate * seconds_between(scenario.start(), set_up.start + margin(set_up))));
     const auto last = static_cast<std::int64_t>(
@@ -101,8 +102,9 @@ void add_vector_terms(const Scenario& scenario, const PlannedSetUp& set_up, cons
 
 }  // namespace
 
-std::vector<SetUpTruth> set_up_truth(const Scenario& scenario,
-                                     const std::vector<PlannedSetUp>& plan, std::uint64_t seed) {
+std::vector<SetUpTruth> set_up_truth(const scenario::Scenario& scenario,
+                                     const std::vector<scenario::PlannedSetUp>& plan,
+                                     std::uint64_t seed) {
     if (!plan.front().is_occupied) return {};
     std::vector<SetUpTruth> truth = slow_means(scenario, plan, seed);
     const Vector bias_mgal = axis_bias_mgal(scenario, seed);
@@ -112,8 +114,8 @@ std::vector<SetUpTruth> set_up_truth(const Scenario& scenario,
     return truth;
 }
 
-std::string truth_csv(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
-                      std::uint64_t seed) {
+std::string truth_csv(const scenario::Scenario& scenario,
+                      const std::vector<scenario::PlannedSetUp>& plan, std::uint64_t seed) {
     using text::shortest;
     std::string csv =
         "site,occupation,start_utc,end_utc,gravity_mgal,used,set_up,ambient_degc,"
@@ -121,9 +123,9 @@ std::string truth_csv(const Scenario& scenario, const std::vector<PlannedSetUp>&
     for (const char* column : kTermColumns) csv += fmt::format(",{}", column);
     csv += ",tilt_mgal,burst_mgal,rectification_mgal\n";
     const std::vector<SetUpTruth> truth = set_up_truth(scenario, plan, seed);
-    const std::vector<PlannedSetUp> rows = by_true_time(scenario, plan, seed);
+    const std::vector<scenario::PlannedSetUp> rows = by_true_time(scenario, plan, seed);
     for (std::size_t i = 0; i < truth.size(); ++i) {
-        const PlannedSetUp& set_up = rows[i];
+        const scenario::PlannedSetUp& set_up = rows[i];
         const SetUpTruth& mean = truth[i];
         csv += fmt::format("{},{},{},{},{},{},{}", set_up.site.name, set_up.number,
                            to_rfc3339(set_up.start, 3), to_rfc3339(set_up.end, 3),
@@ -143,4 +145,4 @@ std::string truth_csv(const Scenario& scenario, const std::vector<PlannedSetUp>&
     return csv;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

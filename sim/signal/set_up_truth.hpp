@@ -9,7 +9,7 @@
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/slow_signal.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 /// Means over a set-up without its first and last minute (at most a quarter of it each), by the
 /// sensor's time.  Gravity, the terms, tilt, bursts and rectification add up to the mean norm of
@@ -24,12 +24,13 @@ struct SetUpTruth {
 };
 
 /// Returns the means of every occupied set-up, in the order of the plan.
-[[nodiscard]] std::vector<SetUpTruth> set_up_truth(const Scenario& scenario,
-                                                   const std::vector<PlannedSetUp>& plan,
+[[nodiscard]] std::vector<SetUpTruth> set_up_truth(const scenario::Scenario& scenario,
+                                                   const std::vector<scenario::PlannedSetUp>& plan,
                                                    std::uint64_t seed);
 
 /// Returns them as a table with a row per set-up; columns: sim/truth/truth-format.md.
-[[nodiscard]] std::string truth_csv(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
+[[nodiscard]] std::string truth_csv(const scenario::Scenario& scenario,
+                                    const std::vector<scenario::PlannedSetUp>& plan,
                                     std::uint64_t seed);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

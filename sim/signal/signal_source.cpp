@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 std::int32_t to_counts(double counts) noexcept {
     using Limits = std::numeric_limits<std::int32_t>;
@@ -15,13 +15,13 @@ std::int32_t to_counts(double counts) noexcept {
     return Limits::min();
 }
 
-std::array<double, 3> tilted_vertical(const PlannedSetUp& set_up) {
+std::array<double, 3> tilted_vertical(const scenario::PlannedSetUp& set_up) {
     const double y = set_up.about_y_rad, x = set_up.about_x_rad;
     return {std::sin(y), -std::cos(y) * std::sin(x), std::cos(y) * std::cos(x)};
 }
 
-std::array<double, 3> axis_bias_mgal(const Scenario& scenario, std::uint64_t seed) {
-    RandomStream stream(seed, "axis bias");
+std::array<double, 3> axis_bias_mgal(const scenario::Scenario& scenario, std::uint64_t seed) {
+    noise::RandomStream stream(seed, "axis bias");
     const double most = scenario.sensor.horizontal_bias_max_mgal;
     const double x_mgal = stream.uniform(-most, most);
     return {x_mgal, stream.uniform(-most, most), 0.0};
@@ -50,11 +50,11 @@ double BandNoise::filter(double x) noexcept {
 
 double BandNoise::next(double white) noexcept { return gain_ * filter(white); }
 
-SignalSource::SignalSource(const Scenario& scenario, const wire::DeviceProfile& profile,
-                           std::uint64_t seed)
+Source::Source(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
+               std::uint64_t seed)
     : scenario_(scenario),
       profile_(profile),
-      plan_(plan_survey(scenario_, seed)),
+      plan_(scenario::plan_survey(scenario_, seed)),
       slow_(scenario_, plan_, seed),
       disturbances_(draw_bursts(scenario_, plan_, seed)),
       white_(seed, "sensor white"),
@@ -67,35 +67,35 @@ SignalSource::SignalSource(const Scenario& scenario, const wire::DeviceProfile& 
       clock_(scenario_.clock, DegC(scenario_.error.reference_degc), scenario_.start(), seed),
       sample_count_(static_cast<std::int64_t>(
           std::floor(seconds_between(scenario_.start(), scenario_.end()) * kRateHz))) {
-    for (const PlannedSetUp& set_up : plan_) vertical_.push_back(tilted_vertical(set_up));
+    for (const scenario::PlannedSetUp& set_up : plan_) vertical_.push_back(tilted_vertical(set_up));
     from_ = slow_.next();
     to_ = slow_.next();
     clock_.begin_second(from_.temperature);
 }
 
-double SignalSource::share_of_second() const noexcept {
+double Source::share_of_second() const noexcept {
     return static_cast<double>(index_ % kRateHz) / kRateHz;
 }
 
-std::optional<UtcTime> SignalSource::next_instant() const {
+std::optional<UtcTime> Source::next_instant() const {
     if (index_ == sample_count_) return std::nullopt;
     return clock_.at(share_of_second());
 }
 
-void SignalSource::add_noise(std::array<double, 3>& axes_mgal) {
+void Source::add_noise(std::array<double, 3>& axes_mgal) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         axes_mgal[axis] += bias_mgal_[axis] + ground_filter_[axis].next(ground_.normal()) +
                            scenario_.sensor.white_mgal * white_.normal();
     }
     if (spikes_.uniform() < scenario_.vibration.spike_probability) {
-        const Range gal = scenario_.vibration.spike_gal;
+        const scenario::Range gal = scenario_.vibration.spike_gal;
         const std::size_t axis = spikes_.bits() % 3;
         const double sign = spikes_.uniform() < 0.5 ? -1.0 : 1.0;
         axes_mgal[axis] += sign * 1000.0 * spikes_.uniform(gal.low, gal.high);
     }
 }
 
-TimedSample SignalSource::next() {
+TimedSample Source::next() {
     assert(index_ < sample_count_);
     TimedSample sample{*next_instant(), index_, {}};
     const double share = share_of_second();
@@ -125,4 +125,4 @@ TimedSample SignalSource::next() {
     return sample;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

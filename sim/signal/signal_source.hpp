@@ -14,13 +14,14 @@
 #include "sim/signal/sensor_clock.hpp"
 #include "sim/signal/slow_signal.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 /// Returns the vertical in the sensor's axes, after the turn about y and then the turn about x.
-[[nodiscard]] std::array<double, 3> tilted_vertical(const PlannedSetUp& set_up);
+[[nodiscard]] std::array<double, 3> tilted_vertical(const scenario::PlannedSetUp& set_up);
 
 /// Returns the biases of x and y, which are fixed for a unit, and 0 for z, whose bias is a Term.
-[[nodiscard]] std::array<double, 3> axis_bias_mgal(const Scenario& scenario, std::uint64_t seed);
+[[nodiscard]] std::array<double, 3> axis_bias_mgal(const scenario::Scenario& scenario,
+                                                   std::uint64_t seed);
 
 /// Returns the nearest count, limited to the range of 32 bits; the lowest count for NaN.
 [[nodiscard]] std::int32_t to_counts(double counts) noexcept;
@@ -46,13 +47,14 @@ private:
 /// them over the axes.  Bias, temperature error, slow noise and drift arise within the sensor; they
 /// are added on axis z for any levelling.  Then come the biases of x and y, ground noise, bursts,
 /// spikes, white noise and rounding to counts.
-class SignalSource final : public SampleSource {
+class Source final : public SampleSource {
 public:
     static constexpr int kRateHz = 50;
 
-    SignalSource(const Scenario& scenario, const wire::DeviceProfile& profile, std::uint64_t seed);
-    SignalSource(const SignalSource&) = delete;  // Its members refer to its scenario and plan.
-    SignalSource& operator=(const SignalSource&) = delete;
+    Source(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
+           std::uint64_t seed);
+    Source(const Source&) = delete;  // Its members refer to its scenario and plan.
+    Source& operator=(const Source&) = delete;
 
     [[nodiscard]] std::int64_t sample_count() const noexcept { return sample_count_; }
     [[nodiscard]] int rate_hz() const noexcept override { return kRateHz; }
@@ -61,20 +63,20 @@ public:
 
     /// Returns the plant that makes the temperature; it is up to two seconds ahead of the samples.
     /// A setting made there changes the samples from then on; reading it changes nothing.
-    [[nodiscard]] OvenPlant& oven() noexcept { return slow_.oven(); }
+    [[nodiscard]] plant::OvenPlant& oven() noexcept { return slow_.oven(); }
 
-    [[nodiscard]] const std::vector<PlannedSetUp>& plan() const noexcept { return plan_; }
+    [[nodiscard]] const std::vector<scenario::PlannedSetUp>& plan() const noexcept { return plan_; }
 
 private:
     [[nodiscard]] double share_of_second() const noexcept;
     void add_noise(std::array<double, 3>& axes_mgal);
 
-    Scenario scenario_;
+    scenario::Scenario scenario_;
     const wire::DeviceProfile& profile_;
-    std::vector<PlannedSetUp> plan_;
+    std::vector<scenario::PlannedSetUp> plan_;
     SlowSignal slow_;
     Disturbances disturbances_;
-    RandomStream white_, ground_, spikes_, temperature_;
+    noise::RandomStream white_, ground_, spikes_, temperature_;
     std::vector<BandNoise> ground_filter_;  ///< One per axis.
     std::array<double, 3> bias_mgal_{};
     std::vector<std::array<double, 3>> vertical_;  ///< One unit vector per set-up.
@@ -84,4 +86,4 @@ private:
     std::int64_t index_ = 0;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

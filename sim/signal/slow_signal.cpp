@@ -5,34 +5,34 @@
 
 #include "sim/signal/earth_tide.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 namespace {
 
 /// Interval of the means whose rms is the given white noise, s: the sampling of the published
 /// record.
 constexpr double kWhiteMeanSeconds = 20.0;
 
-ThermalPlant running_plant(const OvenParameters& oven, DegC ambient) {
-    ThermalPlant plant(oven, ambient);
-    const auto steps = std::llround(3600.0 * oven.run_in_h / ThermalPlant::kStepSeconds);
+plant::ThermalPlant running_plant(const plant::OvenParameters& oven, DegC ambient) {
+    plant::ThermalPlant plant(oven, ambient);
+    const auto steps = std::llround(3600.0 * oven.run_in_h / plant::ThermalPlant::kStepSeconds);
     for (long long i = 0; i < steps; ++i) plant.step(ambient);
     return plant;
 }
 
 }  // namespace
 
-SlowSignal::SlowSignal(const Scenario& scenario, const std::vector<PlannedSetUp>& plan,
-                       std::uint64_t seed)
+SlowSignal::SlowSignal(const scenario::Scenario& scenario,
+                       const std::vector<scenario::PlannedSetUp>& plan, std::uint64_t seed)
     : scenario_(scenario),
       plan_(plan),
       cool_box_(scenario, plan, seed),
       ambient_(cool_box_.next()),
       plant_(running_plant(scenario.oven, ambient_)),
-      error_(drawn_unit(scenario, seed), plant_.body(), kStepSeconds),
-      flicker_(RandomStream(seed, "flicker"), scenario.slow_noise.flicker_mgal,
+      error_(scenario::drawn_unit(scenario, seed), plant_.body(), kStepSeconds),
+      flicker_(noise::RandomStream(seed, "flicker"), scenario.slow_noise.flicker_mgal,
                scenario.slow_noise.flicker_shortest_s, scenario.slow_noise.flicker_longest_s,
                kStepSeconds),
-      resonant_(RandomStream(seed, "resonant"), scenario.slow_noise.resonant_mgal,
+      resonant_(noise::RandomStream(seed, "resonant"), scenario.slow_noise.resonant_mgal,
                 scenario.slow_noise.resonant_period_s, scenario.slow_noise.resonant_quality,
                 kStepSeconds),
       white_(seed, "slow white"),
@@ -41,14 +41,14 @@ SlowSignal::SlowSignal(const Scenario& scenario, const std::vector<PlannedSetUp>
       temperature_(seed, "slow temperature") {}
 
 double SlowSignal::drift_mgal(double elapsed_h) {
-    const SlowNoiseParameters& p = scenario_.slow_noise;
+    const scenario::SlowNoiseParameters& p = scenario_.slow_noise;
     walk_mgal_ += p.drift_walk_mgal_per_sqrt_h * std::sqrt(kStepSeconds / 3600.0) * walk_.normal();
     return elapsed_h * (p.drift_linear_mgal_per_h + elapsed_h * p.drift_quadratic_mgal_per_h2) +
            walk_mgal_;
 }
 
 double SlowSignal::ripple_mgal() {
-    const SlowNoiseParameters& p = scenario_.slow_noise;
+    const scenario::SlowNoiseParameters& p = scenario_.slow_noise;
     const double keep = std::exp(-kStepSeconds / p.ripple_wander_s);
     wander_value_ = keep * wander_value_ + std::sqrt(1.0 - keep * keep) * wander_.normal();
     ripple_phase_rad_ += 2.0 * std::numbers::pi * kStepSeconds /
@@ -60,7 +60,7 @@ SlowValue SlowSignal::next() {
     const double elapsed_s = static_cast<double>(step_) * kStepSeconds;
     const UtcTime now = scenario_.start() + from_seconds(elapsed_s);
     while (set_up_ + 1 < plan_.size() && plan_[set_up_ + 1].from <= now) ++set_up_;
-    const PlannedSetUp& set_up = plan_[set_up_];
+    const scenario::PlannedSetUp& set_up = plan_[set_up_];
     const double since_power_on_s = elapsed_s + 3600.0 * scenario_.sensor.power_on_before_start_h;
     if (step_ > 0) {
         ambient_ = cool_box_.next();
@@ -109,4 +109,4 @@ SlowValue SlowSignal::next() {
     return value;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

@@ -12,7 +12,7 @@
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/cool_box.hpp"
 
-namespace a351::sim {
+namespace a351::sim::signal {
 
 /// Terms by which the reading along the vertical differs from gravity.
 enum class Term : std::size_t {
@@ -45,28 +45,29 @@ struct SlowValue {
 /// value, n = 0, 1, ..., belongs to the start of the record + n s.
 class SlowSignal {
 public:
-    static constexpr double kStepSeconds = ThermalPlant::kStepSeconds;
+    static constexpr double kStepSeconds = plant::ThermalPlant::kStepSeconds;
 
-    SlowSignal(const Scenario& scenario, const std::vector<PlannedSetUp>& plan, std::uint64_t seed);
+    SlowSignal(const scenario::Scenario& scenario, const std::vector<scenario::PlannedSetUp>& plan,
+               std::uint64_t seed);
 
     [[nodiscard]] SlowValue next();
 
     /// Returns the plant; a setting made there changes the values from the next one on.
-    [[nodiscard]] OvenPlant& oven() noexcept { return plant_; }
+    [[nodiscard]] plant::OvenPlant& oven() noexcept { return plant_; }
 
 private:
     [[nodiscard]] double drift_mgal(double elapsed_h);
     [[nodiscard]] double ripple_mgal();
 
-    const Scenario& scenario_;
-    const std::vector<PlannedSetUp>& plan_;
+    const scenario::Scenario& scenario_;
+    const std::vector<scenario::PlannedSetUp>& plan_;
     CoolBox cool_box_;
     DegC ambient_;
-    ThermalPlant plant_;
-    TemperatureError error_;
-    FlickerNoise flicker_;
-    ResonantNoise resonant_;
-    RandomStream white_, walk_, wander_, temperature_;
+    plant::ThermalPlant plant_;
+    plant::TemperatureError error_;
+    noise::FlickerNoise flicker_;
+    noise::ResonantNoise resonant_;
+    noise::RandomStream white_, walk_, wander_, temperature_;
     std::int64_t step_ = 0;
     std::size_t set_up_ = 0;
     double walk_mgal_ = 0.0;
@@ -74,4 +75,4 @@ private:
     double ripple_phase_rad_ = 0.0;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::signal

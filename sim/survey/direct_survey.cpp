@@ -22,7 +22,7 @@
 #include "sim/signal/signal_source.hpp"
 #include "sim/truth/truth_file.hpp"
 
-namespace a351::sim {
+namespace a351::sim::survey {
 namespace {
 
 using namespace std::chrono_literals;
@@ -37,11 +37,11 @@ constexpr Nanoseconds kHostUptime = 1h;
 /// Clock error of the simulated host, us: typical of NTP over a good network.
 constexpr std::int64_t kHostClockErrorUs = 100;
 
-RawTime raw_at(const Scenario& scenario, UtcTime utc) {
+RawTime raw_at(const scenario::Scenario& scenario, UtcTime utc) {
     return RawTime(kHostUptime + (utc - scenario.start()));
 }
 
-timing::ClockReading clock_at(const Scenario& scenario, UtcTime utc) {
+timing::ClockReading clock_at(const scenario::Scenario& scenario, UtcTime utc) {
     timing::ClockReading reading;
     reading.raw = raw_at(scenario, utc);
     reading.boottime = reading.raw.time_since_epoch();
@@ -51,12 +51,13 @@ timing::ClockReading clock_at(const Scenario& scenario, UtcTime utc) {
     return reading;
 }
 
-record::JournalHeader journal_header(const Scenario& scenario, const wire::DeviceProfile& profile,
-                                     const MachineIdentity& identity, std::uint64_t seed) {
-    record::JournalHeader header;
+journal::Header journal_header(const scenario::Scenario& scenario,
+                               const wire::DeviceProfile& profile,
+                               const device::MachineIdentity& identity, std::uint64_t seed) {
+    journal::Header header;
     // Different days with the same seed get different sessions and different hosts.
-    RandomStream session(seed, fmt::format("session of {} at {} by {}", scenario.name,
-                                           to_rfc3339(scenario.start(), 3), profile.name));
+    noise::RandomStream session(seed, fmt::format("session of {} at {} by {}", scenario.name,
+                                                  to_rfc3339(scenario.start(), 3), profile.name));
     for (std::uint8_t& byte : header.session.bytes)
         byte = static_cast<std::uint8_t>(session.bits() >> 56U);
     header.boot_id = fmt::format("00000000-0000-4000-8000-{:012x}", session.bits() >> 16U);
@@ -65,7 +66,7 @@ record::JournalHeader journal_header(const Scenario& scenario, const wire::Devic
     header.product_id = identity.product_id;
     header.serial_number = identity.serial_number;
     header.firmware = identity.firmware;
-    header.output_rate_hz = SignalSource::kRateHz;
+    header.output_rate_hz = signal::Source::kRateHz;
     header.filter = kFilterName;
     header.burst_ctrl = wire::BurstLayout::recommended().burst_ctrl();
     header.baud = kBaud;
@@ -76,7 +77,7 @@ record::JournalHeader journal_header(const Scenario& scenario, const wire::Devic
 }
 
 /// Configures the device as the daemon does: 50 Hz, k512_fc9, automatic frames with every field.
-void start_logging(RegisterMachine& machine, Nanoseconds now) {
+void start_logging(device::RegisterMachine& machine, Nanoseconds now) {
     std::vector<std::byte> answers;
     const auto config = *wire::ConfigMode::from_mode_ctrl(wire::kModeStatConfig);
     const auto send = [&](const wire::CommandSequence& commands) {
@@ -90,10 +91,10 @@ void start_logging(RegisterMachine& machine, Nanoseconds now) {
     send(wire::ConfigMode(config).start_sampling().second);
 }
 
-void write_station_xml(const Scenario& scenario, const wire::DeviceProfile& profile,
-                       const record::JournalHeader& header, const fs::path& root) {
+void write_station_xml(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
+                       const journal::Header& header, const fs::path& root) {
     const text::Site& base = scenario.sites.front();
-    record::StationDescription station;
+    station::Description station;
     station.codes = header.codes;
     station.latitude = base.latitude;
     station.longitude = base.longitude;
@@ -109,18 +110,18 @@ void write_station_xml(const Scenario& scenario, const wire::DeviceProfile& prof
     station.declared_rate_hz = header.declared_rate_hz;
     station.start = header.clock.realtime - station.group_delay;  // The daemon does the same.
     fs::create_directories(root / "metadata");
-    write_text_file(root / "metadata" / "station.xml", record::to_station_xml(station));
+    scenario::write_text_file(root / "metadata" / "station.xml", station::to_station_xml(station));
 }
 
 /// Returns the events of every occupation: start, further set-ups and stop.
-std::vector<record::Event> planned_events(const std::vector<PlannedSetUp>& plan,
-                                          const record::SessionId& session) {
-    std::vector<record::Event> events;
-    const auto add = [&](std::string type, const PlannedSetUp& set_up, UtcTime utc) {
+std::vector<events::Event> planned_events(const std::vector<scenario::PlannedSetUp>& plan,
+                                          const journal::SessionId& session) {
+    std::vector<events::Event> events;
+    const auto add = [&](std::string type, const scenario::PlannedSetUp& set_up, UtcTime utc) {
         events.push_back(
             {std::move(type), utc, session, std::nullopt, {{"site", set_up.site.name}}});
     };
-    for (const PlannedSetUp& set_up : plan) {
+    for (const scenario::PlannedSetUp& set_up : plan) {
         if (!set_up.is_occupied) continue;
         add(set_up.part == 1 ? "start" : "setup", set_up, set_up.start);
         if (set_up.part == set_up.parts) add("stop", set_up, set_up.end);
@@ -130,16 +131,17 @@ std::vector<record::Event> planned_events(const std::vector<PlannedSetUp>& plan,
 
 /// The daemon's end of the scenario's line: collects frames until a chunk is taken.  Each event, in
 /// time order, is moved to the first sample at or after it.
-class Collected final : public LineSink {
+class Collected final : public device::LineSink {
 public:
-    Collected(TruthWriter& truth, const Scenario& scenario, std::uint64_t seed,
-              std::vector<record::Event> events)
+    Collected(truth::Writer& truth, const scenario::Scenario& scenario, std::uint64_t seed,
+              std::vector<events::Event> events)
         : truth_(truth),
           scenario_(scenario),
           transport_(scenario.line, seed, scenario.start()),
           events_(std::move(events)) {}
 
-    void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord* frame) override {
+    void send(std::span<const std::byte> bytes, UtcTime leaves,
+              const truth::Record* frame) override {
         chunk_.bytes.insert(chunk_.bytes.end(), bytes.begin(), bytes.end());
         transport_.carry(bytes.size(), leaves);
         const UtcTime arrives = transport_.shown_at(bytes.size());
@@ -159,17 +161,17 @@ public:
     [[nodiscard]] bool is_full() const override { return false; }
 
     [[nodiscard]] bool is_empty() const noexcept { return chunk_.bytes.empty(); }
-    [[nodiscard]] record::RxChunk take() { return std::exchange(chunk_, record::RxChunk{}); }
+    [[nodiscard]] journal::RxChunk take() { return std::exchange(chunk_, journal::RxChunk{}); }
 
-    [[nodiscard]] const std::vector<record::Event>& events() const noexcept { return events_; }
+    [[nodiscard]] const std::vector<events::Event>& events() const noexcept { return events_; }
     [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }
 
 private:
-    TruthWriter& truth_;
-    const Scenario& scenario_;
-    Transport transport_;
-    record::RxChunk chunk_;
-    std::vector<record::Event> events_;
+    truth::Writer& truth_;
+    const scenario::Scenario& scenario_;
+    line::Transport transport_;
+    journal::RxChunk chunk_;
+    std::vector<events::Event> events_;
     std::size_t next_event_ = 0;
     std::int64_t frames_ = 0;
 };
@@ -219,12 +221,12 @@ void require_no_day(const fs::path& root) {
 /// Writes survey.toml, with which a351-correct corrects the day from the tables of write_plan();
 /// nothing if there are no occupations at two sites: at a single site gravity does not change, and a
 /// fitted model would be meaningless.
-void write_survey_file(const Scenario& scenario, const fs::path& directory) {
-    const auto is_elsewhere = [&](const ListedOccupation& one) {
+void write_survey_file(const scenario::Scenario& scenario, const fs::path& directory) {
+    const auto is_elsewhere = [&](const scenario::ListedOccupation& one) {
         return one.site != scenario.occupations.front().site;
     };
     if (std::ranges::none_of(scenario.occupations, is_elsewhere)) return;
-    write_text_file(
+    scenario::write_text_file(
         directory / "survey.toml",
         fmt::format("# Simulated day; true gravity: truth.csv.  occupations = \"\" uses the event "
                     "log, which\n"
@@ -240,27 +242,27 @@ void write_survey_file(const Scenario& scenario, const fs::path& directory) {
                     scenario.name, scenario.sites.front().name));
 }
 
-DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& profile,
-                       std::uint64_t seed, SignalSource& source, const fs::path& root) {
-    MachineIdentity identity;
-    identity.product_id = product_id_of(profile);
-    RegisterMachine machine(profile, identity, Nanoseconds(0));
-    start_logging(machine, RegisterMachine::kPowerOnTime);
+DirectSurvey write_day(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
+                       std::uint64_t seed, signal::Source& source, const fs::path& root) {
+    device::MachineIdentity identity;
+    identity.product_id = device::product_id_of(profile);
+    device::RegisterMachine machine(profile, identity, Nanoseconds(0));
+    start_logging(machine, device::RegisterMachine::kPowerOnTime);
 
-    const record::JournalHeader header = journal_header(scenario, profile, identity, seed);
-    TruthWriter truth(root / "truth.bin");
+    const journal::Header header = journal_header(scenario, profile, identity, seed);
+    truth::Writer truth(root / "truth.bin");
     Collected collected(
         truth, scenario, seed,
-        planned_events(by_true_time(scenario, source.plan(), seed), header.session));
-    DeviceStream stream(source, machine);
+        planned_events(signal::by_true_time(scenario, source.plan(), seed), header.session));
+    device::DeviceStream stream(source, machine);
 
-    record::FileLayer& files = record::posix_files();
-    record::JournalWriter journal(files, root / "journal");
-    record::ArchiveWriter archive(files, root / "archive", header.codes);
-    record::Archiver archiver(archive);
+    files::FileLayer& files = files::posix_files();
+    journal::Writer journal(files, root / "journal");
+    archive::Writer archive(files, root / "archive", header.codes);
+    archive::Archiver archiver(archive);
     journal.begin_segment(header);
     archiver.take(header);
-    const auto take = [&](const record::JournalChunk& chunk, UtcTime now) {
+    const auto take = [&](const journal::Chunk& chunk, UtcTime now) {
         if (const auto rotated = journal.append(chunk, clock_at(scenario, now)))
             archiver.take(*rotated);
         archiver.take(chunk);
@@ -268,7 +270,7 @@ DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& prof
 
     for (UtcTime now = scenario.start() + 1s; stream.next_due(); now += 1s) {
         take(clock_at(scenario, now - 1s), now - 1s);
-        stream.advance_to({now, RegisterMachine::kPowerOnTime}, collected);
+        stream.advance_to({now, device::RegisterMachine::kPowerOnTime}, collected);
         if (!collected.is_empty()) take(collected.take(), now);
     }
     archiver.close_records();
@@ -278,31 +280,32 @@ DirectSurvey write_day(const Scenario& scenario, const wire::DeviceProfile& prof
 
     write_plan(scenario, seed, root);
     write_station_xml(scenario, profile, header, root);
-    for (const record::Event& event : collected.events())
-        record::append_event(files, root / "events", event);
+    for (const events::Event& event : collected.events())
+        events::append_event(files, root / "events", event);
     write_survey_file(scenario, root);
     return {collected.frames(), static_cast<std::int64_t>(archive.records_written())};
 }
 
 }  // namespace
 
-void write_plan(const Scenario& scenario, std::uint64_t seed, const fs::path& directory) {
-    const std::vector<PlannedSetUp> plan = plan_survey(scenario, seed);
-    const std::string truth = truth_csv(scenario, plan, seed);
+void write_plan(const scenario::Scenario& scenario, std::uint64_t seed, const fs::path& directory) {
+    const std::vector<scenario::PlannedSetUp> plan = scenario::plan_survey(scenario, seed);
+    const std::string truth = signal::truth_csv(scenario, plan, seed);
     fs::create_directories(directory);
-    write_text_file(directory / "sites.csv", sites_csv(scenario));
-    write_text_file(directory / "schedule.csv", schedule_csv(by_true_time(scenario, plan, seed)));
-    write_text_file(directory / "truth.csv", truth);
+    scenario::write_text_file(directory / "sites.csv", scenario::sites_csv(scenario));
+    scenario::write_text_file(directory / "schedule.csv",
+                              scenario::schedule_csv(signal::by_true_time(scenario, plan, seed)));
+    scenario::write_text_file(directory / "truth.csv", truth);
 }
 
-DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
+DirectSurvey write_survey(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
                           std::uint64_t seed, const fs::path& root) {
     require_no_day(root);
-    SignalSource source(scenario, profile, seed);
+    signal::Source source(scenario, profile, seed);
     PartialRoot partial(root);
     const DirectSurvey survey = write_day(scenario, profile, seed, source, partial.path());
     partial.publish();
     return survey;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::survey

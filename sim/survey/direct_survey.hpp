@@ -6,7 +6,7 @@
 #include "protocol/wire/device_profile.hpp"
 #include "sim/scenario/scenario.hpp"
 
-namespace a351::sim {
+namespace a351::sim::survey {
 
 struct DirectSurvey {
     std::int64_t frames = 0;
@@ -23,14 +23,14 @@ struct DirectSurvey {
 /// @throws InputError         `root` already holds a file or directory of a day, or `partial` of a
 ///                            killed run; the occupations do not fit into the record.
 /// @throws std::system_error  a file cannot be written.
-DirectSurvey write_survey(const Scenario& scenario, const wire::DeviceProfile& profile,
+DirectSurvey write_survey(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
                           std::uint64_t seed, const std::filesystem::path& root);
 
 /// Writes sites.csv, schedule.csv and truth.csv of a simulated day into `directory`, which is made
 /// if it does not exist.  Without occupations, schedule and truth have no rows.
 /// @throws InputError         the occupations do not fit into the record; nothing is written.
 /// @throws std::system_error  a file cannot be written.
-void write_plan(const Scenario& scenario, std::uint64_t seed,
+void write_plan(const scenario::Scenario& scenario, std::uint64_t seed,
                 const std::filesystem::path& directory);
 
-}  // namespace a351::sim
+}  // namespace a351::sim::survey

@@ -9,7 +9,7 @@
 
 #include "protocol/core/input_error.hpp"
 
-namespace a351::sim {
+namespace a351::sim::truth {
 namespace {
 
 constexpr std::string_view kMagic = "A351TRU2";
@@ -25,7 +25,7 @@ void put(char*& at, Integer value) {
 
 }  // namespace
 
-void TruthWriter::require_own(const std::filesystem::path& file) {
+void Writer::require_own(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return;
     std::ifstream in(file, std::ios::binary);
@@ -38,7 +38,7 @@ void TruthWriter::require_own(const std::filesystem::path& file) {
     }
 }
 
-TruthWriter::TruthWriter(std::filesystem::path file)
+Writer::Writer(std::filesystem::path file)
     : path_((require_own(file), std::move(file))), out_(path_, std::ios::binary | std::ios::trunc) {
     std::array<char, kHeaderSize> header{};
     std::memcpy(header.data(), kMagic.data(), kMagic.size());
@@ -48,11 +48,11 @@ TruthWriter::TruthWriter(std::filesystem::path file)
     require_good();
 }
 
-void TruthWriter::require_good() const {
+void Writer::require_good() const {
     if (!out_) throw std::system_error(errno, std::generic_category(), path_.string());
 }
 
-void TruthWriter::append(const TruthRecord& record) {
+void Writer::append(const Record& record) {
     std::array<char, kRecordSize> bytes{};
     char* at = bytes.data();
     put(at, static_cast<std::int64_t>(record.utc.time_since_epoch().count()));
@@ -66,9 +66,9 @@ void TruthWriter::append(const TruthRecord& record) {
     require_good();
 }
 
-void TruthWriter::close() {
+void Writer::close() {
     out_.close();
     require_good();
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::truth

@@ -10,7 +10,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/wire/burst_frame.hpp"
 
-namespace a351::sim {
+namespace a351::sim::truth {
 
 /// Fate of a frame on its way to the host.
 enum class Fate : std::uint8_t {
@@ -21,7 +21,7 @@ enum class Fate : std::uint8_t {
     misplaced = 4,  ///< Arrived whole with a COUNT that fits no sample; may be archived or not.
 };
 
-struct TruthRecord {
+struct Record {
     UtcTime utc;  ///< Instant that the sample represents.
     wire::BurstValues values;
     std::uint16_t sampling_run = 0;
@@ -29,7 +29,7 @@ struct TruthRecord {
     Fate fate = Fate::intact;
 };
 
-class TruthWriter {
+class Writer {
 public:
     /// Checks that `file` may be written: it does not exist, is empty, or is a truth file.
     /// @throws InputError  another regular file is there.
@@ -37,9 +37,9 @@ public:
 
     /// @throws InputError         as require_own.
     /// @throws std::system_error  the file cannot be written; every other member throws this too.
-    explicit TruthWriter(std::filesystem::path file);
+    explicit Writer(std::filesystem::path file);
 
-    void append(const TruthRecord& record);
+    void append(const Record& record);
 
     /// Writes the buffered records; the file is complete afterwards.
     void close();
@@ -51,4 +51,4 @@ private:
     std::ofstream out_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::truth

@@ -15,6 +15,8 @@
 namespace {
 
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::eemd;
 using Series = std::vector<double>;
 
 Series read_input(const std::string& name) {
@@ -31,14 +33,14 @@ double median(Series values) {
 
 void report_closure(const char* name) {
     const Series signal = read_input(name);
-    EemdOptions options;
+    eemd::Options options;
     options.noise_ratio = 0.0;
-    const EemdResult plain = eemd(signal, options);
+    const eemd::Result plain = eemd::eemd(signal, options);
     options.noise_ratio = 0.1;
     options.ensemble_size = 160;
-    const EemdResult ensemble = eemd(signal, options);
+    const eemd::Result ensemble = eemd::eemd(signal, options);
     options.complementary_pairs = true;
-    const EemdResult pairs = eemd(signal, options);
+    const eemd::Result pairs = eemd::eemd(signal, options);
     std::printf("%s: closure / rms  plain %.1e  pairs %.1e  ensemble %.1e (theory, rms: %.1e)\n",
                 name, closure_error(signal, plain) / rms(signal),
                 closure_error(signal, pairs) / rms(signal),
@@ -58,7 +60,7 @@ void report_closure(const char* name) {
 }
 
 /// Returns the sum of the residue and the modes with periods of at least `period` samples.
-Series slow_part(const EemdResult& result, double period) {
+Series slow_part(const eemd::Result& result, double period) {
     Series slow = result.residue.values;
     for (const Component& mode : result.modes) {
         if (mode.mean_period_samples < period) continue;
@@ -87,9 +89,9 @@ struct Treatment {
 /// are far away.
 void report_ends(std::size_t length) {
     const Series record = read_input("s4_long20s");
-    EemdOptions options;
+    eemd::Options options;
     options.ensemble_size = 160;
-    const EemdResult whole = eemd(record, options);
+    const eemd::Result whole = eemd::eemd(record, options);
     const double slow = 2.0 * static_cast<double>(length) / 7.0;  // seven extrema in a piece
     const Series truth = slow_part(whole, slow);
     const double noise = rms(whole.modes[0].values);
@@ -111,7 +113,7 @@ void report_ends(std::size_t length) {
                 options.ensemble_size = 80;
                 options.ends = treatment.ends;
                 options.reflect_ends = treatment.reflect;
-                Series error = slow_part(eemd(piece, options), slow);
+                Series error = slow_part(eemd::eemd(piece, options), slow);
                 for (std::size_t i = 0; i < length; ++i) error[i] -= truth[begin + i];
                 of_whole.push_back(rms(error));
                 const auto end = static_cast<std::ptrdiff_t>(length / 20);

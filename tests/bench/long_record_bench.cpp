@@ -27,8 +27,8 @@
 namespace {
 
 using namespace a351;
-using corrector::TwoPathFit;
-using corrector::TwoPathTerm;
+using corrector::long_record::TwoPathFit;
+using corrector::long_record::TwoPathTerm;
 
 constexpr double kLeastHeld = 0.85;
 constexpr double k95 = 1.96;  // Half width of 95 % limits, in standard errors.
@@ -38,18 +38,19 @@ struct Seeds {
 };
 
 bool statistics_are_in_range(Seeds seeds) {
-    const sim::Scenario scenario = sim::load_scenario("indoor");
+    const sim::scenario::Scenario scenario = sim::scenario::load_scenario("indoor");
     std::map<std::string, sim::Figure> figures;
     for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
         const sim::IndoorRecord record = sim::indoor_record(scenario, seed);
-        corrector::RecordResult result;
+        corrector::long_record::RecordResult result;
         result.parts.segments.emplace_back();
         result.parts.segments[0].acceleration_mgal = record.difference_mgal;
         result.parts.segments[0].temperature_degc = record.temperature_degc;
         result.options.ensemble_size = 60;
-        result.analysis = corrector::analyse_record(
+        result.analysis = corrector::long_record::analyse_record(
             result.segment(), sim::IndoorRecord::kStepSeconds, result.options);
-        for (const corrector::RecordStatistic& statistic : corrector::record_statistics(result)) {
+        for (const corrector::long_record::RecordStatistic& statistic :
+             corrector::long_record::record_statistics(result)) {
             sim::Figure& figure = figures[statistic.key];
             figure.published = statistic.published;
             figure.values.push_back(statistic.value);
@@ -106,12 +107,12 @@ struct Line {
 
 /// Results for all parameters; the last line is the static slope.
 struct Count {
-    std::array<Line, corrector::kTwoPathTerms + 1> lines;
+    std::array<Line, corrector::long_record::kTwoPathTerms + 1> lines;
     int adequate = 0;
 
     void add(const TwoPathFit& fit, const sim::TwoPathTruth& truth) {
-        for (std::size_t k = 0; k < corrector::kTwoPathTerms; ++k) {
-            const corrector::FittedParameter& parameter = fit.parameters.at(k);
+        for (std::size_t k = 0; k < corrector::long_record::kTwoPathTerms; ++k) {
+            const corrector::long_record::FittedParameter& parameter = fit.parameters.at(k);
             lines[k].name = parameter.key;
             lines[k].add(parameter.standard_error,
                          sim::deviation(fit, truth, static_cast<TwoPathTerm>(k)),
@@ -148,13 +149,14 @@ TwoPathFit fitted(const sim::IndoorRecord& record, std::size_t samples) {
             values.begin(),
             values.begin() + static_cast<std::ptrdiff_t>(std::min(samples, values.size())));
     };
-    return corrector::fit_two_paths(first(record.temperature_degc), first(record.difference_mgal),
-                                    sim::IndoorRecord::kStepSeconds, 900.0);
+    return corrector::long_record::fit_two_paths(first(record.temperature_degc),
+                                                 first(record.difference_mgal),
+                                                 sim::IndoorRecord::kStepSeconds, 900.0);
 }
 
 /// Fits the first hours of records of units drawn within +-scatter.
 Count counted(const std::string& name, double scatter, double hours, Seeds seeds) {
-    sim::Scenario scenario = sim::load_scenario(name);
+    sim::scenario::Scenario scenario = sim::scenario::load_scenario(name);
     scenario.unit_scatter = scatter;
     Count count;
     for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed)

@@ -13,6 +13,9 @@
 namespace {
 
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::eemd;
+using namespace a351::signal;
 
 std::vector<double> oscillation(std::size_t n) {
     std::vector<double> values(n);
@@ -35,8 +38,8 @@ std::vector<double> noisy_oscillation(std::size_t n) {
 /// 11 for 5400 samples, as in the publication.
 int modes_for(std::size_t n) { return n == 5400 ? 10 : default_mode_count(n); }
 
-EemdOptions options_for(const benchmark::State& state) {
-    EemdOptions options;
+eemd::Options options_for(const benchmark::State& state) {
+    eemd::Options options;
     options.ensemble_size = static_cast<int>(state.range(1));
     options.mode_count = modes_for(static_cast<std::size_t>(state.range(0)));
     options.finish = FinishRule::always;
@@ -54,8 +57,8 @@ void count_sifts(benchmark::State& state) {
 /// Measures an ensemble.  Arguments: samples, members.
 void ensemble(benchmark::State& state) {
     const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
-    const EemdOptions options = options_for(state);
-    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
+    const eemd::Options options = options_for(state);
+    for (auto _ : state) benchmark::DoNotOptimize(eemd::eemd(signal, options));
     count_sifts(state);
 }
 BENCHMARK(ensemble)
@@ -76,8 +79,8 @@ std::vector<double> occupation_series() {
     return values;
 }
 
-EemdOptions occupation_options() {
-    EemdOptions options;
+eemd::Options occupation_options() {
+    eemd::Options options;
     options.ends = EndRule::mirror;
     return options;
 }
@@ -86,7 +89,7 @@ EemdOptions occupation_options() {
 /// whole.
 void trend_alone(benchmark::State& state) {
     const auto signal = occupation_series();
-    const EemdOptions options = occupation_options();
+    const eemd::Options options = occupation_options();
     for (auto _ : state) benchmark::DoNotOptimize(eemd_trend(signal, 7, options));
     state.counters["modes"] = eemd_trend(signal, 7, options).removed_modes;
 }
@@ -94,26 +97,26 @@ BENCHMARK(trend_alone)->Unit(benchmark::kMillisecond);
 
 void trend_of_all_modes(benchmark::State& state) {
     const auto signal = occupation_series();
-    const EemdOptions options = occupation_options();
-    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
+    const eemd::Options options = occupation_options();
+    for (auto _ : state) benchmark::DoNotOptimize(eemd::eemd(signal, options));
 }
 BENCHMARK(trend_of_all_modes)->Unit(benchmark::kMillisecond);
 
 void ensemble_threads(benchmark::State& state) {
     const auto signal = noisy_oscillation(5400);
-    EemdOptions options;
+    eemd::Options options;
     options.ensemble_size = 160;
     options.threads = static_cast<int>(state.range(0));
-    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
+    for (auto _ : state) benchmark::DoNotOptimize(eemd::eemd(signal, options));
 }
 BENCHMARK(ensemble_threads)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// Measures an ensemble with libeemd's stopping rule: S-number 4, at most 50 sifts.
 void ensemble_s4(benchmark::State& state) {
     const auto signal = noisy_oscillation(static_cast<std::size_t>(state.range(0)));
-    EemdOptions options = options_for(state);
+    eemd::Options options = options_for(state);
     options.stopping = SNumber{4};
-    for (auto _ : state) benchmark::DoNotOptimize(eemd(signal, options));
+    for (auto _ : state) benchmark::DoNotOptimize(eemd::eemd(signal, options));
 }
 BENCHMARK(ensemble_s4)
     ->Args({450, 80})

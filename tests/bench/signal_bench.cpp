@@ -10,7 +10,9 @@
 
 namespace {
 
-using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::reading;
+using namespace a351::signal;
 
 std::vector<double> oscillation(std::size_t n) {
     std::vector<double> values(n);

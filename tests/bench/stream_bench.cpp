@@ -43,13 +43,13 @@ void decode_stream(benchmark::State& state) {
 }
 BENCHMARK(decode_stream)->Unit(benchmark::kMillisecond);
 
-struct Discard : record::ArchiveSink {
-    void record(const std::string&, const record::PackedRecord&, std::int64_t) override {}
+struct Discard : archive::Sink {
+    void record(const std::string&, const archive::PackedRecord&, std::int64_t) override {}
 };
 
 void archive_stream(benchmark::State& state) {
     const auto bytes = stream();
-    record::JournalHeader header;
+    journal::Header header;
     header.profile = "A351";
     header.output_rate_hz = 50;
     header.filter = "k512_fc9";
@@ -59,11 +59,11 @@ void archive_stream(benchmark::State& state) {
     constexpr std::size_t kChunk = kFramesPerChunk * 24;
     for (auto _ : state) {
         Discard sink;
-        record::Archiver archiver(sink);
+        archive::Archiver archiver(sink);
         archiver.take(header);
         archiver.take(header.clock);
         for (std::size_t at = 0; at < bytes.size(); at += kChunk) {
-            record::RxChunk chunk;
+            journal::RxChunk chunk;
             const auto end = std::min(at + kChunk, bytes.size());
             chunk.bytes.assign(bytes.begin() + static_cast<std::ptrdiff_t>(at),
                                bytes.begin() + static_cast<std::ptrdiff_t>(end));

@@ -23,9 +23,11 @@
 
 namespace {
 
+using namespace a351::daemon;
 using namespace a351;
 using namespace a351::sim;
-using daemon::VerdictState;
+using namespace a351::sim::scenario;
+using daemon::verdict::State;
 
 void print(const char* name, const VerdictScore& score) {
     std::size_t never = 0;
@@ -38,11 +40,11 @@ void print(const char* name, const VerdictScore& score) {
 }
 
 /// Returns the time in s with the verdict STABLE that the truth forbids only because of a touch.
-double false_by_touch_s(const VerdictRecord& record, const std::vector<VerdictState>& states) {
+double false_by_touch_s(const VerdictRecord& record, const std::vector<verdict::State>& states) {
     const std::vector<Allowed> untouched = allowed(record.mean_mgal, {});
     double seconds = 0.0;
     for (std::size_t i = 1; i < states.size(); ++i) {
-        const bool is_false = states[i] == VerdictState::stable && record.truth[i] == Allowed::no;
+        const bool is_false = states[i] == verdict::State::stable && record.truth[i] == Allowed::no;
         seconds += is_false && untouched[i] == Allowed::yes ? 1.0 : 0.0;
     }
     return seconds;
@@ -88,8 +90,8 @@ bool measure_days(std::uint64_t days) {
             const auto to = static_cast<std::size_t>(seconds_between(record.start, set_up.end));
             double stable_s = 0.0, settling_before_end_s = 0.0;
             for (std::size_t i = to; i-- > from;) {
-                stable_s += states[i] == VerdictState::stable ? 1.0 : 0.0;
-                if (states[i] == VerdictState::settling) {
+                stable_s += states[i] == verdict::State::stable ? 1.0 : 0.0;
+                if (states[i] == verdict::State::settling) {
                     settling_before_end_s = static_cast<double>(to - i);
                 }
             }

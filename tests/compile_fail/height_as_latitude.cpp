@@ -1,8 +1,8 @@
 // Law: latitude, longitude and height of a station cannot be given in another order.
 #include "corrector/tide/earth_tide.hpp"
 
-a351::corrector::TideStation summit(a351::Degrees latitude, a351::Degrees longitude,
-                                    a351::Metres height) {
+a351::corrector::tide::Station summit(a351::Degrees latitude, a351::Degrees longitude,
+                                      a351::Metres height) {
 #ifdef A351_LEGAL
     return {latitude, longitude, height};
 #else

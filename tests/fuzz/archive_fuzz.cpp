@@ -15,7 +15,8 @@
 namespace {
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::journal;
 using fuzz::require;
 
 }  // namespace
@@ -40,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const Segment& segment : read.segments) {
         require(!segment.counts.empty() && !segment.anchors.empty());
     }
-    for (const ArchiveDamage& damage : read.damage) {
+    for (const archive::Damage& damage : read.damage) {
         require(damage.offset + damage.byte_count <= size);
     }
     return 0;

@@ -52,9 +52,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto file = fuzz::file_of(input, "input.csv");
     take_or_refuse([&] { compare_readers(input); });
     take_or_refuse([&] { (void)text::read_sites(file); });
-    take_or_refuse([&] { (void)corrector::TideSeries::read(file); });
+    take_or_refuse([&] { (void)corrector::tide::Series::read(file); });
     text::Site site;
     site.name = "No.5";
-    take_or_refuse([&] { (void)corrector::read_occupation_table(file, {site}); });
+    take_or_refuse([&] { (void)corrector::reading::read_occupation_table(file, {site}); });
     return 0;
 }

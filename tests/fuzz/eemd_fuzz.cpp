@@ -19,6 +19,8 @@
 namespace {
 
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::eemd;
 
 constexpr std::size_t kOptionBytes = 8;
 
@@ -44,8 +46,8 @@ std::vector<double> samples(const std::uint8_t* data, std::size_t size, unsigned
     return values;
 }
 
-EemdOptions options_from(const std::uint8_t* bytes) {
-    EemdOptions options;
+eemd::Options options_from(const std::uint8_t* bytes) {
+    eemd::Options options;
     options.ensemble_size = bytes[0] % 12;
     options.noise_ratio = bytes[1] % 4 * 0.1;
     options.complementary_pairs = bytes[1] >= 128;
@@ -64,7 +66,7 @@ EemdOptions options_from(const std::uint8_t* bytes) {
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-void compare_kernels(const std::vector<double>& signal, const EemdOptions& options) {
+void compare_kernels(const std::vector<double>& signal, const eemd::Options& options) {
     EnsemblePlan plan;
     plan.signal = signal;
     plan.mode_count = static_cast<std::size_t>(*options.mode_count);
@@ -84,12 +86,12 @@ void compare_kernels(const std::vector<double>& signal, const EemdOptions& optio
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size < kOptionBytes) return 0;
-    const EemdOptions options = options_from(data);
+    const eemd::Options options = options_from(data);
     constexpr unsigned kWidths[] = {1, 2, 8};
     const auto signal = samples(data + kOptionBytes, size - kOptionBytes, kWidths[data[7] % 3]);
     double largest = 0.0;
     try {
-        const EemdResult result = eemd(signal, options);
+        const eemd::Result result = eemd::eemd(signal, options);
         const auto check = [&](const Component& component) {
             require(component.values.size() == signal.size());
             for (const double value : component.values) {

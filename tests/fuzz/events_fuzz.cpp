@@ -8,7 +8,7 @@
 #include "tests/fuzz/fuzz_file.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::events;
 using fuzz::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

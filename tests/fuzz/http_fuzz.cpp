@@ -19,6 +19,10 @@ namespace {
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::live;
+using namespace a351::daemon::page;
+using namespace a351::daemon::status;
+using namespace a351::daemon::survey;
 using fuzz::require;
 
 const std::string kToken = "0123456789abcdef0123456789abcdef";
@@ -62,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
-    static LiveRecord live(*wire::find_profile("A351"), 50, {});
+    static live::Record live(*wire::find_profile("A351"), 50, {});
     Api api({.status = [] { return Status(); },
              .occupations = occupations,
              .live = live,

@@ -17,10 +17,11 @@
 namespace {
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::journal;
 using fuzz::require;
 
-class Sink : public ArchiveSink {
+class Sink : public archive::Sink {
 public:
     void record(const std::string&, const PackedRecord& packed, std::int64_t) override {
         require(decode_record(packed.bytes).has_value());
@@ -53,19 +54,19 @@ std::vector<std::byte> put_right(std::span<const std::byte> input) {
     return out;
 }
 
-std::vector<JournalChunk> chunks(std::string_view bytes) {
-    JournalReader reader(fuzz::file_of(bytes, "00000001_20260301T130000Z.a351j"));
-    std::vector<JournalChunk> chunks;
+std::vector<journal::Chunk> chunks(std::string_view bytes) {
+    journal::Reader reader(fuzz::file_of(bytes, "00000001_20260301T130000Z.a351j"));
+    std::vector<journal::Chunk> chunks;
     while (auto chunk = reader.next()) chunks.push_back(std::move(*chunk));
     return chunks;
 }
 
 /// Archives the chunks and returns true if the archiver accepted them all.
-bool archive(const std::vector<JournalChunk>& chunks, Retiming& retiming) {
+bool archived(const std::vector<journal::Chunk>& chunks, Retiming& retiming) {
     Sink sink;
     Archiver archiver(sink, &retiming);
     try {
-        for (const JournalChunk& chunk : chunks) archiver.take(chunk);
+        for (const journal::Chunk& chunk : chunks) archiver.take(chunk);
     } catch (const InputError&) {
         return false;
     }
@@ -80,8 +81,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto right = put_right(std::as_bytes(std::span(data, size)));
     const auto taken = chunks({reinterpret_cast<const char*>(right.data()), right.size()});
     Retiming retiming;
-    if (!archive(taken, retiming)) return 0;
+    if (!archived(taken, retiming)) return 0;
     retiming.begin_second_pass();
-    require(archive(taken, retiming));
+    require(archived(taken, retiming));
     return 0;
 }

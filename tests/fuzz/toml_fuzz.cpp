@@ -29,10 +29,11 @@ void take_or_refuse(Read read) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(fuzz::text_of(data, size));
     const auto file = fuzz::file_of(text, "input.toml");
-    take_or_refuse([&] { (void)daemon::read_config(file); });
-    take_or_refuse([&] { (void)corrector::parse_calibration(text, "calibration.toml"); });
-    take_or_refuse([&] { (void)sim::parse_scenario(text, "scenario.toml"); });
-    const sim::FaultRules rules{.profile = *wire::find_profile("A351")};
-    take_or_refuse([&] { (void)sim::parse_fault_script(text, "faults.toml", UtcTime(), rules); });
+    take_or_refuse([&] { (void)daemon::config::read_config(file); });
+    take_or_refuse([&] { (void)unit::parse_calibration(text, "calibration.toml"); });
+    take_or_refuse([&] { (void)sim::scenario::parse_scenario(text, "scenario.toml"); });
+    const sim::line::FaultRules rules{.profile = *wire::find_profile("A351")};
+    take_or_refuse(
+        [&] { (void)sim::line::parse_fault_script(text, "faults.toml", UtcTime(), rules); });
     return 0;
 }

@@ -6,14 +6,15 @@
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/text/csv.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::tide;
 
 namespace {
 
 struct Point {
     UtcTime time;
-    TideStation station;
+    tide::Station station;
     double rigid_mgal = 0.0;
     double elastic_mgal = 0.0;
     double longman_mgal = 0.0;
@@ -72,7 +73,7 @@ TEST_CASE("Longman's tide is within 0.0016 mGal of the harmonic catalogue", "[go
 TEST_CASE("Longman's tide has the value published with a widely used implementation",
           "[golden][tide]") {
     // 40.7914 N, 282.1414 E, 370 m, 2015-04-23: 0.00354 mGal upward with the factor 1.1575.
-    const TideStation station{Degrees(40.7914), Degrees(282.1414), Metres(370.0)};
+    const tide::Station station{Degrees(40.7914), Degrees(282.1414), Metres(370.0)};
     const UtcTime time = parse_rfc3339("2015-04-23T00:00:00Z").value();
     CHECK(longman_tide(time, station).value() == Approx(-0.00354).margin(0.000005).epsilon(0));
 }

@@ -10,14 +10,15 @@
 #include "protocol/text/csv.hpp"
 #include "protocol/text/sites.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::tide;
 
 namespace {
 
-constexpr TideFactors kPublicationFactors{1.20, 1.20};
+constexpr tide::Factors kPublicationFactors{1.20, 1.20};
 
-using TideOf = std::function<double(UtcTime, const TideStation&)>;
+using TideOf = std::function<double(UtcTime, const tide::Station&)>;
 
 /// Per row of tide_check.csv: the model minus the named column, mGal.
 std::vector<double> deviations(const TideOf& tide_mgal, const std::string& column) {
@@ -41,7 +42,7 @@ double greatest(const std::vector<double>& values) {
     return greatest;
 }
 
-double publication_tide(UtcTime time, const TideStation& station) {
+double publication_tide(UtcTime time, const tide::Station& station) {
     return direct_tide(time, station, kPublicationFactors).value();
 }
 
@@ -76,17 +77,17 @@ TEST_CASE("the column of observations.csv is the one of tide_check.csv", "[golde
 }
 
 TEST_CASE("the direct rigid tide repeats the check column to 0.0001 mGal", "[golden][tide]") {
-    const auto rigid = [](UtcTime time, const TideStation& station) {
+    const auto rigid = [](UtcTime time, const tide::Station& station) {
         return direct_tide(time, station, kRigidEarth).value();
     };
     CHECK(greatest(deviations(rigid, "rigid_mgal")) <= 0.0001);
 }
 
 TEST_CASE("Longman's tide repeats its two check columns to their rounding", "[golden][tide]") {
-    const auto rigid = [](UtcTime time, const TideStation& station) {
+    const auto rigid = [](UtcTime time, const tide::Station& station) {
         return longman_tide(time, station, kRigidEarth).value();
     };
-    const auto usual = [](UtcTime time, const TideStation& station) {
+    const auto usual = [](UtcTime time, const tide::Station& station) {
         return longman_tide(time, station).value();
     };
     CHECK(greatest(deviations(rigid, "longman_rigid_mgal")) <= 0.00001);
@@ -95,7 +96,7 @@ TEST_CASE("Longman's tide repeats its two check columns to their rounding", "[go
 
 TEST_CASE("a tide of the wrong sign misses the publication's column by 0.08 mGal",
           "[golden][tide]") {
-    const auto wrong = [](UtcTime time, const TideStation& station) {
+    const auto wrong = [](UtcTime time, const tide::Station& station) {
         return -publication_tide(time, station);
     };
     CHECK(greatest(deviations(wrong, "table_mgal")) == Approx(0.082).margin(0.001));
@@ -103,14 +104,14 @@ TEST_CASE("a tide of the wrong sign misses the publication's column by 0.08 mGal
 
 TEST_CASE("local time taken for UTC misses the publication's column by 0.10 mGal",
           "[golden][tide]") {
-    const auto wrong = [](UtcTime time, const TideStation& station) {
+    const auto wrong = [](UtcTime time, const tide::Station& station) {
         return publication_tide(time + std::chrono::hours(9), station);
     };
     CHECK(greatest(deviations(wrong, "table_mgal")) == Approx(0.104).margin(0.001));
 }
 
 TEST_CASE("longitude counted west misses the publication's column by 0.11 mGal", "[golden][tide]") {
-    const auto wrong = [](UtcTime time, const TideStation& station) {
+    const auto wrong = [](UtcTime time, const tide::Station& station) {
         return publication_tide(time, {station.latitude, -station.longitude, station.height});
     };
     CHECK(greatest(deviations(wrong, "table_mgal")) == Approx(0.109).margin(0.001));

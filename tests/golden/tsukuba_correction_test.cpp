@@ -11,6 +11,8 @@
 
 using namespace a351;
 using namespace a351::corrector;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
 
 namespace {
 

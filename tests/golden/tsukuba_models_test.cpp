@@ -9,6 +9,7 @@
 
 using namespace a351;
 using namespace a351::corrector;
+using namespace a351::corrector::model;
 
 namespace {
 
@@ -23,7 +24,8 @@ Approx within(double value, double margin = 0.0005) {
     return Approx(value).margin(margin).epsilon(0);
 }
 
-SurveyCorrection correct(const std::string& model, bool use_flags, const ModelPriors& priors = {}) {
+SurveyCorrection correct(const std::string& model, bool use_flags,
+                         const model::Priors& priors = {}) {
     SurveyOptions options;
     options.priors = priors;
     options.model = model;
@@ -61,7 +63,7 @@ TEST_CASE("every number of the eight reference regressions", "[golden][tsukuba]"
     CAPTURE(model, n);
 
     const SurveyCorrection result = correct(model, n == 16);
-    const ModelScore& score = result.score;
+    const model::Score& score = result.score;
     CHECK(score.row_count == n);
     CHECK(score.rms_mgal.value() == within(table.number(row, "rms")));
     CHECK(score.s_mgal.value() == within(table.number(row, "s")));
@@ -76,7 +78,7 @@ TEST_CASE("every number of the eight reference regressions", "[golden][tsukuba]"
     // models.csv lists the same under both settings of the flags.
     const ScoredRowSet& set = result.row_sets.at(n == 16 ? 0 : 1);
     CHECK(set.rows == (n == 16 ? "used" : "all"));
-    for (const ModelScore& listed : set.scores) {
+    for (const model::Score& listed : set.scores) {
         if (listed.model == model) {
             CHECK(listed.loso_mgal == score.loso_mgal);
         }
@@ -131,7 +133,7 @@ TEST_CASE("choosing a model on the 16 rows costs: its own error is 2.3 to 2.7 mG
 TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-out error",
           "[golden][tsukuba]") {
     // 11.2 mGal/(degC/h) is not from these rows: 2.27 becomes 1.93, and 4.48 becomes 3.16.
-    ModelPriors held;
+    model::Priors held;
     set_prior(held, "test", "rate_mgal_per_degc_per_h", {11.2, 1e-4});
     const SurveyCorrection with_time = correct("t-rate-drift", true, held);
     CHECK(with_time.score.loo_mgal.value() == within(1.93, 0.005));
@@ -139,7 +141,7 @@ TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-
     CHECK_FALSE(with_time.score.aicc.has_value());
     CHECK(correct("t-rate", false, held).score.loo_mgal.value() == within(3.16, 0.005));
     // A wide prior changes nothing.
-    ModelPriors wide;
+    model::Priors wide;
     set_prior(wide, "test", "rate_mgal_per_degc_per_h", {0.0, 1e5});
     CHECK(correct("t-rate-drift", true, wide).score.loo_mgal.value() == within(2.0817));
 }

@@ -17,15 +17,15 @@ inline std::vector<text::Site> sites() {
 }
 
 /// The 19 rows with the published tide.
-inline std::vector<SurveyRow> observations() {
-    auto rows = read_observations(A351_GOLDEN "/tsukuba/observations.csv", sites());
-    apply_tide(rows, {}, {"given", {}, {}});
+inline std::vector<reading::SurveyRow> observations() {
+    auto rows = reading::read_observations(A351_GOLDEN "/tsukuba/observations.csv", sites());
+    tide::apply_tide(rows, {}, {"given", {}, {}});
     REQUIRE(rows.size() == 19);
     return rows;
 }
 
 /// The same with the temperatures worked back from the printed results.
-inline std::vector<SurveyRow> with_recovered_temperature() {
+inline std::vector<reading::SurveyRow> with_recovered_temperature() {
     auto rows = observations();
     const auto table = text::read_csv(A351_GOLDEN "/tsukuba/temperature_recovered.csv");
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -50,7 +50,7 @@ inline std::vector<double> printed(const std::string& column) {
 /// The 16 rows without the publication's dagger.
 inline std::vector<bool> unflagged() {
     std::vector<bool> in_use;
-    for (const SurveyRow& row : observations()) in_use.push_back(!row.is_flagged);
+    for (const reading::SurveyRow& row : observations()) in_use.push_back(!row.is_flagged);
     return in_use;
 }
 

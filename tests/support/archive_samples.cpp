@@ -8,16 +8,18 @@
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/archive/sds.hpp"
 
+using namespace a351;
+
 int main(int argc, char** argv) {
     using namespace a351;
     if (argc != 2 && argc != 3) {
         std::cerr << "usage: archive-samples ARCHIVE [OUT]\n";
         return 2;
     }
-    const record::StationCodes codes;
-    for (const std::string& channel : record::channels_in(argv[1], codes)) {
+    const journal::StationCodes codes;
+    for (const std::string& channel : archive::channels_in(argv[1], codes)) {
         const auto data =
-            record::read_channel(argv[1], codes, channel, UtcTime::min(), UtcTime::max());
+            archive::read_channel(argv[1], codes, channel, UtcTime::min(), UtcTime::max());
         if (!data.damage.empty()) {
             std::cerr << data.damage.front().file.string() << ": damaged\n";
             return 1;

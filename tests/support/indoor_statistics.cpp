@@ -7,6 +7,9 @@
 #include "sim/signal/slow_signal.hpp"
 #include "tests/support/plant_statistics.hpp"
 
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
+
 namespace a351::sim {
 namespace {
 
@@ -93,17 +96,17 @@ Regression turned_and_moved(const IndoorRecord& record) {
 
 IndoorRecord in_band(const IndoorRecord& record) {
     constexpr double kShorter = 600.0, kLonger = 1500.0;
-    return {corrector::band_pass(record.temperature_degc, kStep, kShorter, kLonger),
-            corrector::band_pass(record.difference_mgal, kStep, kShorter, kLonger)};
+    return {corrector::reading::band_pass(record.temperature_degc, kStep, kShorter, kLonger),
+            corrector::reading::band_pass(record.difference_mgal, kStep, kShorter, kLonger)};
 }
 
 /// Returns the mode whose mean period is nearest to the cycle, by ratio.
-const corrector::Component& cycle_mode(const corrector::EemdResult& result) {
-    const corrector::Component* best = &result.modes.front();
-    const auto distance = [](const corrector::Component& mode) {
+const corrector::eemd::Component& cycle_mode(const corrector::eemd::Result& result) {
+    const corrector::eemd::Component* best = &result.modes.front();
+    const auto distance = [](const corrector::eemd::Component& mode) {
         return std::abs(std::log(mode.mean_period_samples * kStep / kCycleSeconds));
     };
-    for (const corrector::Component& mode : result.modes) {
+    for (const corrector::eemd::Component& mode : result.modes) {
         if (mode.extrema_count > 0 && distance(mode) < distance(*best)) best = &mode;
     }
     return *best;
@@ -174,12 +177,12 @@ std::vector<Figure> indoor_eemd_figures(int seeds) {
     };
     for (int seed = 1; seed <= seeds; ++seed) {
         const auto record = indoor_record(scenario, static_cast<std::uint64_t>(seed));
-        corrector::EemdOptions options;
+        corrector::eemd::Options options;
         options.ensemble_size = 60;
         options.mode_count = 10;
         options.seed = static_cast<std::uint64_t>(seed);
-        const auto temperature = corrector::eemd(record.temperature_degc, options);
-        const auto acceleration = corrector::eemd(record.difference_mgal, options);
+        const auto temperature = corrector::eemd::eemd(record.temperature_degc, options);
+        const auto acceleration = corrector::eemd::eemd(record.difference_mgal, options);
         const IndoorRecord mode{cycle_mode(temperature).values, cycle_mode(acceleration).values};
         const Regression moved = turned_and_moved(mode);
         append(figures, {moved.slope, moved.r2, find_peak(mode, -1.0, 0, kHalfCycle).delay_s,

@@ -11,10 +11,10 @@ namespace {
 
 using namespace a351;
 
-class Printer final : public record::ArchiveSink {
+class Printer final : public archive::Sink {
 public:
-    void record(const std::string&, const record::PackedRecord&, std::int64_t) override {}
-    void sample(const record::Sample& sample) override {
+    void record(const std::string&, const archive::PackedRecord&, std::int64_t) override {}
+    void sample(const archive::Sample& sample) override {
         const wire::BurstValues& values = sample.values;
         std::cout << sample.index << ' ' << values.count << ' ' << values.axes[0] << ' '
                   << values.axes[1] << ' ' << values.axes[2] << ' ' << values.temperature << '\n';
@@ -29,10 +29,10 @@ int main(int argc, char** argv) {
         return 2;
     }
     Printer printer;
-    record::Archiver archiver(printer);
-    record::JournalSequence chunks(record::journal_segments(argv[1]));
+    archive::Archiver archiver(printer);
+    journal::Sequence chunks(journal::segment_files(argv[1]));
     while (const auto chunk = chunks.next()) {
-        if (const auto* const header = std::get_if<record::JournalHeader>(&*chunk))
+        if (const auto* const header = std::get_if<journal::Header>(&*chunk))
             std::cout << header->session.to_hex() << ' '
                       << header->clock.realtime.time_since_epoch().count() << '\n';
         archiver.take(*chunk);

@@ -30,7 +30,8 @@ struct DayRow {
     double difference_mgal = 0.0;  ///< Reading minus gravity minus tide.
     double middle_h = 0.0;         ///< Middle of the occupation since the start of the record.
 };
-[[nodiscard]] std::vector<DayRow> survey_day(const Scenario& scenario, std::uint64_t seed);
+[[nodiscard]] std::vector<DayRow> survey_day(const scenario::Scenario& scenario,
+                                             std::uint64_t seed);
 
 /// Means over 20 s of a record at one point.
 struct IndoorRecord {
@@ -38,7 +39,7 @@ struct IndoorRecord {
     std::vector<double> temperature_degc;
     std::vector<double> difference_mgal;
 };
-[[nodiscard]] IndoorRecord indoor_record(const Scenario& scenario, std::uint64_t seed);
+[[nodiscard]] IndoorRecord indoor_record(const scenario::Scenario& scenario, std::uint64_t seed);
 
 /// Returns figures for seeds 1 ... `seeds` of the scenario tsukuba, from samples at whole seconds
 /// only.

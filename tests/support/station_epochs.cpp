@@ -9,6 +9,8 @@
 
 #include "protocol/station/station_xml.hpp"
 
+using namespace a351;
+
 int main(int argc, char** argv) {
     using namespace a351;
     if (argc != 2) {
@@ -19,7 +21,7 @@ int main(int argc, char** argv) {
     const auto write = [&](const char* name, const std::string& text) {
         std::ofstream(out / name, std::ios::binary) << text;
     };
-    record::StationDescription station;
+    station::Description station;
     station.latitude = Degrees(36.106);
     station.longitude = Degrees(140.087);
     station.elevation = Metres(25.5);
@@ -29,12 +31,12 @@ int main(int argc, char** argv) {
     station.serial_number = "00000042";
     station.output_rate_hz = 50;
     station.filter = "k512_fc9";
-    write("one.xml", record::to_station_xml(station));
+    write("one.xml", station::to_station_xml(station));
     station.start += std::chrono::hours(24);
     station.serial_number = "00000043";
     station.declared_rate_hz = 50.0006;
-    write("two.xml", record::extend_station_xml(out / "one.xml", station).value());
+    write("two.xml", station::extend_station_xml(out / "one.xml", station).value());
     station.has_oven = true;
     station.start += std::chrono::hours(24);
-    write("oven.xml", record::extend_station_xml(out / "two.xml", station).value());
+    write("oven.xml", station::extend_station_xml(out / "two.xml", station).value());
 }

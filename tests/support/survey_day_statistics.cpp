@@ -5,6 +5,9 @@
 #include "sim/signal/slow_signal.hpp"
 #include "tests/support/plant_statistics.hpp"
 
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
+
 namespace a351::sim {
 namespace {
 

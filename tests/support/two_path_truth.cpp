@@ -4,9 +4,12 @@
 
 #include "sim/scenario/survey_plan.hpp"
 
+using namespace a351::sim::plant;
+using namespace a351::sim::scenario;
+
 namespace a351::sim {
 
-using corrector::TwoPathTerm;
+using corrector::long_record::TwoPathTerm;
 
 namespace {
 constexpr double kSecondsPerHour = 3600.0;
@@ -49,15 +52,17 @@ TwoPathTruth two_path_truth(const Scenario& scenario, std::uint64_t seed) {
     return truth;
 }
 
-double deviation(const corrector::TwoPathFit& fit, const TwoPathTruth& truth, TwoPathTerm term) {
-    const corrector::FittedParameter& parameter = fit[term];
+double deviation(const corrector::long_record::TwoPathFit& fit, const TwoPathTruth& truth,
+                 TwoPathTerm term) {
+    const corrector::long_record::FittedParameter& parameter = fit[term];
     const bool is_lag = term >= TwoPathTerm::fast_lag;
     const double off = is_lag ? parameter.value * std::log(parameter.value / truth[term])
                               : parameter.value - truth[term];
     return off / parameter.standard_error;
 }
 
-double static_slope_deviation(const corrector::TwoPathFit& fit, const TwoPathTruth& truth) {
+double static_slope_deviation(const corrector::long_record::TwoPathFit& fit,
+                              const TwoPathTruth& truth) {
     return (fit.static_slope - truth.static_slope()) / fit.static_slope_error;
 }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+using namespace a351::daemon;
+
 namespace a351::sim {
 
-using daemon::VerdictState;
+using daemon::verdict::State;
 
 void VerdictScore::add(const VerdictScore& other) {
     onsets += other.onsets;
@@ -22,10 +24,10 @@ double VerdictScore::median_delay_s() const {
     return sorted[sorted.size() / 2];
 }
 
-std::vector<VerdictState> told(const VerdictRecord& record) {
-    daemon::VerdictJudge judge;
-    std::vector<VerdictState> states;
-    for (const daemon::LiveSample& sample : record.samples) {
+std::vector<verdict::State> told(const VerdictRecord& record) {
+    daemon::verdict::Judge judge;
+    std::vector<verdict::State> states;
+    for (const daemon::verdict::LiveSample& sample : record.samples) {
         const auto seen_s = static_cast<std::size_t>(seconds_between(record.start, sample.seen_at));
         states.resize(std::max(states.size(), seen_s), judge.verdict().state);
         judge.take(sample);
@@ -34,9 +36,9 @@ std::vector<VerdictState> told(const VerdictRecord& record) {
     return states;
 }
 
-VerdictScore score(const std::vector<VerdictState>& told, const std::vector<Allowed>& truth) {
+VerdictScore score(const std::vector<verdict::State>& told, const std::vector<Allowed>& truth) {
     VerdictScore score;
-    const auto is_stable = [&](std::size_t i) { return told[i] == VerdictState::stable; };
+    const auto is_stable = [&](std::size_t i) { return told[i] == verdict::State::stable; };
     const auto next = [&](std::size_t from, auto&& is_wanted) {
         while (from < truth.size() && !is_wanted(from)) ++from;
         return from;

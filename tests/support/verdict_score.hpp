@@ -33,9 +33,9 @@ struct VerdictScore {
 };
 
 /// Returns the verdict once a second from the start of the record; no_data before the first sample.
-[[nodiscard]] std::vector<daemon::VerdictState> told(const VerdictRecord& record);
+[[nodiscard]] std::vector<daemon::verdict::State> told(const VerdictRecord& record);
 
-[[nodiscard]] VerdictScore score(const std::vector<daemon::VerdictState>& told,
+[[nodiscard]] VerdictScore score(const std::vector<daemon::verdict::State>& told,
                                  const std::vector<Allowed>& truth);
 
 }  // namespace a351::sim

@@ -9,6 +9,10 @@
 #include "sim/signal/signal_source.hpp"
 #include "sim/signal/slow_signal.hpp"
 
+using namespace a351::sim::noise;
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
+
 namespace a351::sim {
 namespace {
 
@@ -31,7 +35,7 @@ std::vector<double> error_course(const Scenario& scenario, const std::vector<Pla
     const auto seconds = static_cast<int>(seconds_between(scenario.start(), scenario.end()));
     std::vector<double> error_mgal;
     for (int second = 0; second < seconds; ++second) {
-        // SignalSource reads two seconds ahead before its oven can be set.
+        // signal::Source reads two seconds ahead before its oven can be set.
         if (second == 2 && switched_on_to) slow.oven().set_set_point(*switched_on_to);
         error_mgal.push_back(temperature_error(slow.next()));
     }
@@ -54,20 +58,20 @@ std::vector<Touch> touches_of(const Scenario& scenario, const std::vector<Planne
 }
 
 /// Returns the raw samples decimated as in the daemon.
-std::vector<daemon::LiveSample> live_series(const Scenario& scenario, std::uint64_t seed,
-                                            std::optional<DegC> switched_on_to) {
+std::vector<daemon::verdict::LiveSample> live_series(const Scenario& scenario, std::uint64_t seed,
+                                                     std::optional<DegC> switched_on_to) {
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
     const double mgal_per_count =
         kMilliGalPerStandardGravity / std::ldexp(1.0, profile.acceleration_fraction_bits);
-    SignalSource source(scenario, profile, seed);
+    signal::Source source(scenario, profile, seed);
     if (switched_on_to) source.oven().set_set_point(*switched_on_to);
 
-    const auto filter = corrector::design_decimation(10);
-    std::array<corrector::Decimator, 4> decimators{
-        corrector::Decimator(filter, 2), corrector::Decimator(filter, 2),
-        corrector::Decimator(filter, 2), corrector::Decimator(filter, 2)};
+    const auto filter = a351::signal::design_decimation(10);
+    std::array<a351::signal::Decimator, 4> decimators{
+        a351::signal::Decimator(filter, 2), a351::signal::Decimator(filter, 2),
+        a351::signal::Decimator(filter, 2), a351::signal::Decimator(filter, 2)};
     std::array<std::vector<double>, 4> thinned, block;
-    std::vector<daemon::LiveSample> samples;
+    std::vector<daemon::verdict::LiveSample> samples;
     while (source.next_instant()) {
         for (auto& values : block) values.clear();
         for (int i = 0; i < kSamplesPerLive && source.next_instant(); ++i) {
@@ -87,7 +91,7 @@ std::vector<daemon::LiveSample> live_series(const Scenario& scenario, std::uint6
         if (thinned[0].empty()) continue;
         const std::size_t k = samples.size();
         if (k >= thinned[0].size()) continue;
-        daemon::LiveSample live;
+        daemon::verdict::LiveSample live;
         live.time = scenario.start() + from_seconds(2.0 * static_cast<double>(k));
         const std::size_t raw = 100 * (k + 5);  // The filters reach 451 samples beyond the middle.
         live.seen_at = scenario.start() + from_seconds(static_cast<double>(raw) / 50.0);

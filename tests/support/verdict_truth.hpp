@@ -41,8 +41,8 @@ struct Touch {
 /// A simulated record as the daemon's live series, with its truth.
 struct VerdictRecord {
     UtcTime start;
-    std::vector<PlannedSetUp> plan;
-    std::vector<daemon::LiveSample> samples;
+    std::vector<scenario::PlannedSetUp> plan;
+    std::vector<daemon::verdict::LiveSample> samples;
     std::vector<double> mean_mgal;  ///< cycle_mean() of the temperature error, once a second.
     std::vector<Touch> touches;     ///< Handling, knocks, and transport to another place.
     std::vector<Allowed> truth;     ///< Result of allowed(), once a second.
@@ -51,7 +51,7 @@ struct VerdictRecord {
 /// Simulates a record.
 /// @param switched_on_to  set point of the oven from the start of the record on; before the start
 ///                        it was that of the scenario
-[[nodiscard]] VerdictRecord verdict_record(const Scenario& scenario, std::uint64_t seed,
+[[nodiscard]] VerdictRecord verdict_record(const scenario::Scenario& scenario, std::uint64_t seed,
                                            std::optional<DegC> switched_on_to = std::nullopt);
 
 enum class VerdictCase { warm_up, visit, disturbance };

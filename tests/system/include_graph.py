@@ -1,4 +1,6 @@
-"""The rooms (source directories) must include each other as in the map of CONTRIBUTING.md, and no room of a later row."""
+"""The rooms (source directories) must include each other as in the map of CONTRIBUTING.md, and no room of a later row.
+
+Each room has a namespace of its own, so a name that is used elsewhere says where it comes from."""
 
 import collections
 import re
@@ -8,6 +10,7 @@ from programs import TOP, demand
 COMPONENTS = ("protocol", "daemon", "sim", "corrector")
 MOST_MODULES = 22  # Largest number of modules in a room; the largest rooms have as many today.
 ROW = re.compile(r"^\| `([a-z0-9_/]+)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
+NAMESPACE = re.compile(r"^namespace (a351[a-z0-9_:]*) \{$", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)/[^/"]+"', re.MULTILINE)
 
 
@@ -28,6 +31,23 @@ def rooms_of_sources():
     return below, modules
 
 
+def namespace_of(source):
+    """Returns the namespace that a source must have: protocol's rooms are a351::ROOM, the others a351::COMPONENT::ROOM."""
+    component, *room = source.parent.relative_to(TOP).parts
+    if (component, *room) == ("protocol", "core"):
+        return "a351"
+    return "::".join(["a351", *([] if component == "protocol" else [component]), *room])
+
+
+def other_namespaces():
+    """Returns the sources that declare something of a351 outside the namespace of their room."""
+    for component in COMPONENTS:
+        for source in (TOP / component).rglob("*.[ch]pp"):
+            declared = set(NAMESPACE.findall(source.read_text()))
+            if declared - {namespace_of(source)} or not (declared or source.name == "main.cpp"):
+                yield source.relative_to(TOP).as_posix()
+
+
 allowed = rooms_of_map()
 included, modules = rooms_of_sources()
 demand(f"the map lists the {len(modules)} rooms of the sources and no others", set(allowed) == set(modules))
@@ -40,5 +60,7 @@ for room, below in allowed.items():
 largest = max(modules, key=lambda room: len(modules[room]))
 demand(f"the largest room is {largest} with {len(modules[largest])} modules, must be at most {MOST_MODULES}",
        len(modules[largest]) <= MOST_MODULES)
+elsewhere = list(other_namespaces())
+demand(f"every source is in the namespace of its room, but for {elsewhere}", not elsewhere)
 arrows = sum(len(below) for below in included.values())
 print(f"{len(modules)} rooms, {arrows} include relations, {sum(len(one) for one in modules.values())} modules")

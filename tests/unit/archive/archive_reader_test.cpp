@@ -8,7 +8,10 @@
 #include "tests/support/file_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
 
-namespace a351::record {
+using namespace a351::files;
+using namespace a351::journal;
+
+namespace a351::archive {
 namespace {
 
 using namespace std::chrono_literals;
@@ -180,4 +183,4 @@ TEST_CASE("segments are in time order even if the clock stepped back", "[record]
     CHECK(data.segments[0].counts.front() == 100);
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

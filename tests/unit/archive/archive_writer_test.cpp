@@ -5,7 +5,9 @@
 #include "tests/unit/archive/data_root.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::files;
+using namespace a351::journal;
 using namespace std::chrono_literals;
 
 namespace {
@@ -33,7 +35,7 @@ TEST_CASE("record numbers of a channel continue across day files and restarts",
           "[record][archive_writer]") {
     DataRoot root;
     for (int run = 0; run < 3; ++run) {
-        ArchiveWriter writer(posix_files(), root.archive(), {});
+        archive::Writer writer(posix_files(), root.archive(), {});
         for (int i = 0; i < 2; ++i) {
             const auto start = kStart + run * 24h + i * 1min;
             writer.record("BNZ", record_at(start, {1, 2, 3}), 3 * i + 2);
@@ -49,7 +51,7 @@ TEST_CASE("the record number after 999999 is 1", "[record][archive_writer]") {
     header.sequence = 999'998;
     const std::vector<std::int32_t> samples{1};
     SdsWriter(posix_files(), root.archive(), {}).append("BNZ", pack_record(header, samples));
-    ArchiveWriter writer(posix_files(), root.archive(), {});
+    archive::Writer writer(posix_files(), root.archive(), {});
     writer.record("BNZ", record_at(kStart + 1min, {1}), 1);
     writer.record("BNZ", record_at(kStart + 2min, {1}), 2);
     CHECK(sequences(root) == std::vector{999'998, 999'999, 1});
@@ -58,7 +60,7 @@ TEST_CASE("the record number after 999999 is 1", "[record][archive_writer]") {
 TEST_CASE("sync returns the last sample of each channel that is safe on disk",
           "[record][archive_writer]") {
     DataRoot root;
-    ArchiveWriter writer(posix_files(), root.archive(), {});
+    archive::Writer writer(posix_files(), root.archive(), {});
     CHECK(writer.sync().empty());
     writer.record("BNZ", record_at(kStart, {1, 2, 3}), 102);
     const auto marks = writer.sync();
@@ -72,10 +74,10 @@ TEST_CASE("a replayed record that the archive already has is skipped", "[record]
     DataRoot root;
     const auto held = record_at(kStart, {1, 2, 3});
     const auto next = record_at(kStart + 60ms, {4, 5});
-    ArchiveWriter(posix_files(), root.archive(), {}).record("BNZ", held, 2);
+    archive::Writer(posix_files(), root.archive(), {}).record("BNZ", held, 2);
     const auto before = root.files();
 
-    ArchiveWriter writer(posix_files(), root.archive(), {});
+    archive::Writer writer(posix_files(), root.archive(), {});
     writer.begin_replay();
     CHECK(writer.samples_in_archive("BNZ", kStart) == 3);
     CHECK_FALSE(writer.samples_in_archive("BNZ", kStart + 60ms));
@@ -93,9 +95,10 @@ TEST_CASE(
     "a replayed record that contradicts or overlaps the archive is a conflict and is not written",
     "[record][archive_writer]") {
     DataRoot root;
-    ArchiveWriter(posix_files(), root.archive(), {}).record("BNZ", record_at(kStart, {1, 2, 3}), 2);
+    archive::Writer(posix_files(), root.archive(), {})
+        .record("BNZ", record_at(kStart, {1, 2, 3}), 2);
     const auto before = root.files();
-    ArchiveWriter writer(posix_files(), root.archive(), {});
+    archive::Writer writer(posix_files(), root.archive(), {});
     writer.begin_replay();
     writer.record("BNZ", record_at(kStart, {1, 2, 4}), 2);
     writer.record("BNZ", record_at(kStart, {1, 2}), 1);

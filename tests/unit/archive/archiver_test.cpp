@@ -7,15 +7,16 @@
 #include "tests/unit/archive/collector.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::journal;
 using namespace std::chrono_literals;
 
 namespace {
 
 /// Returns the same reads with the same time stamps, divided into chunks at other places.
-std::vector<JournalChunk> recut(const std::vector<JournalChunk>& chunks, std::uint64_t seed) {
+std::vector<journal::Chunk> recut(const std::vector<journal::Chunk>& chunks, std::uint64_t seed) {
     std::mt19937_64 random(seed);
-    std::vector<JournalChunk> cut;
+    std::vector<journal::Chunk> cut;
     for (const auto& chunk : chunks) {
         const auto* rx = std::get_if<RxChunk>(&chunk);
         if (!rx) {
@@ -46,7 +47,7 @@ TEST_CASE("the records contain every sample of a stream exactly once, bit for bi
           "[record][archiver]") {
     JournalStream stream;
     stream.frames(0, 20'000);
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     CHECK(run.sink.counts("BN1") == expected(0, 0, 20'000));
     CHECK(run.sink.counts("BN2") == expected(1, 0, 20'000));
     CHECK(run.sink.counts("BNZ") == expected(2, 0, 20'000));
@@ -68,9 +69,9 @@ TEST_CASE("the records contain every sample of a stream exactly once, bit for bi
 TEST_CASE("records carry the times of their samples and the station codes of the journal header",
           "[record][archiver]") {
     JournalStream stream;
-    std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = 50.0006;
+    std::get<journal::Header>(stream.chunks.front()).declared_rate_hz = 50.0006;
     stream.frames(0, 5'000);
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     // k512_fc9: 511 / 2 / 4000 Hz = 63.875 ms; data ready after 430 us; 24 bytes at 460 800
     // baud = 520.833 us.
     const Nanoseconds delay = 63'875us + 430us + Nanoseconds(520'833);
@@ -102,10 +103,10 @@ TEST_CASE("the records do not depend on where the journal divides the stream int
         stream.bytes({middle, frame.end()}, due(k));
         if (k % 50 == 49) stream.second(due(k));
     }
-    const auto whole = archive(stream.chunks);
+    const auto whole = archived(stream.chunks);
     CHECK(whole.counters.checksum_errors + whole.counters.framing_errors > 0);
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        const auto cut = archive(recut(stream.chunks, seed));
+        const auto cut = archived(recut(stream.chunks, seed));
         CHECK(cut.sink.packed == whole.sink.packed);
         CHECK(cut.counters.frames == whole.counters.frames);
     }
@@ -127,7 +128,7 @@ TEST_CASE("frames delivered by one read are time-stamped by their position in it
     }
     together.flush();
     apart.flush();
-    CHECK(archive(together.chunks).sink.packed == archive(apart.chunks).sink.packed);
+    CHECK(archived(together.chunks).sink.packed == archived(apart.chunks).sink.packed);
 }
 
 TEST_CASE("no record reaches over UTC midnight", "[record][archiver]") {
@@ -138,7 +139,7 @@ TEST_CASE("no record reaches over UTC midnight", "[record][archiver]") {
         if (k % 50 == 49) stream.second(before + due(k));
     }
     stream.flush();
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     const UtcTime midnight = *parse_rfc3339("2026-03-02T00:00:00Z");
     CHECK(run.sink.counts("BNZ") == expected(2, 0, 10'000));
     for (const auto& [channel, records] : run.sink.decoded) {
@@ -179,7 +180,7 @@ TEST_CASE("samples that Steim-2 cannot hold are archived as plain integers", "[r
         stream.bytes(frame_of(values), due(k));
     }
     stream.flush();
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     auto counts = expected(2, 0, 2'000);
     counts[500] = -2'147'483'647;
     counts[501] = 2'147'483'647;
@@ -201,7 +202,7 @@ TEST_CASE("an alarm flag marks the records of its axis as clipped", "[record][ar
         stream.bytes(frame_of(values), due(k));
     }
     stream.flush();
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     CHECK(run.counters.error_flags == 1);
     std::int64_t index = 0;
     for (const auto& record : run.sink.decoded.at("BN2")) {
@@ -230,7 +231,7 @@ TEST_CASE("the band code follows from the rate, the channels from the frame layo
             stream.bytes(bytes, Nanoseconds(1s) / rate_hz * (k + 1));
         }
         stream.flush();
-        const auto run = archive(stream.chunks);
+        const auto run = archived(stream.chunks);
         std::string channels;
         for (const auto& [channel, records] : run.sink.decoded)
             if (!is_derived(channel)) channels += channel;

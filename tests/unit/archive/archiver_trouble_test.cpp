@@ -5,7 +5,8 @@
 #include "tests/unit/archive/collector.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::journal;
 using namespace std::chrono_literals;
 
 namespace {
@@ -30,7 +31,7 @@ TEST_CASE("a lost frame leaves exactly one gap of exactly one sample", "[record]
             if (k % 50 == 49) stream.second(due(k));
         }
         stream.flush();
-        const auto run = archive(stream.chunks);
+        const auto run = archived(stream.chunks);
         INFO("byte " << bad_byte);
         CHECK(run.sink.counts("BNZ") == expected_without(777, 778));
         CHECK(run.counters.gaps == 1);
@@ -68,7 +69,7 @@ TEST_CASE("without a counter the number of lost samples is found from the skippe
         if (k % 50 == 49) stream.second(due(k));
     }
     stream.flush();
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     CHECK(run.sink.counts("BNZ") == expected_without(777, 780));
     CHECK(run.counters.gaps == 1);
     CHECK(run.counters.samples_missing == 3);
@@ -94,7 +95,7 @@ TEST_CASE("every byte is part of a frame, counted as skipped, or still pending",
             if (k % 50 == 49) stream.second(due(k));
         }
         stream.flush();
-        const auto run = archive(stream.chunks);
+        const auto run = archived(stream.chunks);
         const auto covered = run.counters.frames * 24 + run.counters.bytes_skipped;
         CHECK(covered <= run.counters.bytes);
         CHECK(run.counters.bytes - covered < 96);
@@ -118,7 +119,7 @@ TEST_CASE("an outage of many counter wraps becomes a gap of exactly its length",
         JournalStream stream;
         stream.frames(0, 1'000);
         stream.frames(1'000 + missing, 2'000 + missing);
-        const auto run = archive(stream.chunks);
+        const auto run = archived(stream.chunks);
         CHECK(run.counters.gaps == 1);
         CHECK(run.counters.samples_missing == static_cast<std::uint64_t>(missing));
         CHECK(run.sink.samples.back().index == 1'999 + missing);
@@ -133,7 +134,7 @@ TEST_CASE("a device that restarts in mid-stream begins a new session", "[record]
         if (k % 50 == 49) stream.second(due(1'000) + 30s + due(k));
     }
     stream.flush();
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     CHECK(run.counters.sessions == 2);
     CHECK(run.counters.gaps == 0);
     auto counts = expected(2, 0, 1'000);
@@ -151,13 +152,13 @@ TEST_CASE(
     rotated.frames(0, 1'500);
     rotated.chunks.emplace_back(header_at(due(1'499)));
     rotated.frames(1'500, 3'000);
-    CHECK(archive(plain.chunks).sink.packed == archive(rotated.chunks).sink.packed);
+    CHECK(archived(plain.chunks).sink.packed == archived(rotated.chunks).sink.packed);
 
     JournalStream other;
     other.frames(0, 1'500);
     other.chunks.emplace_back(header_at(due(1'499), 2));
     other.frames(1'500, 3'000);
-    const auto run = archive(other.chunks);
+    const auto run = archived(other.chunks);
     CHECK(run.counters.sessions == 2);
     CHECK(run.sink.counts("BNZ") == expected(2, 0, 3'000));
     CHECK(run.sink.last.at("BNZ") == 1'499);
@@ -175,7 +176,7 @@ TEST_CASE("a duplicated frame is counted and dropped", "[record][archiver]") {
     stream.frames(0, 100);
     stream.frame(99);
     stream.frames(100, 200);
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     CHECK(run.counters.duplicates == 1);
     CHECK(run.sink.counts("BNZ") == expected(2, 0, 200));
 }
@@ -192,7 +193,7 @@ TEST_CASE("frames flagged for a forbidden pair of rate and filter count as missi
         stream.bytes(frame_of(values), due(k));
     }
     stream.flush();
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     CHECK(run.counters.error_flags == 10);
     CHECK(run.counters.gaps == 1);
     CHECK(run.counters.samples_missing == 10);

@@ -10,9 +10,9 @@
 #include "protocol/archive/archiver.hpp"
 #include "tests/unit/journal/journal_stream.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
-struct Collector : ArchiveSink {
+struct Collector : Sink {
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override {
         packed.emplace_back(channel, record.bytes);
@@ -39,16 +39,16 @@ struct Collector : ArchiveSink {
 /// Returns samples first ... end - 1 of an axis of the test stream.
 inline std::vector<std::int32_t> expected(unsigned axis, std::int64_t first, std::int64_t end) {
     std::vector<std::int32_t> counts;
-    for (std::int64_t k = first; k < end; ++k) counts.push_back(values_of(k).axes[axis]);
+    for (std::int64_t k = first; k < end; ++k) counts.push_back(journal::values_of(k).axes[axis]);
     return counts;
 }
 
 struct Run {
     Collector sink;
-    ArchiverCounters counters;
+    Counters counters;
 };
 
-inline Run archive(const std::vector<JournalChunk>& chunks) {
+inline Run archived(const std::vector<journal::Chunk>& chunks) {
     Run run;
     Archiver archiver(run.sink);
     for (const auto& chunk : chunks) archiver.take(chunk);
@@ -57,4 +57,4 @@ inline Run archive(const std::vector<JournalChunk>& chunks) {
     return run;
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

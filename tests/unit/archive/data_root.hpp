@@ -14,7 +14,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/journal/journal_stream.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 
 class DataRoot {
 public:
@@ -22,11 +22,11 @@ public:
     [[nodiscard]] std::filesystem::path journal() const { return path() / "journal"; }
     [[nodiscard]] std::filesystem::path archive() const { return path() / "archive"; }
 
-    void write_journal(const std::vector<JournalChunk>& chunks) const {
-        JournalWriter writer(posix_files(), journal());
+    void write_journal(const std::vector<journal::Chunk>& chunks) const {
+        journal::Writer writer(files::posix_files(), journal());
         timing::ClockReading clock;
         for (const auto& chunk : chunks) {
-            if (const auto* header = std::get_if<JournalHeader>(&chunk)) {
+            if (const auto* header = std::get_if<journal::Header>(&chunk)) {
                 clock = header->clock;
                 writer.begin_segment(*header);
                 continue;
@@ -55,15 +55,15 @@ public:
 
     /// Returns the samples of a channel in the order of its files; empty if a record is damaged.
     [[nodiscard]] std::vector<std::int32_t> counts(const std::string& channel,
-                                                   const StationCodes& codes = {}) const {
+                                                   const journal::StationCodes& codes = {}) const {
         std::vector<std::int32_t> all;
         for (const auto& record : records(channel, codes))
             all.insert(all.end(), record.samples.begin(), record.samples.end());
         return all;
     }
 
-    [[nodiscard]] std::vector<DecodedRecord> records(const std::string& channel,
-                                                     const StationCodes& codes = {}) const {
+    [[nodiscard]] std::vector<DecodedRecord> records(
+        const std::string& channel, const journal::StationCodes& codes = {}) const {
         std::vector<DecodedRecord> all;
         for (const auto& file : day_files(archive(), codes, channel)) {
             const auto bytes = test::read_bytes(file);
@@ -82,12 +82,12 @@ private:
 };
 
 /// Archives the chunks in the archive of the data root.
-inline void archive_all(const DataRoot& root, const std::vector<JournalChunk>& chunks) {
-    ArchiveWriter writer(posix_files(), root.archive(), {});
+inline void archive_all(const DataRoot& root, const std::vector<journal::Chunk>& chunks) {
+    Writer writer(files::posix_files(), root.archive(), {});
     Archiver archiver(writer);
     for (const auto& chunk : chunks) archiver.take(chunk);
     archiver.close_records();
     static_cast<void>(writer.sync());
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -8,7 +8,7 @@
 
 #include "tests/support/file_bytes.hpp"
 
-namespace a351::record {
+namespace a351::archive {
 namespace {
 
 using Samples = std::vector<std::int32_t>;
@@ -365,4 +365,4 @@ TEST_CASE("packing reproduces the reference record byte for byte", "[record][min
     CHECK(std::equal(decoded->samples.begin(), decoded->samples.end(), samples.begin()));
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -7,14 +7,16 @@
 #include "tests/unit/files/failing_files.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::files;
+using namespace a351::journal;
 using namespace std::chrono_literals;
 
 namespace {
 
 /// Returns two minutes across midnight in three segments, with a gap, a flipped bit, clock readings
 /// and polls of an oven.
-std::vector<JournalChunk> eventful_session() {
+std::vector<journal::Chunk> eventful_session() {
     const auto before = 12h - 60s;
     JournalStream stream(1, before);
     std::mt19937_64 random(5);
@@ -38,7 +40,7 @@ std::vector<JournalChunk> eventful_session() {
 }
 
 struct Recovered : RecoveryReport {
-    ArchiverCounters replayed;
+    archive::Counters replayed;
 };
 
 /// Recovers as the daemon does at its start, when no more samples come.
@@ -47,9 +49,9 @@ Recovered recover(FileLayer& files, const std::filesystem::path& root) {
     const RecoveryPlan plan = begin_recovery(files, root / "journal");
     report.journal = plan.cut;
     for (const Replay& replay : plan.replays) {
-        ArchiveWriter writer(files, root / "archive", replay.codes);
+        archive::Writer writer(files, root / "archive", replay.codes);
         Archiver archiver(writer);
-        const auto take = [&](const JournalChunk& chunk) {
+        const auto take = [&](const journal::Chunk& chunk) {
             archiver.take(chunk);
             return true;
         };
@@ -133,13 +135,13 @@ TEST_CASE(
     for (int round = 0; round < 12; ++round) {
         DataRoot root, fresh;
         root.copy_from(whole);
-        const auto newest = journal_segments(root.journal()).back();
+        const auto newest = journal::segment_files(root.journal()).back();
         std::filesystem::resize_file(newest, random() % std::filesystem::file_size(newest));
         fresh.copy_from(root);
         // The reference is the archive of a run with the same chunks.
-        std::vector<JournalChunk> seen;
-        for (const auto& segment : journal_segments(fresh.journal())) {
-            JournalReader reader(segment);
+        std::vector<journal::Chunk> seen;
+        for (const auto& segment : journal::segment_files(fresh.journal())) {
+            journal::Reader reader(segment);
             while (auto chunk = reader.next()) seen.push_back(std::move(*chunk));
         }
         archive_all(fresh, seen);
@@ -203,7 +205,7 @@ TEST_CASE("a replay agrees with records that an earlier shutdown had ended early
     chunks.insert(chunks.end(), after.chunks.begin(), after.chunks.end());
     root.write_journal(chunks);
     {
-        ArchiveWriter writer(posix_files(), root.archive(), {});
+        archive::Writer writer(posix_files(), root.archive(), {});
         Archiver archiver(writer);
         for (const auto& chunk : before.chunks) archiver.take(chunk);
         archiver.close_records();
@@ -233,7 +235,7 @@ TEST_CASE("replays agree with the archive wherever a shutdown ended the slow rec
     archive_all(root, before.chunks);
     {
         // The second run continues the stream, and also stops.
-        ArchiveWriter writer(posix_files(), root.archive(), {});
+        archive::Writer writer(posix_files(), root.archive(), {});
         Archiver archiver(writer);
         writer.begin_replay();
         for (const auto* chunks : {&before.chunks, &after.chunks})
@@ -252,7 +254,7 @@ TEST_CASE("replays agree with the archive wherever a shutdown ended the slow rec
     CHECK(root.files() == archived);
     std::size_t seconds = 0;
     for (const auto& record : root.records("LCE")) seconds += record.samples.size();
-    const auto whole = archive(chunks).sink.counts("LCE");
+    const auto whole = archive::archived(chunks).sink.counts("LCE");
     CHECK(seconds == whole.size());
 }
 
@@ -301,7 +303,7 @@ TEST_CASE("sessions with other station codes are also recovered, each into its o
     first.frames(0, 2'000);
     StationCodes other;
     other.station = "B351";
-    std::get<JournalHeader>(second.chunks.front()).codes = other;
+    std::get<journal::Header>(second.chunks.front()).codes = other;
     for (std::int64_t k = 0; k < 1'000; ++k) second.bytes(frame_of(values_of(k)), 100s + due(k));
     second.flush();
     DataRoot root;

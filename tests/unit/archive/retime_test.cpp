@@ -9,14 +9,17 @@
 #include "tests/unit/files/failing_files.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::events;
+using namespace a351::files;
+using namespace a351::journal;
 using namespace std::chrono_literals;
 
 namespace {
 
 /// Returns ten minutes with late frames and a gap. The host's clock is an hour slow until it is
 /// synchronised at sample `synchronised`.
-std::vector<JournalChunk> badly_timed_session(std::int64_t synchronised) {
+std::vector<journal::Chunk> badly_timed_session(std::int64_t synchronised) {
     const auto reading = [&](Nanoseconds now, std::int64_t k) {
         timing::ClockReading clock = clock_at(now);
         clock.boottime = clock.raw.time_since_epoch();
@@ -25,7 +28,7 @@ std::vector<JournalChunk> badly_timed_session(std::int64_t synchronised) {
         return clock;
     };
     JournalStream stream;
-    std::get<JournalHeader>(stream.chunks.front()).clock = reading(0s, 0);
+    std::get<journal::Header>(stream.chunks.front()).clock = reading(0s, 0);
     std::mt19937_64 random(5);
     for (std::int64_t k = 0; k < 30'000; ++k) {
         if (k >= 4'000 && k < 4'003) continue;
@@ -72,7 +75,7 @@ TEST_CASE("a re-timed archive has the same samples, with the times that the whol
     archive_all(root, chunks);
     Event event;
     event.type = "start";
-    event.session = std::get<JournalHeader>(chunks.front()).session;
+    event.session = std::get<journal::Header>(chunks.front()).session;
     event.index = 500;
     event.utc = truth(500) - 1h;
     append_event(posix_files(), root.path() / "events", event);
@@ -122,7 +125,7 @@ TEST_CASE("re-timing writes a complete archive or nothing", "[record][retime]") 
 TEST_CASE("a damaged segment is re-timed up to the damage, which is reported", "[record][retime]") {
     DataRoot root, parent;
     root.write_journal(badly_timed_session(0));
-    const auto segment = journal_segments(root.journal()).front();
+    const auto segment = journal::segment_files(root.journal()).front();
     std::filesystem::resize_file(segment, std::filesystem::file_size(segment) - 1000);
     const RetimeReport report = retime(posix_files(), root.path(), parent.path() / "better");
     REQUIRE(report.damage.size() == 1);
@@ -141,9 +144,9 @@ TEST_CASE(
         if (k % 50 == 49) stream.second(due(k));
     }
     stream.flush();
-    for (JournalChunk& chunk : stream.chunks) {
+    for (journal::Chunk& chunk : stream.chunks) {
         auto* reading = std::get_if<timing::ClockReading>(&chunk);
-        if (auto* header = std::get_if<JournalHeader>(&chunk)) reading = &header->clock;
+        if (auto* header = std::get_if<journal::Header>(&chunk)) reading = &header->clock;
         if (reading == nullptr || reading->raw >= kRawStart + 60s) continue;
         reading->realtime -= kStart.time_since_epoch();
         reading->is_synchronised = false;
@@ -177,7 +180,7 @@ TEST_CASE(
             return clock;
         };
         JournalStream stream;
-        std::get<JournalHeader>(stream.chunks.front()).clock = reading(0s, 0s);
+        std::get<journal::Header>(stream.chunks.front()).clock = reading(0s, 0s);
         Nanoseconds slept{0};
         for (std::int64_t k = 0; k < 9'000; ++k) {
             if (k >= kAsleepFrom && k < kAwakeFrom) continue;

@@ -8,7 +8,10 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/files/failing_files.hpp"
 
-namespace a351::record {
+using namespace a351::files;
+using namespace a351::journal;
+
+namespace a351::archive {
 namespace {
 
 namespace fs = std::filesystem;
@@ -204,4 +207,4 @@ TEST_CASE("whichever file operation fails, readers find only whole records and w
     CHECK(operations < 1000);
 }
 
-}  // namespace a351::record
+}  // namespace a351::archive

@@ -7,7 +7,9 @@
 #include "tests/unit/archive/data_root.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::files;
+using namespace a351::journal;
 using namespace std::chrono_literals;
 
 namespace {
@@ -31,10 +33,10 @@ timing::ClockReading reading(Nanoseconds since_start, const Step& step) {
     return reading;
 }
 
-std::vector<JournalChunk> journal(const Step& step) {
-    JournalHeader header = header_at(0s);
+std::vector<journal::Chunk> journal_of(const Step& step) {
+    journal::Header header = header_at(0s);
     header.clock = reading(0s, step);
-    std::vector<JournalChunk> chunks{header};
+    std::vector<journal::Chunk> chunks{header};
     for (int second = 0; second < kSeconds; ++second) {
         RxChunk rx;
         for (std::int64_t k = 50 * second; k < 50 * (second + 1); ++k) {
@@ -61,7 +63,7 @@ TEST_CASE(
     for (const Step& step :
          {Step{"a leap second", 1s, true},
           Step{"a leap second as a host sees it", 1'000'003us, true}, Step{"an hour", 1h, false}}) {
-        const auto chunks = journal(step);
+        const auto chunks = journal_of(step);
         std::vector<std::int32_t> expected;
         for (std::int64_t k = 0; k < 50 * kSeconds; ++k)
             expected.push_back(values_of(k).axes.at(2));
@@ -71,15 +73,15 @@ TEST_CASE(
             const DataRoot root;
             const auto rest = chunks.begin() + static_cast<std::ptrdiff_t>(1 + 2 * killed_s);
             {
-                ArchiveWriter writer(posix_files(), root.archive(), {});
+                archive::Writer writer(posix_files(), root.archive(), {});
                 Archiver archiver(writer);
                 for (auto chunk = chunks.begin(); chunk != rest; ++chunk) archiver.take(*chunk);
                 REQUIRE_NOTHROW(writer.sync());
             }
-            ArchiveWriter writer(posix_files(), root.archive(), {});
+            archive::Writer writer(posix_files(), root.archive(), {});
             writer.begin_replay();
             Archiver archiver(writer);
-            for (const JournalChunk& chunk : chunks) archiver.take(chunk);
+            for (const journal::Chunk& chunk : chunks) archiver.take(chunk);
             archiver.close_records();
             REQUIRE_NOTHROW(writer.sync());
             CHECK(writer.replay_conflicts() == 0);

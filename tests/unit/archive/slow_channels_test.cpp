@@ -7,7 +7,8 @@
 #include "tests/unit/archive/collector.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::journal;
 using namespace std::chrono_literals;
 
 namespace {
@@ -53,7 +54,7 @@ std::int32_t mean_temperature(std::int64_t first, std::int64_t end) {
 /// Returns the stream of a device whose seconds last `second` on the host.
 JournalStream stream_of(std::int64_t count, Nanoseconds second, std::optional<double> rate_hz) {
     JournalStream stream;
-    std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = rate_hz;
+    std::get<journal::Header>(stream.chunks.front()).declared_rate_hz = rate_hz;
     for (std::int64_t k = 0; k < count; ++k) {
         stream.bytes(frame_of(values_of(k)), (k + 1) * second / 50);
         if (k % 50 == 49) stream.second((k + 1) * second / 50);
@@ -67,9 +68,9 @@ JournalStream stream_of(std::int64_t count, Nanoseconds second, std::optional<do
 TEST_CASE("every complete second gets the mean temperature of its samples",
           "[record][slow_channels]") {
     JournalStream stream;
-    std::get<JournalHeader>(stream.chunks.front()).declared_rate_hz = 50.0006;
+    std::get<journal::Header>(stream.chunks.front()).declared_rate_hz = 50.0006;
     stream.frames(0, 10'000);
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     const auto means = seconds_of(run.sink, "LK1");
     REQUIRE(means.size() == 199);  // the last second is not over
     for (std::size_t n = 0; n < means.size(); ++n) {
@@ -87,7 +88,7 @@ TEST_CASE("a second without samples is a gap, a second with some samples gets th
     JournalStream stream;
     stream.frames(0, 1'000);
     stream.frames(1'110, 3'000);
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     // Second 19 has the samples 953 ... 999, second 22 has 1 110 ... 1 152.
     const auto means = seconds_of(run.sink, "LK1");
     std::set<std::int64_t> missing;
@@ -109,7 +110,7 @@ TEST_CASE("the values of the slow channels do not depend on where their records 
         if (k % 70 == 13) stream.oven(due(k), static_cast<std::uint16_t>(400 + k % 50));
     }
     stream.flush();
-    const auto whole = archive(stream.chunks);
+    const auto whole = archived(stream.chunks);
     std::mt19937_64 random(3);
     Collector sink;
     Archiver archiver(sink);
@@ -132,7 +133,7 @@ TEST_CASE(
     // 20 ppm fast: a second of 50 samples lasts 20 us less.
     const bool is_declared = GENERATE(false, true);
     const auto rate_hz = is_declared ? std::optional(50.001) : std::nullopt;
-    const auto run = archive(stream_of(30'000, 1s - 20us, rate_hz).chunks);
+    const auto run = archived(stream_of(30'000, 1s - 20us, rate_hz).chunks);
     const auto& records = run.sink.decoded.at("BN1");
     const double per_second_us = is_declared ? 0.0 : -20.0;
     std::size_t record = 0, seen = 0;
@@ -159,7 +160,7 @@ TEST_CASE("the clock quality of a second is that of its samples", "[record][slow
         if (k > 5'000) reading.max_error_us = 100'000;
         stream.chunks.emplace_back(reading);
     }
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     const auto qualities = seconds_of(run.sink, "LCQ");
     REQUIRE(qualities.size() == 199);
     // The host states errors of up to 0.5 ms and 100 ms. The line itself is known to 3 ms or
@@ -180,7 +181,7 @@ TEST_CASE("seconds in which the clock is set are missing, all others occur once"
         if (k > 5'000) reading.realtime += step;
         stream.chunks.emplace_back(reading);
     }
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     const auto means = seconds_of(run.sink, "LK1");
     std::vector<Nanoseconds> jumps;
     for (std::size_t i = 1; i < means.size(); ++i) {
@@ -214,7 +215,7 @@ TEST_CASE("each value of the oven is stored at the nearest second", "[record][sl
         if (n == 40) stream.oven(at + 100ms, 777);  // once more within the second
     }
     stream.flush();
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     Seconds process, set_point, heating;
     for (int n = 1; n <= 60; ++n) {
         const UtcTime second = kStart + n * 1s;
@@ -261,7 +262,7 @@ TEST_CASE("polls that fall halfway between two seconds are all stored", "[record
         stream.oven(at + Nanoseconds(beside(random)), static_cast<std::uint16_t>(400 + n % 500));
         stream.second(at + 100ms);
     }
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     const auto process = seconds_of(run.sink, "LK2");
     REQUIRE(process.size() == kPolls);
     for (std::size_t n = 0; n < process.size(); ++n) {
@@ -282,7 +283,7 @@ TEST_CASE(
     CAPTURE(every.count(), phase.count());
     constexpr int kPolls = 400, kFirstFailed = 150, kFailed = 40;
     JournalStream stream;
-    std::get<JournalHeader>(stream.chunks.front()).oven_interval = interval;
+    std::get<journal::Header>(stream.chunks.front()).oven_interval = interval;
     stream.frames(0, 500);
     for (int n = 0; n < kPolls; ++n) {
         const Nanoseconds at = 20s + phase + n * every;
@@ -290,7 +291,7 @@ TEST_CASE(
             stream.oven(at, static_cast<std::uint16_t>(400 + n));
         stream.second(at + 1ms);
     }
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     std::vector<Nanoseconds> pauses;
     UtcTime before{};
     for (const auto& [time, counts] : seconds_of(run.sink, "LK2", interval)) {
@@ -309,7 +310,7 @@ TEST_CASE("an oven that is polled seldom has a channel with the rate of its poll
                                               std::pair(60s, 0ms), std::pair(3600s, 900ms));
     constexpr int kPolls = 150, kMissing = 99;
     JournalStream stream;
-    std::get<JournalHeader>(stream.chunks.front()).oven_interval = interval;
+    std::get<journal::Header>(stream.chunks.front()).oven_interval = interval;
     stream.frames(0, 500);
     Seconds expected;
     for (int n = 0; n < kPolls; ++n) {
@@ -320,7 +321,7 @@ TEST_CASE("an oven that is polled seldom has a channel with the rate of its poll
         stream.second(at + 950ms);
         expected.emplace_back(kStart + at, 40'000 + 100 * n);
     }
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     CHECK(seconds_of(run.sink, "LK2", interval) == expected);
     CHECK(seconds_of(run.sink, "LK3", interval).size() == expected.size());
     // A record has many values: it lasts up to an hour, and ends at midnight and at a missing
@@ -333,7 +334,7 @@ TEST_CASE("an oven that is polled seldom has a channel with the rate of its poll
 TEST_CASE("a channel of the oven continues after a pause and with another polling interval",
           "[record][slow_channels]") {
     JournalStream stream;
-    std::get<JournalHeader>(stream.chunks.front()).oven_interval = 10s;
+    std::get<journal::Header>(stream.chunks.front()).oven_interval = 10s;
     stream.frames(0, 500);
     for (const auto at : {20s, 30s, 34s, 40s, 65s, 75s}) stream.oven(at, 400);
     stream.second(80s);
@@ -341,7 +342,7 @@ TEST_CASE("a channel of the oven continues after a pause and with another pollin
     header.oven_interval = 2s;
     stream.chunks.emplace_back(header);
     for (const auto at : {83s, 85s}) stream.oven(at, 401);
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     std::vector<std::pair<Nanoseconds, std::size_t>> records;
     for (const auto& record : run.sink.decoded.at("LK2"))
         records.emplace_back(record.header.start - kStart, record.samples.size());
@@ -353,14 +354,14 @@ TEST_CASE("a sensor without temperature has only the slow channels of the clock"
           "[record][slow_channels]") {
     const auto layout = *wire::BurstLayout::from_burst_ctrl(0x0103);  // z, COUNT, CHKSM
     JournalStream stream;
-    std::get<JournalHeader>(stream.chunks.front()).burst_ctrl = layout.burst_ctrl();
+    std::get<journal::Header>(stream.chunks.front()).burst_ctrl = layout.burst_ctrl();
     for (std::int64_t k = 0; k < 1'000; ++k) {
         std::vector<std::byte> bytes;
         wire::append_frame(layout, values_of(k), bytes);
         stream.bytes(bytes, due(k));
     }
     stream.flush();
-    const auto run = archive(stream.chunks);
+    const auto run = archived(stream.chunks);
     CHECK(run.sink.decoded.count("LK1") == 0);
     CHECK(seconds_of(run.sink, "LCQ").size() == 19);
     CHECK(seconds_of(run.sink, "LCE").size() >= 19);

@@ -14,18 +14,18 @@ using namespace a351;
 
 namespace {
 
-record::Event start(std::size_t i) {
+events::Event start(std::size_t i) {
     return {"start", Morning::start_of(i), {}, {}, {{"site", Morning::kSites[i]}}};
 }
 
-record::Event stop(std::size_t i) {
+events::Event stop(std::size_t i) {
     return {"stop", Morning::start_of(i) + Morning::kStay, {}, {}, {}};
 }
 
 /// Corrects a morning whose event log has these events in this order.
-Outcome correct(const Morning& morning, const std::vector<record::Event>& events) {
-    for (const record::Event& event : events)
-        record::append_event(record::posix_files(), morning.folder().path() / "data/events", event);
+Outcome correct(const Morning& morning, const std::vector<events::Event>& events) {
+    for (const events::Event& event : events)
+        events::append_event(files::posix_files(), morning.folder().path() / "data/events", event);
     morning.folder().write("day.toml", "[survey]\nmodel = 't'\n");
     return run(morning.folder(), "survey day.toml");
 }
@@ -44,8 +44,8 @@ std::vector<std::string> rows_of(const Morning& morning) {
 
 using Rows = std::vector<std::string>;
 
-std::vector<record::Event> whole_morning() {
-    std::vector<record::Event> events;
+std::vector<events::Event> whole_morning() {
+    std::vector<events::Event> events;
     for (std::size_t i = 0; i < Morning::kSites.size(); ++i) {
         events.push_back(start(i));
         events.push_back(stop(i));
@@ -97,7 +97,7 @@ TEST_CASE("the order in which events were logged does not change the survey", "[
 TEST_CASE("the last day of a recorder's log is corrected, unless another time is requested",
           "[logged]") {
     const Morning morning;
-    std::vector<record::Event> events = whole_morning();
+    std::vector<events::Event> events = whole_morning();
     for (std::size_t i = 0; i < 2; ++i) events[i].utc -= std::chrono::hours(24);
     const Outcome last = correct(morning, events);
     CHECK(last.status == 0);

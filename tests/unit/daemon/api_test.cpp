@@ -4,6 +4,8 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::page;
+using namespace a351::daemon::status;
 
 TEST_CASE("an occupation is started, set up again, renamed and stopped by POST", "[daemon][page]") {
     Page page;
@@ -108,7 +110,7 @@ TEST_CASE("GET changes nothing, POST reads nothing, and unknown paths are answer
 TEST_CASE("events are listed from a given time on, at most 1000 per answer", "[daemon][page]") {
     Page page;
     for (int i = 0; i < 1200; ++i) {
-        record::Event event;
+        events::Event event;
         event.type = "note";
         event.utc = kMorning + std::chrono::seconds(i);
         page.recorder.log.push_back(event);
@@ -157,7 +159,7 @@ TEST_CASE("the token is given out only if the interface has one to give", "[daem
     Api exposed({.status = [] { return Status{}; },
                  .occupations = page.occupations,
                  .live = page.live,
-                 .events = [] { return std::vector<record::Event>{}; }},
+                 .events = [] { return std::vector<events::Event>{}; }},
                 "");
     CHECK(exposed.answer(get("/api/token")).status == 403);
 }
@@ -167,7 +169,7 @@ TEST_CASE("an exception in a data source is answered 500 and counted", "[daemon]
     Api broken({.status = []() -> Status { throw std::runtime_error("no status"); },
                 .occupations = page.occupations,
                 .live = page.live,
-                .events = []() -> std::vector<record::Event> { throw 1; }},
+                .events = []() -> std::vector<events::Event> { throw 1; }},
                "");
     CHECK(broken.answer(get("/api/status")).status == 500);
     CHECK(broken.use().failures == 1);

@@ -9,6 +9,8 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::status;
+using namespace a351::daemon::store;
 using std::chrono::seconds;
 
 namespace {
@@ -22,8 +24,8 @@ bool has_reason(const Status& status, const std::string& part) {
 /// Zeroes the last two records of each day file, as the kernel may drop them after a failed sync.
 void zero_newest_records(const std::filesystem::path& root) {
     for (const char* channel : {"BN1", "BN2", "BNZ", "BK1"}) {
-        for (const auto& file : record::day_files(root / "archive", {}, channel)) {
-            const auto lost = std::min(std::filesystem::file_size(file), 2 * record::kRecordSize);
+        for (const auto& file : archive::day_files(root / "archive", {}, channel)) {
+            const auto lost = std::min(std::filesystem::file_size(file), 2 * archive::kRecordSize);
             std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
             out.seekp(-static_cast<std::streamoff>(lost), std::ios::end);
             for (std::size_t i = 0; i < lost; ++i) out.put('\0');
@@ -36,13 +38,13 @@ struct RecoveryRig : SteppedRig {
 
     /// Records a session of 60 s and keeps its files as a crash would leave them.
     /// @return options of a store for these files
-    [[nodiscard]] StoreOptions crash() {
+    [[nodiscard]] store::Options crash() {
         test::FailingFiles unharmed;
         Store store(unharmed, options(), clock, reads);
         begin_session(1);
         advance(store, seconds(60));
         std::filesystem::copy(root, crashed, std::filesystem::copy_options::recursive);
-        StoreOptions again = options();
+        store::Options again = options();
         again.root = crashed;
         return again;
     }
@@ -56,7 +58,7 @@ struct RecoveryRig : SteppedRig {
 
 TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journal has to wait",
                  "[daemon][store][recovery]") {
-    StoreOptions again = options();
+    store::Options again = options();
     again.root = directory.path() / "crashed";
     again.queue_bytes = std::size_t{256} << 10;  // About 6 000 frames.
     {
@@ -121,7 +123,7 @@ TEST_CASE_METHOD(
     RecoveryRig,
     "after a failed sync during a replay nothing is marked, and the next start replays it",
     "[daemon][store][recovery]") {
-    const StoreOptions again = crash();
+    const store::Options again = crash();
     const auto marks_before = read_journal(crashed).marks.size();
     {
         Store store(files, again, clock, reads);
@@ -157,7 +159,7 @@ TEST_CASE("after a killed replay, a complete one and a power cut every sample is
         }
         std::filesystem::remove_all(rig.crashed / "archive");  // A power cut may leave it so.
         std::filesystem::create_directory(rig.crashed / "archive");
-        StoreOptions again = rig.options();
+        store::Options again = rig.options();
         again.root = rig.crashed;
         test::ForgetfulFiles forgetful;
         again.recovered = [&](const auto&) { is_replayed = true; };
@@ -179,7 +181,7 @@ TEST_CASE("after a killed replay, a complete one and a power cut every sample is
         INFO("killed after " << n << " operations of the replay");
         REQUIRE(read_journal(found).marks.back().session.bytes[0] == 2);
         again.root = found;
-        recover(record::posix_files(), again, rig.clock);
+        recover(files::posix_files(), again, rig.clock);
         REQUIRE(recorded_counts(found, "BNZ") == stepped_counts(rig.fed, 2));
         REQUIRE(recorded_counts(found, "BN1") == stepped_counts(rig.fed, 0));
     }

@@ -12,11 +12,11 @@ namespace a351::daemon {
 
 using nlohmann::json;
 
-inline Request get(const std::string& target) {
+inline page::Request get(const std::string& target) {
     return {"GET", target, {{"Host", "127.0.0.1:8351"}}, ""};
 }
 
-inline Request post(const std::string& target, const std::string& body = "{}") {
+inline page::Request post(const std::string& target, const std::string& body = "{}") {
     return {"POST",
             target,
             {{"Host", "127.0.0.1:8351"},
@@ -25,13 +25,14 @@ inline Request post(const std::string& target, const std::string& body = "{}") {
             body};
 }
 
-inline Request with(Request request, const std::string& name, const std::string& value) {
+inline page::Request with(page::Request request, const std::string& name,
+                          const std::string& value) {
     std::erase_if(request.headers, [&](const auto& header) { return header.first == name; });
     request.headers.emplace_back(name, value);
     return request;
 }
 
-inline Request without(Request request, const std::string& name) {
+inline page::Request without(page::Request request, const std::string& name) {
     std::erase_if(request.headers, [&](const auto& header) { return header.first == name; });
     return request;
 }
@@ -47,16 +48,16 @@ inline bool is(const json& whole, const std::string& pointer, const std::string&
 /// The HTTP interface of a recorder that has one hour of samples.
 struct Page {
     FakeRecorder recorder;
-    Occupations occupations{recorder, two_sites(), {}};
-    LiveRecord live{*wire::find_profile("A351"), 50, {}};
-    Status status;
-    Api api{{.status = [this] { return status; },
-             .occupations = occupations,
-             .live = live,
-             .events = [this] { return recorder.log; }},
-            kToken};
+    survey::Occupations occupations{recorder, two_sites(), {}};
+    live::Record live{*wire::find_profile("A351"), 50, {}};
+    status::Status status;
+    page::Api api{{.status = [this] { return status; },
+                   .occupations = occupations,
+                   .live = live,
+                   .events = [this] { return recorder.log; }},
+                  kToken};
 
-    json ask(const Request& request, int expected = 200) {
+    json ask(const page::Request& request, int expected = 200) {
         const auto response = api.answer(request);
         CAPTURE(request.target, request.body, response.body);
         CHECK(response.status == expected);

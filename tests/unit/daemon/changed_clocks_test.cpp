@@ -41,7 +41,7 @@ extern "C" int adjtimex(timex* kernel) noexcept {
 }
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::source;
 using Kind = ReadQueue::Kind;
 
 namespace {

@@ -9,8 +9,11 @@
 #include "protocol/core/input_error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
-using namespace a351;
 using namespace a351::daemon;
+using namespace a351;
+using namespace a351::daemon::config;
+using namespace a351::daemon::source;
+using namespace a351::daemon::verdict;
 
 namespace {
 
@@ -49,7 +52,7 @@ struct Fixture {
 TEST_CASE_METHOD(Fixture, "a minimal configuration has the documented defaults",
                  "[daemon][config]") {
     const Config config = read(kStation + kSensor + kStorage);
-    CHECK(config.station.codes == record::StationCodes{});
+    CHECK(config.station.codes == journal::StationCodes{});
     CHECK(config.station.latitude == Degrees(36.1));
     CHECK(config.sensor.address.path == "/dev/ttyUSB0");
     CHECK(config.sensor.profile->name == "A351");
@@ -69,7 +72,7 @@ TEST_CASE("the annotated example is accepted", "[daemon][config]") {
     const Config config = read_config(example);
     CHECK(config.sensor.baud == 460800);
     CHECK(config.survey.sites.empty());
-    CHECK(config.verdict == VerdictOptions{});
+    CHECK(config.verdict == verdict::Options{});
 }
 
 TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon][config]") {
@@ -86,7 +89,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
         "\"\n"
         "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n"
         "[verdict]\nslope_degc_per_h=0.4\nknock_gal=3\n");
-    CHECK(config.station.codes == record::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
+    CHECK(config.station.codes == journal::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
     CHECK(config.sensor.address.usb == UsbAddress{0x0403, 0x6001, "A:5"});
     CHECK(config.sensor.settings.filter_code == 7);
     REQUIRE(config.oven);
@@ -100,7 +103,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
     CHECK(config.storage.root == "/var/lib/a351");
     CHECK(std::filesystem::equivalent(config.page.assets, directory.path()));
     REQUIRE(config.survey.sites.size() == 1);
-    VerdictOptions verdict;
+    verdict::Options verdict;
     verdict.slope_degc_per_h = 0.4;
     verdict.knock_gal = 3.0;
     CHECK(config.verdict == verdict);
@@ -217,14 +220,14 @@ TEST_CASE_METHOD(Fixture, "a symbolic link to the sensor's port is refused as th
 TEST_CASE_METHOD(Fixture,
                  "a calibration sets the verdict's defaults, and explicit keys override them",
                  "[daemon][config]") {
-    corrector::Calibration unit;
+    unit::Calibration unit;
     unit.serial_number = "00000042";
     unit.program = "test";
     unit.valid_from = *parse_rfc3339("2026-03-01T00:00:00Z");
     unit.thermal.emplace();
     unit.thermal->values << -10.0, -15.0, 9.0, std::log(40.0), std::log(1800.0);
-    unit.warm_up = corrector::WarmUpGuidance{1.0, 9.0};
-    std::ofstream(directory.path() / "unit.toml") << corrector::to_toml(unit);
+    unit.warm_up = unit::WarmUpGuidance{1.0, 9.0};
+    std::ofstream(directory.path() / "unit.toml") << unit::to_toml(unit);
     const Config config = read(kStation + kSensor + kStorage +
                                "[survey]\ncalibration = \"unit.toml\"\n[verdict]\n"
                                "slow_mgal_per_degc = -17\n");

@@ -11,6 +11,10 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::live;
+using namespace a351::daemon::page;
+using namespace a351::daemon::status;
+using namespace a351::daemon::survey;
 
 namespace {
 
@@ -48,7 +52,7 @@ struct FakeDaemon {
 
     FakeRecorder recorder;
     Occupations occupations{recorder, two_sites(), {}};
-    LiveRecord live{*wire::find_profile("A351"), 50, {}};
+    live::Record live{*wire::find_profile("A351"), 50, {}};
     Status status;
     Server server{{.listen = {.port = 0}},
                   {.status = [this] { return status; },

@@ -9,7 +9,7 @@
 #include "tests/unit/daemon/fake_recorder.hpp"
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::ctl;
 
 TEST_CASE("the status screen shows known values and a dash for missing ones", "[daemon][ctl]") {
     const auto bare = status_screen(nlohmann::json::object(), false);

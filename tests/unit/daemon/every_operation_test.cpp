@@ -6,6 +6,8 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::status;
+using namespace a351::daemon::store;
 using std::chrono::seconds;
 using test::Fault;
 
@@ -55,13 +57,13 @@ public:
 
 private:
     void note_event(Store& store, const std::string& text) {
-        const record::Event event = note(text);
-        if (commit(store, event)) acknowledged_.push_back(record::to_json(event));
+        const events::Event event = note(text);
+        if (commit(store, event)) acknowledged_.push_back(events::to_json(event));
     }
 
     /// Recovers `found` and checks it.  @return the smallest sample count of any archived channel
     int check_root(const std::filesystem::path& found, std::int64_t published) {
-        StoreOptions again = options();
+        store::Options again = options();
         again.root = found;
         test::FailingFiles unharmed;
         const auto report = recover(unharmed, again, clock);
@@ -78,12 +80,12 @@ private:
 
     int check_channel(const std::filesystem::path& found, const char* channel, std::size_t place) {
         const auto data =
-            record::read_channel(found / "archive", {}, channel, utc - std::chrono::hours(1), utc);
+            archive::read_channel(found / "archive", {}, channel, utc - std::chrono::hours(1), utc);
         CHECK(data.damage.empty());
         int count = 0;
         bool is_same = true;
         Nanoseconds worst{0};
-        for (const record::Segment& segment : data.segments) {
+        for (const archive::Segment& segment : data.segments) {
             for (std::size_t i = 0; i < segment.counts.size(); ++i, ++count) {
                 is_same = is_same && segment.counts[i] == counts(count, place);
                 const UtcTime truth = arrival(count) - kWire - group_delay();
@@ -97,9 +99,9 @@ private:
     }
 
     void check_events(const std::filesystem::path& found) {
-        const record::EventLog log = record::read_events(found / "events");
+        const events::EventLog log = events::read_events(found / "events");
         std::vector<std::string> kept;
-        for (const record::Event& event : log.events) kept.push_back(record::to_json(event));
+        for (const events::Event& event : log.events) kept.push_back(events::to_json(event));
         for (const std::string& event : acknowledged_)
             CHECK(std::count(kept.begin(), kept.end(), event) == 1);
         const auto journaled = read_journal(found).events;
@@ -158,7 +160,7 @@ TEST_CASE_METHOD(SteppedRig,
     while (status_of(store).more_counters.at("journal_faults") == 0) advance(store, kStep);
     advance(store, 2 * kStep);
     failing.set({});
-    const auto segments = record::journal_segments(root / "journal");
+    const auto segments = journal::segment_files(root / "journal");
     CHECK(segments.size() == 2);
     CHECK(read_journal(root).bytes == bytes);
     const Status alarmed = status_of(store);

@@ -68,16 +68,16 @@ private:
 
     Bytes answer_to(const Bytes& request) {
         if (is_four_byte) return answer_in_four_bytes(request);
-        if (request == sim::sealed(frame({0x01, 0x03, 0x20, 0x00, 0x00, 0x05}))) {
+        if (request == sim::oven::sealed(frame({0x01, 0x03, 0x20, 0x00, 0x00, 0x05}))) {
             ++polls;
             std::this_thread::sleep_for(delay.load());
             return spoil(manner, frame({0x01, 0x03, 0x0A, 0x01, 0xA9, 0x01, 0x00, 0x01, 0xA9, 0x00,
                                         0x00, 0x00, 0xFA}));
         }
-        if (request == sim::sealed(frame({0x01, 0x03, 0x24, 0x10, 0x00, 0x01}))) {
+        if (request == sim::oven::sealed(frame({0x01, 0x03, 0x24, 0x10, 0x00, 0x01}))) {
             ++decimal_requests;
             Bytes answer = frame({0x01, 0x03, 0x02});
-            sim::append_word(answer, decimals);
+            sim::oven::append_word(answer, decimals);
             return spoil(decimals_manner, answer);
         }
         ++other_requests;
@@ -85,16 +85,16 @@ private:
     }
 
     Bytes answer_in_four_bytes(const Bytes& request) {
-        if (request == sim::sealed(frame({0x01, 0x03, 0x00, 0x00, 0x00, 0x0A}))) {
+        if (request == sim::oven::sealed(frame({0x01, 0x03, 0x00, 0x00, 0x00, 0x0A}))) {
             ++polls;  // -1.5 degC, a set point of 42.5, 25.0 %
             return spoil(manner, frame({0x01, 0x03, 0x14, 0xFF, 0xFF, 0xFF, 0xF1, 0x00,
                                         0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0xA9, 0x00,
                                         0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xFA}));
         }
-        if (request == sim::sealed(frame({0x01, 0x03, 0x04, 0x20, 0x00, 0x02}))) {
+        if (request == sim::oven::sealed(frame({0x01, 0x03, 0x04, 0x20, 0x00, 0x02}))) {
             ++decimal_requests;
             Bytes answer = frame({0x01, 0x03, 0x04, 0x00, 0x00});
-            sim::append_word(answer, decimals);
+            sim::oven::append_word(answer, decimals);
             return spoil(decimals_manner, answer);
         }
         ++other_requests;
@@ -111,7 +111,7 @@ private:
                 answer.resize(answer.size() / 2);
                 return answer;
             case Manner::bad_crc:
-                answer = sim::sealed(std::move(answer));
+                answer = sim::oven::sealed(std::move(answer));
                 answer.back() ^= std::byte{1};
                 return answer;
             case Manner::refused:
@@ -128,7 +128,7 @@ private:
                 answer = frame({0x01, 0x03, 0x04, 0x01, 0xA9, 0x01, 0x00});
                 break;
         }
-        return sim::sealed(std::move(answer));
+        return sim::oven::sealed(std::move(answer));
     }
 
     static Bytes frame(std::initializer_list<int> values) {

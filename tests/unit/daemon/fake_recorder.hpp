@@ -16,26 +16,26 @@ inline const UtcTime kMorning = *parse_rfc3339("2026-03-14T08:00:00Z");
 inline UtcTime minute(int minutes) { return kMorning + std::chrono::minutes(minutes); }
 
 /// A recorder with one sample per second, from minute 0 to `last`.
-class FakeRecorder : public Recorder {
+class FakeRecorder : public survey::Recorder {
 public:
-    std::optional<Instant> latest() override {
+    std::optional<survey::Instant> latest() override {
         if (!last) return std::nullopt;
         return at(*last);
     }
-    std::optional<Instant> at(UtcTime utc) override {
+    std::optional<survey::Instant> at(UtcTime utc) override {
         if (!last || utc < kMorning || utc > *last) return std::nullopt;
         const auto seconds = std::chrono::ceil<std::chrono::seconds>(utc - kMorning);
-        return Instant{session, seconds.count(), kMorning + seconds};
+        return survey::Instant{session, seconds.count(), kMorning + seconds};
     }
-    void commit(const record::Event& event) override {
+    void commit(const events::Event& event) override {
         if (is_disk_full) throw std::system_error(ENOSPC, std::generic_category(), "events");
         log.push_back(event);
     }
 
-    record::SessionId session{{1, 2, 3}};
+    journal::SessionId session{{1, 2, 3}};
     std::optional<UtcTime> last = minute(60);
     bool is_disk_full = false;
-    std::vector<record::Event> log;
+    std::vector<events::Event> log;
 };
 
 inline std::vector<text::Site> two_sites() {

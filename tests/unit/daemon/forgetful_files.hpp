@@ -23,7 +23,7 @@ public:
     /// Number of operations until the process is killed.  Later ones fail without an effect.
     std::atomic<int> operations_left{std::numeric_limits<int>::max()};
 
-    std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
+    std::unique_ptr<files::AppendFile> open_append(const std::filesystem::path& file) override {
         count();
         const std::lock_guard lock(mutex_);
         if (!std::filesystem::exists(file)) unsynced_names_.insert(file);
@@ -87,7 +87,7 @@ private:
     class File : public ForwardingFile {
     public:
         File(ForgetfulFiles& owner, std::filesystem::path path,
-             std::unique_ptr<record::AppendFile> file)
+             std::unique_ptr<files::AppendFile> file)
             : ForwardingFile(std::move(file)), owner_(owner), path_(std::move(path)) {}
         void append(std::span<const std::byte> bytes) override {
             owner_.count();
@@ -115,7 +115,7 @@ private:
     static void lose_pages(const std::filesystem::path& file, std::uint64_t synced,
                            std::mt19937_64& random) {
         constexpr std::size_t kPage = 4096;
-        auto bytes = record::read_bytes(file);
+        auto bytes = files::read_bytes(file);
         bytes.resize(synced + random() % (bytes.size() - synced + 1));
         for (std::size_t page = synced / kPage; page * kPage < bytes.size(); ++page) {
             if (random() % 4 != 0) continue;

@@ -7,6 +7,7 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::page;
 
 namespace {
 

@@ -7,6 +7,8 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::live;
+using namespace a351::daemon::page;
 using nlohmann::json;
 
 namespace {
@@ -19,7 +21,7 @@ std::int64_t ms_of(UtcTime time) {
 
 TEST_CASE("a history has the smallest and largest value of each interval, with the unit",
           "[daemon][history]") {
-    LiveRecord live = quiet_live_record();
+    live::Record live = quiet_live_record();
     take_samples(live, 0, 1000);  // 20 s.
     const auto& profile = live.profile();
     for (const auto& [name, channel] : {std::pair("x", 0), std::pair("y", 1), std::pair("z", 2)}) {
@@ -48,7 +50,7 @@ TEST_CASE("a history has the smallest and largest value of each interval, with t
 }
 
 TEST_CASE("a gap in the record appears as missing points", "[daemon][history]") {
-    LiveRecord live = quiet_live_record();
+    live::Record live = quiet_live_record();
     take_samples(live, 0, 500);
     take_samples(live, 1000, 1500);
     const auto points = json::parse(history_json(live, "channel=z", minute(1)))["points"];
@@ -59,7 +61,7 @@ TEST_CASE("a gap in the record appears as missing points", "[daemon][history]") 
 
 TEST_CASE("a history has at most the requested number of points, within the requested times",
           "[daemon][history]") {
-    LiveRecord live = quiet_live_record();
+    live::Record live = quiet_live_record();
     take_samples(live, 0, 50 * 120);
     const auto points = [&](const std::string& query) {
         const auto answer = json::parse(history_json(live, "channel=x" + query, minute(5)));
@@ -78,7 +80,7 @@ TEST_CASE("a history has at most the requested number of points, within the requ
 }
 
 TEST_CASE("the oven's history has process value and set point", "[daemon][history]") {
-    LiveRecord live = quiet_live_record();
+    live::Record live = quiet_live_record();
     CHECK(json::parse(history_json(live, "channel=oven", minute(1)))["points"].empty());
     live.take(OvenPoint{kMorning, DegC(42.25), DegC(42.5)});
     live.take(OvenPoint{kMorning + std::chrono::seconds(3), std::nullopt, DegC(42.5)});
@@ -94,7 +96,7 @@ TEST_CASE("the oven's history has process value and set point", "[daemon][histor
 
 TEST_CASE("a wrong history query is refused with an error that names the key",
           "[daemon][history]") {
-    LiveRecord live = quiet_live_record();
+    live::Record live = quiet_live_record();
     const auto trouble = [&](const std::string& query) {
         try {
             (void)history_json(live, query, minute(1));

@@ -3,7 +3,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::source;
 
 TEST_CASE("on simulated time all clocks show the simulated UTC, synchronised and without error",
           "[daemon][host_clock]") {

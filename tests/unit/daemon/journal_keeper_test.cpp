@@ -10,6 +10,7 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::store;
 using namespace std::chrono_literals;
 
 namespace {
@@ -28,17 +29,17 @@ struct Journal {
         bool has_mark = false;
     };
     explicit Journal(const std::vector<Day>& days) {
-        record::JournalWriter writer(record::posix_files(), path);
+        journal::Writer writer(files::posix_files(), path);
         for (std::size_t day = 0; day < days.size(); ++day) {
-            record::JournalHeader header;
+            journal::Header header;
             header.session.bytes[0] = days[day].session;
             header.clock.realtime =
                 *parse_rfc3339("2026-03-01T12:00:00Z") + std::chrono::days(static_cast<int>(day));
             header.clock.is_synchronised = days[day].is_synchronised;
             writer.begin_segment(header);
-            writer.append(record::EventChunk{std::string(5000, 'x')}, header.clock);
+            writer.append(journal::EventChunk{std::string(5000, 'x')}, header.clock);
             if (days[day].has_mark)
-                writer.append(record::MarkChunk{header.session, {{"BNZ", 1, {}}}}, header.clock);
+                writer.append(journal::MarkChunk{header.session, {{"BNZ", 1, {}}}}, header.clock);
         }
         writer.sync();
     }
@@ -51,9 +52,9 @@ struct Journal {
     }
     [[nodiscard]] std::vector<std::uint64_t> numbers(const char* extension) const {
         std::vector<std::uint64_t> numbers;
-        for (const auto& segment : record::journal_segments(path))
+        for (const auto& segment : journal::segment_files(path))
             if (segment.extension() == extension)
-                numbers.push_back(*record::segment_number(segment));
+                numbers.push_back(*journal::segment_number(segment));
         return numbers;
     }
 };
@@ -64,7 +65,7 @@ using Numbers = std::vector<std::uint64_t>;
 
 TEST_CASE("closed segments are compressed, the newest is not", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(4));
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
     keeper.tidy();
     CHECK(journal.numbers(".zst") == Numbers{1, 2, 3});
     CHECK(journal.numbers(".a351j") == Numbers{4});
@@ -76,7 +77,7 @@ TEST_CASE("closed segments are compressed, the newest is not", "[daemon][keeper]
 TEST_CASE("while names of segments must be kept none is compressed, but old ones are removed",
           "[daemon][keeper]") {
     const Journal journal(Journal::sessions(20));
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
     keeper.keep_names(true);
     keeper.tidy();
     CHECK(keeper.status().compressed == 0);
@@ -88,14 +89,14 @@ TEST_CASE("while names of segments must be kept none is compressed, but old ones
 
 TEST_CASE("a segment that was written recently is not compressed", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(4));
-    JournalKeeper keeper(record::posix_files(), journal.path, {});
+    JournalKeeper keeper(files::posix_files(), journal.path, {});
     keeper.tidy();
     CHECK(journal.numbers(".zst").empty());
 }
 
 TEST_CASE("sessions that ended long ago and are in the archive are removed", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(20));
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
     keeper.tidy();
     CHECK(keeper.status().removed == 9);  // 9 ended 10 days before 20 began
     CHECK(journal.numbers(".zst").front() == 10);
@@ -109,7 +110,7 @@ TEST_CASE("segments that no later session's MARK covers are kept", "[daemon][kee
     days[19].has_mark = false;
     const auto removed_of = [&] {
         const Journal journal(days);
-        JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+        JournalKeeper keeper(files::posix_files(), journal.path, kEager);
         keeper.tidy();
         return keeper.status().removed;
     };
@@ -122,12 +123,12 @@ TEST_CASE("old segments of a session that lasted until recently are kept", "[dae
     auto days = Journal::sessions(20);
     for (std::size_t i = 5; i < 15; ++i) days[i].session = 77;
     const Journal journal(days);
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
     keeper.tidy();
     CHECK(keeper.status().removed == 5);
     for (std::size_t i = 5; i < 20; ++i) days[i].session = 77;
     const Journal longer(days);
-    JournalKeeper other(record::posix_files(), longer.path, kEager);
+    JournalKeeper other(files::posix_files(), longer.path, kEager);
     other.tidy();
     CHECK(other.status().removed == 5);
 }
@@ -137,26 +138,26 @@ TEST_CASE("dates of an unsynchronised clock do not count, and keep_days = 0 remo
     auto days = Journal::sessions(20);
     days[3].is_synchronised = false;
     const Journal journal(days);
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
     keeper.tidy();
     CHECK(keeper.status().removed == 9);
     for (auto& day : days) day.is_synchronised = false;
     const Journal never(days);
-    JournalKeeper other(record::posix_files(), never.path, kEager);
+    JournalKeeper other(files::posix_files(), never.path, kEager);
     other.tidy();
     CHECK(other.status().removed == 0);
     const Journal kept(Journal::sessions(20));
     JournalKeeper::Options for_ever = kEager;
     for_ever.keep_days = 0;
-    JournalKeeper third(record::posix_files(), kept.path, for_ever);
+    JournalKeeper third(files::posix_files(), kept.path, for_ever);
     third.tidy();
     CHECK(third.status().removed == 0);
 }
 
 TEST_CASE("a segment without a header does not stop the removal of others", "[daemon][keeper]") {
     const Journal journal(Journal::sessions(20));
-    std::filesystem::resize_file(record::journal_segments(journal.path)[4], 10);
-    JournalKeeper keeper(record::posix_files(), journal.path, kEager);
+    std::filesystem::resize_file(journal::segment_files(journal.path)[4], 10);
+    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
     keeper.tidy();
     CHECK(keeper.status().removed == 8);
 }
@@ -173,7 +174,7 @@ TEST_CASE("a disk fault is counted, and the keeper continues", "[daemon][keeper]
 
 TEST_CASE_METHOD(Rig, "a segment is removed when the archive has its samples, and not before",
                  "[daemon][keeper]") {
-    StoreOptions tidy = options();
+    store::Options tidy = options();
     tidy.keeper = kEager;
     files.does_archive_fail = true;
     Store store(files, tidy, clock, reads);

@@ -6,11 +6,13 @@
 
 #include "tests/unit/daemon/live_records.hpp"
 
-using namespace a351;
 using namespace a351::daemon;
+using namespace a351;
+using namespace a351::daemon::live;
+using namespace a351::daemon::page;
 
 TEST_CASE("a block of samples is encoded as the format says, byte for byte", "[daemon][live]") {
-    LiveBlock block;
+    live::Block block;
     block.first_index = 0x0102030405060708;
     block.first_time = *parse_rfc3339("1970-01-01T00:00:01.5Z");
     block.interval_s = 0.02;
@@ -32,7 +34,7 @@ TEST_CASE("a block of samples is encoded as the format says, byte for byte", "[d
 
 TEST_CASE("a message with the largest number of samples just fits the size limit",
           "[daemon][live]") {
-    LiveBlock block;
+    live::Block block;
     for (auto& channel : block.counts) channel.resize(kMostSamplesPerMessage);
     const auto size = encoded(block).size();
     CHECK(size <= 64 * 1024);

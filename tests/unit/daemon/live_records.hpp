@@ -5,7 +5,7 @@
 
 namespace a351::daemon {
 
-inline LiveRecord quiet_live_record() { return {*wire::find_profile("A351"), 50, {}}; }
+inline live::Record quiet_live_record() { return {*wire::find_profile("A351"), 50, {}}; }
 
 /// Returns the time of sample `index` at 50 Hz; sample 0 is at kMorning.
 inline UtcTime instant_of(std::int64_t index) {
@@ -13,9 +13,9 @@ inline UtcTime instant_of(std::int64_t index) {
 }
 
 /// Returns a sample whose counts show its index: index + 1000 x the number of the channel.
-inline PlacedSample numbered_sample(std::int64_t index) {
-    PlacedSample sample{index, instant_of(index), {}};
-    for (std::size_t channel = 0; channel < kLiveChannelCount; ++channel) {
+inline live::PlacedSample numbered_sample(std::int64_t index) {
+    live::PlacedSample sample{index, instant_of(index), {}};
+    for (std::size_t channel = 0; channel < live::kLiveChannelCount; ++channel) {
         sample.counts[channel] =
             static_cast<std::int32_t>(index + 1000 * static_cast<std::int64_t>(channel));
     }
@@ -23,7 +23,7 @@ inline PlacedSample numbered_sample(std::int64_t index) {
 }
 
 /// Adds the samples first, first + 1 ... last - 1.
-inline void take_samples(LiveRecord& live, std::int64_t first, std::int64_t last) {
+inline void take_samples(live::Record& live, std::int64_t first, std::int64_t last) {
     for (std::int64_t index = first; index < last; ++index) live.take(numbered_sample(index));
 }
 

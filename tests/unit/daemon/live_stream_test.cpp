@@ -13,6 +13,9 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::live;
+using namespace a351::daemon::page;
+using namespace a351::daemon::status;
 using nlohmann::json;
 using std::chrono::milliseconds;
 

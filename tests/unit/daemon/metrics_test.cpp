@@ -11,17 +11,22 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::live;
+using namespace a351::daemon::page;
+using namespace a351::daemon::source;
+using namespace a351::daemon::status;
+using namespace a351::daemon::survey;
 
 namespace {
 
 std::string metrics_of(const Status& status, const PageUse& use = {}) {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
-    LiveRecord live = quiet_live_record();
+    live::Record live = quiet_live_record();
     Api api({.status = [&] { return status; },
              .occupations = occupations,
              .live = live,
-             .events = [] { return std::vector<record::Event>{}; }},
+             .events = [] { return std::vector<events::Event>{}; }},
             "");
     api.use() = use;
     const auto answer = api.answer({"GET", "/metrics", {}, ""});

@@ -6,6 +6,7 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::survey;
 using Kind = Outcome::Kind;
 
 namespace {

@@ -15,9 +15,9 @@
 #include "tests/unit/daemon/fake_sensor.hpp"
 
 using namespace a351;
-using namespace a351::daemon;
-using record::OvenChunk;
-using record::OvenOutcome;
+using namespace a351::daemon::source;
+using journal::OvenChunk;
+using journal::OvenOutcome;
 using Manner = FakeController::Manner;
 using State = OvenLinkStatus::State;
 
@@ -116,7 +116,7 @@ TEST_CASE("each kind of failed answer has its own counter, and the next answer i
     CHECK(rig.link.status().state == State::answering);
     rig.link.stop();
 
-    std::array<std::uint64_t, record::kOvenOutcomeCount> handed_on{};
+    std::array<std::uint64_t, journal::kOvenOutcomeCount> handed_on{};
     for (const OvenChunk& poll : rig.polls()) {
         ++handed_on.at(static_cast<std::size_t>(poll.outcome));
         CHECK(poll.registers.empty() == (poll.outcome != OvenOutcome::answered));

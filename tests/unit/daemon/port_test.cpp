@@ -12,7 +12,7 @@
 #include "tests/unit/daemon/pty.hpp"
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::source;
 using std::chrono::milliseconds;
 
 namespace {

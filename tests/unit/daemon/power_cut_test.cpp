@@ -3,6 +3,7 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::store;
 
 TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once",
                  "[daemon][store][power_cut]") {
@@ -24,9 +25,9 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
         const auto journaled = status_of(store).journaled;
         const auto cut_at = std::chrono::steady_clock::now();
         forgetful.cut(root, found, random);
-        StoreOptions again = options();
+        store::Options again = options();
         again.root = found;
-        const auto report = recover(record::posix_files(), again, clock);
+        const auto report = recover(files::posix_files(), again, clock);
         mended += report.archive.size();
         torn += report.journal ? 1U : 0U;
         INFO("cut " << cut << ", journaled " << journaled.value_or(-1) << ", added "
@@ -40,7 +41,7 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
         if (counts.size() < fed_at.size())
             oldest_lost = std::max<std::chrono::duration<double>>(oldest_lost,
                                                                   cut_at - fed_at[counts.size()]);
-        CHECK(recover(record::posix_files(), again, clock).records_added == 0);
+        CHECK(recover(files::posix_files(), again, clock).records_added == 0);
         std::filesystem::remove_all(found);
     }
     std::printf(

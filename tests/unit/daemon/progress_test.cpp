@@ -2,8 +2,9 @@
 
 #include "tests/support/catch.hpp"
 
-using namespace a351::daemon;
-using a351::record::SessionId;
+using namespace a351;
+using namespace a351::daemon::store;
+using a351::journal::SessionId;
 
 namespace {
 

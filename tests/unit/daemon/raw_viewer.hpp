@@ -114,7 +114,7 @@ struct ReadBlock {
     std::uint32_t count = 0;
     std::int64_t first_index = 0;
     double time_ms = 0.0, interval_ms = 0.0;
-    std::array<std::vector<std::int32_t>, kLiveChannelCount> counts;
+    std::array<std::vector<std::int32_t>, live::kLiveChannelCount> counts;
 };
 
 }  // namespace a351::daemon

@@ -6,7 +6,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::source;
 
 namespace {
 
@@ -76,7 +76,7 @@ TEST_CASE("a session header comes out between the bytes pushed before and after 
     ReadQueue queue(kSmall);
     const std::vector<std::byte> bytes(5);
     REQUIRE(queue.push(ReadQueue::Kind::rx, at(1), bytes));
-    record::JournalHeader header;
+    journal::Header header;
     header.serial_number = "00000042";
     REQUIRE(queue.push_session(header, at(2)));
     REQUIRE(queue.push(ReadQueue::Kind::tx, at(3), bytes));

@@ -22,7 +22,7 @@ std::set<pid_t> threads() {
 }  // namespace
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::source;
 
 TEST_CASE("the reader thread allocates no memory while it samples", "[daemon][sensor_link]") {
     FakeSensor sensor;

@@ -9,7 +9,7 @@
 #include "tests/unit/daemon/fake_sensor.hpp"
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::source;
 
 namespace {
 
@@ -25,9 +25,9 @@ LinkOptions options_for(const std::filesystem::path& path) {
 }
 
 /// Returns a stream whose last received frame is frame `count` / 80 - 1 of a FakeSensor, now.
-record::StreamEnd known_stream(const LinkOptions& options, const HostClock& clock,
-                               std::uint16_t count) {
-    record::StreamEnd known{options.header, count, clock.raw()};
+journal::StreamEnd known_stream(const LinkOptions& options, const HostClock& clock,
+                                std::uint16_t count) {
+    journal::StreamEnd known{options.header, count, clock.raw()};
     known.header.session.bytes[0] = 42;
     known.header.serial_number = "00000042";
     known.header.port = options.address.to_text();
@@ -36,7 +36,7 @@ record::StreamEnd known_stream(const LinkOptions& options, const HostClock& cloc
 
 /// Everything that came through the queue.
 struct Received {
-    std::vector<record::JournalHeader> sessions;
+    std::vector<journal::Header> sessions;
     std::vector<std::byte> bytes;
     std::vector<std::byte> sent;
     bool do_stamps_ascend = true;

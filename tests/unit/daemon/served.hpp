@@ -14,17 +14,17 @@ namespace a351::daemon {
 
 /// A real server on a free port of loopback.
 struct Served {
-    explicit Served(ServerOptions options = {}, int rate_hz = 50)
+    explicit Served(page::ServerOptions options = {}, int rate_hz = 50)
         : live(*wire::find_profile("A351"), rate_hz, {}), server(own(options), sources()) {
         server.start();
     }
 
-    static ServerOptions own(ServerOptions options) {
+    static page::ServerOptions own(page::ServerOptions options) {
         options.listen.port = 0;
         options.token = kToken;
         return options;
     }
-    ApiSources sources() {
+    page::ApiSources sources() {
         return {.status =
                     [this] {
                         const std::lock_guard lock(mutex);
@@ -33,7 +33,7 @@ struct Served {
                     },
                 .occupations = occupations,
                 .live = live,
-                .events = [] { return std::vector<record::Event>{}; }};
+                .events = [] { return std::vector<events::Event>{}; }};
     }
 
     [[nodiscard]] std::string host() const {
@@ -56,18 +56,18 @@ struct Served {
     }
     [[nodiscard]] bool is_well() const { return status_of(answer(get("/api/status"))) == 200; }
 
-    void set_level(Status::Level level) {
+    void set_level(status::Status::Level level) {
         const std::lock_guard lock(mutex);
         status.level = level;
     }
 
     std::atomic<bool> is_failing{false};
     std::mutex mutex;
-    Status status;
+    status::Status status;
     FakeRecorder recorder;
-    Occupations occupations{recorder, two_sites(), {}};
-    LiveRecord live;
-    Server server;
+    survey::Occupations occupations{recorder, two_sites(), {}};
+    live::Record live;
+    page::Server server;
 };
 
 inline const std::string kJson = "Content-Type: application/json\r\n";

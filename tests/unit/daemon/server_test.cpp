@@ -11,6 +11,7 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::page;
 
 TEST_CASE("an answer of the server has the security headers", "[daemon][server]") {
     const Served served;

@@ -13,7 +13,7 @@
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::service;
 
 namespace {
 

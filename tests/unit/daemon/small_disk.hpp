@@ -19,7 +19,7 @@ public:
     int error_of_allocate = 0;
     int error_when_full = ENOSPC;
 
-    std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
+    std::unique_ptr<files::AppendFile> open_append(const std::filesystem::path& file) override {
         auto opened = files_.open_append(file);
         sizes_[file] = opened->size();
         return std::make_unique<File>(*this, file, std::move(opened));
@@ -51,7 +51,7 @@ public:
 private:
     class File : public ForwardingFile {
     public:
-        File(SmallDisk& disk, std::filesystem::path path, std::unique_ptr<record::AppendFile> file)
+        File(SmallDisk& disk, std::filesystem::path path, std::unique_ptr<files::AppendFile> file)
             : ForwardingFile(std::move(file)), disk_(disk), path_(std::move(path)) {}
         void append(std::span<const std::byte> bytes) override {
             disk_.take(path_, bytes.size());

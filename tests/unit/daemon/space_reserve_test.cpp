@@ -7,6 +7,8 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::status;
+using namespace a351::daemon::store;
 using std::chrono::seconds;
 using State = SpaceReserve::State;
 
@@ -18,8 +20,8 @@ constexpr std::uint64_t kReserve = 64 * kKiB;  // 50 s of journal at 50 Hz.
 struct SmallRig : SteppedRig {
     test::SmallDisk disk{1024 * kKiB};
 
-    [[nodiscard]] StoreOptions options() const {
-        StoreOptions options = SteppedRig::options();
+    [[nodiscard]] store::Options options() const {
+        store::Options options = SteppedRig::options();
         options.reserve_bytes = kReserve;
         return options;
     }
@@ -42,7 +44,7 @@ bool has_reason(const Status& status, const std::string& part) {
 TEST_CASE("the blocks of the reserve are really allocated", "[daemon][reserve]") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "reserve";
-    SpaceReserve reserve(record::posix_files(), file, 8 << 20);
+    SpaceReserve reserve(files::posix_files(), file, 8 << 20);
     if (reserve.status().state == State::unavailable) WARN(reserve.status().trouble);
     REQUIRE(reserve.status().state == State::present);
     struct stat status {};
@@ -130,7 +132,7 @@ TEST_CASE_METHOD(SmallRig,
     CHECK(std::filesystem::file_size(reserve_file()) == kReserve);
     CHECK(store.stop());
     CHECK(is_archive_complete());
-    CHECK(record::read_events(root / "events").events.size() == 1);
+    CHECK(events::read_events(root / "events").events.size() == 1);
 }
 
 TEST_CASE_METHOD(SmallRig, "after the reserve is used up nothing is lost once there is space again",
@@ -146,8 +148,8 @@ TEST_CASE_METHOD(SmallRig, "after the reserve is used up nothing is lost once th
     CHECK(full.journaled.value() > 50 * 40);
     disk.fill_up_to(0);  // Otherwise a short line would still find room.
     CHECK_FALSE(commit(store, note("nowhere")));
-    for (const auto& segment : record::journal_segments(root / "journal")) {
-        record::JournalReader reader(segment);
+    for (const auto& segment : journal::segment_files(root / "journal")) {
+        journal::Reader reader(segment);
         while (reader.next()) {
         }
         CHECK_FALSE(reader.damage());
@@ -161,7 +163,7 @@ TEST_CASE_METHOD(SmallRig, "after the reserve is used up nothing is lost once th
     CHECK(store.stop());
     CHECK(read_journal(root).bytes == bytes);
     CHECK(is_archive_complete());
-    CHECK(record::read_events(root / "events").events.size() == 1);
+    CHECK(events::read_events(root / "events").events.size() == 1);
 }
 
 TEST_CASE_METHOD(SmallRig,
@@ -189,7 +191,7 @@ TEST_CASE_METHOD(SmallRig,
         advance(store, seconds(60));
         std::filesystem::copy(root, crashed, std::filesystem::copy_options::recursive);
     }
-    StoreOptions again = options();
+    store::Options again = options();
     again.root = crashed;
     test::SmallDisk full(1024 * kKiB);
     full.fill_up_to(kReserve);

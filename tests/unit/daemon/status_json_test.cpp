@@ -4,6 +4,9 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::source;
+using namespace a351::daemon::status;
+using namespace a351::daemon::verdict;
 
 TEST_CASE("every fixed field of the status is there before the first sample", "[daemon][page]") {
     Page page;
@@ -92,13 +95,13 @@ TEST_CASE("the status gives the oven's values with units, and null for a doubtfu
 TEST_CASE("the status carries values with their units", "[daemon][page]") {
     Page page;
     page.status.level = Status::Level::warning;
-    page.status.verdict.state = VerdictState::stable;
+    page.status.verdict.state = verdict::State::stable;
     page.status.reasons = {"disk nearly full"};
     page.status.now = minute(60) + std::chrono::milliseconds(500);
     page.status.last_sample = minute(60);
     page.status.received = 179'999;
     page.status.journaled = 179'990;
-    page.status.timing_state = timing::TimingState::locked;
+    page.status.timing_state = timing::State::locked;
     page.status.timing_uncertainty = std::chrono::microseconds(1500);
     page.status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
     page.status.declared_rate_hz = 50.00025;
@@ -138,7 +141,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
 TEST_CASE("the verdict becomes no data after 3 s without a sample", "[daemon][page]") {
     Page page;
     page.status.last_sample = minute(1);
-    page.status.verdict.state = VerdictState::stable;
+    page.status.verdict.state = verdict::State::stable;
     page.status.now = minute(1) + std::chrono::seconds(3);
     CHECK(is(page.ask(get("/api/status")), "/verdict/state", R"("stable")"));
     page.status.now += Nanoseconds(1);

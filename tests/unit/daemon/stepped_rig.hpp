@@ -18,8 +18,8 @@ struct SteppedRig : Rig {
         first = clock.raw() + kPeriod;
     }
 
-    [[nodiscard]] StoreOptions options() const {
-        StoreOptions options = Rig::options();
+    [[nodiscard]] store::Options options() const {
+        store::Options options = Rig::options();
         options.time.now = [this] { return real; };
         options.time.retry_interval = std::chrono::seconds(10);
         options.commit_patience = std::chrono::milliseconds(0);
@@ -51,13 +51,13 @@ struct SteppedRig : Rig {
     }
 
     /// Moves the clock on by `span`.  Every 250 ms frames arrive, and the store takes one step.
-    void advance(Store& store, Nanoseconds span) {
+    void advance(store::Store& store, Nanoseconds span) {
         for (Nanoseconds done{0}; done < span; done += kStep) {
             pass(kStep);
             for (std::vector<std::byte> frame; arrival(fed) <= utc; ++fed, frame.clear()) {
                 wire::append_frame(wire::BurstLayout::recommended(), values(fed), frame);
-                REQUIRE(reads.push(ReadQueue::Kind::rx, RawTime(arrival(fed).time_since_epoch()),
-                                   frame));
+                REQUIRE(reads.push(source::ReadQueue::Kind::rx,
+                                   RawTime(arrival(fed).time_since_epoch()), frame));
                 bytes.insert(bytes.end(), frame.begin(), frame.end());
             }
             store.step();
@@ -76,8 +76,8 @@ struct SteppedRig : Rig {
         first = clock.raw() + kPeriod - fed * kPeriod;
     }
 
-    [[nodiscard]] record::Event note(const std::string& text) const {
-        record::Event event;
+    [[nodiscard]] events::Event note(const std::string& text) const {
+        events::Event event;
         event.type = "note";
         event.utc = utc;
         event.details["note"] = text;
@@ -85,7 +85,7 @@ struct SteppedRig : Rig {
     }
 
     /// @return true if the store accepted the event
-    static bool commit(Store& store, const record::Event& event) {
+    static bool commit(store::Store& store, const events::Event& event) {
         try {
             store.commit(event);
             return true;
@@ -97,7 +97,7 @@ struct SteppedRig : Rig {
 private:
     void set(UtcTime now) {
         utc = now;
-        clock = HostClock(ClockScale{1e-15, now, host_realtime()});
+        clock = source::HostClock(ClockScale{1e-15, now, source::host_realtime()});
     }
 };
 

@@ -35,7 +35,7 @@ public:
     std::atomic<bool> does_archive_sync_fail{false};
     std::atomic<int> hanging{0};
 
-    std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
+    std::unique_ptr<files::AppendFile> open_append(const std::filesystem::path& file) override {
         if (file.extension() == ".a351j")
             return std::make_unique<JournalFile>(*this, files_.open_append(file));
         if (file.string().find("/archive/") == std::string::npos) return files_.open_append(file);
@@ -46,8 +46,8 @@ public:
 private:
     class JournalFile : public test::ForwardingFile {
     public:
-        JournalFile(TroubledFiles& owner, std::unique_ptr<record::AppendFile> file)
-            : ForwardingFile(std::move(file)), owner_(owner) {}
+        JournalFile(TroubledFiles& owner, std::unique_ptr<files::AppendFile> file)
+            : test::ForwardingFile(std::move(file)), owner_(owner) {}
         void append(std::span<const std::byte> bytes) override {
             if (owner_.does_append_fail) throw std::system_error(ENOSPC, std::generic_category());
             file_->append(bytes);
@@ -67,8 +67,8 @@ private:
 
     class ArchiveFile : public test::ForwardingFile {
     public:
-        ArchiveFile(TroubledFiles& owner, std::unique_ptr<record::AppendFile> file)
-            : ForwardingFile(std::move(file)), owner_(owner) {}
+        ArchiveFile(TroubledFiles& owner, std::unique_ptr<files::AppendFile> file)
+            : test::ForwardingFile(std::move(file)), owner_(owner) {}
         void sync() override {
             if (owner_.does_archive_sync_fail)
                 throw std::system_error(EIO, std::generic_category(), "sync of the archive");
@@ -80,8 +80,8 @@ private:
     };
 };
 
-inline Status status_of(Store& store) {
-    Status status;
+inline status::Status status_of(store::Store& store) {
+    status::Status status;
     store.fill(status);
     return status;
 }
@@ -90,16 +90,16 @@ struct Rig {
     test::TemporaryDirectory directory;
     std::filesystem::path root = directory.path() / "data";
     TroubledFiles files;
-    HostClock clock;
-    ReadQueue reads;
+    source::HostClock clock;
+    source::ReadQueue reads;
     RawTime first = clock.raw() - kFrames * kPeriod;
     int fed = 0;
     std::vector<std::byte> bytes;
 
-    explicit Rig(std::size_t queue_bytes = ReadQueue::kCapacity) : reads(queue_bytes) {}
+    explicit Rig(std::size_t queue_bytes = source::ReadQueue::kCapacity) : reads(queue_bytes) {}
 
-    [[nodiscard]] StoreOptions options() const {
-        StoreOptions options;
+    [[nodiscard]] store::Options options() const {
+        store::Options options;
         options.root = root;
         options.time.retry_interval = std::chrono::milliseconds(100);
         options.reserve_bytes = std::uint64_t{1} << 20;
@@ -112,7 +112,7 @@ struct Rig {
 
     void begin_session(std::uint8_t id = 42, const char* profile = "A351",
                        std::chrono::days ago = std::chrono::days(0)) {
-        record::JournalHeader header;
+        journal::Header header;
         header.session.bytes[0] = id;
         header.boot_id = clock.boot_id();
         header.profile = profile;
@@ -129,7 +129,7 @@ struct Rig {
     }
 
     /// Starts the store and records samples 0 ... 99.
-    void record_first(Store& store) {
+    void record_first(store::Store& store) {
         store.start();
         begin_session();
         feed(100);
@@ -141,19 +141,19 @@ struct Rig {
         for (int i = 0; i < count; ++i, ++fed) {
             frame.clear();
             wire::append_frame(wire::BurstLayout::recommended(), FakeSensor::values(fed), frame);
-            REQUIRE(reads.push(ReadQueue::Kind::rx, first + fed * kPeriod, frame));
+            REQUIRE(reads.push(source::ReadQueue::Kind::rx, first + fed * kPeriod, frame));
             bytes.insert(bytes.end(), frame.begin(), frame.end());
         }
     }
 };
 
 /// Starts and stops a store, like a daemon without a sensor.  @return the report of its recovery
-inline record::RecoveryReport recover(record::FileLayer& files, StoreOptions options,
-                                      const HostClock& clock) {
-    ReadQueue nothing;
-    std::promise<record::RecoveryReport> recovered;
+inline archive::RecoveryReport recover(files::FileLayer& files, store::Options options,
+                                       const source::HostClock& clock) {
+    source::ReadQueue nothing;
+    std::promise<archive::RecoveryReport> recovered;
     options.recovered = [&](const auto& report) { recovered.set_value(report); };
-    Store store(files, std::move(options), clock, nothing);
+    store::Store store(files, std::move(options), clock, nothing);
     store.start();
     auto report = recovered.get_future().get();
     REQUIRE(store.stop());
@@ -163,18 +163,18 @@ inline record::RecoveryReport recover(record::FileLayer& files, StoreOptions opt
 struct JournalContent {
     std::vector<std::byte> bytes;
     std::vector<std::string> events;
-    std::vector<record::MarkChunk> marks;
+    std::vector<journal::MarkChunk> marks;
 };
 
 inline JournalContent read_journal(const std::filesystem::path& root) {
     JournalContent content;
-    record::JournalSequence chunks(record::journal_segments(root / "journal"));
+    journal::Sequence chunks(journal::segment_files(root / "journal"));
     while (const auto chunk = chunks.next()) {
-        if (const auto* rx = std::get_if<record::RxChunk>(&*chunk)) {
+        if (const auto* rx = std::get_if<journal::RxChunk>(&*chunk)) {
             content.bytes.insert(content.bytes.end(), rx->bytes.begin(), rx->bytes.end());
-        } else if (const auto* event = std::get_if<record::EventChunk>(&*chunk)) {
+        } else if (const auto* event = std::get_if<journal::EventChunk>(&*chunk)) {
             content.events.push_back(event->json);
-        } else if (const auto* mark = std::get_if<record::MarkChunk>(&*chunk)) {
+        } else if (const auto* mark = std::get_if<journal::MarkChunk>(&*chunk)) {
             content.marks.push_back(*mark);
         }
     }
@@ -184,10 +184,10 @@ inline JournalContent read_journal(const std::filesystem::path& root) {
 inline std::vector<std::int32_t> archived_counts(const std::filesystem::path& root,
                                                  const char* channel) {
     const auto data =
-        record::read_channel(root / "archive", {}, channel, UtcTime(std::chrono::hours(0)),
-                             UtcTime(std::chrono::hours(24 * 365 * 200)));
+        archive::read_channel(root / "archive", {}, channel, UtcTime(std::chrono::hours(0)),
+                              UtcTime(std::chrono::hours(24 * 365 * 200)));
     std::vector<std::int32_t> counts;
-    for (const record::Segment& segment : data.segments) {
+    for (const archive::Segment& segment : data.segments) {
         counts.insert(counts.end(), segment.counts.begin(), segment.counts.end());
     }
     return counts;
@@ -197,11 +197,11 @@ inline std::vector<std::int32_t> archived_counts(const std::filesystem::path& ro
 inline std::vector<std::int32_t> recorded_counts(const std::filesystem::path& root,
                                                  const char* channel) {
     std::vector<std::int32_t> counts;
-    for (const auto& file : record::day_files(root / "archive", {}, channel)) {
-        const auto bytes = record::read_bytes(file);
-        for (std::size_t at = 0; at < bytes.size(); at += record::kRecordSize) {
+    for (const auto& file : archive::day_files(root / "archive", {}, channel)) {
+        const auto bytes = files::read_bytes(file);
+        for (std::size_t at = 0; at < bytes.size(); at += archive::kRecordSize) {
             const auto decoded =
-                record::decode_record(std::span(bytes).subspan(at, record::kRecordSize));
+                archive::decode_record(std::span(bytes).subspan(at, archive::kRecordSize));
             REQUIRE(decoded);
             counts.insert(counts.end(), decoded->samples.begin(), decoded->samples.end());
         }

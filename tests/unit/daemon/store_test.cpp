@@ -7,6 +7,8 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::status;
+using namespace a351::daemon::store;
 
 TEST_CASE_METHOD(Rig, "everything read is in the journal byte for byte and in the archive once",
                  "[daemon][store]") {
@@ -32,12 +34,12 @@ TEST_CASE_METHOD(Rig, "an event is in the journal and in the event log when comm
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     store.start();
-    record::Event event;
+    events::Event event;
     event.type = "note";
     event.utc = clock.now();
     event.details["note"] = "before the first session";
     store.commit(event);
-    CHECK(record::read_events(root / "events").events.size() == 1);
+    CHECK(events::read_events(root / "events").events.size() == 1);
 
     begin_session();
     feed(100);
@@ -46,8 +48,8 @@ TEST_CASE_METHOD(Rig, "an event is in the journal and in the event log when comm
     store.commit(event);
     const JournalContent journal = read_journal(root);
     REQUIRE(journal.events.size() == 1);
-    CHECK(journal.events[0] == record::to_json(event));
-    CHECK(record::read_events(root / "events").events.size() == 2);
+    CHECK(journal.events[0] == events::to_json(event));
+    CHECK(events::read_events(root / "events").events.size() == 2);
 }
 
 TEST_CASE_METHOD(Rig, "after a sleep the journal has the reader's clock reading before later bytes",
@@ -64,13 +66,13 @@ TEST_CASE_METHOD(Rig, "after a sleep the journal has the reader's clock reading 
     CHECK(store.stop());
 
     std::size_t bytes_before = 0;
-    std::optional<record::JournalHeader> header;
+    std::optional<journal::Header> header;
     bool is_written = false;
-    record::JournalSequence chunks(record::journal_segments(root / "journal"));
+    journal::Sequence chunks(journal::segment_files(root / "journal"));
     for (auto chunk = chunks.next(); chunk && !is_written; chunk = chunks.next()) {
-        if (const auto* rx = std::get_if<record::RxChunk>(&*chunk))
+        if (const auto* rx = std::get_if<journal::RxChunk>(&*chunk))
             bytes_before += rx->bytes.size();
-        if (const auto* next = std::get_if<record::JournalHeader>(&*chunk)) header = *next;
+        if (const auto* next = std::get_if<journal::Header>(&*chunk)) header = *next;
         if (const auto* reading = std::get_if<timing::ClockReading>(&*chunk))
             is_written = *reading == woken;
     }
@@ -93,16 +95,16 @@ TEST_CASE("after the journal is drained only chunks posted by the archive are wr
     rig.pass(std::chrono::seconds(5));
     journal.drain();
     rig.pass(std::chrono::seconds(5));  // Time that the archive takes to end.
-    journal.post(record::MarkChunk{});
+    journal.post(journal::MarkChunk{});
     CHECK(journal.finish());
 
     std::size_t handed_over = 0;
     while (written.try_pop()) ++handed_over;
-    std::vector<record::JournalChunk> journaled;
-    record::JournalSequence chunks(record::journal_segments(rig.root / "journal"));
+    std::vector<journal::Chunk> journaled;
+    journal::Sequence chunks(journal::segment_files(rig.root / "journal"));
     while (auto chunk = chunks.next()) journaled.push_back(std::move(*chunk));
     REQUIRE(journaled.size() == handed_over + 1);
-    CHECK(std::holds_alternative<record::MarkChunk>(journaled.back()));
+    CHECK(std::holds_alternative<journal::MarkChunk>(journaled.back()));
 }
 
 TEST_CASE_METHOD(Rig, "the store finds the sample that belongs to a time", "[daemon][store]") {
@@ -134,7 +136,7 @@ TEST_CASE_METHOD(Rig, "a data root accepts one daemon at a time", "[daemon][stor
 
 TEST_CASE_METHOD(Rig, "station metadata are replaced only if they describe something else",
                  "[daemon][data_root]") {
-    record::StationDescription station = options().station;
+    station::Description station = options().station;
     station.start = clock.now();
     station.serial_number = "00000042";
     files.create_directories(root / "metadata");
@@ -153,7 +155,7 @@ TEST_CASE_METHOD(Rig, "station metadata are replaced only if they describe somet
 
 TEST_CASE_METHOD(Rig, "damaged station metadata are set aside and written again",
                  "[daemon][data_root]") {
-    record::StationDescription station = options().station;
+    station::Description station = options().station;
     station.start = clock.now();
     files.create_directories(root / "metadata");
     const auto file = root / "metadata" / "station.xml";

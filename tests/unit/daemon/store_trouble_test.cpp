@@ -5,6 +5,8 @@
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::status;
+using namespace a351::daemon::store;
 
 TEST_CASE_METHOD(Rig, "no sample is reported as journaled before its bytes are synced",
                  "[daemon][store]") {
@@ -23,7 +25,7 @@ TEST_CASE_METHOD(Rig, "no sample is reported as journaled before its bytes are s
 TEST_CASE_METHOD(Rig, "a sync that hangs for 10 s loses nothing, and the status shows it meanwhile",
                  "[daemon][store]") {
     std::atomic<std::chrono::seconds> stalled{std::chrono::seconds(0)};
-    StoreOptions stalling = options();
+    store::Options stalling = options();
     stalling.time.now = [&] { return std::chrono::steady_clock::now() + stalled.load(); };
     Store store(files, stalling, clock, reads);
     record_first(store);
@@ -90,7 +92,7 @@ TEST_CASE_METHOD(Rig,
     feed(100);
     CHECK(eventually([&] { return status_of(store).journaled == 299; }));
     CHECK(store.stop());
-    CHECK(record::journal_segments(root / "journal").size() > 1);
+    CHECK(journal::segment_files(root / "journal").size() > 1);
     CHECK(read_journal(root).bytes == bytes);
     CHECK(archived_counts(root, "BNZ") == expected_counts(300));
 }
@@ -155,10 +157,10 @@ TEST_CASE_METHOD(SmallQueueRig, "a session that begins while the disk refuses da
     files.does_append_fail = false;
     REQUIRE(eventually([&] { return reads.fill() == 0; }));
     CHECK(store.stop());
-    record::JournalSequence chunks(record::journal_segments(root / "journal"));
+    journal::Sequence chunks(journal::segment_files(root / "journal"));
     std::set<std::uint8_t> sessions;
     while (const auto chunk = chunks.next()) {
-        if (const auto* header = std::get_if<record::JournalHeader>(&*chunk))
+        if (const auto* header = std::get_if<journal::Header>(&*chunk))
             sessions.insert(header->session.bytes[0]);
     }
     CHECK(sessions == std::set<std::uint8_t>{42, 43});
@@ -177,11 +179,11 @@ TEST_CASE_METHOD(Rig, "after a crash the next start completes the archive", "[da
         REQUIRE(eventually([&] { return status_of(store).journaled == kFrames - 1; }));
         std::filesystem::copy(root, crashed, std::filesystem::copy_options::recursive);
     }
-    const auto segments = record::journal_segments(crashed / "journal");
+    const auto segments = journal::segment_files(crashed / "journal");
     REQUIRE(segments.size() == 1);
     std::ofstream(segments[0], std::ios::app) << "torn";
 
-    StoreOptions again = options();
+    store::Options again = options();
     again.root = crashed;
     const auto report = recover(files, again, clock);
     CHECK(report.journal.has_value());
@@ -237,7 +239,7 @@ TEST_CASE_METHOD(Rig, "an event that could not be written in time is withdrawn, 
     files.does_sync_hang = true;
     feed(100);
     REQUIRE(eventually([&] { return files.hanging == 1; }));
-    record::Event event;
+    events::Event event;
     event.type = "note";
     event.utc = clock.now();
     event.details["note"] = "late";
@@ -253,8 +255,8 @@ TEST_CASE_METHOD(Rig, "an event that could not be written in time is withdrawn, 
     CHECK(store.stop());
     const JournalContent journal = read_journal(root);
     REQUIRE(journal.events.size() == 1);
-    CHECK(journal.events[0] == record::to_json(event));
-    CHECK(record::read_events(root / "events").events.size() == 1);
+    CHECK(journal.events[0] == events::to_json(event));
+    CHECK(events::read_events(root / "events").events.size() == 1);
 }
 
 TEST_CASE_METHOD(Rig, "an event reaches a failing journal as soon as the journal can be written",
@@ -262,12 +264,12 @@ TEST_CASE_METHOD(Rig, "an event reaches a failing journal as soon as the journal
     Store store(files, options(), clock, reads);
     record_first(store);
     files.does_append_fail = true;
-    record::Event event;
+    events::Event event;
     event.type = "note";
     event.utc = clock.now();
     store.commit(event);
     store.commit(event);
-    CHECK(record::read_events(root / "events").events.size() == 2);
+    CHECK(events::read_events(root / "events").events.size() == 2);
     CHECK(read_journal(root).events.empty());
     files.does_append_fail = false;
     CHECK(store.stop());
@@ -279,7 +281,7 @@ TEST_CASE_METHOD(Rig, "an event log that cannot be written does not affect the j
                  "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
-    record::Event event;
+    events::Event event;
     event.type = "note";
     event.utc = clock.now();
     std::filesystem::create_directories(root / "events" /
@@ -303,7 +305,7 @@ TEST_CASE_METHOD(Rig, "a full disk leaves no segments without a header", "[daemo
     REQUIRE(eventually([&] { return status_of(store).more_counters["journal_faults"] > 3; }));
     files.does_append_fail = false;
     CHECK(store.stop());
-    for (const auto& segment : record::journal_segments(root / "journal")) {
+    for (const auto& segment : journal::segment_files(root / "journal")) {
         CHECK(std::filesystem::file_size(segment) > 0);
     }
     CHECK(read_journal(root).bytes == bytes);

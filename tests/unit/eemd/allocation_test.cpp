@@ -6,7 +6,7 @@
 #include "tests/support/counted_allocations.hpp"
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 TEST_CASE("a workspace sifts one record after another without allocating memory") {
     EmdWorkspace emd(1000);
@@ -24,4 +24,4 @@ TEST_CASE("a workspace sifts one record after another without allocating memory"
     CHECK(test::allocations == 0);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -3,20 +3,20 @@
 
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-std::vector<EemdOptions> every_kind() {
-    std::vector<EemdOptions> kinds;
+std::vector<Options> every_kind() {
+    std::vector<Options> kinds;
     for (const double noise_ratio : {0.0, 0.1}) {
         for (const StoppingRule& stopping :
              {StoppingRule(FixedSifts{10}), StoppingRule(SNumber{4})}) {
             for (const FinishRule finish : {FinishRule::at_most_two_extrema, FinishRule::always}) {
                 for (const int members : {1, 9}) {
-                    EemdOptions options;
+                    Options options;
                     options.ensemble_size = members;
                     options.noise_ratio = noise_ratio;
                     options.stopping = stopping;
@@ -36,8 +36,8 @@ std::vector<EemdOptions> every_kind() {
 /// Checks that all components are finite and of the right length, and that their sum is the signal
 /// except for the mean noise.
 void check_sane(const std::vector<double>& signal) {
-    for (const EemdOptions& options : every_kind()) {
-        const EemdResult result = eemd(signal, options);
+    for (const Options& options : every_kind()) {
+        const Result result = eemd(signal, options);
         CHECK(result.modes.size() == 6);
         for (const auto& component : components_of(result)) {
             CHECK(component.size() == signal.size());
@@ -57,8 +57,8 @@ TEST_CASE("series of 0 to 8 samples can be decomposed") {
 TEST_CASE("a constant has zero modes and is its own residue, with and without noise") {
     for (const double value : {0.0, 9.80665, -1e-300}) {
         const std::vector<double> signal(64, value);
-        for (const EemdOptions& options : every_kind()) {
-            const EemdResult result = eemd(signal, options);
+        for (const Options& options : every_kind()) {
+            const Result result = eemd(signal, options);
             for (const Component& mode : result.modes) CHECK(largest_magnitude(mode.values) == 0.0);
             CHECK(result.residue.values == signal);
             CHECK(result.noise_level == 0.0);
@@ -104,20 +104,20 @@ TEST_CASE("a tone with four samples per period stays in the first mode") {
     for (std::size_t i = 0; i < signal.size(); ++i)
         signal[i] = i % 4 == 0 ? 1.0 : (i % 4 == 2 ? -1.0 : 0.0);
     check_sane(signal);
-    EemdOptions options;
+    Options options;
     options.noise_ratio = 0.0;
-    const EemdResult result = eemd(signal, options);
+    const Result result = eemd(signal, options);
     CHECK(result.modes[0].mean_period_samples == Approx(4.0).epsilon(0.02));
     CHECK(result.modes[0].energy_share > 0.99);
 }
 
 TEST_CASE("a record of a million samples can be decomposed") {
     const std::vector<double> signal = white_noise(1'000'000, 3);
-    EemdOptions options;
+    Options options;
     options.noise_ratio = 0.0;
     options.mode_count = 4;
     options.stopping = FixedSifts{2};
-    const EemdResult result = eemd(signal, options);
+    const Result result = eemd(signal, options);
     CHECK(closure_error(signal, result) <= 1e-12);
     CHECK(result.modes[0].mean_period_samples > 2.0);
 }
@@ -131,4 +131,4 @@ TEST_CASE("a sample that is not finite, or too large to add noise, is refused wi
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -4,11 +4,11 @@
 
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
-EemdOptions small_ensemble(int members = 20) {
-    EemdOptions options;
+Options small_ensemble(int members = 20) {
+    Options options;
     options.ensemble_size = members;
     options.seed = 11;
     return options;
@@ -18,11 +18,11 @@ EemdOptions small_ensemble(int members = 20) {
 
 TEST_CASE("results are bit-identical on any number of threads and in every run") {
     const std::vector<double> signal = mixed_series(450);
-    EemdOptions options = small_ensemble(37);
-    const EemdResult one = eemd(signal, options);
+    Options options = small_ensemble(37);
+    const Result one = eemd(signal, options);
     for (const int threads : {1, 2, 3, 8, 100}) {
         options.threads = threads;
-        const EemdResult many = eemd(signal, options);
+        const Result many = eemd(signal, options);
         CHECK(components_of(many) == components_of(one));
         for (std::size_t k = 0; k < one.modes.size(); ++k) {
             CHECK(many.modes[k].standard_error == one.modes[k].standard_error);
@@ -32,8 +32,8 @@ TEST_CASE("results are bit-identical on any number of threads and in every run")
 
 TEST_CASE("the signal minus the sum of the components is the mean of the added noise") {
     const std::vector<double> signal = mixed_series(450);
-    const EemdOptions options = small_ensemble(20);
-    const EemdResult result = eemd(signal, options);
+    const Options options = small_ensemble(20);
+    const Result result = eemd(signal, options);
     std::vector<double> mean_noise(signal.size());
     std::vector<double> noise(signal.size());
     for (std::uint64_t member = 0; member < 20; ++member) {
@@ -48,14 +48,14 @@ TEST_CASE("the signal minus the sum of the components is the mean of the added n
 
 TEST_CASE("the remaining noise falls with the square root of the ensemble size") {
     const std::vector<double> signal = mixed_series(128);
-    const EemdResult result = eemd(signal, small_ensemble(1000));
+    const Result result = eemd(signal, small_ensemble(1000));
     // 128 samples determine an rms to one part in sqrt(2 x 128); three times that is allowed.
     CHECK(rms(closure(signal, result)) * std::sqrt(1000.0) / result.noise_level ==
           Approx(1.0).margin(3.0 / 16.0));
 }
 
 TEST_CASE("the noise level is the ratio times the standard deviation of the signal") {
-    EemdOptions options = small_ensemble(1);
+    Options options = small_ensemble(1);
     options.noise_ratio = 0.5;
     const std::vector<double> signal = {1.0, 2.0, 3.0, 4.0};
     CHECK(eemd(signal, options).noise_level == Approx(0.5 * std::sqrt(5.0 / 3.0)));
@@ -63,7 +63,7 @@ TEST_CASE("the noise level is the ratio times the standard deviation of the sign
 
 TEST_CASE("neighbouring seeds give uncorrelated noise") {
     const std::vector<double> signal = mixed_series(1000);
-    EemdOptions options = small_ensemble(16);
+    Options options = small_ensemble(16);
     const auto first = closure(signal, eemd(signal, options));
     ++options.seed;
     const auto second = closure(signal, eemd(signal, options));
@@ -103,11 +103,11 @@ TEST_CASE("the stated standard error is the scatter of repeated ensembles") {
     const int runs = 40;
     std::vector<std::vector<double>> sum, squares;
     double stated = 0.0;
-    EemdOptions options = small_ensemble(16);
+    Options options = small_ensemble(16);
     options.complementary_pairs = GENERATE(false, true);
     for (int run = 0; run < runs; ++run) {
         options.seed = 100 + static_cast<std::uint64_t>(run);
-        const EemdResult result = eemd(signal, options);
+        const Result result = eemd(signal, options);
         const auto components = components_of(result);
         sum.resize(components.size(), std::vector<double>(300));
         squares.resize(components.size(), std::vector<double>(300));
@@ -134,15 +134,15 @@ TEST_CASE("the stated standard error is the scatter of repeated ensembles") {
 
 TEST_CASE("the standard error falls with the noise, down to the rounding of the sums of squares") {
     const std::vector<double> signal = mixed_series(300);
-    EemdOptions options = small_ensemble(16);
+    Options options = small_ensemble(16);
     options.noise_ratio = 1e-5;
-    const EemdResult faint = eemd(signal, options);
+    const Result faint = eemd(signal, options);
     options.noise_ratio = 1e-6;
-    const EemdResult fainter = eemd(signal, options);
+    const Result fainter = eemd(signal, options);
     CHECK(*fainter.modes[0].standard_error ==
           Approx(0.1 * *faint.modes[0].standard_error).epsilon(0.05));
     options.noise_ratio = 1e-12;
-    const EemdResult nothing = eemd(signal, options);
+    const Result nothing = eemd(signal, options);
     for (const Component& mode : nothing.modes) {
         const double rounding = 1e-7 / std::sqrt(16.0) * rms(mode.values);
         CHECK(*mode.standard_error >= 0.99 * rounding);
@@ -152,20 +152,20 @@ TEST_CASE("the standard error falls with the noise, down to the rounding of the 
 
 TEST_CASE("with complementary pairs the components add up to the signal") {
     const std::vector<double> signal = mixed_series(450);
-    EemdOptions options = small_ensemble(20);
+    Options options = small_ensemble(20);
     options.complementary_pairs = true;
-    const EemdResult result = eemd(signal, options);
+    const Result result = eemd(signal, options);
     CHECK(result.noise_level > 0.01);
     CHECK(closure_error(signal, result) <= 1e-12 * rms(signal));
 }
 
 TEST_CASE("with complementary pairs an inverted signal has inverted components, bit for bit") {
     std::vector<double> signal = mixed_series(450);
-    EemdOptions options = small_ensemble(10);
+    Options options = small_ensemble(10);
     options.complementary_pairs = true;
-    const EemdResult upright = eemd(signal, options);
+    const Result upright = eemd(signal, options);
     for (double& value : signal) value = -value;
-    const EemdResult flipped = eemd(signal, options);
+    const Result flipped = eemd(signal, options);
     for (std::size_t k = 0; k < upright.modes.size(); ++k) {
         CHECK(flipped.modes[k].standard_error == upright.modes[k].standard_error);
         for (std::size_t i = 0; i < signal.size(); ++i) {
@@ -190,7 +190,7 @@ TEST_CASE("a constant added to a signal appears only in the residue of an ensemb
 TEST_CASE("energy shares add up to one and are in the ratio of the components' variances") {
     std::vector<double> signal = mixed_series(450);
     for (double& value : signal) value += 1e6;
-    const EemdResult result = eemd(signal, small_ensemble());
+    const Result result = eemd(signal, small_ensemble());
     double total = result.residue.energy_share;
     for (const Component& mode : result.modes) total += mode.energy_share;
     CHECK(total == Approx(1.0));
@@ -202,13 +202,13 @@ TEST_CASE("energy shares add up to one and are in the ratio of the components' v
 
 TEST_CASE("the components of a record with reflected ends have the length of the record") {
     const std::vector<double> signal = mixed_series(451);
-    EemdOptions options = small_ensemble();
+    Options options = small_ensemble();
     options.reflect_ends = true;
     options.complementary_pairs = true;
     for (const std::size_t n : {0U, 1U, 2U, 3U, 4U, 451U}) {
         const std::vector<double> part(signal.begin(), signal.begin() + static_cast<long>(n));
         options.mode_count = 3;
-        const EemdResult result = eemd(part, options);
+        const Result result = eemd(part, options);
         for (const auto& component : components_of(result)) CHECK(component.size() == n);
         CHECK(closure_error(part, result) <= 1e-12);
     }
@@ -218,7 +218,7 @@ TEST_CASE("the components of a record with reflected ends have the length of the
         cosine[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 40.0);
     }
     options.noise_ratio = 0.0;
-    const EemdResult result = eemd(cosine, options);
+    const Result result = eemd(cosine, options);
     for (std::size_t i = 0; i < 401; ++i) {
         REQUIRE(result.modes[0].values[i] == Approx(cosine[i]).margin(1e-12));
     }
@@ -227,7 +227,7 @@ TEST_CASE("the components of a record with reflected ends have the length of the
 TEST_CASE("progress counts up to all members, and returning false cancels the decomposition") {
     const std::vector<double> signal = mixed_series(200);
     for (const int threads : {1, 3}) {
-        EemdOptions options = small_ensemble(50);
+        Options options = small_ensemble(50);
         options.threads = threads;
         std::vector<int> steps;
         options.progress = [&](int done, int members) {
@@ -241,7 +241,7 @@ TEST_CASE("progress counts up to all members, and returning false cancels the de
         options.progress = nullptr;
         CHECK(components_of(eemd(signal, options)) == watched);
         options.progress = [](int, int) { return false; };
-        CHECK_THROWS_AS(eemd(signal, options), EemdCancelled);
+        CHECK_THROWS_AS(eemd(signal, options), Cancelled);
         options.progress = [](int, int) -> bool { throw std::runtime_error("stop"); };
         CHECK_THROWS_WITH(eemd(signal, options), "stop");
     }
@@ -249,11 +249,11 @@ TEST_CASE("progress counts up to all members, and returning false cancels the de
 
 TEST_CASE("an option outside its range is refused by name") {
     const std::vector<double> signal(16, 1.0);
-    const auto refused = [&](EemdOptions options, const std::string& name) {
+    const auto refused = [&](Options options, const std::string& name) {
         CHECK_THROWS_WITH(eemd(signal, options), ContainsSubstring(name));
         CHECK_THROWS_AS(eemd(signal, options), std::invalid_argument);
     };
-    EemdOptions options;
+    Options options;
     options.ensemble_size = 0;
     refused(options, "ensemble_size = 0");
     options = {};
@@ -278,4 +278,4 @@ TEST_CASE("an option outside its range is refused by name") {
     refused(options, "stopping.repeats = 0");
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

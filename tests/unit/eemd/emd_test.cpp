@@ -2,11 +2,11 @@
 
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
-EemdOptions plain() {
-    EemdOptions options;
+Options plain() {
+    Options options;
     options.noise_ratio = 0.0;
     return options;
 }
@@ -17,7 +17,7 @@ TEST_CASE("modes and residue of plain EMD add up to the signal") {
     for (const std::size_t n : {16U, 450U, 5400U}) {
         std::vector<double> signal = mixed_series(n);
         for (double& value : signal) value += 980'000.0;
-        const EemdResult result = eemd(signal, plain());
+        const Result result = eemd(signal, plain());
         const double ulp =
             std::nextafter(largest_magnitude(signal), HUGE_VAL) - largest_magnitude(signal);
         CHECK(closure_error(signal, result) <=
@@ -69,8 +69,8 @@ TEST_CASE("a trend without extrema stays in the residue, unless the finish rule 
     std::vector<double> signal(256);
     for (std::size_t i = 0; i < signal.size(); ++i)
         signal[i] = std::exp(0.01 * static_cast<double>(i));
-    EemdOptions options = plain();
-    const EemdResult whole = eemd(signal, options);
+    Options options = plain();
+    const Result whole = eemd(signal, options);
     CHECK(whole.residue.values == signal);
     for (const Component& mode : whole.modes) CHECK(largest_magnitude(mode.values) == 0.0);
     options.finish = FinishRule::always;
@@ -78,10 +78,10 @@ TEST_CASE("a trend without extrema stays in the residue, unless the finish rule 
 }
 
 TEST_CASE("every decomposition has the requested number of modes") {
-    EemdOptions options = plain();
+    Options options = plain();
     for (const int count : {0, 1, 5, 30}) {
         options.mode_count = count;
-        const EemdResult result = eemd(mixed_series(100), options);
+        const Result result = eemd(mixed_series(100), options);
         CHECK(result.modes.size() == static_cast<std::size_t>(count));
         CHECK(closure_error(mixed_series(100), result) < 1e-13);
     }
@@ -94,10 +94,10 @@ TEST_CASE("a mode reports its number of extrema and its mean period") {
     for (std::size_t i = 0; i < 400; ++i) {
         signal[i] = std::sin(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.3) / 20.0);
     }
-    const EemdResult result = eemd(signal, plain());
+    const Result result = eemd(signal, plain());
     CHECK(result.modes[0].extrema_count == 40);
     CHECK(result.modes[0].mean_period_samples == 20.0);
     CHECK(std::isinf(eemd(std::vector<double>(64, 1.0), plain()).residue.mean_period_samples));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

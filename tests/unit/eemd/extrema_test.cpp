@@ -6,7 +6,7 @@
 #include "corrector/eemd/sift_kernels.hpp"
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -140,4 +140,4 @@ TEST_CASE("mirrored extrema continue to alternate beyond the ends") {
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

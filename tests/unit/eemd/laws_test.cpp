@@ -8,13 +8,13 @@
 
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-EemdOptions plain() {
-    EemdOptions options;
+Options plain() {
+    Options options;
     options.noise_ratio = 0.0;
     return options;
 }
@@ -111,7 +111,7 @@ TEST_CASE("an ensemble separates a burst from the wave it rides on, plain EMD mi
     };
     CHECK(before_burst(eemd(signal, plain()).modes[0].values) > 0.5);  // the slow wave has 0.7
 
-    EemdOptions options;
+    Options options;
     options.noise_ratio = 0.2;
     options.ensemble_size = 200;
     std::vector<double> fast(n);
@@ -124,9 +124,9 @@ TEST_CASE("an ensemble separates a burst from the wave it rides on, plain EMD mi
 
 TEST_CASE("the noise that an ensemble leaves has the theoretical size within 5 percent") {
     const auto signal = mixed_series(5400);  // 5400 samples determine its rms to 1 percent
-    EemdOptions options;
+    Options options;
     options.ensemble_size = 16;
-    const EemdResult result = eemd(signal, options);
+    const Result result = eemd(signal, options);
     CHECK(rms(closure(signal, result)) * 4.0 / result.noise_level == Approx(1.0).epsilon(0.05));
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("no component grows far beyond the range of the record at its ends") {
                 signal[i] += 1e-2 * static_cast<double>(i);
             }
             const auto [low, high] = std::minmax_element(signal.begin(), signal.end());
-            EemdOptions options = plain();
+            Options options = plain();
             options.ends = ends;
             for (const auto& component : components_of(eemd(signal, options))) {
                 CHECK(largest_magnitude(component) < 3.0 * (*high - *low));
@@ -183,4 +183,4 @@ TEST_CASE("no component grows far beyond the range of the record at its ends") {
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

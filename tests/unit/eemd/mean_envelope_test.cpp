@@ -8,7 +8,7 @@
 #include "corrector/eemd/sift_kernels.hpp"
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// Alternating knots at irregular distances, among them half-integers and a gap of thousands.
@@ -223,4 +223,4 @@ TEST_CASE("thousands of knots are eliminated without overflow, to the same accur
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

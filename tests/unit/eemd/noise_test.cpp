@@ -5,7 +5,7 @@
 
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 using Words = std::array<std::uint32_t, 4>;
@@ -77,4 +77,4 @@ TEST_CASE("a longer series of noise begins with the shorter one") {
     CHECK(std::equal(shorter.begin(), shorter.end(), longer.begin()));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -10,7 +10,7 @@
 #include "protocol/text/text_file.hpp"
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 std::string golden(const std::string& name) {
@@ -54,7 +54,7 @@ double plain_difference(const std::string& input, const std::string& settings,
                         StoppingRule stopping, std::size_t every = 1) {
     const std::vector<double> signal = read_input(input);
     const auto expected = read_table(input + "__emd_" + settings);
-    EemdOptions options;
+    Options options;
     options.noise_ratio = 0.0;
     options.stopping = stopping;
     options.finish = FinishRule::always;
@@ -124,12 +124,12 @@ TEST_CASE(
     const auto expected = read_table("s1_sine_trend__eemd_eps0.1_fix10_m9_mean16000");
     const auto facts = nlohmann::json::parse(golden("sigma_member.json")).at("s1_sine_trend");
     const auto sigma = facts.at("sigma_member_rms_per_component").get<std::vector<double>>();
-    EemdOptions options;
+    Options options;
     options.ensemble_size = 640;
     options.mode_count = 8;
     options.finish = FinishRule::always;
     options.seed = 2;
-    const EemdResult result = eemd(signal, options);
+    const Result result = eemd(signal, options);
     CHECK(result.noise_level == Approx(0.1 * facts.at("sd_ddof1").get<double>()).epsilon(1e-12));
     const auto found = components_of(result);
     REQUIRE(found.size() == expected.size());
@@ -151,4 +151,4 @@ TEST_CASE(
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

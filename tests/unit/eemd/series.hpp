@@ -12,7 +12,7 @@
 #include "corrector/eemd/eemd.hpp"
 #include "corrector/eemd/noise.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 
 inline std::vector<double> white_noise(std::size_t n, std::uint64_t seed) {
     std::vector<double> noise(n);
@@ -32,7 +32,7 @@ inline std::vector<double> mixed_series(std::size_t n) {
 }
 
 /// Returns all components, the residue last.
-inline std::vector<std::vector<double>> components_of(const EemdResult& result) {
+inline std::vector<std::vector<double>> components_of(const Result& result) {
     std::vector<std::vector<double>> all;
     for (const Component& mode : result.modes) all.push_back(mode.values);
     all.push_back(result.residue.values);
@@ -52,7 +52,7 @@ inline double largest_magnitude(std::span<const double> values) {
 }
 
 /// Returns the largest magnitude of the signal minus the sum of the components.
-inline double closure_error(std::span<const double> signal, const EemdResult& result) {
+inline double closure_error(std::span<const double> signal, const Result& result) {
     const auto components = components_of(result);
     double largest = 0.0;
     for (std::size_t i = 0; i < signal.size(); ++i) {
@@ -64,7 +64,7 @@ inline double closure_error(std::span<const double> signal, const EemdResult& re
 }
 
 /// Returns the signal minus the sum of the components.
-inline std::vector<double> closure(std::span<const double> signal, const EemdResult& result) {
+inline std::vector<double> closure(std::span<const double> signal, const Result& result) {
     std::vector<double> rest(signal.begin(), signal.end());
     for (const auto& component : components_of(result)) {
         for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= component[i];
@@ -72,4 +72,4 @@ inline std::vector<double> closure(std::span<const double> signal, const EemdRes
     return rest;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

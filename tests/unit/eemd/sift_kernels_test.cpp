@@ -10,7 +10,7 @@
 #include "corrector/eemd/ensemble.hpp"
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 std::vector<std::uint64_t> bits(std::span<const double> values) {
@@ -86,7 +86,7 @@ TEST_CASE("results are bit-identical in every build") {
     for (std::size_t i = 0; i < signal.size(); ++i) {
         signal[i] += 0.01 * static_cast<double>(i) + 0.5 * static_cast<double>(i % 31);
     }
-    EemdOptions options;
+    Options options;
     options.ensemble_size = 12;
     options.seed = 4;
     std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a over 64-bit words
@@ -96,4 +96,4 @@ TEST_CASE("results are bit-identical in every build") {
     CHECK(hash == 0xc7fb613011f73776);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

@@ -6,31 +6,31 @@
 #include "corrector/eemd/extrema.hpp"
 #include "tests/unit/eemd/series.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::eemd {
 namespace {
 
 /// Returns the whole decomposition with the fewest modes that leaves a residue with few enough
 /// extrema.
-EemdResult by_trial(std::span<const double> signal, std::size_t most_extrema, EemdOptions options) {
+Result by_trial(std::span<const double> signal, std::size_t most_extrema, Options options) {
     const int most_modes = options.mode_count.value_or(default_mode_count(signal.size()));
     for (options.mode_count = 0;; ++*options.mode_count) {
-        EemdResult result = eemd(signal, options);
+        Result result = eemd(signal, options);
         if (result.residue.extrema_count <= most_extrema || *options.mode_count == most_modes) {
             return result;
         }
     }
 }
 
-EemdOptions small_ensemble() {
-    EemdOptions options;
+Options small_ensemble() {
+    Options options;
     options.ensemble_size = 20;
     return options;
 }
 
 void check_against_trial(std::span<const double> signal, std::size_t most_extrema,
-                         const EemdOptions& options) {
-    const EemdTrend trend = eemd_trend(signal, most_extrema, options);
-    const EemdResult whole = by_trial(signal, most_extrema, options);
+                         const Options& options) {
+    const Trend trend = eemd_trend(signal, most_extrema, options);
+    const Result whole = by_trial(signal, most_extrema, options);
     CHECK(trend.values == whole.residue.values);
     CHECK(trend.removed_modes == static_cast<int>(whole.modes.size()));
 }
@@ -49,7 +49,7 @@ TEST_CASE("the trend computed alone is bit-identical with the residue of the who
 
 TEST_CASE("the trend computed alone is bit-identical with every option") {
     const std::vector<double> signal = mixed_series(300);
-    EemdOptions options = small_ensemble();
+    Options options = small_ensemble();
     options.ends = EndRule::mirror;
     check_against_trial(signal, 7, options);
     options.reflect_ends = true;
@@ -67,9 +67,9 @@ TEST_CASE("the trend computed alone is bit-identical with every option") {
 
 TEST_CASE("the trend computed alone is bit-identical on any number of threads") {
     const std::vector<double> signal = mixed_series(450);
-    EemdOptions options = small_ensemble();
+    Options options = small_ensemble();
     options.ensemble_size = 37;
-    const EemdTrend one = eemd_trend(signal, 7, options);
+    const Trend one = eemd_trend(signal, 7, options);
     for (const int threads : {2, 3, 7}) {
         options.threads = threads;
         CHECK(eemd_trend(signal, 7, options).values == one.values);
@@ -78,12 +78,12 @@ TEST_CASE("the trend computed alone is bit-identical on any number of threads") 
 
 TEST_CASE("computing the trend alone is cancelled and refused like the whole decomposition") {
     const std::vector<double> signal = mixed_series(450);
-    EemdOptions options = small_ensemble();
+    Options options = small_ensemble();
     options.progress = [](int, int) { return false; };
-    CHECK_THROWS_AS(eemd_trend(signal, 7, options), EemdCancelled);
+    CHECK_THROWS_AS(eemd_trend(signal, 7, options), Cancelled);
     options = small_ensemble();
     options.threads = 0;
     CHECK_THROWS_AS(eemd_trend(signal, 7, options), std::invalid_argument);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::eemd

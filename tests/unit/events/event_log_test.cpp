@@ -8,7 +8,10 @@
 #include "tests/unit/events/made_up_events.hpp"
 #include "tests/unit/files/forwarding_files.hpp"
 
-namespace a351::record {
+using namespace a351::files;
+using namespace a351::journal;
+
+namespace a351::events {
 
 TEST_CASE("an event is read back from its line", "[record][event_log]") {
     Event event = start("09:30", "No.5");
@@ -107,4 +110,4 @@ TEST_CASE("each event syncs the directory, because an earlier program may have b
     CHECK(files.syncs == 2);
 }
 
-}  // namespace a351::record
+}  // namespace a351::events

@@ -7,7 +7,7 @@
 
 #include "protocol/events/event_log.hpp"
 
-namespace a351::record {
+namespace a351::events {
 
 inline UtcTime at(const std::string& time) { return *parse_rfc3339(time); }
 
@@ -22,4 +22,4 @@ inline Event start(const std::string& time_of_day, const std::string& site) {
 }
 inline Event stop(const std::string& time_of_day) { return event_of("stop", time_of_day); }
 
-}  // namespace a351::record
+}  // namespace a351::events

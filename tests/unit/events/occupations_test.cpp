@@ -6,7 +6,7 @@
 
 #include "tests/unit/events/made_up_events.hpp"
 
-namespace a351::record {
+namespace a351::events {
 namespace {
 
 /// Returns "site#number hh:mm-hh:mm ..." for each occupation.
@@ -166,4 +166,4 @@ TEST_CASE("the reference log has the occupations worked out by hand", "[record][
     CHECK(OccupationReplay(log.events).running()->site == "No.9");
 }
 
-}  // namespace a351::record
+}  // namespace a351::events

@@ -7,7 +7,7 @@
 #include "tests/unit/report/path_variable.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::figure;
 using namespace std::chrono_literals;
 
 namespace {

@@ -2,7 +2,8 @@
 
 #include "tests/support/catch.hpp"
 
-using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::figure;
 
 TEST_CASE("valid UTF-8 is kept, other bytes and control characters become U+FFFD",
           "[report][escaping]") {

@@ -9,6 +9,9 @@
 
 using namespace a351;
 using namespace a351::corrector;
+using namespace a351::corrector::figure;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
 
 namespace {
 

@@ -2,7 +2,8 @@
 
 #include "tests/support/catch.hpp"
 
-using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::figure;
 
 TEST_CASE("an inlined picture has unique ids and takes the available width",
           "[report][inline_svg]") {

@@ -41,7 +41,7 @@ public:
         operations_ = 0;
     }
 
-    std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
+    std::unique_ptr<files::AppendFile> open_append(const std::filesystem::path& file) override {
         count(Operation::takes_space);
         return std::make_unique<File>(*this, file, files_.open_append(file));
     }
@@ -74,7 +74,7 @@ private:
     class File : public ForwardingFile {
     public:
         File(FailingFiles& files, std::filesystem::path path,
-             std::unique_ptr<record::AppendFile> file)
+             std::unique_ptr<files::AppendFile> file)
             : ForwardingFile(std::move(file)), files_(files), path_(std::move(path)) {}
         void append(std::span<const std::byte> bytes) override {
             try {

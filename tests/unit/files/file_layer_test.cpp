@@ -7,7 +7,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/files/failing_files.hpp"
 
-namespace a351::record {
+namespace a351::files {
 namespace {
 
 using test::bytes_of;
@@ -92,4 +92,4 @@ TEST_CASE("a replaced file holds the old or the new content, whichever operation
     }
 }
 
-}  // namespace a351::record
+}  // namespace a351::files

@@ -5,9 +5,9 @@
 namespace a351::test {
 
 /// The real files as a base class, whose operations a test may override.
-class ForwardingFiles : public record::FileLayer {
+class ForwardingFiles : public files::FileLayer {
 public:
-    std::unique_ptr<record::AppendFile> open_append(const std::filesystem::path& file) override {
+    std::unique_ptr<files::AppendFile> open_append(const std::filesystem::path& file) override {
         return files_.open_append(file);
     }
     void create_directories(const std::filesystem::path& directory) override {
@@ -32,19 +32,19 @@ public:
     }
 
 protected:
-    record::FileLayer& files_ = record::posix_files();
+    files::FileLayer& files_ = files::posix_files();
 };
 
 /// One real file, likewise.
-class ForwardingFile : public record::AppendFile {
+class ForwardingFile : public files::AppendFile {
 public:
-    explicit ForwardingFile(std::unique_ptr<record::AppendFile> file) : file_(std::move(file)) {}
+    explicit ForwardingFile(std::unique_ptr<files::AppendFile> file) : file_(std::move(file)) {}
     void append(std::span<const std::byte> bytes) override { file_->append(bytes); }
     void sync() override { file_->sync(); }
     [[nodiscard]] std::uint64_t size() const override { return file_->size(); }
 
 protected:
-    std::unique_ptr<record::AppendFile> file_;
+    std::unique_ptr<files::AppendFile> file_;
 };
 
 }  // namespace a351::test

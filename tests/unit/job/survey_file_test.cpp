@@ -6,8 +6,11 @@
 #include "protocol/core/input_error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::job;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
 
 namespace {
 
@@ -70,7 +73,7 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
 
 TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_file]") {
     const Desk desk;
-    const ModelPriors priors =
+    const model::Priors priors =
         desk.read("[survey]\nreading_sd_mgal=1.5\n[prior]\nrate_mgal_per_degc_per_h=[10,6]\n")
             .survey.priors;
     REQUIRE(priors.find("rate_mgal_per_degc_per_h") != nullptr);

@@ -5,7 +5,9 @@
 #include "protocol/core/input_error.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::job;
+using namespace a351::corrector::reading;
+using namespace a351::unit;
 
 TEST_CASE("a calibration of another unit is refused, an old one gives a remark",
           "[survey][calibration]") {

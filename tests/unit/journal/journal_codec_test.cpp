@@ -6,7 +6,7 @@
 
 #include "tests/unit/journal/journal_samples.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 namespace {
 
 std::span<const std::byte> payload_of(const std::vector<std::byte>& chunk) {
@@ -118,13 +118,13 @@ TEST_CASE("a header with a missing field or a field of another type is refused",
 TEST_CASE(
     "a header with station codes that would name another directory than the archive's is refused",
     "[record][journal]") {
-    CHECK(parse_header(header_to_json(JournalHeader())));
+    CHECK(parse_header(header_to_json(Header())));
     for (const auto& spoil : std::vector<std::function<void(StationCodes&)>>{
              [](auto& codes) { codes.network = "."; }, [](auto& codes) { codes.network = ""; },
              [](auto& codes) { codes.station = "../.."; },
              [](auto& codes) { codes.station = "A35-"; }, [](auto& codes) { codes.location = "/"; },
              [](auto& codes) { codes.axes[1] = "/x"; }}) {
-        JournalHeader header;
+        Header header;
         spoil(header.codes);
         CHECK_FALSE(parse_header(header_to_json(header)));
     }
@@ -143,7 +143,7 @@ TEST_CASE("a chunk with a time outside the usable range is refused", "[record][j
     clock.realtime = UtcTime();
     clock.raw -= Nanoseconds(1);
     CHECK_FALSE(comes_back());
-    JournalHeader header;
+    Header header;
     header.clock = clock;
     CHECK_FALSE(parse_header(header_to_json(header)));
     RxChunk rx;
@@ -246,4 +246,4 @@ TEST_CASE("a chunk that violates the format is not encoded", "[record][journal]"
                     std::invalid_argument);
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

@@ -11,7 +11,9 @@
 #include "tests/unit/files/failing_files.hpp"
 #include "tests/unit/journal/journal_samples.hpp"
 
-namespace a351::record {
+using namespace a351::files;
+
+namespace a351::journal {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -21,7 +23,7 @@ void append(Bytes& bytes, const Bytes& more) {
 }
 
 /// Returns a segment of the given chunks, numbered from 0.
-Bytes segment_of(const std::vector<JournalChunk>& chunks) {
+Bytes segment_of(const std::vector<Chunk>& chunks) {
     auto bytes = encode_preamble();
     std::uint32_t sequence = 0;
     for (const auto& chunk : chunks) append(bytes, encode_chunk(chunk, sequence++));
@@ -30,11 +32,11 @@ Bytes segment_of(const std::vector<JournalChunk>& chunks) {
 
 struct Reading {
     std::size_t chunk_count = 0;
-    std::optional<JournalDamage> damage;
+    std::optional<Damage> damage;
 };
 
 Reading read_all(const std::filesystem::path& file) {
-    JournalReader reader(file);
+    Reader reader(file);
     Reading reading;
     while (reader.next()) ++reading.chunk_count;
     CHECK_FALSE(reader.next());
@@ -179,16 +181,16 @@ TEST_CASE_METHOD(Fixture, "a file of another version or of another kind is refus
 }
 
 TEST_CASE("opening a segment that does not exist is a system error", "[record][journal]") {
-    CHECK_THROWS_AS(JournalReader("/nonexistent/1.a351j"), std::system_error);
+    CHECK_THROWS_AS(Reader("/nonexistent/1.a351j"), std::system_error);
 }
 
 TEST_CASE_METHOD(Fixture, "a compressed segment reads like the original", "[record][journal]") {
     test::write_bytes(file_, whole_);
     compress_segment(posix_files(), file_);
     CHECK_FALSE(std::filesystem::exists(file_));
-    const auto segments = journal_segments(directory_.path());
+    const auto segments = segment_files(directory_.path());
     REQUIRE(segments.size() == 1);
-    JournalReader reader(segments[0]);
+    Reader reader(segments[0]);
     for (const auto& chunk : test::one_of_each()) {
         const auto read = reader.next();
         REQUIRE(read);
@@ -204,17 +206,17 @@ TEST_CASE_METHOD(Fixture,
                  "[record][journal]") {
     test::write_bytes(file_, whole_);
     compress_segment(posix_files(), file_);
-    const auto packed = journal_segments(directory_.path()).front();
+    const auto packed = segment_files(directory_.path()).front();
     const auto whole = test::read_bytes(packed);
     for (std::size_t at = 0; at < whole.size(); ++at) {
         auto damaged = whole;
         damaged[at] ^= std::byte{0x20};
         test::write_bytes(packed, damaged);
-        JournalReader reader(packed);
+        Reader reader(packed);
         while (reader.next()) {
         }
         test::write_bytes(packed, Bytes(whole.begin(), whole.begin() + static_cast<long>(at)));
-        JournalReader cut(packed);
+        Reader cut(packed);
         CHECK_FALSE(cut.next());
         CHECK(cut.damage());
     }
@@ -231,9 +233,9 @@ TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a 
         } catch (const std::system_error&) {
             has_failed = true;
         }
-        const auto segments = journal_segments(directory_.path());
+        const auto segments = segment_files(directory_.path());
         REQUIRE(segments.size() == 1);
-        JournalReader reader(segments[0]);
+        Reader reader(segments[0]);
         while (reader.next()) {
         }
         CHECK_FALSE(reader.damage());
@@ -253,13 +255,13 @@ TEST_CASE("segments are listed in the order of their counter, whatever the host 
           "00000007_20260301T120000Z.a351j.zst.partial", "x_y.a351j"}) {
         test::write_bytes(directory.path() / name, {});
     }
-    const auto segments = journal_segments(directory.path());
+    const auto segments = segment_files(directory.path());
     REQUIRE(segments.size() == 4);
     CHECK(segment_number(segments[0]) == 8U);
     CHECK(segment_number(segments[1]) == 9U);
     CHECK(segments[2].filename() == "00000010_20260301T120000Z.a351j");
     CHECK(segment_number(segments[3]) == 100'000'000U);
-    CHECK(journal_segments(directory.path() / "absent").empty());
+    CHECK(segment_files(directory.path() / "absent").empty());
 }
 
 TEST_CASE_METHOD(Fixture,
@@ -283,12 +285,12 @@ TEST_CASE_METHOD(Fixture, "repair moves a segment without a header out of the wa
     REQUIRE(repair_newest_segment(posix_files(), directory_.path()));
     CHECK_FALSE(std::filesystem::exists(file_));
     CHECK(std::filesystem::file_size(file_.string() + ".torn") == 20);
-    CHECK(journal_segments(directory_.path()).empty());
+    CHECK(segment_files(directory_.path()).empty());
     CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
     // Its number is not used again.
-    JournalWriter writer(posix_files(), directory_.path());
+    Writer writer(posix_files(), directory_.path());
     writer.begin_segment(test::journal_header());
-    CHECK(segment_number(journal_segments(directory_.path()).back()) == 2U);
+    CHECK(segment_number(segment_files(directory_.path()).back()) == 2U);
 }
 
 TEST_CASE("repair of an empty or absent directory does nothing", "[record][journal]") {
@@ -305,4 +307,4 @@ TEST_CASE("writing reproduces the reference segment byte for byte", "[record][jo
     CHECK_FALSE(reading.damage);
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

@@ -20,9 +20,9 @@ namespace a351::test {
     return clock;
 }
 
-[[nodiscard]] inline record::JournalHeader journal_header() {
-    record::JournalHeader header;
-    header.session = *record::SessionId::from_hex("000102030405060708090a0b0c0d0e0f");
+[[nodiscard]] inline journal::Header journal_header() {
+    journal::Header header;
+    header.session = *journal::SessionId::from_hex("000102030405060708090a0b0c0d0e0f");
     header.boot_id = "6b1f0f5e-0000-4000-8000-000000000001";
     header.program_version = "0.1.0";
     header.profile = "A351";
@@ -38,8 +38,8 @@ namespace a351::test {
     return header;
 }
 
-[[nodiscard]] inline record::RxChunk rx_chunk(std::string_view first, std::string_view second) {
-    record::RxChunk rx;
+[[nodiscard]] inline journal::RxChunk rx_chunk(std::string_view first, std::string_view second) {
+    journal::RxChunk rx;
     for (const std::string_view part : {first, second}) {
         const auto bytes = bytes_of(part);
         rx.bytes.insert(rx.bytes.end(), bytes.begin(), bytes.end());
@@ -50,21 +50,21 @@ namespace a351::test {
 }
 
 /// Returns a header, then one chunk of each other kind.
-[[nodiscard]] inline std::vector<record::JournalChunk> one_of_each() {
-    using namespace record;
-    TxChunk tx{RawTime(std::chrono::milliseconds(1'000'050)), {}};
+[[nodiscard]] inline std::vector<journal::Chunk> one_of_each() {
+    using namespace journal;
+    journal::TxChunk tx{RawTime(std::chrono::milliseconds(1'000'050)), {}};
     for (const int byte : {0xFE, 0x00, 0x0D}) tx.bytes.push_back(static_cast<std::byte>(byte));
-    ModelChunk model;
+    journal::ModelChunk model;
     model.index = 4999;
     model.time = {*parse_rfc3339("2026-03-01T13:01:40.123456789Z"), Nanoseconds(750'000),
-                  timing::TimingState::locked};
-    MarkChunk mark{journal_header().session,
-                   {{"BNZ", 4500, *parse_rfc3339("2026-03-01T13:01:30Z")},
-                    {"LK1", 89, *parse_rfc3339("2026-03-01T13:01:29.5Z")}}};
-    const OvenChunk poll{RawTime(std::chrono::milliseconds(1'102'000)),
-                         OvenOutcome::answered,
-                         1,
-                         {425, 0x0100, 425, 0, 250}};
+                  timing::State::locked};
+    journal::MarkChunk mark{journal_header().session,
+                            {{"BNZ", 4500, *parse_rfc3339("2026-03-01T13:01:30Z")},
+                             {"LK1", 89, *parse_rfc3339("2026-03-01T13:01:29.5Z")}}};
+    const journal::OvenChunk poll{RawTime(std::chrono::milliseconds(1'102'000)),
+                                  journal::OvenOutcome::answered,
+                                  1,
+                                  {425, 0x0100, 425, 0, 250}};
     return {journal_header(),
             tx,
             clock_reading(1001, "2026-03-01T13:00:01.000000001Z"),
@@ -72,7 +72,7 @@ namespace a351::test {
                      "ABC",
                      "DEF\r"),
             model,
-            EventChunk{R"({"type":"note","utc":"2026-03-01T13:01:00Z","note":"wind"})"},
+            journal::EventChunk{R"({"type":"note","utc":"2026-03-01T13:01:00Z","note":"wind"})"},
             mark,
             poll};
 }

@@ -9,7 +9,7 @@
 #include "protocol/archive/archiver.hpp"
 #include "protocol/wire/burst_frame.hpp"
 
-namespace a351::record {
+namespace a351::journal {
 
 inline const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00Z");
 inline constexpr RawTime kRawStart{std::chrono::hours(1)};
@@ -18,8 +18,8 @@ inline timing::ClockReading clock_at(Nanoseconds since_start) {
     return {kRawStart + since_start, Nanoseconds(0), kStart + since_start, true, 500, 100};
 }
 
-inline JournalHeader header_at(Nanoseconds since_start, std::uint8_t session = 1) {
-    JournalHeader header;
+inline Header header_at(Nanoseconds since_start, std::uint8_t session = 1) {
+    Header header;
     header.session.bytes[0] = session;
     header.boot_id = "00000000-0000-4000-8000-000000000001";
     header.program_version = "test";
@@ -94,10 +94,10 @@ public:
         if (!pending_.bytes.empty()) chunks.emplace_back(std::exchange(pending_, {}));
     }
 
-    std::vector<JournalChunk> chunks;
+    std::vector<Chunk> chunks;
 
 private:
     RxChunk pending_;
 };
 
-}  // namespace a351::record
+}  // namespace a351::journal

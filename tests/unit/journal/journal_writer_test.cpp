@@ -9,7 +9,9 @@
 #include "tests/unit/files/failing_files.hpp"
 #include "tests/unit/journal/journal_samples.hpp"
 
-namespace a351::record {
+using namespace a351::files;
+
+namespace a351::journal {
 namespace {
 
 using test::clock_reading;
@@ -21,7 +23,7 @@ std::string text_of(const RxChunk& rx) {
 /// Returns all received bytes of a journal directory, in the order of reading.
 std::string received_in(const std::filesystem::path& directory) {
     std::string text;
-    JournalSequence chunks(journal_segments(directory));
+    Sequence chunks(segment_files(directory));
     while (const auto chunk = chunks.next()) {
         if (const auto* rx = std::get_if<RxChunk>(&*chunk)) text += text_of(*rx);
     }
@@ -32,17 +34,17 @@ std::string received_in(const std::filesystem::path& directory) {
 
 TEST_CASE("appended chunks are read back in order", "[record][journal]") {
     const test::TemporaryDirectory directory;
-    JournalWriter writer(posix_files(), directory.path() / "journal");
+    Writer writer(posix_files(), directory.path() / "journal");
     writer.begin_segment(test::journal_header());
     const auto clock = clock_reading(1001, "2026-03-01T13:00:01Z");
     for (const auto& chunk : test::one_of_each()) {
-        if (!std::holds_alternative<JournalHeader>(chunk)) writer.append(chunk, clock);
+        if (!std::holds_alternative<Header>(chunk)) writer.append(chunk, clock);
     }
     writer.sync();
-    const auto segments = journal_segments(directory.path() / "journal");
+    const auto segments = segment_files(directory.path() / "journal");
     REQUIRE(segments.size() == 1);
     CHECK(segments[0].filename() == "00000001_20260301T130000Z.a351j");
-    JournalReader reader(segments[0]);
+    Reader reader(segments[0]);
     for (const auto& chunk : test::one_of_each()) {
         const auto read = reader.next();
         REQUIRE(read);
@@ -55,31 +57,31 @@ TEST_CASE("appended chunks are read back in order", "[record][journal]") {
 
 TEST_CASE("a segment ends after one hour of raw time", "[record][journal]") {
     const test::TemporaryDirectory directory;
-    JournalWriter writer(posix_files(), directory.path());
+    Writer writer(posix_files(), directory.path());
     writer.begin_segment(test::journal_header());  // Raw time 1000 s.
     const auto rx = test::rx_chunk("a", "b");
     writer.append(rx, clock_reading(4599, "2026-03-01T13:59:59Z"));
-    CHECK(journal_segments(directory.path()).size() == 1);
+    CHECK(segment_files(directory.path()).size() == 1);
     writer.append(rx, clock_reading(4600, "2026-03-01T14:00:00Z"));
     writer.append(rx, clock_reading(8199, "2026-03-01T14:59:59Z"));
-    const auto segments = journal_segments(directory.path());
+    const auto segments = segment_files(directory.path());
     REQUIRE(segments.size() == 2);
     CHECK(segments[1].filename() == "00000002_20260301T140000Z.a351j");
-    JournalReader reader(segments[1]);
+    Reader reader(segments[1]);
     const auto header = reader.next();
     REQUIRE(header);
-    CHECK(std::get<JournalHeader>(*header).session == test::journal_header().session);
-    CHECK(std::get<JournalHeader>(*header).clock == clock_reading(4600, "2026-03-01T14:00:00Z"));
+    CHECK(std::get<Header>(*header).session == test::journal_header().session);
+    CHECK(std::get<Header>(*header).clock == clock_reading(4600, "2026-03-01T14:00:00Z"));
 }
 
 TEST_CASE("a segment ends when it exceeds 64 MiB", "[record][journal]") {
     const test::TemporaryDirectory directory;
-    JournalWriter writer(posix_files(), directory.path());
+    Writer writer(posix_files(), directory.path());
     writer.begin_segment(test::journal_header());
     const auto clock = clock_reading(1001, "2026-03-01T13:00:01Z");
     const EventChunk chunk{std::string(kMostPayloadBytes, 'x')};
     for (int i = 0; i < 1025; ++i) writer.append(chunk, clock);
-    const auto segments = journal_segments(directory.path());
+    const auto segments = segment_files(directory.path());
     REQUIRE(segments.size() == 2);
     CHECK(std::filesystem::file_size(segments[0]) >= (64U << 20));
     CHECK(std::filesystem::file_size(segments[0]) < (64U << 20) + 70'000);
@@ -90,12 +92,12 @@ TEST_CASE(
     "[record][journal]") {
     const test::TemporaryDirectory directory;
     test::write_bytes(directory.path() / "00000416_20270301T120000Z.a351j.zst", {});
-    JournalWriter writer(posix_files(), directory.path());
+    Writer writer(posix_files(), directory.path());
     writer.begin_segment(test::journal_header());
     writer.begin_segment(test::journal_header());
-    JournalWriter after_restart(posix_files(), directory.path());
+    Writer after_restart(posix_files(), directory.path());
     after_restart.begin_segment(test::journal_header());
-    const auto segments = journal_segments(directory.path());
+    const auto segments = segment_files(directory.path());
     REQUIRE(segments.size() == 4);
     CHECK(segment_number(segments[1]) == 417U);
     CHECK(segment_number(segments[3]) == 419U);
@@ -109,7 +111,7 @@ TEST_CASE(
         for (int fail_at = 1; fail_at == 1 || fail_at <= operations; ++fail_at) {
             const test::TemporaryDirectory directory;
             test::FailingFiles files;
-            JournalWriter writer(files, directory.path());
+            Writer writer(files, directory.path());
             const int before = files.operations();
             files.fail_at(before + fail_at);
             int failures = 0;
@@ -159,11 +161,11 @@ TEST_CASE(
     for (const int kept : {0, 1, 2, 3}) {
         const test::TemporaryDirectory directory;
         test::FailingFiles files;
-        JournalWriter writer(files, directory.path());
+        Writer writer(files, directory.path());
         writer.begin_segment(test::journal_header());
         writer.append(rx('a'), clock);
         writer.sync();
-        const auto segment = journal_segments(directory.path()).front();
+        const auto segment = segment_files(directory.path()).front();
         std::vector<std::uintmax_t> sizes{std::filesystem::file_size(segment)};
         for (const char c : {'b', 'c', 'd'}) {
             writer.append(rx(c), clock);
@@ -175,11 +177,11 @@ TEST_CASE(
         writer.append(rx('e'), clock);
         writer.sync();
         CHECK(received_in(directory.path()) == "a.b.c.d.e.");
-        const auto segments = journal_segments(directory.path());
+        const auto segments = segment_files(directory.path());
         REQUIRE(segments.size() == 2);
-        JournalReader reader(segments[1]);
-        CHECK(std::get<JournalHeader>(*reader.next()).repeats == RepeatedChunks{1, 2});
+        Reader reader(segments[1]);
+        CHECK(std::get<Header>(*reader.next()).repeats == RepeatedChunks{1, 2});
     }
 }
 
-}  // namespace a351::record
+}  // namespace a351::journal

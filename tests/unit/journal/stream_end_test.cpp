@@ -6,15 +6,16 @@
 #include "tests/unit/archive/data_root.hpp"
 
 using namespace a351;
-using namespace a351::record;
+using namespace a351::archive;
+using namespace a351::journal;
 using namespace std::chrono_literals;
 
 namespace {
 
-std::optional<StreamEnd> end_of(const std::vector<JournalChunk>& chunks) {
+std::optional<StreamEnd> end_of(const std::vector<journal::Chunk>& chunks) {
     const DataRoot root;
     root.write_journal(chunks);
-    return stream_end(journal_segments(root.journal()));
+    return stream_end(journal::segment_files(root.journal()));
 }
 
 }  // namespace
@@ -38,7 +39,7 @@ TEST_CASE("the journal gives the last counter value of its newest session", "[re
         chunks.emplace_back(header_at(due(1'000), 2));
         CHECK_FALSE(end_of(chunks));
     }
-    auto& header = std::get<JournalHeader>(stream.chunks.front());
+    auto& header = std::get<journal::Header>(stream.chunks.front());
     SECTION("nor if its frames have no counter") {
         header.burst_ctrl &= static_cast<std::uint16_t>(~wire::kCountOut);
         CHECK_FALSE(end_of(stream.chunks));

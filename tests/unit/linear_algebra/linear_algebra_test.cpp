@@ -9,7 +9,8 @@
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "tests/support/catch.hpp"
 
-using namespace a351::corrector;
+using namespace a351;
+using namespace a351::linear_algebra;
 
 namespace {
 

@@ -9,29 +9,29 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 namespace {
 
 constexpr int kSecondsPerRecord = 2;
 
 /// Writes 60 s of four channels, without z from `missing_from_s` to `missing_to_s`.
-void write_archive(const std::filesystem::path& archive, const record::StationCodes& codes,
+void write_archive(const std::filesystem::path& archive, const journal::StationCodes& codes,
                    int missing_from_s, int missing_to_s) {
-    record::ArchiveWriter writer(record::posix_files(), archive, codes);
+    archive::Writer writer(files::posix_files(), archive, codes);
     for (int second = 0; second < 60; second += kSecondsPerRecord) {
         for (const std::string channel : {"BN1", "BN2", "BNZ", "BK1"}) {
             if (channel == "BNZ" && second >= missing_from_s && second < missing_to_s) continue;
             std::vector<std::int32_t> counts;
             for (int i = 50 * second; i < 50 * (second + kSecondsPerRecord); ++i)
                 counts.push_back(channel == "BNZ" ? 16000000 + i : i);
-            record::RecordHeader header;
+            archive::RecordHeader header;
             header.network = codes.network;
             header.station = codes.station;
             header.location = codes.location;
             header.channel = channel;
             header.nominal_rate = Hertz(50.0);
             header.start = after(second);
-            writer.record(channel, record::pack_record(header, counts),
+            writer.record(channel, archive::pack_record(header, counts),
                           50 * (second + kSecondsPerRecord) - 1);
         }
     }
@@ -40,9 +40,9 @@ void write_archive(const std::filesystem::path& archive, const record::StationCo
 
 TEST_CASE("archived samples are loaded one by one, and gaps stay gaps", "[live][past]") {
     const test::TemporaryDirectory directory;
-    const record::StationCodes codes;
+    const journal::StationCodes codes;
     write_archive(directory.path(), codes, 20, 24);
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     take_archived_past(directory.path(), codes, after(3600.0), record);
     CHECK(record.end() == 50 * 56);
     std::uint64_t cursor = 0;
@@ -63,15 +63,15 @@ TEST_CASE("archived samples are loaded one by one, and gaps stay gaps", "[live][
 TEST_CASE("only the last day of the archive is loaded, and a missing archive gives no samples",
           "[live][past]") {
     const test::TemporaryDirectory directory;
-    const record::StationCodes codes;
+    const journal::StationCodes codes;
     write_archive(directory.path(), codes, 0, 0);
-    LiveRecord late(kProfile, 50, {});
+    Record late(kProfile, 50, {});
     take_archived_past(directory.path(), codes, after(24.0 * 3600.0 + 30.0), late);
     CHECK(late.end() == 50 * 30);
-    LiveRecord none(kProfile, 50, {});
+    Record none(kProfile, 50, {});
     take_archived_past(directory.path() / "nowhere", codes, after(60.0), none);
     CHECK(none.end() == 0);
 }
 
 }  // namespace
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

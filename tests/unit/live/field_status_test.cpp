@@ -5,7 +5,9 @@
 #include "tests/unit/daemon/fake_recorder.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
-namespace a351::daemon {
+using namespace a351::daemon::survey;
+
+namespace a351::daemon::live {
 namespace {
 
 /// A fake recorder with 40 min of samples at 50 Hz, from its minute 0 on.
@@ -19,7 +21,7 @@ struct Field {
     }
     FakeRecorder recorder;
     Occupations occupations{recorder, two_sites(), {}};
-    LiveRecord live{kProfile, 50, {}};
+    Record live{kProfile, 50, {}};
 };
 
 TEST_CASE("a further set-up is proposed at half time, once only", "[field]") {
@@ -69,8 +71,8 @@ TEST_CASE("tilt is relative to the first set-up of the day", "[field][level]") {
     CHECK(now.level->tilt_arcmin[0] == Approx(0.0).margin(0.01));
 }
 
-record::Event event(const char* type, UtcTime utc) {
-    record::Event event;
+events::Event event(const char* type, UtcTime utc) {
+    events::Event event;
     event.type = type;
     event.utc = utc;
     event.details["site"] = "No.0";
@@ -79,7 +81,7 @@ record::Event event(const char* type, UtcTime utc) {
 
 TEST_CASE("a survey day begins after the pause of the night", "[field]") {
     FakeRecorder recorder;
-    std::vector<record::Event> events;
+    std::vector<events::Event> events;
     for (const int hour : {0, 3, 6, 14, 16}) {
         events.push_back(event("start", minute(60 * hour)));
         events.push_back(event("stop", minute(60 * hour + 10)));
@@ -93,7 +95,7 @@ TEST_CASE("a survey day begins after the pause of the night", "[field]") {
 
 TEST_CASE("a stop forgotten in the evening does not join two days", "[field]") {
     FakeRecorder recorder;
-    const std::vector<record::Event> events{
+    const std::vector<events::Event> events{
         event("start", minute(0)), event("stop", minute(10)), event("start", minute(60)),
         event("start", minute(60 * 20)), event("stop", minute(60 * 20 + 10))};
     const Occupations occupations(recorder, {}, events);
@@ -107,7 +109,7 @@ TEST_CASE("a site of the day before does not count as repeated", "[field]") {
     recorder.last = minute(60 * 20);
     Occupations occupations(recorder, two_sites(),
                             {event("start", minute(0)), event("stop", minute(10))});
-    const LiveRecord live{kProfile, 50, {}};
+    const Record live{kProfile, 50, {}};
     (void)occupations.start("No.0", {}, minute(60 * 20));
     REQUIRE(occupations.running());
     REQUIRE(occupations.running()->number == 2);
@@ -146,4 +148,4 @@ TEST_CASE("sites are listed with the nearest first, and those without a position
 }
 
 }  // namespace
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

@@ -7,21 +7,23 @@
 #include "protocol/signal/decimation.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
-namespace a351::daemon {
+using namespace a351::daemon::verdict;
+
+namespace a351::daemon::live {
 namespace {
 
 double wave(std::int64_t i) { return 500.0 * std::sin(0.01 * static_cast<double>(i)); }
 
 TEST_CASE("until the filters are full the verdict is no data, since the first sample", "[live]") {
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 500; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
     const Verdict verdict = record.verdict(after(10.0));
-    CHECK(verdict.state == VerdictState::no_data);
+    CHECK(verdict.state == verdict::State::no_data);
     CHECK(verdict.since == kZero);
 }
 
 TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]") {
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 1000; ++i)
         if (i < 400 || i >= 410) record.take(placed(i, static_cast<double>(i), 0.0, 980000.0));
     std::uint64_t cursor = 0;
@@ -42,7 +44,7 @@ TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]")
 }
 
 TEST_CASE("a viewer that returns late continues with the oldest sample that is kept", "[live]") {
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 20000; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
     std::uint64_t cursor = 17;
     const auto block = record.block_from(cursor, 100000);
@@ -53,7 +55,7 @@ TEST_CASE("a viewer that returns late continues with the oldest sample that is k
 
 TEST_CASE("a viewer that reads every tenth of a second misses nothing at 50 000 samples/s",
           "[live]") {
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     std::uint64_t cursor = 0;
     std::int64_t next = 0;
     for (int look = 0; look < 5; ++look) {
@@ -70,7 +72,7 @@ TEST_CASE("a viewer that reads every tenth of a second misses nothing at 50 000 
 TEST_CASE(
     "samples that a replay delivers again are skipped, although the archive rounds their times",
     "[live]") {
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 100; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
     record.end_of_history();
     for (std::int64_t i = 50; i < 120; ++i) {
@@ -92,28 +94,28 @@ PlacedSample steady(std::int64_t i) {
 TEST_CASE("a clock that is set back starts the history again from there", "[live]") {
     constexpr std::int64_t kBefore = 40 * 60 * 50, kBehind = 60 * 50;
     constexpr Nanoseconds kBack = std::chrono::minutes(30);
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < kBefore; ++i) {
         PlacedSample sample = steady(i);
         if (i > kBefore - 5000 && i % 20 == 0) sample.counts[0] = counts_of(5000.0);  // Knocks.
         record.take(sample);
     }
-    CHECK(record.verdict(after(2400.0)).state == VerdictState::disturbed);
+    CHECK(record.verdict(after(2400.0)).state == verdict::State::disturbed);
     for (std::int64_t i = kBefore; i < kBefore + kBehind; ++i) {
         PlacedSample sample = steady(i);
         sample.time -= kBack;
         record.take(sample);
     }
     CHECK(record.end() == kBefore + kBehind);
-    CHECK(record.verdict(after(660.0)).state == VerdictState::settling);
-    CHECK(record.history(LiveChannel::x, after(600.0), after(4000.0), 4000).size() == 30);
+    CHECK(record.verdict(after(660.0)).state == verdict::State::settling);
+    CHECK(record.history(Channel::x, after(600.0), after(4000.0), 4000).size() == 30);
     const auto reading = record.reading(after(600.0), after(4000.0), MilliGal(1.0));
     CHECK(reading.used_s == Approx(60.0 - 20.0).margin(4.0));
 }
 
 TEST_CASE("the live series is identical to the decimation in the evening's correction",
           "[live][thinning]") {
-    LiveThinning thinning(kProfile, 50);
+    Thinning thinning(kProfile, 50);
     std::vector<LiveSample> live;
     std::vector<double> z;
     for (std::int64_t i = 0; i < 6000; ++i) {
@@ -121,8 +123,8 @@ TEST_CASE("the live series is identical to the decimation in the evening's corre
         z.push_back(to_milligal(kProfile.acceleration(sample.counts[2])).value());
         thinning.take(sample, live);
     }
-    const auto filter = corrector::design_decimation(10);
-    const auto evening = corrector::decimate(corrector::decimate(z, filter), filter);
+    const auto filter = signal::design_decimation(10);
+    const auto evening = signal::decimate(signal::decimate(z, filter), filter);
     REQUIRE(live.size() == 56);
     int finite = 0;
     for (std::size_t k = 0; k < live.size(); ++k) {
@@ -145,7 +147,7 @@ TEST_CASE("the live series is identical to the decimation in the evening's corre
 TEST_CASE("all rates of the profile are decimated to 2 s with filters of the same length in time",
           "[live][thinning]") {
     for (const auto& rate : kProfile.output_rates_hz) {
-        LiveThinning thinning(kProfile, rate.value);
+        Thinning thinning(kProfile, rate.value);
         std::vector<LiveSample> live;
         for (std::int64_t i = 0; i < 60 * rate.value; ++i) {
             PlacedSample sample = placed(0, 0.0, 0.0, 980000.0);
@@ -164,7 +166,7 @@ TEST_CASE(
     "a missing sample affects only the values whose filter includes it, a long gap restarts the "
     "filter",
     "[live][thinning]") {
-    LiveThinning thinning(kProfile, 50);
+    Thinning thinning(kProfile, 50);
     std::vector<LiveSample> live;
     for (std::int64_t i = 0; i < 6000; ++i)
         if (i != 3000) thinning.take(placed(i, 0.0, 0.0, 980000.0), live);
@@ -181,30 +183,30 @@ TEST_CASE(
 }
 
 TEST_CASE("the live record gives its samples to the verdict and to the reading", "[live]") {
-    LiveRecord record(kProfile, 50, {});
-    CHECK(record.verdict(kZero).state == VerdictState::no_data);
+    Record record(kProfile, 50, {});
+    CHECK(record.verdict(kZero).state == verdict::State::no_data);
     for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) record.take(steady(i));
-    CHECK(record.verdict(after(2400.0)).state == VerdictState::stable);
+    CHECK(record.verdict(after(2400.0)).state == verdict::State::stable);
     const auto reading = record.reading(after(1200.0), after(2380.0), MilliGal(1.0));
     REQUIRE(reading.value);
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(0.06));
     CHECK(reading.used_s == Approx(1162.0).margin(2.0));
     CHECK(reading.is_good_enough);
-    CHECK(record.verdict(after(2420.0)).state == VerdictState::no_data);
+    CHECK(record.verdict(after(2420.0)).state == verdict::State::no_data);
 
-    VerdictOptions strict;
+    verdict::Options strict;
     strict.history_min = 120.0;
     record.judge_by(strict);
-    CHECK(record.verdict(after(2400.0)).state == VerdictState::settling);
+    CHECK(record.verdict(after(2400.0)).state == verdict::State::settling);
     record.judge_by({});
-    CHECK(record.verdict(after(2400.0)).state == VerdictState::stable);
+    CHECK(record.verdict(after(2400.0)).state == verdict::State::stable);
 }
 
 TEST_CASE("tilt is given relative to a set-up, with the side to turn", "[live][level]") {
     const auto mgal_of = [](double arcmin) {
         return kMilliGalPerStandardGravity * std::sin(arcmin / 60.0 * std::numbers::pi / 180.0);
     };
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 6000; ++i)
         record.take(placed(i, mgal_of(30.0), mgal_of(-20.0), 980000.0));
     for (std::int64_t i = 6000; i < 6200; ++i)
@@ -224,7 +226,7 @@ TEST_CASE("tilt is given relative to a set-up, with the side to turn", "[live][l
 TEST_CASE("lifting the box at the end of a set-up does not change the level of that set-up",
           "[live][level]") {
     constexpr double kLevel = 8000.0, kLifted = 80'000.0;  // 28' and 4.7 deg.
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 600 * 50; ++i)
         record.take(placed(i, i < 540 * 50 ? kLevel : kLifted, 0.0, 980000.0));
     for (std::int64_t i = 600 * 50; i < 630 * 50; ++i)
@@ -236,7 +238,7 @@ TEST_CASE("lifting the box at the end of a set-up does not change the level of t
 }
 
 TEST_CASE("nothing from before or after a set-up enters its reading", "[live]") {
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 600 * 50; ++i) {
         const bool is_within = i >= 100 * 50 && i < 400 * 50;
         record.take(placed(i, 0.0, 0.0, is_within ? 980000.0 : 979000.0));
@@ -248,17 +250,17 @@ TEST_CASE("nothing from before or after a set-up enters its reading", "[live]") 
 }
 
 TEST_CASE("oven values are kept for a day, at most one every 2 s", "[live]") {
-    LiveRecord record(kProfile, 50, {});
+    Record record(kProfile, 50, {});
     for (int i = 0; i < 100; ++i) record.take(OvenPoint{after(i), DegC(42.0 + i), DegC(42.5)});
     CHECK(record.oven_history(kZero, after(1000.0), 1000).size() == 50);
     const auto few = record.oven_history(kZero, after(1000.0), 7);
     REQUIRE(few.size() == 7);
     CHECK(few[0].process_value == DegC(42.0));
     CHECK(few[1].time == after(16.0));
-    record::OvenChunk lost;
-    lost.outcome = record::OvenOutcome::timed_out;
+    journal::OvenChunk lost;
+    lost.outcome = journal::OvenOutcome::timed_out;
     CHECK_FALSE(oven_point(lost, kZero));
 }
 
 }  // namespace
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

@@ -5,7 +5,7 @@
 
 #include "daemon/live/live_record.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::live {
 
 inline const UtcTime kZero = *parse_rfc3339("2026-03-14T08:00:00Z");
 inline const wire::DeviceProfile& kProfile = *wire::find_profile("A351");
@@ -25,4 +25,4 @@ inline PlacedSample placed(std::int64_t i, double x, double y, double z) {
             {counts_of(x), counts_of(y), counts_of(z), kTemperatureCounts}};
 }
 
-}  // namespace a351::daemon
+}  // namespace a351::daemon::live

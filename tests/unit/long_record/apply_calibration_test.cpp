@@ -6,7 +6,8 @@
 #include "tests/unit/long_record/simulated_record.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::long_record;
+using namespace a351::unit;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "tests/unit/station/station_files.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::long_record;
 
 namespace {
 
@@ -23,14 +23,16 @@ const std::string kValue = "<Value>1710799.9163832706</Value>";
 /// A data root of a sensor at rest at 1 g and 42.476 degC.
 class Root {
 public:
-    Root() { folder_.write("metadata/station.xml", record::to_station_xml(record::description())); }
+    Root() {
+        folder_.write("metadata/station.xml", station::to_station_xml(station::description()));
+    }
 
     /// Adds ten minutes of samples, beginning `from_s` after the start.
     void add(double from_s, double rate_hz) {
         const std::pair<const char*, std::int32_t> channels[] = {
             {"BN1", 0}, {"BN2", 0}, {"BNZ", 16'777'216}, {"BK1", -1975}};
         for (const auto& [channel, count] : channels) {
-            record::RecordHeader header;
+            archive::RecordHeader header;
             header.network = "XX";
             header.station = "A351";
             header.location = "00";
@@ -40,7 +42,7 @@ public:
                 static_cast<std::size_t>(std::lround(kHalf_s * rate_hz)), count);
             for (std::size_t done = 0; done < samples.size();) {
                 header.start = kStart + from_seconds(from_s + static_cast<double>(done) / rate_hz);
-                const auto packed = record::pack_record(header, std::span(samples).subspan(done));
+                const auto packed = archive::pack_record(header, std::span(samples).subspan(done));
                 writer_.append(channel, packed);
                 done += static_cast<std::size_t>(packed.sample_count);
             }
@@ -50,11 +52,11 @@ public:
 
     /// Begins another epoch ten minutes after the start.
     void change(const std::string& serial_number, std::uint16_t firmware) {
-        auto station = record::description();
+        auto station = station::description();
         station.start = kStart + from_seconds(kHalf_s);
         station.serial_number = serial_number;
         station.firmware = firmware;
-        text_ = record::extend_station_xml(metadata(), station).value();
+        text_ = station::extend_station_xml(metadata(), station).value();
         folder_.write("metadata/station.xml", text_);
     }
 
@@ -76,8 +78,8 @@ private:
 
     test::TemporaryDirectory folder_;
     std::string text_;
-    record::SdsWriter writer_{record::posix_files(), folder_.path() / "archive",
-                              record::StationCodes{}};
+    archive::SdsWriter writer_{files::posix_files(), folder_.path() / "archive",
+                               journal::StationCodes{}};
 };
 
 /// Returns the value in the middle of ten minutes, where the filters are filled.

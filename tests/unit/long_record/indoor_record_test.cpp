@@ -9,7 +9,7 @@
 #include "tests/unit/long_record/simulated_record.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::long_record;
 
 TEST_CASE("simulated nights have the statistics of the night in the publication", "[long_record]") {
     constexpr int kSeeds = 10;

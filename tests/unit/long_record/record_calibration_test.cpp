@@ -10,7 +10,8 @@
 #include "tests/unit/long_record/simulated_record.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::long_record;
+using namespace a351::unit;
 
 namespace {
 
@@ -22,13 +23,13 @@ Eigen::Matrix<double, 5, 1> true_values(const sim::TwoPathTruth& truth) {
     return values;
 }
 
-TwoPathFit fitted(const sim::Scenario& scenario, std::uint64_t seed) {
+TwoPathFit fitted(const sim::scenario::Scenario& scenario, std::uint64_t seed) {
     const RecordSegment segment = simulated_segment(scenario, seed);
     return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
 }
 
 TwoPathFit fitted(const std::string& scenario, std::uint64_t seed) {
-    return fitted(sim::load_scenario(scenario), seed);
+    return fitted(sim::scenario::load_scenario(scenario), seed);
 }
 
 /// Returns the variance of the best-known direction, in units of the priors' variances.
@@ -69,7 +70,7 @@ TwoPathFit warm_up_fit(double size_mgal, double size_error, double time_h, doubl
 
 TEST_CASE("a night calibrates the fast path and leaves the rest undetermined",
           "[long_record][calibrate]") {
-    const sim::Scenario scenario = of_drawn_units("indoor");
+    const sim::scenario::Scenario scenario = of_drawn_units("indoor");
     const PooledThermal pooled = pool_thermal({fitted(scenario, 702)});
     REQUIRE(pooled.response);
     CHECK(pooled.parameters[2].is_determined);
@@ -91,7 +92,7 @@ TEST_CASE("the errors stated by calibrations cover the true unit in nine of ten 
     // 11.07.
     constexpr double kMost = kThermalErrorFactor * kThermalErrorFactor * 11.07;
     constexpr int kUnits = 20;
-    const sim::Scenario scenario = of_drawn_units("indoor");
+    const sim::scenario::Scenario scenario = of_drawn_units("indoor");
     int held = 0;
     for (std::uint64_t seed = 711; seed < 711 + kUnits; ++seed) {
         const PooledThermal pooled = pool_thermal({fitted(scenario, seed)});

@@ -9,12 +9,13 @@
 #include "tests/unit/long_record/simulated_record.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::long_record;
 
 namespace {
 
 /// H(s) = rA - kA s tauA / (1 + s tauA) + rC / (1 + s tauC).
-std::complex<double> true_response(const sim::TemperatureErrorParameters& unit, double period_s) {
+std::complex<double> true_response(const sim::plant::TemperatureErrorParameters& unit,
+                                   double period_s) {
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi / period_s);
     return unit.crystal_static_mgal_per_degc -
            unit.crystal_dynamic_mgal_per_degc * s * unit.crystal_tau_s /
@@ -25,7 +26,7 @@ std::complex<double> true_response(const sim::TemperatureErrorParameters& unit, 
 struct Count {
     int claimed = 0, covered = 0;
 
-    void add(const ResponsePoint& point, const sim::TemperatureErrorParameters& unit) {
+    void add(const ResponsePoint& point, const sim::plant::TemperatureErrorParameters& unit) {
         if (!point.refusal.empty()) return;
         const std::complex<double> truth = true_response(unit, point.period_s);
         const double phase = std::arg(truth) * 180.0 / std::numbers::pi;
@@ -48,9 +49,10 @@ TEST_CASE("the limits by spectrum and by modes cover the plant's response",
     Count by_spectrum, by_modes;
     int at_cycle = 0;
     constexpr int kSeeds = 10;
-    const sim::Scenario scenario = of_drawn_units("indoor");
+    const sim::scenario::Scenario scenario = of_drawn_units("indoor");
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-        const sim::TemperatureErrorParameters unit = sim::drawn_unit(scenario, seed);
+        const sim::plant::TemperatureErrorParameters unit =
+            sim::scenario::drawn_unit(scenario, seed);
         RecordAnalysisOptions options;
         options.ensemble_size = 60;
         const RecordAnalysis analysis =

@@ -3,18 +3,19 @@
 #include "corrector/long_record/record_segments.hpp"
 #include "tests/support/plant_statistics.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::long_record {
 
 /// Returns the scenario with units drawn by seed within +-25 %, so that their parameters are not in
 /// the middle of the fit's priors.
-inline sim::Scenario of_drawn_units(const std::string& name) {
-    sim::Scenario scenario = sim::load_scenario(name);
+inline sim::scenario::Scenario of_drawn_units(const std::string& name) {
+    sim::scenario::Scenario scenario = sim::scenario::load_scenario(name);
     scenario.unit_scatter = 0.25;
     return scenario;
 }
 
 /// Returns a record without a break, made of the scenario's 20 s means.
-inline RecordSegment simulated_segment(const sim::Scenario& scenario, std::uint64_t seed) {
+inline RecordSegment simulated_segment(const sim::scenario::Scenario& scenario,
+                                       std::uint64_t seed) {
     const sim::IndoorRecord record = sim::indoor_record(scenario, seed);
     RecordSegment segment;
     segment.acceleration_mgal = record.difference_mgal;
@@ -23,7 +24,7 @@ inline RecordSegment simulated_segment(const sim::Scenario& scenario, std::uint6
 }
 
 inline RecordSegment simulated_segment(const std::string& scenario, std::uint64_t seed) {
-    return simulated_segment(sim::load_scenario(scenario), seed);
+    return simulated_segment(sim::scenario::load_scenario(scenario), seed);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::long_record

@@ -8,13 +8,13 @@
 #include "tests/unit/long_record/simulated_record.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::long_record;
 
 namespace {
 
 constexpr double k95 = 1.96;  // standard errors
 
-TwoPathFit fitted(const sim::Scenario& scenario, std::uint64_t seed) {
+TwoPathFit fitted(const sim::scenario::Scenario& scenario, std::uint64_t seed) {
     const RecordSegment segment = simulated_segment(scenario, seed);
     return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
 }
@@ -30,7 +30,7 @@ std::string words(const TwoPathFit& fit, const sim::TwoPathTruth& truth, TwoPath
 
 TEST_CASE("95 % limits of a night's fit contain the true parameters", "[long_record][two_paths]") {
     constexpr int kSeeds = 20;
-    const sim::Scenario scenario = of_drawn_units("indoor");
+    const sim::scenario::Scenario scenario = of_drawn_units("indoor");
     int fast_determined = 0, static_held = 0, adequate = 0;
     double static_square = 0.0;
     std::map<TwoPathTerm, int> held;
@@ -64,7 +64,7 @@ TEST_CASE("95 % limits of a night's fit contain the true parameters", "[long_rec
 
 TEST_CASE("a week has smaller errors than a night and determines the static slope",
           "[long_record][two_paths]") {
-    const sim::Scenario scenario = of_drawn_units("week");
+    const sim::scenario::Scenario scenario = of_drawn_units("week");
     const TwoPathFit night = fitted(of_drawn_units("indoor"), 1), week = fitted(scenario, 1);
     const sim::TwoPathTruth truth = sim::two_path_truth(scenario, 1);
     for (std::size_t k = 0; k < kTwoPathTerms; ++k) {
@@ -83,7 +83,7 @@ TEST_CASE("the thermometer's noise gives no information on the static slope",
           "[long_record][two_paths]") {
     // The same night without that noise must leave the slope as uncertain: a trend that leaks into
     // the frequencies of the noise must not get the weight of those frequencies.
-    sim::Scenario quiet = of_drawn_units("indoor");
+    sim::scenario::Scenario quiet = of_drawn_units("indoor");
     const TwoPathFit noisy = fitted(quiet, 101);
     quiet.slow_noise.temperature_degc = 0.0001;
     const TwoPathFit fit = fitted(quiet, 101);

@@ -7,7 +7,8 @@
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
 
 namespace {
 

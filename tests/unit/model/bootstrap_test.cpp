@@ -5,7 +5,8 @@
 
 #include "corrector/model/model_fit.hpp"
 
-using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::model;
 
 TEST_CASE("the interval of many equal stations agrees with the error of a mean of squares",
           "[survey][bootstrap]") {

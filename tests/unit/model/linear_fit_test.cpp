@@ -3,7 +3,8 @@
 #include <cmath>
 #include "tests/support/catch.hpp"
 
-using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::model;
 
 namespace {
 

@@ -5,15 +5,16 @@
 
 #include "tests/unit/model/survey_rows.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::model;
 
 TEST_CASE("a day made of temperature, rate and drift is explained by that model only",
           "[survey][model_fit]") {
     const auto rows = made_up::day();
     for (const LinearModel& model : kLinearModels) {
         CAPTURE(model.name);
-        const ModelScore score = score_linear_model(model, rows, made_up::kMorning);
+        const model::Score score = score_linear_model(model, rows, made_up::kMorning);
         const bool is_complete = model.has_rate && model.has_time;
         CHECK((score.rms_mgal.value() < 1e-6) == is_complete);
         CHECK((score.loso_mgal.value() < 1e-6) == is_complete);
@@ -33,7 +34,7 @@ TEST_CASE(
     for (std::size_t i = 0; i < rows.size(); ++i) {  // an error of the station, the same each time
         rows[i].acceleration = rows[i].acceleration + MilliGal(rows[i].site == "S2" ? 5.0 : 0.0);
     }
-    const ModelScore score = score_linear_model(kLinearModels[3], rows, made_up::kMorning);
+    const model::Score score = score_linear_model(kLinearModels[3], rows, made_up::kMorning);
     CHECK(score.rms_mgal.value() < score.s_mgal.value());
     CHECK(score.s_mgal.value() < score.loo_mgal.value());
     CHECK(score.loo_mgal.value() < score.loso_mgal.value());
@@ -42,11 +43,11 @@ TEST_CASE(
 TEST_CASE("scores that too few rows cannot define are absent", "[survey][model_fit]") {
     auto rows = made_up::day();
     rows.resize(3);
-    const ModelScore line = score_linear_model(kLinearModels[0], rows, made_up::kMorning);
+    const model::Score line = score_linear_model(kLinearModels[0], rows, made_up::kMorning);
     CHECK(line.rms_mgal.has_value());
     CHECK(line.s_mgal.has_value());
     CHECK_FALSE(line.aicc.has_value());
-    const ModelScore full = score_linear_model(kLinearModels[3], rows, made_up::kMorning);
+    const model::Score full = score_linear_model(kLinearModels[3], rows, made_up::kMorning);
     CHECK_FALSE(full.rms_mgal.has_value());
     CHECK_FALSE(full.loso_mgal.has_value());
 }
@@ -62,7 +63,7 @@ TEST_CASE("the weight of a prior is its standard deviation relative to that of a
           "[survey][model_fit]") {
     const auto rows = made_up::day();
     const auto rate = [&](double sd, double reading_sd_mgal) {
-        ModelPriors priors;
+        model::Priors priors;
         priors.reading_sd_mgal = reading_sd_mgal;
         set_prior(priors, "test", "rate_mgal_per_degc_per_h", {0.0, sd});
         return fit_model(kLinearModels[3], rows, made_up::kMorning, priors)->coefficients(2);

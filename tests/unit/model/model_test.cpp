@@ -5,8 +5,10 @@
 
 #include "tests/unit/model/survey_rows.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
 
 namespace {
 
@@ -47,7 +49,7 @@ TEST_CASE("every model of averages gives rows whose corrections add up to the co
     for (const Model& model : models()) {
         CAPTURE(model.name);
         if (needs_records(model)) continue;
-        const auto fit = std::get<ModelFit>(model.fit(problem, all_of(rows)));
+        const auto fit = std::get<model::Fit>(model.fit(problem, all_of(rows)));
         REQUIRE(fit.rows.size() == rows.size());
         for (const CorrectedRow& row : fit.rows) {
             const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
@@ -100,7 +102,7 @@ TEST_CASE("the publication's Error (1) is given only with a reference", "[survey
     const SurveyOptions options = options_for(rows);
     RowChoice choice = all_of(rows);
     choice.in_use[4] = false;
-    const auto fit = std::get<ModelFit>(paper_model().fit({rows, options, nullptr}, choice));
+    const auto fit = std::get<model::Fit>(paper_model().fit({rows, options, nullptr}, choice));
     CHECK_FALSE(fit.rows[4].as<PaperRow>()->residual1);
     const PaperRow& known = *fit.rows[3].as<PaperRow>();
     CHECK(known.residual1->value() ==

@@ -7,8 +7,10 @@
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
 
 namespace {
 
@@ -29,7 +31,7 @@ std::vector<SurveyRow> day_with_quadratic_drift(double quadratic_mgal_per_h2) {
 double true_gravity_mgal(const std::string& site) { return 979800.0 + 7.0 * site.back(); }
 
 NetworkResult adjust(const std::vector<SurveyRow>& rows, const NetworkOptions& options = {},
-                     const ModelPriors& priors = {}) {
+                     const model::Priors& priors = {}) {
     return adjust_network(rows, std::vector<bool>(rows.size(), true), {}, priors, options);
 }
 
@@ -72,7 +74,7 @@ TEST_CASE("a network finds a known quadratic drift and the unknown stations", "[
 
 TEST_CASE("redundancies of readings, datum and priors add up to the degrees of freedom",
           "[survey][network]") {
-    ModelPriors priors;
+    model::Priors priors;
     set_prior(priors, "test", "time_mgal_per_h", {0.0, 1.0});
     const auto network = adjust(day_with_quadratic_drift(0.0), {}, priors).adjustment.value();
     CHECK(network.rows.size() == 12 + 1 + 1);
@@ -103,7 +105,7 @@ TEST_CASE("the global test fails on a blunder and on weights that are too small"
     REQUIRE(network.dof == 2);
     CHECK(network.chi_square_low == Approx(0.0506).margin(0.0001));
     CHECK(network.chi_square_high == Approx(7.3778).margin(0.0001));
-    ModelPriors wide;
+    model::Priors wide;
     wide.reading_sd_mgal = 200.0;
     CHECK_FALSE(adjust(rows, {}, wide).adjustment->passes_global_test().value());
     rows[4].acceleration = rows[4].acceleration + MilliGal(30.0);
@@ -169,7 +171,7 @@ TEST_CASE("drift with one occupation of every station is refused with the reason
                                              ContainsSubstring("occupied only once") &&
                                              ContainsSubstring("a prior on time_mgal_per_h"));
     SECTION("priors on drift and temperature make it solvable") {
-        ModelPriors priors;
+        model::Priors priors;
         set_prior(priors, "test", "time_mgal_per_h", {made_up::kDrift_mgal_per_h, 0.1});
         set_prior(priors, "test", "temperature_mgal_per_degc", {-30.0, 1.0});
         const auto network = adjust(rows, {}, priors).adjustment.value();

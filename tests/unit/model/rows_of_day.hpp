@@ -6,22 +6,22 @@
 #include "corrector/reading/survey_row.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::model {
 
 /// Returns the rows of a MadeUpDay.  Set-ups 11 to 15 are at the stations of 0 to 4.
-inline std::vector<SurveyRow> rows_of(const DayRecord& day) {
-    std::vector<SurveyRow> rows;
-    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s) {
-        SurveyRow row;
+inline std::vector<reading::SurveyRow> rows_of(const reading::DayRecord& day) {
+    std::vector<reading::SurveyRow> rows;
+    for (std::size_t s = 0; s < whole_day::MadeUpDay::kSetUps; ++s) {
+        reading::SurveyRow row;
         row.site = "S" + std::to_string(s % 11);
         row.occupation = s < 11 ? 1 : 2;
-        row.time = day.bins[s * MadeUpDay::kBins + MadeUpDay::kBins / 2].time;
-        row.acceleration = day.bins[s * MadeUpDay::kBins].reading;
+        row.time = day.bins[s * whole_day::MadeUpDay::kBins + whole_day::MadeUpDay::kBins / 2].time;
+        row.acceleration = day.bins[s * whole_day::MadeUpDay::kBins].reading;
         row.temperature = DegC(42.5 + 0.1 * static_cast<double>(s * s % 7));
-        row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
+        row.reference = MilliGal(whole_day::MadeUpDay::gravity_mgal(s));
         rows.push_back(row);
     }
     return rows;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::model

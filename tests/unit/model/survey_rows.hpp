@@ -7,7 +7,7 @@
 #include "corrector/reading/survey_row.hpp"
 
 /// A made-up day: eight stations, the base three times, temperature, rate and drift known.
-namespace a351::corrector::made_up {
+namespace a351::corrector::model::made_up {
 
 inline constexpr double kConstant_mgal = 1800.0;
 inline constexpr double kTemperature_mgal_per_degc = -30.0;
@@ -17,15 +17,15 @@ inline constexpr double kDrift_mgal_per_h = 0.5;
 inline const UtcTime kMorning = parse_rfc3339("2020-05-01T00:00:00Z").value();
 
 /// Returns rows whose differences follow the model exactly.
-inline std::vector<SurveyRow> day() {
+inline std::vector<reading::SurveyRow> day() {
     const std::vector<std::string> sites{"B",  "S1", "S2", "S3", "B",  "S4",
                                          "S5", "S6", "S7", "S2", "S3", "B"};
     const std::vector<double> temperatures_degc{42.30, 42.41, 42.38, 42.55, 42.61, 42.70,
                                                 42.64, 42.77, 42.90, 42.86, 42.71, 42.66};
     std::map<std::string, int> stays;
-    std::vector<SurveyRow> rows;
+    std::vector<reading::SurveyRow> rows;
     for (std::size_t i = 0; i < sites.size(); ++i) {
-        SurveyRow row;
+        reading::SurveyRow row;
         row.site = sites[i];
         row.occupation = ++stays[sites[i]];
         row.time = kMorning + std::chrono::minutes(45 * i + 3 * (i % 3));
@@ -34,8 +34,8 @@ inline std::vector<SurveyRow> day() {
         row.reference = MilliGal(979800.0 + 7.0 * static_cast<double>(sites[i].back()));
         rows.push_back(row);
     }
-    set_backward_rates(rows);
-    for (SurveyRow& row : rows) {
+    reading::set_backward_rates(rows);
+    for (reading::SurveyRow& row : rows) {
         const double hours = seconds_between(kMorning, row.time) / 3600.0;
         const double effect_mgal =
             kConstant_mgal + kTemperature_mgal_per_degc * (row.temperature.value() - 42.6) +
@@ -45,4 +45,4 @@ inline std::vector<SurveyRow> day() {
     return rows;
 }
 
-}  // namespace a351::corrector::made_up
+}  // namespace a351::corrector::model::made_up

@@ -8,7 +8,9 @@
 #include "protocol/core/input_error.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
+using namespace a351::unit;
 
 namespace {
 

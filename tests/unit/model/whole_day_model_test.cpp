@@ -6,7 +6,9 @@
 #include "tests/unit/model/rows_of_day.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
+using namespace a351::corrector::whole_day;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::reading;
 
 namespace {
 

@@ -8,7 +8,9 @@
 #include "protocol/events/event_log.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::job;
+using namespace a351::corrector::reading;
+using namespace a351::corrector::tide;
 using namespace std::chrono_literals;
 
 namespace {
@@ -92,10 +94,10 @@ TEST_CASE("two runs over the same archive are bit-identical", "[survey][archive]
 TEST_CASE("occupations are read from the event log if no table is given", "[survey][archive]") {
     Morning morning;
     for (std::size_t i = 0; i < kSites.size(); ++i) {
-        record::Event start{"start", Morning::start_of(i), {}, {}, {{"site", kSites[i]}}};
-        record::Event stop{"stop", Morning::start_of(i) + kStay, {}, {}, {}};
-        record::append_event(record::posix_files(), morning.folder().path() / "data/events", start);
-        record::append_event(record::posix_files(), morning.folder().path() / "data/events", stop);
+        events::Event start{"start", Morning::start_of(i), {}, {}, {{"site", kSites[i]}}};
+        events::Event stop{"stop", Morning::start_of(i) + kStay, {}, {}, {}};
+        events::append_event(files::posix_files(), morning.folder().path() / "data/events", start);
+        events::append_event(files::posix_files(), morning.folder().path() / "data/events", stop);
     }
     const auto logged = average(morning, "");
     const auto listed = average(morning);

@@ -5,7 +5,9 @@
 
 #include "tests/unit/reading/record.hpp"
 
-namespace a351::corrector {
+using namespace a351::signal;
+
+namespace a351::corrector::reading {
 namespace {
 
 /// Returns the mean of the valid outputs minus gravity, for axes that vibrate sideways.
@@ -34,4 +36,4 @@ TEST_CASE("the norm of decimated axes is free of the rectification bias") {
     CHECK(std::abs(bias_mgal(NormOrder::decimate_first, 1.0)) < 1e-4);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

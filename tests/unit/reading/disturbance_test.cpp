@@ -6,7 +6,9 @@
 
 #include "corrector/eemd/noise.hpp"
 
-namespace a351::corrector {
+using namespace a351::corrector::eemd;
+
+namespace a351::corrector::reading {
 namespace {
 
 std::vector<double> noisy_ramp(std::size_t n, double slope) {
@@ -100,4 +102,4 @@ TEST_CASE("despiking replaces the disturbed samples by the baseline and no other
     CHECK(indices(find_disturbances(samples, 8.0)).empty());
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -5,7 +5,9 @@
 
 #include "tests/unit/reading/record.hpp"
 
-namespace a351::corrector {
+using namespace a351::corrector::eemd;
+
+namespace a351::corrector::reading {
 namespace {
 
 TimeSeries<DegC> temperature_at_half_hertz(std::vector<double> values) {
@@ -77,4 +79,4 @@ TEST_CASE("an axis has its mean, and its rms about the trend") {
     CHECK(with_gap.rms.value() == Approx(0.980665).epsilon(1e-6));
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -4,7 +4,7 @@
 #include <numbers>
 #include "tests/support/catch.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 constexpr std::size_t kMargin = 30;
@@ -105,4 +105,4 @@ TEST_CASE("curves of one to five samples are accepted") {
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

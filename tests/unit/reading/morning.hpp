@@ -32,15 +32,16 @@ public:
     inline static const std::vector<double> kGravity_mgal{979800.0, 979850.0, 979760.0, 979800.0};
 
     Morning() {
-        record::StationDescription description;
+        station::Description description;
         description.start = kBegin;
         description.profile = "A351";
         description.output_rate_hz = 50;
         description.filter = "k512_fc9";
-        folder_.write("data/metadata/station.xml", record::to_station_xml(description));
-        const auto station = record::read_station_xml(folder_.path() / "data/metadata/station.xml");
+        folder_.write("data/metadata/station.xml", station::to_station_xml(description));
+        const auto station =
+            station::read_station_xml(folder_.path() / "data/metadata/station.xml");
         for (const auto& channel : station.channels)
-            if (!record::is_derived(channel.code)) write_channel(channel);
+            if (!archive::is_derived(channel.code)) write_channel(channel);
         folder_.write("sites.csv",
                       "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n"
                       "B,140.1,36.2,500,979800\nS1,140.0,36.1,200,979850\n"
@@ -72,7 +73,7 @@ public:
     [[nodiscard]] const test::TemporaryDirectory& folder() const { return folder_; }
 
 private:
-    void write_channel(const record::ChannelScale& channel) {
+    void write_channel(const station::ChannelScale& channel) {
         std::vector<std::int32_t> counts;
         const auto total =
             static_cast<std::size_t>(static_cast<double>(kSites.size()) * 240.0 * kTrueRate_hz);
@@ -89,10 +90,10 @@ private:
             counts.push_back(
                 static_cast<std::int32_t>(std::llround((value - channel.offset) / channel.gain)));
         }
-        record::SdsWriter writer(record::posix_files(), folder_.path() / "data/archive", {});
+        archive::SdsWriter writer(files::posix_files(), folder_.path() / "data/archive", {});
         std::size_t at = 0;
         while (at < counts.size()) {
-            record::RecordHeader header;
+            archive::RecordHeader header;
             header.network = "XX";
             header.station = "A351";
             header.location = "00";
@@ -101,7 +102,7 @@ private:
             header.nominal_rate = Hertz(50.0);
             const std::size_t before_midnight = samples_before_midnight(at, counts.size());
             const auto packed =
-                record::pack_record(header, std::span(counts).subspan(at, before_midnight));
+                archive::pack_record(header, std::span(counts).subspan(at, before_midnight));
             writer.append(channel.code, packed);
             at += packed.sample_count;
         }

@@ -6,17 +6,17 @@
 #include "protocol/core/input_error.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::reading;
 using namespace std::chrono_literals;
 
 namespace {
 
 const UtcTime kStart = parse_rfc3339("2020-01-01T00:00:00Z").value();
-const record::ChannelScale kScale{"BNZ", 2.0, 1.0, "m/s**2"};
+const station::ChannelScale kScale{"BNZ", 2.0, 1.0, "m/s**2"};
 
 /// Returns `count` samples at `rate_hz` with the values first + i and a time stamp every 500.
-record::Segment segment(UtcTime start, double rate_hz, std::size_t count, std::int32_t first) {
-    record::Segment result;
+archive::Segment segment(UtcTime start, double rate_hz, std::size_t count, std::int32_t first) {
+    archive::Segment result;
     result.rate_hz = 50.0;
     for (std::size_t i = 0; i < count; ++i) {
         result.counts.push_back(first + static_cast<std::int32_t>(i));
@@ -39,7 +39,7 @@ std::size_t missing(const std::vector<double>& values) {
 
 TEST_CASE("a window has the samples from its start up to, but not including, its end",
           "[survey][window]") {
-    const std::vector<record::Segment> segments{segment(kStart - 1s, 50.0, 10'000, 0)};
+    const std::vector<archive::Segment> segments{segment(kStart - 1s, 50.0, 10'000, 0)};
     const auto grid = sampling_grid(segments, kStart, kStart + 100s).value();
     CHECK(grid.origin == kStart);
     CHECK(grid.count == 5000);
@@ -54,7 +54,7 @@ TEST_CASE("a sensor off its nominal rate loses no samples and keeps its times",
     const double ppm = GENERATE(-80.0, 0.0, 80.0);
     CAPTURE(ppm);
     const double rate_hz = 50.0 * (1.0 + 1e-6 * ppm);
-    const std::vector<record::Segment> segments{segment(kStart, rate_hz, 45'000, 0)};
+    const std::vector<archive::Segment> segments{segment(kStart, rate_hz, 45'000, 0)};
     const auto grid = sampling_grid(segments, kStart, kStart + 1000s).value();
     CHECK(grid.rate_hz == Approx(rate_hz).epsilon(1e-8));
     const auto values = place_on_grid(segments, kScale, grid);
@@ -65,8 +65,8 @@ TEST_CASE("a sensor off its nominal rate loses no samples and keeps its times",
 }
 
 TEST_CASE("a gap becomes missing samples of the same length", "[survey][window]") {
-    const std::vector<record::Segment> segments{segment(kStart, 50.0, 4000, 0),
-                                                segment(kStart + 80s + 60ms, 50.0, 1000, 4003)};
+    const std::vector<archive::Segment> segments{segment(kStart, 50.0, 4000, 0),
+                                                 segment(kStart + 80s + 60ms, 50.0, 1000, 4003)};
     const auto grid = sampling_grid(segments, kStart, kStart + 100s).value();
     const auto values = place_on_grid(segments, kScale, grid);
     CHECK(missing(values) == 3);
@@ -76,14 +76,14 @@ TEST_CASE("a gap becomes missing samples of the same length", "[survey][window]"
 }
 
 TEST_CASE("a window without samples has no sampling grid", "[survey][window]") {
-    const std::vector<record::Segment> segments{segment(kStart, 50.0, 100, 0)};
+    const std::vector<archive::Segment> segments{segment(kStart, 50.0, 100, 0)};
     CHECK_FALSE(sampling_grid(segments, kStart + 10s, kStart + 20s).has_value());
     CHECK_FALSE(sampling_grid(segments, kStart - 20s, kStart).has_value());
     CHECK_FALSE(sampling_grid({}, kStart, kStart + 20s).has_value());
 }
 
 TEST_CASE("a channel that is missing or in another unit is refused", "[survey][window]") {
-    record::StationMetadata station;
+    station::Metadata station;
     station.channels = {{"BN1", 1.0, 0.0, "m/s**2"},
                         {"BN2", 1.0, 0.0, "m/s**2"},
                         {"BNZ", 1.0, 0.0, "m/s**2"},

@@ -10,7 +10,7 @@
 #include "corrector/eemd/noise.hpp"
 #include "corrector/reading/representative_value.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 
 inline constexpr double kGalPerStandardGravity = 980.665;
 inline const UtcTime kSiteStart = UtcTime{std::chrono::seconds(1'500'160'000)};
@@ -37,7 +37,7 @@ OccupationRecord make_record(double seconds, Level level, Temperature temperatur
     const auto lead = static_cast<std::size_t>(std::lround(lead_s * 50.0));
     const auto axis = [&](std::uint64_t member, auto value_mgal) {
         std::vector<double> values(n);
-        fill_white_noise(1, member, values);
+        eemd::fill_white_noise(1, member, values);
         for (std::size_t i = 0; i < n; ++i) {
             values[i] = (noise_mgal * values[i] + value_mgal(static_cast<double>(i) / 50.0)) /
                         kMilliGalPerStandardGravity;
@@ -66,4 +66,4 @@ TimeSeries<Unit> without(const TimeSeries<Unit>& series, std::size_t first, std:
     return {series.start(), series.rate(), std::move(values)};
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

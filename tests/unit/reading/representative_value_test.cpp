@@ -6,7 +6,7 @@
 
 #include "tests/unit/reading/record.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::reading {
 namespace {
 
 constexpr double kGravity = 979'951.25;
@@ -288,4 +288,4 @@ TEST_CASE("every flag has the same name as in the enumeration") {
     CHECK(flag_name(OccupationFlag::unsettled) == "unsettled");
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -9,7 +9,9 @@
 
 #include "corrector/eemd/noise.hpp"
 
-namespace a351::corrector {
+using namespace a351::corrector::eemd;
+
+namespace a351::corrector::reading {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -276,4 +278,4 @@ TEST_CASE("an unusable period or number of samples is refused") {
                     std::invalid_argument);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -3,17 +3,17 @@
 #include "tests/support/catch.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::reading;
 using namespace std::chrono_literals;
 
 namespace {
 
 const UtcTime kStart = parse_rfc3339("2020-01-01T00:00:30Z").value();
-const record::ChannelScale kScale{"BK1", 0.5, 40.0, "degC"};  // gain, offset
+const station::ChannelScale kScale{"BK1", 0.5, 40.0, "degC"};  // gain, offset
 
 /// Returns two records of a sensor faster than its nominal 1 Hz, each with its own time stamp.
-record::Segment segment(UtcTime start, std::int32_t first, std::int32_t second) {
-    record::Segment result;
+archive::Segment segment(UtcTime start, std::int32_t first, std::int32_t second) {
+    archive::Segment result;
     result.rate_hz = 1.0;
     result.counts.assign(32, first);
     result.counts.resize(62, second);

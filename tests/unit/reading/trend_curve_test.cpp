@@ -8,7 +8,9 @@
 #include "corrector/eemd/noise.hpp"
 #include "corrector/reading/smoother.hpp"
 
-namespace a351::corrector {
+using namespace a351::corrector::eemd;
+
+namespace a351::corrector::reading {
 namespace {
 
 Component component(std::vector<double> values, std::size_t extrema) {
@@ -23,7 +25,7 @@ Component component(std::vector<double> values, std::size_t extrema) {
 }  // namespace
 
 TEST_CASE("the paper's curve is the residue plus the slowest mode that is not zero") {
-    EemdResult result;
+    eemd::Result result;
     result.modes = {component({1, 1}, 90), component({2, 2}, 5), component({4, 4}, 8),
                     component({0, 0}, 0)};
     result.residue = component({100, 100}, 0);
@@ -31,7 +33,7 @@ TEST_CASE("the paper's curve is the residue plus the slowest mode that is not ze
 }
 
 TEST_CASE("without modes the paper's curve is the residue") {
-    EemdResult result;
+    eemd::Result result;
     result.residue = component({3, 4}, 0);
     CHECK(paper_curve(result) == std::vector<double>{3, 4});
 }
@@ -40,12 +42,12 @@ TEST_CASE("the slow curve is the residue after the fewest modes that leave at mo
     std::vector<double> signal(450);
     fill_white_noise(3, 0, signal);
     for (std::size_t i = 0; i < 450; ++i) signal[i] += 0.02 * static_cast<double>(i);
-    EemdOptions options;
+    eemd::Options options;
     const std::vector<double> trend = trend_curve(signal, options, TrendCurve::slow);
     CHECK(count_extrema(trend) <= 7);
     int modes = 0;
     for (options.mode_count = 0; *options.mode_count < 8; ++*options.mode_count) {
-        const EemdResult result = eemd(signal, options);
+        const eemd::Result result = eemd::eemd(signal, options);
         if (result.residue.extrema_count > 7) continue;
         CHECK(trend == result.residue.values);
         modes = *options.mode_count;
@@ -72,7 +74,7 @@ TEST_CASE(
             truth[i] = 0.003 * t + std::sin(2.0 * std::numbers::pi * t / period + phase);
             signal[i] = truth[i] + 0.5 * noise[i];
         }
-        EemdOptions options;
+        eemd::Options options;
         options.seed = record;
         const std::vector<double> curves[] = {trend_curve(signal, options, TrendCurve::paper),
                                               trend_curve(signal, options, TrendCurve::slow),
@@ -93,4 +95,4 @@ TEST_CASE(
     CHECK(std::sqrt(squares[2]) < 1.1 * 0.063);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::reading

@@ -4,7 +4,7 @@
 #include "tests/unit/report/path_variable.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::report;
 
 TEST_CASE(
     "without gnuplot the report has its text, scripts and data, and says that the figures are "

@@ -9,18 +9,18 @@
 #include "tests/support/catch.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::report {
 
 inline const std::string kEvil = "<script>&'\"`x`\xFF";
 
-inline SurveyCorrection result_with_evil_name() {
-    auto rows = made_up::day();
+inline model::SurveyCorrection result_with_evil_name() {
+    auto rows = model::made_up::day();
     rows[3].site = kEvil;
     rows[3].notes = {"</td>" + kEvil};
     rows[3].acceleration = rows[3].acceleration + MilliGal(1.0);
-    SurveyOptions options;
+    model::SurveyOptions options;
     options.model = "t-rate-drift";
-    return correct_survey(rows, options);
+    return model::correct_survey(rows, options);
 }
 
 inline ReportSources sources() {
@@ -48,4 +48,4 @@ inline const std::string& file(const Report& report, const std::string& name) {
     return report.files.front().second;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::report

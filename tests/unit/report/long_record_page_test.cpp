@@ -7,7 +7,8 @@
 #include "corrector/report/report.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::long_record;
+using namespace a351::corrector::report;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "tests/unit/report/evil_report.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::report;
 
 namespace {
 

@@ -5,7 +5,10 @@
 #include "corrector/figure/reading_name.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::figure;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
+using namespace a351::corrector::report;
 
 namespace {
 

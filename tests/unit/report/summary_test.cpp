@@ -5,8 +5,11 @@
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
+using namespace a351::corrector::report;
 
 namespace {
 
@@ -74,7 +77,7 @@ TEST_CASE("the limits name the readings and stations that nothing checks", "[rep
 }
 
 TEST_CASE("the scatter is given with its own standard error", "[report][summary]") {
-    ModelScore score;
+    model::Score score;
     score.row_count = 16;
     score.parameter_count = 2;
     score.dof = 14;

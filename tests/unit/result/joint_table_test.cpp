@@ -4,7 +4,8 @@
 #include "tests/support/catch.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::model;
+using namespace a351::corrector::result;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include "tests/support/catch.hpp"
 
-namespace a351::corrector {
+namespace a351::signal {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -170,4 +170,4 @@ TEST_CASE("a factor outside 2 to 1000 is refused") {
     }
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

@@ -9,7 +9,9 @@
 
 #include "corrector/eemd/noise.hpp"
 
-namespace a351::corrector {
+using namespace a351::corrector::eemd;
+
+namespace a351::signal {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -132,4 +134,4 @@ TEST_CASE("a decimator without stages, or used after its end, is refused") {
     CHECK_THROWS_AS(decimator.finish(output), std::logic_error);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

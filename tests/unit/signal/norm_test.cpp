@@ -4,7 +4,7 @@
 #include <limits>
 #include "tests/support/catch.hpp"
 
-namespace a351::corrector {
+namespace a351::signal {
 TEST_CASE("the norm does not depend on the orientation of the axes") {
     const auto x = TimeSeries<StandardGravity>(UtcTime{}, Hertz(50), {0.6, 0.0, 1.0});
     const auto y = TimeSeries<StandardGravity>(UtcTime{}, Hertz(50), {0.0, 0.6, 0.0});
@@ -32,4 +32,4 @@ TEST_CASE("axes on different grids are refused") {
     CHECK_THROWS_AS(norm(x, faster, x), std::invalid_argument);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::signal

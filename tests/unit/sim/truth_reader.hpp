@@ -12,18 +12,18 @@
 namespace a351::sim {
 
 /// Returns all records of a truth file, as sim/truth/truth-format.md describes it.
-inline std::vector<TruthRecord> read_truth(const std::filesystem::path& file) {
+inline std::vector<truth::Record> read_truth(const std::filesystem::path& file) {
     constexpr std::size_t kHeaderSize = 16, kRecordSize = 40;
     const std::string bytes = text::read_text_file(file);
     REQUIRE(bytes.starts_with("A351TRU2"));
     REQUIRE(bytes.size() % kRecordSize == kHeaderSize);
-    std::vector<TruthRecord> records((bytes.size() - kHeaderSize) / kRecordSize);
+    std::vector<truth::Record> records((bytes.size() - kHeaderSize) / kRecordSize);
     const char* at = bytes.data() + kHeaderSize;
     const auto take = [&at](auto& field) {
         std::memcpy(&field, at, sizeof field);
         at += sizeof field;
     };
-    for (TruthRecord& record : records) {
+    for (truth::Record& record : records) {
         std::int64_t utc_ns = 0;
         take(utc_ns);
         record.utc = UtcTime(Nanoseconds(utc_ns));

@@ -5,7 +5,7 @@
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/station/station_files.hpp"
 
-namespace a351::record {
+namespace a351::station {
 namespace {
 
 using namespace std::chrono_literals;
@@ -16,7 +16,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
     return count;
 }
 
-std::string extended(const std::string& existing, const StationDescription& station) {
+std::string extended(const std::string& existing, const Description& station) {
     const File file(existing);
     const auto text = extend_station_xml(file.path(), station);
     REQUIRE(text);
@@ -139,4 +139,4 @@ TEST_CASE("metadata that cannot be read are not extended", "[record][station_xml
         CHECK_THROWS_AS(extend_station_xml(File(text).path(), description()), InputError);
 }
 
-}  // namespace a351::record
+}  // namespace a351::station

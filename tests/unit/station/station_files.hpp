@@ -10,10 +10,10 @@
 #include "tests/support/file_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
 
-namespace a351::record {
+namespace a351::station {
 
-inline StationDescription description() {
-    StationDescription station;
+inline Description description() {
+    Description station;
     station.latitude = Degrees(36.106);
     station.longitude = Degrees(140.087);
     station.elevation = Metres(25.5);
@@ -32,7 +32,7 @@ class File {
 public:
     explicit File(const std::string& text) { test::write_bytes(path(), test::bytes_of(text)); }
     [[nodiscard]] std::filesystem::path path() const { return directory_.path() / "station.xml"; }
-    [[nodiscard]] StationMetadata read(std::optional<UtcTime> at = std::nullopt) const {
+    [[nodiscard]] Metadata read(std::optional<UtcTime> at = std::nullopt) const {
         return read_station_xml(path(), at);
     }
 
@@ -40,4 +40,4 @@ private:
     test::TemporaryDirectory directory_;
 };
 
-}  // namespace a351::record
+}  // namespace a351::station

@@ -5,7 +5,9 @@
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/station/station_files.hpp"
 
-namespace a351::record {
+using namespace a351::journal;
+
+namespace a351::station {
 namespace {
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -148,4 +150,4 @@ TEST_CASE("a missing metadata file is an input error", "[record][station_xml]") 
     CHECK_THROWS_AS(read_station_xml("/nonexistent/station.xml"), InputError);
 }
 
-}  // namespace a351::record
+}  // namespace a351::station

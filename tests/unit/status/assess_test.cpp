@@ -3,13 +3,14 @@
 #include "tests/support/catch.hpp"
 
 using namespace a351;
-using namespace a351::daemon;
+using namespace a351::daemon::source;
+using namespace a351::daemon::status;
 
 namespace {
 
 Status healthy() {
     Status status;
-    status.timing_state = timing::TimingState::locked;
+    status.timing_state = timing::State::locked;
     status.disk_free_bytes = std::uint64_t{100} << 30;
     return status;
 }
@@ -39,7 +40,7 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     CHECK(status.reasons == std::vector<std::string>{"no data: /dev/x: not plugged in"});
 
     status = healthy();
-    status.timing_state = timing::TimingState::unlocked;
+    status.timing_state = timing::State::unlocked;
     assess(status);
     CHECK(status.level == Status::Level::warning);
 

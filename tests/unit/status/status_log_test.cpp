@@ -6,7 +6,9 @@
 #include <sstream>
 #include "tests/support/catch.hpp"
 
-using namespace a351::daemon;
+using namespace a351;
+using namespace a351::daemon::source;
+using namespace a351::daemon::status;
 using std::chrono::seconds;
 
 namespace {

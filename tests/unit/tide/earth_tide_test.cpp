@@ -3,13 +3,14 @@
 #include <cmath>
 #include "tests/support/catch.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::tide;
 
 namespace {
 
 const UtcTime kTime = parse_rfc3339("2017-07-16T03:00:00Z").value();
-const TideStation kStation{Degrees(36.216), Degrees(140.123), Metres(532.0)};
+const tide::Station kStation{Degrees(36.216), Degrees(140.123), Metres(532.0)};
 
 }  // namespace
 
@@ -25,15 +26,15 @@ TEST_CASE("gravity is least where the Moon is overhead", "[tide]") {
     // New Moon of 2017-02-26 14:58 UTC, near both nodes and the equator: Moon and Sun pull together
     // and are overhead near local noon, at 0 degrees longitude at 12 UTC.
     const UtcTime noon = parse_rfc3339("2017-02-26T12:00:00Z").value();
-    const TideStation below{Degrees(-8.0), Degrees(0.0), Metres(0.0)};
-    const TideStation aside{Degrees(-8.0), Degrees(90.0), Metres(0.0)};
+    const tide::Station below{Degrees(-8.0), Degrees(0.0), Metres(0.0)};
+    const tide::Station aside{Degrees(-8.0), Degrees(90.0), Metres(0.0)};
     CHECK(direct_tide(noon, below, kRigidEarth).value() < -0.1);
     CHECK(direct_tide(noon, aside, kRigidEarth).value() > 0.03);
 }
 
 TEST_CASE("360 degrees of longitude more change nothing", "[tide]") {
-    const TideStation turned{kStation.latitude, kStation.longitude - Degrees(360.0),
-                             kStation.height};
+    const tide::Station turned{kStation.latitude, kStation.longitude - Degrees(360.0),
+                               kStation.height};
     CHECK(direct_tide(kTime, turned).value() ==
           Approx(direct_tide(kTime, kStation).value()).epsilon(0).margin(1e-12));
     CHECK(longman_tide(kTime, turned).value() ==
@@ -51,10 +52,10 @@ TEST_CASE("both methods agree within Longman's known error over a month", "[tide
 }
 
 TEST_CASE("the tide model is chosen by name", "[tide]") {
-    const TideFactors factors{1.2, 1.2};
-    CHECK(earth_tide(TideModel::none, kTime, kStation, factors) == MilliGal(0.0));
-    CHECK(earth_tide(TideModel::direct, kTime, kStation, factors) ==
+    const tide::Factors factors{1.2, 1.2};
+    CHECK(earth_tide(tide::Model::none, kTime, kStation, factors) == MilliGal(0.0));
+    CHECK(earth_tide(tide::Model::direct, kTime, kStation, factors) ==
           direct_tide(kTime, kStation, factors));
-    CHECK(earth_tide(TideModel::longman, kTime, kStation, factors) ==
+    CHECK(earth_tide(tide::Model::longman, kTime, kStation, factors) ==
           longman_tide(kTime, kStation, factors));
 }

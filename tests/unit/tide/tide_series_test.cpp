@@ -10,21 +10,24 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
-using namespace a351;
 using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
+using namespace a351::corrector::tide;
 using namespace std::chrono_literals;
 
 namespace {
 
-const TideStation kTsukuba{Degrees(36.216), Degrees(140.123), Metres(532.0)};
+const tide::Station kTsukuba{Degrees(36.216), Degrees(140.123), Metres(532.0)};
 const UtcTime kStart = parse_rfc3339("2017-07-01T00:00:00Z").value();
 
-TideSeries series(const std::string& rows) {
+tide::Series series(const std::string& rows) {
     const test::TemporaryDirectory folder;
-    return TideSeries::read(folder.write("tide.csv", "time,tide_mgal\n" + rows));
+    return tide::Series::read(folder.write("tide.csv", "time,tide_mgal\n" + rows));
 }
 
-TideSeries sampled_tide(std::chrono::seconds step, std::chrono::hours length) {
+tide::Series sampled_tide(std::chrono::seconds step, std::chrono::hours length) {
     std::string rows;
     for (UtcTime time = kStart; time <= kStart + length; time += step) {
         rows += to_rfc3339(time) + ',' + text::shortest(direct_tide(time, kTsukuba).value()) + '\n';
@@ -33,7 +36,7 @@ TideSeries sampled_tide(std::chrono::seconds step, std::chrono::hours length) {
 }
 
 /// Returns the largest difference from the sampled model between two times.
-double largest_error_mgal(const TideSeries& tide, UtcTime from, UtcTime to) {
+double largest_error_mgal(const tide::Series& tide, UtcTime from, UtcTime to) {
     double largest = 0.0;
     for (UtcTime time = from; time <= to; time += 433s) {
         const auto value = tide.at(time);
@@ -65,7 +68,7 @@ TEST_CASE("interpolation of a cubic is exact with unequal steps and at both ends
           "[survey][tide_series]") {
     std::string rows;
     for (const auto minute : {0min, 10min, 25min, 30min, 75min, 100min}) rows += cubic_row(minute);
-    const TideSeries tide = series(rows);
+    const tide::Series tide = series(rows);
     for (const auto minute : {0min, 4min, 27min, 60min, 90min, 100min}) {
         const double x = static_cast<double>(minute.count()) / 1440.0;
         CHECK(tide.at(kStart + minute).value().value() == Approx(10.0 * x * x * x).margin(1e-15));
@@ -78,7 +81,7 @@ TEST_CASE("there is no value outside the series or in a gap, but there is one be
     for (const auto minute : {0min, 30min, 60min, 90min, 151min, 180min, 210min, 240min}) {
         rows += cubic_row(minute);
     }
-    const TideSeries tide = series(rows);
+    const tide::Series tide = series(rows);
     CHECK_FALSE(tide.at(kStart - 1s).has_value());
     CHECK_FALSE(tide.at(kStart + 240min + 1s).has_value());
     CHECK_FALSE(tide.at(kStart + 120min).has_value());
@@ -105,7 +108,7 @@ TEST_CASE("a row that the series does not cover is refused by name", "[survey][t
     for (int hour = 0; hour < 4; ++hour) {
         csv += to_rfc3339(made_up::kMorning + std::chrono::hours(hour)) + ",0.05\n";
     }
-    TideChoice choice;
+    tide::Choice choice;
     REQUIRE(set_tide_source(choice, folder.write("t.csv", csv).string(), ""));
     auto rows = made_up::day();
     CHECK_THROWS_WITH(
@@ -119,7 +122,7 @@ TEST_CASE("a row that the series does not cover is refused by name", "[survey][t
 
 TEST_CASE("the settings name the tide's source, model, factors and sign", "[survey][tide_series]") {
     nlohmann::ordered_json settings;
-    TideChoice choice;
+    tide::Choice choice;
     describe_tide(settings, choice);
     CHECK(
         settings.dump() ==

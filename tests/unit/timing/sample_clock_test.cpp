@@ -221,15 +221,15 @@ TEST_CASE("the clock is unlocked for 60 s of data, then locked", "[timing][sampl
     World world;
     CHECK_FALSE(world.clock.time_of(0));
     for (std::int64_t k = 0; k < 3000; ++k) world.frame(k, 0s);
-    CHECK(world.clock.state() == TimingState::unlocked);
+    CHECK(world.clock.state() == timing::State::unlocked);
     world.frame(3000, 0s);
-    CHECK(world.clock.state() == TimingState::locked);
+    CHECK(world.clock.state() == timing::State::locked);
 }
 
 TEST_CASE("a timer that hides 5 ms gives the clock state coarse", "[timing][sample_clock]") {
     World world;
     for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, k % 4 * 5ms);
-    CHECK(world.clock.state() == TimingState::coarse);
+    CHECK(world.clock.state() == timing::State::coarse);
     CHECK(world.clock.uncertainty() > Nanoseconds(3ms));
 }
 
@@ -240,12 +240,12 @@ TEST_CASE("a host that loses its synchronisation gives the clock state holdover"
     const Nanoseconds before = world.clock.uncertainty();
     world.is_synchronised = false;
     for (std::int64_t k = 5000; k < 10'000; ++k) world.frame(k, 0s);
-    CHECK(world.clock.state() == TimingState::holdover);
+    CHECK(world.clock.state() == timing::State::holdover);
     CHECK_FALSE(world.clock.time_of(9'999)->is_host_synchronised);
     CHECK(world.clock.uncertainty() >= before + 9ms);  // 100 s at 100 ppm
     world.is_synchronised = true;
     for (std::int64_t k = 10'000; k < 10'200; ++k) world.frame(k, 0s);
-    CHECK(world.clock.state() == TimingState::locked);
+    CHECK(world.clock.state() == timing::State::locked);
 }
 
 TEST_CASE("published times break where a step of the host's clock is followed",
@@ -257,7 +257,7 @@ TEST_CASE("published times break where a step of the host's clock is followed",
         world.frame(k, 0s);
         REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) < Nanoseconds(1ms));
     }
-    CHECK(world.clock.state() == TimingState::holdover);
+    CHECK(world.clock.state() == timing::State::holdover);
     CHECK_FALSE(world.clock.last_break());
     for (std::int64_t k = 7900; k < 9000; ++k) world.frame(k, 0s);
     REQUIRE(world.clock.last_break());
@@ -268,7 +268,7 @@ TEST_CASE("published times break where a step of the host's clock is followed",
     };
     CHECK(error(at - 1) < Nanoseconds(1ms));
     CHECK(std::chrono::abs(error(at) - Nanoseconds(1h)) < Nanoseconds(1ms));
-    CHECK(world.clock.state() == TimingState::locked);
+    CHECK(world.clock.state() == timing::State::locked);
 }
 
 TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_clock]") {
@@ -290,7 +290,7 @@ TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_cloc
         REQUIRE((error < Nanoseconds(1ms)) == (k >= believed));
     }
     CHECK(world.clock.last_break() == believed);
-    CHECK(world.clock.state() == TimingState::locked);
+    CHECK(world.clock.state() == timing::State::locked);
     CHECK(world.clock.awake(RawTime(0s)).time_since_epoch() == Nanoseconds(20min) + 400ms);
 }
 
@@ -337,7 +337,7 @@ TEST_CASE("a restart of the sensor keeps what is known of the host", "[timing][s
     for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
     world.clock.restart_index();
     CHECK_FALSE(world.clock.time_of(0));
-    CHECK(world.clock.state() == TimingState::unlocked);
+    CHECK(world.clock.state() == timing::State::unlocked);
     for (std::int64_t k = 0; k < 200; ++k) world.clock.observe(k, world.raw(world.truth(k + 5000)));
     CHECK(world.clock.time_of(0)->is_host_synchronised);
     CHECK(world.clock.time_of(0)->uncertainty < Nanoseconds(10ms));

@@ -8,7 +8,7 @@
 #include "protocol/core/utc_time.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::unit;
 
 namespace {
 

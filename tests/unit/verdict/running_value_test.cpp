@@ -4,7 +4,7 @@
 #include <limits>
 #include "tests/support/catch.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 namespace {
 
 const UtcTime kStart{std::chrono::hours(400000)};
@@ -21,10 +21,10 @@ LiveSample sample(double at_s, double mgal) {
 
 TEST_CASE("the running value is the mean of the norm", "[verdict][running]") {
     RunningValue running({}, kStart);
-    CHECK_FALSE(running.reading(MilliGal(1.0), VerdictState::stable).value);
+    CHECK_FALSE(running.reading(MilliGal(1.0), State::stable).value);
     for (int i = 0; i < 405; ++i)
         running.take(sample(2.0 * i, 980000.0 + (i % 2 == 0 ? 1.0 : -1.0)));
-    const RunningReading reading = running.reading(MilliGal(1.0), VerdictState::stable);
+    const RunningReading reading = running.reading(MilliGal(1.0), State::stable);
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(1e-6));
     CHECK(reading.used_s == 800.0);  // The filters of the first 10 s reach back before the start.
     CHECK(reading.left_out_s == 0.0);
@@ -39,14 +39,14 @@ TEST_CASE("the predicted time still needed is the time that it takes", "[verdict
     const auto value_at = [](int i) { return 980000.0 + 0.8 * ((i / 30) % 2 == 0 ? 1.0 : -1.0); };
     int i = 5;
     for (; i < 155; ++i) running.take(sample(2.0 * i, value_at(i)));
-    const RunningReading early = running.reading(MilliGal(0.9), VerdictState::stable);
+    const RunningReading early = running.reading(MilliGal(0.9), State::stable);
     REQUIRE(early.needed_s);
     CHECK_FALSE(early.is_good_enough);
     const double promised_s = early.used_s + *early.needed_s;
     RunningReading reading = early;
     for (; !reading.is_good_enough; ++i) {
         running.take(sample(2.0 * i, value_at(i)));
-        reading = running.reading(MilliGal(0.9), VerdictState::stable);
+        reading = running.reading(MilliGal(0.9), State::stable);
     }
     CHECK(reading.used_s == Approx(promised_s).margin(20.0));
 }
@@ -55,10 +55,10 @@ TEST_CASE("good enough requires a stable verdict and three minutes", "[verdict][
     RunningValue running({}, kStart);
     int i = 5;
     for (; i < 94; ++i) running.take(sample(2.0 * i, 980000.0));
-    CHECK_FALSE(running.reading(MilliGal(5.0), VerdictState::stable).standard_error);
+    CHECK_FALSE(running.reading(MilliGal(5.0), State::stable).standard_error);
     for (; i < 700; ++i) running.take(sample(2.0 * i, 980000.0));
-    CHECK(running.reading(MilliGal(1.0), VerdictState::stable).is_good_enough);
-    const RunningReading unsettled = running.reading(MilliGal(1.0), VerdictState::settling);
+    CHECK(running.reading(MilliGal(1.0), State::stable).is_good_enough);
+    const RunningReading unsettled = running.reading(MilliGal(1.0), State::settling);
     CHECK_FALSE(unsettled.is_good_enough);
     CHECK_FALSE(unsettled.needed_s);
     CHECK(unsettled.standard_error);
@@ -73,7 +73,7 @@ TEST_CASE("a knock and the samples it affects are left out of the running value"
         if (i == 196) one.shake = MilliGal(8000.0);  // Seen at 402 s.
         running.take(one);
     }
-    const RunningReading reading = running.reading(MilliGal(1.0), VerdictState::stable);
+    const RunningReading reading = running.reading(MilliGal(1.0), State::stable);
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(1e-6));
     CHECK(reading.left_out_s == 20.0);
 }
@@ -84,10 +84,10 @@ TEST_CASE("a missing sample is left out of the running value", "[verdict][runnin
         running.take(
             sample(2.0 * i, i == 100 ? std::numeric_limits<double>::quiet_NaN() : 980000.0));
     }
-    const RunningReading reading = running.reading(MilliGal(1.0), VerdictState::stable);
+    const RunningReading reading = running.reading(MilliGal(1.0), State::stable);
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(1e-6));
     CHECK(reading.left_out_s == 2.0);
 }
 
 }  // namespace
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

@@ -7,7 +7,7 @@
 #include <numbers>
 #include "tests/support/catch.hpp"
 
-namespace a351::daemon {
+namespace a351::daemon::verdict {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -19,7 +19,7 @@ public:
     double degc = 42.6, slope_degc_per_h = 0.0;
     double shake_mgal = 60.0, x_mgal = 0.0, noise_mgal = 0.5, drift_mgal_per_h = 0.0;
 
-    explicit Series(const VerdictOptions& options = {}) : judge(options) {}
+    explicit Series(const Options& options = {}) : judge(options) {}
 
     const Verdict& run(double seconds) {
         for (const double end_s = now_s_ + seconds; now_s_ < end_s; now_s_ += 2.0)
@@ -46,7 +46,7 @@ public:
     void skip(double seconds) { now_s_ += seconds; }
     [[nodiscard]] UtcTime now() const { return kStart + from_seconds(now_s_ + 10.0); }
 
-    VerdictJudge judge;
+    Judge judge;
 
 private:
     double now_s_ = 0.0;
@@ -60,9 +60,9 @@ const Reason* find(const Verdict& verdict, std::string_view quantity) {
 }
 
 TEST_CASE("without a sample the verdict is no data, with the reason", "[verdict]") {
-    VerdictJudge judge;
+    Judge judge;
     const Verdict& verdict = judge.at(kStart);
-    CHECK(verdict.state == VerdictState::no_data);
+    CHECK(verdict.state == State::no_data);
     CHECK(verdict.since == kStart);
     REQUIRE(verdict.reasons.size() == 1);
     CHECK(verdict.reasons[0].to_text() == "values so far (the first takes 20 s): 0 (needs 1)");
@@ -72,16 +72,16 @@ TEST_CASE(
     "a settled oven is stable, despite its cycle, once its temperature is known for long enough",
     "[verdict]") {
     Series series;
-    CHECK(series.run(600.0).state == VerdictState::settling);
+    CHECK(series.run(600.0).state == State::settling);
     const Verdict early = series.judge.verdict();
     const Reason* known = find(early, "temperature known for");
     REQUIRE(known != nullptr);
     CHECK(known->value == Approx(10.0).margin(0.5));
     CHECK_FALSE(known->is_met);
 
-    CHECK(series.run(900.0).state == VerdictState::stable);
+    CHECK(series.run(900.0).state == State::stable);
     const UtcTime since = series.judge.verdict().since;
-    CHECK(series.run(3600.0).state == VerdictState::stable);
+    CHECK(series.run(3600.0).state == State::stable);
     CHECK(series.judge.verdict().since == since);
     for (const Reason& reason : series.judge.verdict().reasons) CHECK(reason.is_met);
 }
@@ -92,7 +92,7 @@ TEST_CASE("a moving temperature gives the verdict settling, with slope and chang
     series.run(3600.0);
     series.slope_degc_per_h = 0.5;
     const Verdict& verdict = series.run(1800.0);
-    CHECK(verdict.state == VerdictState::settling);
+    CHECK(verdict.state == State::settling);
     const Reason& first = verdict.reasons.front();
     CHECK_FALSE(first.is_met);
     // The filter assumes that every ramp ends, and attributes part of the cycle to it.
@@ -101,24 +101,24 @@ TEST_CASE("a moving temperature gives the verdict settling, with slope and chang
     CHECK(find(verdict, "reading will change in 10 min by")->value > 2.0);
 
     series.slope_degc_per_h = 0.0;
-    CHECK(series.run(2400.0).state == VerdictState::stable);
+    CHECK(series.run(2400.0).state == State::stable);
 }
 
 TEST_CASE("becoming stable requires more certainty than staying stable", "[verdict]") {
-    VerdictOptions options;
+    Options options;
     options.sure_stay = 0.2;
     Series settling(options);
     settling.slope_degc_per_h = 0.15;
-    CHECK(settling.run(7200.0).state == VerdictState::settling);
+    CHECK(settling.run(7200.0).state == State::settling);
 
     Series stable(options);
     stable.run(3600.0);
     for (int i = 1; i <= 15; ++i) {
         stable.slope_degc_per_h = 0.01 * i;
-        CHECK(stable.run(600.0).state == VerdictState::stable);
+        CHECK(stable.run(600.0).state == State::stable);
     }
     stable.slope_degc_per_h = 0.4;
-    CHECK(stable.run(1800.0).state == VerdictState::settling);
+    CHECK(stable.run(1800.0).state == State::settling);
 }
 
 TEST_CASE("a sudden change of the temperature slope is detected within 150 s", "[verdict]") {
@@ -126,9 +126,8 @@ TEST_CASE("a sudden change of the temperature slope is detected within 150 s", "
     series.run(3600.0);
     series.slope_degc_per_h = 1.0;
     double waited_s = 0.0;
-    for (; series.run(10.0).state == VerdictState::stable; waited_s += 10.0)
-        REQUIRE(waited_s < 600.0);
-    CHECK(series.judge.verdict().state == VerdictState::settling);
+    for (; series.run(10.0).state == State::stable; waited_s += 10.0) REQUIRE(waited_s < 600.0);
+    CHECK(series.judge.verdict().state == State::settling);
     CHECK(waited_s < 150.0);
 }
 
@@ -139,11 +138,11 @@ TEST_CASE(
     series.run(3600.0);
     series.shake_mgal = 5000.0;
     const auto [length_s, quiet_s] = GENERATE(std::pair(4.0, 72.0), std::pair(20.0, 110.0));
-    CHECK(series.run(length_s).state == VerdictState::disturbed);
+    CHECK(series.run(length_s).state == State::disturbed);
     CHECK_FALSE(series.judge.verdict().reasons.front().is_met);
     series.shake_mgal = 60.0;
-    CHECK(series.run(quiet_s - 4.0).state == VerdictState::disturbed);
-    CHECK(series.run(8.0).state == VerdictState::stable);
+    CHECK(series.run(quiet_s - 4.0).state == State::disturbed);
+    CHECK(series.run(8.0).state == State::stable);
 }
 
 TEST_CASE("a disturbance is listed before quantities that are not known yet", "[verdict]") {
@@ -151,7 +150,7 @@ TEST_CASE("a disturbance is listed before quantities that are not known yet", "[
     series.run(300.0);
     series.shake_mgal = 5000.0;
     const Verdict& verdict = series.run(4.0);
-    CHECK(verdict.state == VerdictState::disturbed);
+    CHECK(verdict.state == State::disturbed);
     CHECK(verdict.reasons.front().quantity == std::string("last knock"));
     CHECK_FALSE(find(verdict, "temperature known for")->is_met);
 }
@@ -160,18 +159,18 @@ TEST_CASE("weak shaking disturbs only while it lasts, and is not a knock", "[ver
     Series series;
     series.run(3600.0);
     series.shake_mgal = 1900.0;
-    CHECK(series.run(20.0).state == VerdictState::disturbed);
+    CHECK(series.run(20.0).state == State::disturbed);
     CHECK(find(series.judge.verdict(), "last knock") == nullptr);
     series.shake_mgal = 60.0;
-    CHECK(series.run(12.0).state == VerdictState::stable);
+    CHECK(series.run(12.0).state == State::stable);
 }
 
 TEST_CASE("shaking of a ground that is never quiet becomes its usual level", "[verdict]") {
     Series series;
     series.shake_mgal = 900.0;
-    CHECK(series.run(3600.0).state == VerdictState::stable);
+    CHECK(series.run(3600.0).state == State::stable);
     series.shake_mgal = 1500.0;
-    CHECK(series.run(4.0).state == VerdictState::disturbed);
+    CHECK(series.run(4.0).state == State::disturbed);
 }
 
 TEST_CASE("a knock ends when the shaking is back at its usual level", "[verdict]") {
@@ -206,7 +205,7 @@ TEST_CASE("a reading that drifts at steady temperature is not stable, and its sl
     Series series;
     series.drift_mgal_per_h = 30.0;
     const Verdict& verdict = series.run(3600.0);
-    CHECK(verdict.state == VerdictState::settling);
+    CHECK(verdict.state == State::settling);
     const Reason* slope = find(verdict, "acceleration slope");
     REQUIRE(slope != nullptr);
     CHECK_FALSE(slope->is_met);
@@ -216,12 +215,12 @@ TEST_CASE("a reading that drifts at steady temperature is not stable, and its sl
 
     Series slow;
     slow.drift_mgal_per_h = 5.0;
-    CHECK(slow.run(3600.0).state == VerdictState::stable);
+    CHECK(slow.run(3600.0).state == State::stable);
 }
 
 TEST_CASE("the slope of the reading is also checked if the history must be longer than 40 min",
           "[verdict]") {
-    VerdictOptions options;
+    Options options;
     options.history_min = 60.0;
     Series series(options);
     series.drift_mgal_per_h = 30.0;
@@ -229,40 +228,40 @@ TEST_CASE("the slope of the reading is also checked if the history must be longe
     CHECK(find(series.judge.verdict(), "acceleration slope") == nullptr);
     series.run(400.0);
     REQUIRE(find(series.judge.verdict(), "acceleration slope") != nullptr);
-    CHECK(series.judge.verdict().state == VerdictState::settling);
+    CHECK(series.judge.verdict().state == State::settling);
 }
 
 TEST_CASE("a changed tilt counts as a hand at the box", "[verdict]") {
     Series series;
     series.run(3600.0);
     series.x_mgal = 300.0;  // 0.0175 degrees: within the tolerance.
-    CHECK(series.run(120.0).state == VerdictState::stable);
+    CHECK(series.run(120.0).state == State::stable);
     series.x_mgal = 1000.0;
-    CHECK(series.run(10.0).state == VerdictState::disturbed);
+    CHECK(series.run(10.0).state == State::disturbed);
     CHECK(find(series.judge.verdict(), "box last touched") != nullptr);
-    CHECK(series.run(300.0).state == VerdictState::stable);
+    CHECK(series.run(300.0).state == State::stable);
 }
 
 TEST_CASE("noise far above its usual level gives the verdict disturbed", "[verdict]") {
     Series series;
     series.run(3600.0);
     series.noise_mgal = 10.0;
-    CHECK(series.run(120.0).state == VerdictState::disturbed);
+    CHECK(series.run(120.0).state == State::disturbed);
     CHECK(find(series.judge.verdict(), "noise")->value == Approx(10.0).margin(0.5));
     series.noise_mgal = 0.5;
-    CHECK(series.run(120.0).state == VerdictState::stable);
+    CHECK(series.run(120.0).state == State::stable);
 }
 
 TEST_CASE("a cold box is warming up, also for hours after it is warm", "[verdict]") {
     Series series;
     series.degc = 40.0;
     series.slope_degc_per_h = 5.0;
-    CHECK(series.run(1500.0).state == VerdictState::warming_up);
+    CHECK(series.run(1500.0).state == State::warming_up);
     series.run(300.0);
     series.slope_degc_per_h = 0.0;  // 42.5 degC from here on, half an hour after the first sample.
-    CHECK(series.run(1800.0).state == VerdictState::warming_up);
+    CHECK(series.run(1800.0).state == State::warming_up);
     CHECK(find(series.judge.verdict(), "switched on")->value == Approx(1.0).margin(0.01));
-    CHECK(series.run(10000.0).state == VerdictState::stable);
+    CHECK(series.run(10000.0).state == State::stable);
 }
 
 TEST_CASE("a gap above its limit is no data, and after a long gap steadiness must be shown again",
@@ -270,17 +269,17 @@ TEST_CASE("a gap above its limit is no data, and after a long gap steadiness mus
     Series series;
     series.run(3600.0);
     const UtcTime last = series.judge.verdict().since;
-    CHECK(series.judge.at(series.now() + from_seconds(7.0)).state == VerdictState::stable);
+    CHECK(series.judge.at(series.now() + from_seconds(7.0)).state == State::stable);
     const Verdict& verdict = series.judge.at(series.now() + from_seconds(9.0));
-    CHECK(verdict.state == VerdictState::no_data);
+    CHECK(verdict.state == State::no_data);
     CHECK(verdict.since > last);
     CHECK(verdict.reasons.front().to_text().rfind("last good sample", 0) == 0);
 
     series.skip(60.0);
-    CHECK(series.run(30.0).state == VerdictState::stable);
+    CHECK(series.run(30.0).state == State::stable);
     series.skip(1200.0);
-    CHECK(series.run(30.0).state == VerdictState::settling);
-    CHECK(series.run(1500.0).state == VerdictState::stable);
+    CHECK(series.run(30.0).state == State::settling);
+    CHECK(series.run(1500.0).state == State::stable);
 }
 
 TEST_CASE("values that are not numbers count as no data", "[verdict]") {
@@ -297,8 +296,8 @@ TEST_CASE("values that are not numbers count as no data", "[verdict]") {
         series.judge.take(sample);
         series.skip(2.0);
     }
-    CHECK(series.judge.verdict().state == VerdictState::no_data);
-    CHECK(series.run(60.0).state == VerdictState::stable);
+    CHECK(series.judge.verdict().state == State::no_data);
+    CHECK(series.run(60.0).state == State::stable);
 }
 
 TEST_CASE("a stuck temperature counts as no data", "[verdict]") {
@@ -310,18 +309,18 @@ TEST_CASE("a stuck temperature counts as no data", "[verdict]") {
         series.judge.take(sample);
         series.skip(2.0);
     }
-    CHECK(series.judge.verdict().state == VerdictState::no_data);
+    CHECK(series.judge.verdict().state == State::no_data);
     CHECK(find(series.judge.verdict(), "temperature unchanged for") != nullptr);
-    CHECK(series.run(30.0).state == VerdictState::stable);
+    CHECK(series.run(30.0).state == State::stable);
 }
 
 TEST_CASE("time that goes backwards starts the history again", "[verdict]") {
     Series series;
     series.run(3600.0);
     series.skip(-1800.0);
-    CHECK(series.run(60.0).state == VerdictState::settling);
-    CHECK(series.run(1500.0).state == VerdictState::stable);
+    CHECK(series.run(60.0).state == State::settling);
+    CHECK(series.run(1500.0).state == State::stable);
 }
 
 }  // namespace
-}  // namespace a351::daemon
+}  // namespace a351::daemon::verdict

@@ -8,7 +8,8 @@
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;
-using namespace a351::corrector;
+using namespace a351::corrector::reading;
+using namespace a351::corrector::whole_day;
 
 namespace {
 

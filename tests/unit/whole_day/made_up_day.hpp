@@ -10,7 +10,7 @@
 #include "corrector/whole_day/day_model.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::whole_day {
 
 struct MadeUpDay {
     double level = -15.0, slow = -25.0, fast = 9.0, drift = 0.4, warm_up = 12.0, x = 900.0;
@@ -38,20 +38,21 @@ struct MadeUpDay {
         return 979900.0 + 13.0 * static_cast<double>(set_up % 11);
     }
 
-    [[nodiscard]] DayRecord record(std::uint64_t seed = 1) const {
-        DayRecord day{{temperature(), 0.0}, {}};
+    [[nodiscard]] reading::DayRecord record(std::uint64_t seed = 1) const {
+        reading::DayRecord day{{temperature(), 0.0}, {}};
         std::mt19937_64 random(seed);
         std::normal_distribution<double> normal;
         for (std::size_t s = 0; s < kSetUps; ++s) {
             const StandardGravity tilt(0.002 * normal(random));
             for (std::size_t b = 0; b < kBins; ++b) {
-                DayBin bin;
+                reading::DayBin bin;
                 bin.set_up = s;
-                for (std::size_t i = 0; i < kBinSamples; ++i)
+                for (std::size_t i = 0; i < reading::kBinSamples; ++i)
                     bin.times.push_back(
-                        start() + from_seconds(3600.0 * (2.0 + 0.5 * static_cast<double>(s)) +
-                                               2.0 * static_cast<double>(b * kBinSamples + i)));
-                bin.time = bin.times[kBinSamples / 2];
+                        start() +
+                        from_seconds(3600.0 * (2.0 + 0.5 * static_cast<double>(s)) +
+                                     2.0 * static_cast<double>(b * reading::kBinSamples + i)));
+                bin.time = bin.times[reading::kBinSamples / 2];
                 bin.x = tilt;
                 day.bins.push_back(bin);
             }
@@ -59,13 +60,13 @@ struct MadeUpDay {
         const BinMeans means(day.temperature.series, day.bins);
         const auto& degc = day.temperature.series;
         const auto level_degc = means.of(degc.values());
-        const auto fast_degc = means.of(lagged(degc, fast_lag_s));
-        const auto slow_degc = means.of(lagged(degc, slow_lag_s));
+        const auto fast_degc = means.of(unit::lagged(degc, fast_lag_s));
+        const auto slow_degc = means.of(unit::lagged(degc, slow_lag_s));
         const UtcTime middle =
             day.bins.front().time + (day.bins.back().time - day.bins.front().time) / 2;
         double placement = 0.0;
         for (std::size_t i = 0; i < day.bins.size(); ++i) {
-            DayBin& bin = day.bins[i];
+            reading::DayBin& bin = day.bins[i];
             const auto k = static_cast<Eigen::Index>(i);
             if (i % kBins == 0) placement = placement_mgal * normal(random);
             bin.reading = MilliGal(
@@ -86,4 +87,4 @@ struct MadeUpDay {
     }
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::whole_day

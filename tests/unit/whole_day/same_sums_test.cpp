@@ -2,7 +2,8 @@
 #include "corrector/whole_day/search_grid.hpp"
 #include "tests/support/catch.hpp"
 
-using namespace a351::corrector;
+using namespace a351;
+using namespace a351::corrector::whole_day;
 
 TEST_CASE("Eigen sums in the same order on every processor", "[day]") {
 #ifdef EIGEN_VECTORIZE

@@ -9,13 +9,18 @@
 
 using namespace a351;
 using namespace a351::sim;
+using namespace a351::sim::device;
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
+using namespace a351::sim::truth;
 using namespace std::chrono_literals;
 
 namespace {
 
 /// Everything the device sends; full at `most` bytes.
 struct Collected final : LineSink {
-    void send(std::span<const std::byte> sent, UtcTime leaves, const TruthRecord* frame) override {
+    void send(std::span<const std::byte> sent, UtcTime leaves,
+              const truth::Record* frame) override {
         bytes.insert(bytes.end(), sent.begin(), sent.end());
         if (frame == nullptr) return;
         truth.push_back(*frame);
@@ -25,7 +30,7 @@ struct Collected final : LineSink {
 
     std::size_t most = SIZE_MAX;
     std::vector<std::byte> bytes;
-    std::vector<TruthRecord> truth;
+    std::vector<truth::Record> truth;
     std::vector<UtcTime> times;
 };
 
@@ -36,7 +41,7 @@ struct Rig {
     }
 
     Scenario scenario = load_scenario("tsukuba");
-    SignalSource source{scenario, *wire::find_profile("A352AD10"), 1};
+    signal::Source source{scenario, *wire::find_profile("A352AD10"), 1};
     Bench bench;
     DeviceStream stream{source, bench.machine};
     Collected line;
@@ -155,7 +160,7 @@ TEST_CASE("the sample grid continues while sampling is stopped", "[sim][device_s
 
     REQUIRE(rig.line.truth.size() > first_run);
     // Samples after the command: index 1001 is the first, seven fill the filter.
-    const TruthRecord& restarted = rig.line.truth[first_run];
+    const truth::Record& restarted = rig.line.truth[first_run];
     CHECK(restarted.grid_index == 1008);
     CHECK(restarted.values.count == 80);
     CHECK(restarted.sampling_run == 2);
@@ -218,7 +223,7 @@ TEST_CASE("after a stop between repeats of a sample a lower rate is on time from
 
 TEST_CASE("a truth file gives its records back", "[sim][truth_file]") {
     const auto file = std::filesystem::temp_directory_path() / "a351_truth_test.bin";
-    TruthRecord record;
+    truth::Record record;
     record.utc = *parse_rfc3339("2017-07-16T00:00:00.020Z");
     record.values.axes = {-1, 2, -2147483647};
     record.values.temperature = -1981;
@@ -226,7 +231,7 @@ TEST_CASE("a truth file gives its records back", "[sim][truth_file]") {
     record.sampling_run = 3;
     record.grid_index = 4'000'000'000U;
     record.fate = Fate::misplaced;
-    TruthWriter writer(file);
+    truth::Writer writer(file);
     writer.append(record);
     writer.append({});
     writer.close();

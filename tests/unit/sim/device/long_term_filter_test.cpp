@@ -4,7 +4,8 @@
 
 #include "tests/unit/sim/device/machine_script.hpp"
 
-using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::device;
 using Kind = LongTermFilter::Kind;
 
 TEST_CASE("the low-pass settles on a constant after twice its taps, the high-pass after its taps",

@@ -8,7 +8,7 @@
 
 #include "sim/device/register_machine.hpp"
 
-namespace a351::sim {
+namespace a351::sim::device {
 
 /// Returns the bytes of a text in hex: "FE 01 0D" are three bytes.
 inline std::vector<std::byte> bytes_of(std::string_view hex) {
@@ -37,7 +37,7 @@ inline std::string hex_of(std::span<const std::byte> bytes) {
 }
 
 /// Sample of a real A352, from a register dump that the maker published.
-inline constexpr SensorSample kSample{{-203896, 604794, 16713252}, 2466};
+inline constexpr signal::SensorSample kSample{{-203896, 604794, 16713252}, 2466};
 
 inline constexpr std::int32_t kOneG = 1 << 24;
 
@@ -80,7 +80,7 @@ struct Bench {
     }
 
     /// Gives the machine `count` equal samples; returns the frames as hex.
-    std::string sample(int count = 1, const SensorSample& values = kSample) {
+    std::string sample(int count = 1, const signal::SensorSample& values = kSample) {
         std::vector<std::byte> frames;
         for (int i = 0; i < count; ++i) static_cast<void>(machine.sample(values, frames));
         return hex_of(frames);
@@ -98,4 +98,4 @@ struct Bench {
     Nanoseconds now{0};
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::device

@@ -4,7 +4,7 @@
 #include "tests/unit/sim/device/machine_script.hpp"
 
 using namespace a351;
-using namespace a351::sim;
+using namespace a351::sim::device;
 using namespace std::chrono_literals;
 
 TEST_CASE("the handshake of the maker's Python logger succeeds", "[sim][register_machine]") {

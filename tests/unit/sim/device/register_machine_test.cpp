@@ -5,7 +5,7 @@
 #include "tests/unit/sim/device/machine_script.hpp"
 
 using namespace a351;
-using namespace a351::sim;
+using namespace a351::sim::device;
 using namespace std::chrono_literals;
 
 TEST_CASE("commands are understood however the host splits their bytes",

@@ -4,7 +4,8 @@
 
 #include "tests/unit/sim/device/machine_script.hpp"
 
-using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::device;
 using namespace std::chrono_literals;
 
 TEST_CASE("each self test reads 1 while it runs and 0 afterwards", "[sim][self_test]") {

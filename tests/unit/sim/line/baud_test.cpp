@@ -4,7 +4,9 @@
 
 #include "tests/unit/sim/device/machine_script.hpp"
 
-using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::device;
+using namespace a351::sim::line;
 
 TEST_CASE("at the same speed every byte is received as it was sent", "[sim][baud]") {
     std::vector<std::byte> all;

@@ -13,7 +13,7 @@
 #include "protocol/core/input_error.hpp"
 
 using namespace a351;
-using namespace a351::sim;
+using namespace a351::sim::line;
 namespace fs = std::filesystem;
 
 namespace {

@@ -6,7 +6,9 @@
 #include "tests/unit/sim/line/fault_rig.hpp"
 
 using namespace a351;
-using namespace a351::sim;
+using namespace a351::sim::device;
+using namespace a351::sim::line;
+using namespace a351::sim::truth;
 
 TEST_CASE("an empty script changes no byte", "[sim][fault]") {
     Rig rig("");

@@ -17,20 +17,20 @@
 #include "sim/noise/random.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
 
-namespace a351::sim {
+namespace a351::sim::line {
 
 using namespace std::chrono_literals;
 using Kind = timing::Placement::Kind;
 
 /// An endless source of noise.
-class NoiseSource final : public SampleSource {
+class NoiseSource final : public signal::SampleSource {
 public:
     [[nodiscard]] int rate_hz() const noexcept override { return 50; }
     [[nodiscard]] std::optional<UtcTime> next_instant() const override {
         return UtcTime(index_ * 20ms);
     }
-    [[nodiscard]] TimedSample next() override {
-        TimedSample sample{*next_instant(), index_++, {}};
+    [[nodiscard]] signal::TimedSample next() override {
+        signal::TimedSample sample{*next_instant(), index_++, {}};
         for (std::int32_t& axis : sample.values.axes_counts) axis = draw();
         sample.values.temperature_counts = draw();
         return sample;
@@ -39,7 +39,7 @@ public:
 private:
     std::int32_t draw() { return static_cast<std::int32_t>(noise_.bits() >> 44U); }
     std::int64_t index_ = 0;
-    RandomStream noise_{1, "test"};
+    noise::RandomStream noise_{1, "test"};
 };
 
 /// Result of decoding the bytes as a host does.
@@ -63,7 +63,7 @@ struct Rig {
 
     void run_to(UtcTime end) {
         for (; now <= end; now += 100ms) {
-            const Instant instant{now, bench.now};
+            const device::Instant instant{now, bench.now};
             faults.begin(instant);
             stream.advance_to(instant, faults);
             faults.catch_up(instant);
@@ -99,24 +99,24 @@ struct Rig {
 
     [[nodiscard]] std::vector<wire::BurstValues> arrived() const {
         std::vector<wire::BurstValues> values;
-        for (const TruthRecord& record : truth) {
-            if (record.fate != Fate::damaged && record.fate != Fate::lost) {
+        for (const truth::Record& record : truth) {
+            if (record.fate != truth::Fate::damaged && record.fate != truth::Fate::lost) {
                 values.push_back(record.values);
             }
         }
         return values;
     }
 
-    [[nodiscard]] std::int64_t count(Fate fate) const {
-        return std::ranges::count(truth, fate, &TruthRecord::fate);
+    [[nodiscard]] std::int64_t count(truth::Fate fate) const {
+        return std::ranges::count(truth, fate, &truth::Record::fate);
     }
 
     FaultRules rules{*wire::find_profile("A352AD10"), 1.0, {"oven_silence"}};
     NoiseSource source;
-    Bench bench;
-    DeviceStream stream{source, bench.machine};
-    std::vector<TruthRecord> truth;
-    Line line{{}, 1, UtcTime(0s), [this](const TruthRecord& record) { truth.push_back(record); }};
+    device::Bench bench;
+    device::DeviceStream stream{source, bench.machine};
+    std::vector<truth::Record> truth;
+    Line line{{}, 1, UtcTime(0s), [this](const truth::Record& record) { truth.push_back(record); }};
     FaultInjector faults;
     UtcTime now{0s};
     std::vector<std::byte> bytes;
@@ -132,17 +132,17 @@ inline std::string fault(const std::string& kind, const std::string& keys) {
 inline Decoded check_report(Rig& rig) {
     rig.run_to(UtcTime(30s));
     const Decoded decoded = rig.decoded();
-    const LineReport& report = rig.line.report();
+    const Report& report = rig.line.report();
     CHECK(decoded.frames == rig.arrived());
     CHECK(static_cast<std::int64_t>(decoded.frames.size()) == report.frames_sent);
     CHECK(static_cast<std::int64_t>(decoded.bytes_skipped) ==
           report.bytes_handed_over - report.bytes_of_frames);
     CHECK(report.bytes_handed_over == static_cast<std::int64_t>(rig.bytes.size()));
-    CHECK(report.frames_damaged == rig.count(Fate::damaged));
-    CHECK(report.frames_lost == rig.count(Fate::lost));
-    CHECK(report.frames_repeated == rig.count(Fate::repeated));
-    CHECK(report.frames_misplaced == rig.count(Fate::misplaced));
+    CHECK(report.frames_damaged == rig.count(truth::Fate::damaged));
+    CHECK(report.frames_lost == rig.count(truth::Fate::lost));
+    CHECK(report.frames_repeated == rig.count(truth::Fate::repeated));
+    CHECK(report.frames_misplaced == rig.count(truth::Fate::misplaced));
     return decoded;
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::line

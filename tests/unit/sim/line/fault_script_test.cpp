@@ -8,7 +8,7 @@
 #include "sim/line/control_socket.hpp"
 
 using namespace a351;
-using namespace a351::sim;
+using namespace a351::sim::line;
 using namespace std::chrono_literals;
 
 namespace {

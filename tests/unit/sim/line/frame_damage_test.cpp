@@ -6,7 +6,8 @@
 #include "protocol/wire/burst_frame.hpp"
 
 using namespace a351;
-using namespace a351::sim;
+using namespace a351::sim::line;
+using namespace a351::sim::noise;
 
 namespace {
 

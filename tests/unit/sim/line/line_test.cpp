@@ -4,14 +4,17 @@
 #include <chrono>
 #include "tests/support/catch.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::line;
+using namespace a351::sim::scenario;
+using namespace a351::sim::truth;
 using namespace std::chrono_literals;
 
 namespace {
 
-TruthRecord frame_of(std::uint32_t index, std::uint16_t run = 1) {
-    TruthRecord record;
+truth::Record frame_of(std::uint32_t index, std::uint16_t run = 1) {
+    truth::Record record;
     record.grid_index = index;
     record.sampling_run = run;
     return record;
@@ -24,9 +27,9 @@ const std::vector<std::byte> kFrame(24, std::byte{0x55});
 TEST_CASE("a frame counts as sent once its last byte has gone", "[sim][line]") {
     std::vector<std::uint32_t> sent;
     Line line({}, 1, UtcTime(0s),
-              [&sent](const TruthRecord& record) { sent.push_back(record.grid_index); });
+              [&sent](const truth::Record& record) { sent.push_back(record.grid_index); });
     const UtcTime due{1s};
-    const TruthRecord first = frame_of(7), second = frame_of(8);
+    const truth::Record first = frame_of(7), second = frame_of(8);
     line.send(kFrame, due, &first);
     line.send(kFrame, due + 20ms, &second);
     CHECK(line.shown(due).size() == 24);
@@ -44,11 +47,11 @@ TEST_CASE("a frame counts as sent once its last byte has gone", "[sim][line]") {
 
 TEST_CASE("the steady lateness is the largest of the minima over blocks of fifty frames",
           "[sim][line]") {
-    Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
+    Line line({}, 1, UtcTime(0s), [](const truth::Record&) {});
     for (std::uint32_t i = 0; i < 175; ++i) {
         // 0 to 9 ms; in the second block 4 to 13 ms; in the last, incomplete block 900 ms and more.
         const auto late = (i % 10 + (i / 50 == 1 ? 4 : i / 50 == 3 ? 900 : 0)) * 1ms;
-        const TruthRecord frame = frame_of(i);
+        const truth::Record frame = frame_of(i);
         line.send(kFrame, UtcTime(i * 2s), &frame);
         line.handed_over(line.shown(UtcTime(i * 2s) + late).size(), UtcTime(i * 2s) + late);
     }
@@ -61,9 +64,9 @@ TEST_CASE("bytes leave in the order in which they came, including answers", "[si
         LineParameters parameters;
         parameters.latency_timer_ms = 16.0;
         parameters.is_bytewise = is_bytewise;
-        std::vector<TruthRecord> sent;
+        std::vector<truth::Record> sent;
         Line line(parameters, 1, UtcTime(0s),
-                  [&sent](const TruthRecord& record) { sent.push_back(record); });
+                  [&sent](const truth::Record& record) { sent.push_back(record); });
         std::vector<std::byte> expected, got;
         const auto take = [&](UtcTime now, std::size_t most) {
             const auto shown = line.shown(now).first(std::min(most, line.shown(now).size()));
@@ -73,7 +76,7 @@ TEST_CASE("bytes leave in the order in which they came, including answers", "[si
         for (std::uint32_t i = 0; i < 1000; ++i) {
             const std::vector<std::byte> bytes(1 + i % 24, static_cast<std::byte>(i & 0xFFU));
             expected.insert(expected.end(), bytes.begin(), bytes.end());
-            const TruthRecord record = frame_of(i);
+            const truth::Record record = frame_of(i);
             line.send(bytes, UtcTime(i * 20ms), i % 10 == 3 ? nullptr : &record);
             take(UtcTime(i * 20ms), 13);
         }
@@ -93,9 +96,9 @@ TEST_CASE("every frame has one fate, wherever an overrun or unplugging cuts the 
             CAPTURE(cut, is_overrun);
             std::vector<Fate> fates;
             Line line({}, 1, UtcTime(0s),
-                      [&fates](const TruthRecord& record) { fates.push_back(record.fate); });
+                      [&fates](const truth::Record& record) { fates.push_back(record.fate); });
             for (std::uint32_t i = 0; i < 3; ++i) {
-                TruthRecord record = frame_of(i);
+                truth::Record record = frame_of(i);
                 record.utc = UtcTime(i * 20ms);
                 line.send(kFrame, UtcTime(0s), &record);
             }
@@ -107,7 +110,7 @@ TEST_CASE("every frame has one fate, wherever an overrun or unplugging cuts the 
                                    : 24 * i >= cut     ? Fate::lost
                                                        : Fate::damaged));
             }
-            const LineReport& report = line.report();
+            const line::Report& report = line.report();
             CHECK(report.frames_made == 3);
             CHECK(report.frames_sent + report.frames_lost + report.frames_damaged == 3);
             CHECK((is_overrun ? report.lost_by_overrun : report.lost_unplugged) ==
@@ -121,9 +124,9 @@ TEST_CASE("every frame has one fate, wherever an overrun or unplugging cuts the 
 TEST_CASE("frames sent while unplugged are lost, and none after plugging in", "[sim][line]") {
     std::vector<Fate> fates;
     Line line({}, 1, UtcTime(0s),
-              [&fates](const TruthRecord& record) { fates.push_back(record.fate); });
+              [&fates](const truth::Record& record) { fates.push_back(record.fate); });
     const auto send = [&line](std::uint32_t index) {
-        TruthRecord record = frame_of(index);
+        truth::Record record = frame_of(index);
         record.utc = UtcTime(index * 20ms);
         line.send(kFrame, record.utc, &record);
     };
@@ -140,17 +143,17 @@ TEST_CASE("frames sent while unplugged are lost, and none after plugging in", "[
 TEST_CASE("frames lost on purpose are not counted again as lost by unplugging or overrun",
           "[sim][line]") {
     for (const bool is_overrun : {true, false}) {
-        Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
+        Line line({}, 1, UtcTime(0s), [](const truth::Record&) {});
         line.hold_until(UtcTime(1h));
         for (std::uint32_t i = 0; i < 4; ++i) {
-            TruthRecord record = frame_of(i);
+            truth::Record record = frame_of(i);
             record.utc = UtcTime(i * 20ms);
             if (i == 1 || i == 2) record.fate = Fate::lost;
             line.send(i == 1 || i == 2 ? std::span<const std::byte>() : kFrame, UtcTime(0s),
                       &record);
         }
         is_overrun ? line.overrun(2 * 24, UtcTime(0s)) : line.unplug(UtcTime(0s));
-        const LineReport& report = line.report();
+        const line::Report& report = line.report();
         CHECK(report.frames_lost == 4);
         CHECK((is_overrun ? report.lost_by_overrun : report.lost_unplugged) == 2);
     }
@@ -161,16 +164,16 @@ TEST_CASE("at the end each frame has a fate, wherever the host stopped reading",
         CAPTURE(cut);
         std::vector<Fate> fates;
         Line line({}, 1, UtcTime(0s),
-                  [&fates](const TruthRecord& record) { fates.push_back(record.fate); });
+                  [&fates](const truth::Record& record) { fates.push_back(record.fate); });
         for (std::uint32_t i = 0; i < 3; ++i) {
-            TruthRecord record = frame_of(i);
+            truth::Record record = frame_of(i);
             record.utc = UtcTime(i * 20ms);
             line.send(kFrame, UtcTime(0s), &record);
         }
         line.handed_over(cut, UtcTime(0s));
         line.abandon(UtcTime(0s));
         REQUIRE(fates.size() == 3);
-        const LineReport& report = line.report();
+        const line::Report& report = line.report();
         const auto whole = static_cast<std::int64_t>(cut / 24);
         CHECK(report.frames_sent == whole);
         CHECK(report.frames_damaged == (cut % 24 > 0 ? 1 : 0));
@@ -184,10 +187,10 @@ TEST_CASE("at the end each frame has a fate, wherever the host stopped reading",
 TEST_CASE("a lost frame without bytes is settled in its turn", "[sim][line]") {
     std::vector<std::uint32_t> settled;
     Line line({}, 1, UtcTime(0s),
-              [&settled](const TruthRecord& record) { settled.push_back(record.grid_index); });
-    TruthRecord lost = frame_of(2);
+              [&settled](const truth::Record& record) { settled.push_back(record.grid_index); });
+    truth::Record lost = frame_of(2);
     lost.fate = Fate::lost;
-    const TruthRecord before = frame_of(1), behind = frame_of(3);
+    const truth::Record before = frame_of(1), behind = frame_of(3);
     line.send(kFrame, UtcTime(0s), &before);
     line.send({}, UtcTime(0s), &lost);
     line.send(kFrame, UtcTime(0s), &behind);
@@ -199,9 +202,9 @@ TEST_CASE("a lost frame without bytes is settled in its turn", "[sim][line]") {
 }
 
 TEST_CASE("no frame arrives if device and host have different speeds", "[sim][line]") {
-    Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
+    Line line({}, 1, UtcTime(0s), [](const truth::Record&) {});
     line.set_speeds(460800, 115200);
-    const TruthRecord record = frame_of(1);
+    const truth::Record record = frame_of(1);
     line.send(kFrame, UtcTime(0s), &record);
     const std::size_t size = line.shown(UtcTime(0s)).size();
     CHECK((size > 0 && size < 24));
@@ -213,10 +216,10 @@ TEST_CASE("no frame arrives if device and host have different speeds", "[sim][li
 TEST_CASE("paced bytes arrive one by one, each when it ends on the wire", "[sim][line]") {
     LineParameters parameters;
     parameters.is_paced = true;
-    Line line(parameters, 1, UtcTime(0s), [](const TruthRecord&) {});
+    Line line(parameters, 1, UtcTime(0s), [](const truth::Record&) {});
     line.set_speeds(115200, 115200);
     const UtcTime leaves{1s};
-    const TruthRecord record = frame_of(1);
+    const truth::Record record = frame_of(1);
     REQUIRE(line.lead() == Nanoseconds(1s) * 240 / 115200);
     line.send(kFrame, leaves, &record);
     for (std::int64_t left = 0; left < 24; ++left) {
@@ -227,9 +230,9 @@ TEST_CASE("paced bytes arrive one by one, each when it ends on the wire", "[sim]
 }
 
 TEST_CASE("runs of sampling are counted separately", "[sim][line]") {
-    Line line({}, 1, UtcTime(0s), [](const TruthRecord&) {});
+    Line line({}, 1, UtcTime(0s), [](const truth::Record&) {});
     for (const auto& [index, run] : {std::pair{7, 1}, {8, 1}, {1008, 2}, {1009, 2}, {1010, 2}}) {
-        const TruthRecord record =
+        const truth::Record record =
             frame_of(static_cast<std::uint32_t>(index), static_cast<std::uint16_t>(run));
         line.send(kFrame, UtcTime(0s), &record);
     }

@@ -4,14 +4,16 @@
 
 #include "tests/unit/sim/line/fault_rig.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::line;
+using namespace a351::sim::truth;
 
 namespace {
 
 std::vector<std::uint16_t> counts_of(const Rig& rig, std::uint16_t run) {
     std::vector<std::uint16_t> counts;
-    for (const TruthRecord& record : rig.truth) {
+    for (const truth::Record& record : rig.truth) {
         if (record.sampling_run == run) counts.push_back(record.values.count);
     }
     return counts;

@@ -19,8 +19,13 @@
 #include "sim/signal/signal_source.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::device;
+using namespace a351::sim::line;
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
+using namespace a351::sim::truth;
 using namespace std::chrono_literals;
 
 namespace {
@@ -113,12 +118,12 @@ struct Served {
 
     std::filesystem::path link;
     Scenario scenario = load_scenario("tsukuba");
-    SignalSource source{scenario, profile, 1};
+    signal::Source source{scenario, profile, 1};
     RegisterMachine machine{
         profile, {"A352AD10", "01234567", 1}, steady_now() - RegisterMachine::kPowerOnTime};
-    std::vector<TruthRecord> truth;
+    std::vector<truth::Record> truth;
     DeviceStream stream{source, machine};
-    Line line{{}, 1, scenario.start(), [this](const TruthRecord& r) { truth.push_back(r); }};
+    Line line{{}, 1, scenario.start(), [this](const truth::Record& r) { truth.push_back(r); }};
     FaultInjector faults{{}, scenario.start(), line, machine, profile, {}, {}};
     Pty pty;
     std::vector<std::string> troubles;
@@ -313,7 +318,7 @@ TEST_CASE("an overrun loses the frames that do not fit and reports their exact n
     std::this_thread::sleep_for(300ms);
     served.end();
     while (host.is_readable()) read(1);
-    const LineReport& report = served.line.report();
+    const line::Report& report = served.line.report();
     // 4095 bytes are 170 frames; the kernel's own buffer lets some more pass.
     CHECK(report.lost_by_overrun > 700);
     CHECK(report.frames_lost == report.lost_by_overrun);
@@ -336,7 +341,7 @@ TEST_CASE("at the end every frame and every unread byte is accounted for", "[sim
     }
     served.end();
     served.port.finish(served.scenario.start() + 24h);
-    const LineReport& report = served.line.report();
+    const line::Report& report = served.line.report();
     CHECK(report.frames_made ==
           report.frames_sent + report.frames_damaged + report.frames_lost + report.frames_pending);
     CHECK(served.truth.size() == static_cast<std::size_t>(report.frames_made));

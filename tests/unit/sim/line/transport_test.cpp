@@ -5,7 +5,8 @@
 #include "tests/support/catch.hpp"
 
 using namespace a351;
-using namespace a351::sim;
+using namespace a351::sim::line;
+using namespace a351::sim::scenario;
 using namespace std::chrono_literals;
 
 namespace {

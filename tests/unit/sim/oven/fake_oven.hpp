@@ -2,18 +2,18 @@
 
 #include "sim/plant/oven_plant.hpp"
 
-namespace a351::sim {
+namespace a351::sim::oven {
 
 /// An oven without dynamics: it shows the values that a test sets.
-class FakeOven final : public OvenPlant {
+class FakeOven final : public plant::OvenPlant {
 public:
     DegC reading{42.5};
     double power = 0.25;
     DegC target{42.5};
     bool runs = true;
     bool is_broken = false;
-    ControllerKind kind = ControllerKind::pi;
-    ControllerTuning pi{5.0, 133.0};
+    plant::ControllerKind kind = plant::ControllerKind::pi;
+    plant::ControllerTuning pi{5.0, 133.0};
     int set_point_writes = 0;
     int tuning_writes = 0;
 
@@ -22,19 +22,19 @@ public:
     DegC set_point() const noexcept override { return target; }
     bool is_running() const noexcept override { return runs; }
     bool is_sensor_broken() const noexcept override { return is_broken; }
-    ControllerKind controller() const noexcept override { return kind; }
-    ControllerTuning tuning() const noexcept override { return pi; }
+    plant::ControllerKind controller() const noexcept override { return kind; }
+    plant::ControllerTuning tuning() const noexcept override { return pi; }
     void set_set_point(DegC set_point) override {
         target = set_point;
         ++set_point_writes;
     }
     void set_running(bool is_running) override { runs = is_running; }
     void break_sensor(bool is_now_broken) override { is_broken = is_now_broken; }
-    void set_controller(ControllerKind now) override { kind = now; }
-    void set_tuning(const ControllerTuning& tuning) override {
+    void set_controller(plant::ControllerKind now) override { kind = now; }
+    void set_tuning(const plant::ControllerTuning& tuning) override {
         pi = tuning;
         ++tuning_writes;
     }
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::oven

@@ -10,8 +10,9 @@
 
 #include "fake_oven.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::oven;
 using namespace std::chrono_literals;
 
 namespace {
@@ -30,7 +31,7 @@ Bytes bytes_of(const std::string& hex) {
 /// A server and its clock.
 struct Bench {
     FakeOven oven;
-    OvenController controller{oven};
+    oven::Controller controller{oven};
     ModbusServer server{controller};
     Nanoseconds now = 1h;
 
@@ -51,7 +52,7 @@ struct Bench {
 };
 
 /// Returns the number of requests in the report: each one raises one of these counters.
-std::int64_t total(const OvenReport& report) {
+std::int64_t total(const oven::Report& report) {
     return report.answers + report.answers_lost + report.resets + report.broadcasts +
            report.for_other_units + report.unreadable + report.ignored +
            std::accumulate(report.faults.begin(), report.faults.end(), std::int64_t{0});
@@ -186,7 +187,7 @@ TEST_CASE("an answer is counted when it leaves or is lost", "[sim][modbus_server
     CHECK(bench.server.report().answers_lost == 1);
 
     bench.now += 1s;
-    bench.server.fail_next(OvenFault::crc_error, 1);
+    bench.server.fail_next(oven::Fault::crc_error, 1);
     bench.server.receive(kReadPv, bench.now);
     bench.server.restart(bench.now);
     CHECK(bench.wait(300ms).empty());
@@ -209,7 +210,7 @@ TEST_CASE("a software reset is counted once, and requested faults wait for real 
           "[sim][modbus_server]") {
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
-    bench.server.fail_next(OvenFault::truncated, 1);
+    bench.server.fail_next(oven::Fault::truncated, 1);
     Bytes reset_and_more = sealed(bytes_of("01 06 00 00 06 00"));
     reset_and_more.insert(reset_and_more.end(), kReadPv.begin(), kReadPv.end());
     CHECK(bench.ask(reset_and_more).empty());
@@ -225,7 +226,7 @@ TEST_CASE("a software reset is counted once, and requested faults wait for real 
 TEST_CASE("each fault spoils the requested number of answers in its own way",
           "[sim][modbus_server]") {
     Bench bench;
-    const auto spoilt = [&bench](OvenFault fault) {
+    const auto spoilt = [&bench](oven::Fault fault) {
         bench.server.fail_next(fault, 2);
         const Bytes first = bench.ask(kReadPv);
         CHECK(bench.ask(kReadPv) == first);
@@ -233,21 +234,21 @@ TEST_CASE("each fault spoils the requested number of answers in its own way",
         CHECK(bench.server.report().faults[static_cast<std::size_t>(fault)] == 2);
         return first;
     };
-    CHECK(spoilt(OvenFault::silence).empty());
-    CHECK(spoilt(OvenFault::exception) == bytes_of("01 83 04 40 F3"));
-    CHECK(spoilt(OvenFault::crc_error) == bytes_of("01 03 02 01 A9 79 AB"));
-    CHECK(spoilt(OvenFault::truncated) == bytes_of("01 03 02"));
-    const Bytes other = spoilt(OvenFault::wrong_unit);
+    CHECK(spoilt(oven::Fault::silence).empty());
+    CHECK(spoilt(oven::Fault::exception) == bytes_of("01 83 04 40 F3"));
+    CHECK(spoilt(oven::Fault::crc_error) == bytes_of("01 03 02 01 A9 79 AB"));
+    CHECK(spoilt(oven::Fault::truncated) == bytes_of("01 03 02"));
+    const Bytes other = spoilt(oven::Fault::wrong_unit);
     CHECK(other.at(0) == std::byte{2});
     CHECK(is_sealed(other));
-    const Bytes babble = spoilt(OvenFault::babble);
+    const Bytes babble = spoilt(oven::Fault::babble);
     CHECK(babble.size() == 64);
     CHECK_FALSE(is_sealed(babble));
 }
 
 TEST_CASE("a delayed answer is right, but comes later than a host waits", "[sim][modbus_server]") {
     Bench bench;
-    bench.server.fail_next(OvenFault::delay, 1);
+    bench.server.fail_next(oven::Fault::delay, 1);
     CHECK(bench.ask(kReadPv).empty());
     CHECK(bench.wait(1s) == kPv);
     CHECK(bench.ask(kReadPv) == kPv);
@@ -255,9 +256,9 @@ TEST_CASE("a delayed answer is right, but comes later than a host waits", "[sim]
 
 TEST_CASE("a fault without a limit is ended by a count of zero", "[sim][modbus_server]") {
     Bench bench;
-    bench.server.fail_next(OvenFault::silence, -1);
+    bench.server.fail_next(oven::Fault::silence, -1);
     for (int i = 0; i < 20; ++i) CHECK(bench.ask(kReadPv).empty());
-    bench.server.fail_next(OvenFault::silence, 0);
+    bench.server.fail_next(oven::Fault::silence, 0);
     CHECK(bench.ask(kReadPv) == kPv);
 }
 
@@ -266,10 +267,10 @@ TEST_CASE("a write lost in silence is not executed, a write with a spoilt answer
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
     const Bytes write = sealed(bytes_of("01 06 21 03 01 AE"));
-    bench.server.fail_next(OvenFault::silence, 1);
+    bench.server.fail_next(oven::Fault::silence, 1);
     CHECK(bench.ask(write).empty());
     CHECK(bench.oven.target == DegC(42.5));
-    bench.server.fail_next(OvenFault::crc_error, 1);
+    bench.server.fail_next(oven::Fault::crc_error, 1);
     CHECK_FALSE(is_sealed(bench.ask(write)));
     CHECK(bench.oven.target == DegC(43.0));
 }
@@ -304,7 +305,7 @@ TEST_CASE("every request is counted once", "[sim][modbus_server]") {
     CHECK_FALSE(bench.ask(sealed(bytes_of("01 04 20 00 00 01"))).empty());
     CHECK(bench.ask(bytes_of("01 03 20 00 00 01 00 00")).empty());
     CHECK(bench.ask(bytes_of("01 03 20 00")).empty());
-    const OvenReport& report = bench.server.report();
+    const oven::Report& report = bench.server.report();
     CHECK(report.for_other_units == 1);
     CHECK(report.broadcasts == 1);
     CHECK(report.answers == 2);
@@ -361,7 +362,7 @@ TEST_CASE("frames with a valid CRC and any length and function count once, howev
             deliver(frame, 1 + random() % (length - 1), length);
         }
     }
-    const OvenReport& report = bench.server.report();
+    const oven::Report& report = bench.server.report();
     CHECK(report.answers > 1000);
     CHECK(report.broadcasts > 1000);
     CHECK(report.for_other_units > 1000);

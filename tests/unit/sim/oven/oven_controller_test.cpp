@@ -4,8 +4,10 @@
 
 #include "fake_oven.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::oven;
+using namespace a351::sim::plant;
 
 // Addresses, codes and ranges: Omron H175-E1 (communications manual of the E5_C), sections 4 and 5.
 
@@ -14,33 +16,33 @@ namespace {
 using Words = std::vector<std::uint16_t>;
 
 /// Returns one register as a signed number.
-int shown(const OvenController& controller, std::uint16_t address) {
+int shown(const oven::Controller& controller, std::uint16_t address) {
     const auto result = controller.read(address, 1);
     REQUIRE(std::holds_alternative<Words>(result));
     return static_cast<std::int16_t>(std::get<Words>(result).at(0));
 }
 
 /// Returns two registers of four-byte mode as a signed number.
-std::int32_t shown_long(const OvenController& controller, std::uint16_t address) {
+std::int32_t shown_long(const oven::Controller& controller, std::uint16_t address) {
     const auto result = controller.read(address, 2);
     REQUIRE(std::holds_alternative<Words>(result));
     const Words& words = std::get<Words>(result);
     return static_cast<std::int32_t>(std::uint32_t{words.at(0)} << 16 | words.at(1));
 }
 
-std::optional<Refusal> put(OvenController& controller, std::uint16_t address, int digits) {
+std::optional<Refusal> put(oven::Controller& controller, std::uint16_t address, int digits) {
     const auto word = static_cast<std::uint16_t>(digits);
     return controller.write(address, std::span(&word, 1));
 }
 
-std::optional<Refusal> read_refusal(const OvenController& controller, std::uint16_t address,
+std::optional<Refusal> read_refusal(const oven::Controller& controller, std::uint16_t address,
                                     std::size_t count) {
     const auto result = controller.read(address, count);
     const Refusal* refusal = std::get_if<Refusal>(&result);
     return refusal == nullptr ? std::nullopt : std::optional(*refusal);
 }
 
-void enable_writing(OvenController& controller) {
+void enable_writing(oven::Controller& controller) {
     REQUIRE(controller.operate(0x00, 0x01) == std::nullopt);
 }
 
@@ -52,7 +54,7 @@ TEST_CASE("both address modes show the same values", "[sim][oven_controller]") {
     };
     FakeOven oven;
     oven.reading = DegC(-3.2);
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     for (const Pair pair :
          {Pair{0x0000, 0x2000}, {0x0002, 0x2001}, {0x0004, 0x2002}, {0x0006, 0x2003},
           {0x0008, 0x2004},     {0x000A, 0x2005}, {0x0106, 0x2103}, {0x0108, 0x2104},
@@ -67,7 +69,7 @@ TEST_CASE("both address modes show the same values", "[sim][oven_controller]") {
 
 TEST_CASE("values are whole numbers of the display's last digit", "[sim][oven_controller]") {
     FakeOven oven;
-    const OvenController controller(oven);
+    const oven::Controller controller(oven);
     CHECK(shown(controller, 0x2000) == 425);
     CHECK(shown(controller, 0x2103) == 425);
     CHECK(shown(controller, 0x2004) == 250);
@@ -79,7 +81,7 @@ TEST_CASE("values are whole numbers of the display's last digit", "[sim][oven_co
 TEST_CASE("the upper half of the status has an address of its own in two-byte mode",
           "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(controller.status() == 0x02000100);
     CHECK(shown(controller, 0x2001) == 0x0100);
@@ -90,7 +92,7 @@ TEST_CASE("the upper half of the status has an address of its own in two-byte mo
 
 TEST_CASE("nothing is written before communication writing is on", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     CHECK(put(controller, 0x2103, 430) == Refusal::operation);
     CHECK(controller.operate(0x01, 0x01) == Refusal::operation);
     enable_writing(controller);
@@ -105,7 +107,7 @@ TEST_CASE("nothing is written before communication writing is on", "[sim][oven_c
 TEST_CASE("if there are several reasons to refuse, the lowest code is given",
           "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);  // Communication writing is off throughout: reason 04.
+    oven::Controller controller(oven);  // Communication writing is off throughout: reason 04.
     CHECK(put(controller, 0x2103, 425) == Refusal::operation);
     CHECK(put(controller, 0x2103, 9999) == Refusal::data);
     CHECK(put(controller, 0x2099, 9999) == Refusal::address);
@@ -115,7 +117,7 @@ TEST_CASE("if there are several reasons to refuse, the lowest code is given",
 TEST_CASE("an address that does not exist or is read-only is refused as an address",
           "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(read_refusal(controller, 0x2006, 1) == Refusal::address);
     CHECK(read_refusal(controller, 0x0001, 2) == Refusal::address);
@@ -127,7 +129,7 @@ TEST_CASE("an address that does not exist or is read-only is refused as an addre
 
 TEST_CASE("106 elements are read at once, and 104 written at most", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(read_refusal(controller, 0x2000, 106) == std::nullopt);
     CHECK(read_refusal(controller, 0x2000, 107) == Refusal::data);
@@ -140,7 +142,7 @@ TEST_CASE("106 elements are read at once, and 104 written at most", "[sim][oven_
 
 TEST_CASE("several variables are written together or not at all", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(controller.write(0x2103, Words{430, 50, 20, 10}) == std::nullopt);
     CHECK(shown(controller, 0x2103) == 430);
@@ -152,7 +154,7 @@ TEST_CASE("several variables are written together or not at all", "[sim][oven_co
 
 TEST_CASE("the set point stays within its limits", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(put(controller, 0x2103, 5000) == std::nullopt);
     CHECK(put(controller, 0x2103, 5001) == Refusal::data);
@@ -163,7 +165,7 @@ TEST_CASE("the set point stays within its limits", "[sim][oven_controller]") {
 
 TEST_CASE("a stopped controller does not heat the oven", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(controller.operate(0x01, 0x01) == std::nullopt);
     CHECK_FALSE(oven.runs);
@@ -177,7 +179,7 @@ TEST_CASE("a stopped controller does not heat the oven", "[sim][oven_controller]
 TEST_CASE("a broken sensor shows as an input error and as the end of the range",
           "[sim][oven_controller]") {
     FakeOven oven;
-    const OvenController controller(oven);
+    const oven::Controller controller(oven);
     oven.break_sensor(true);
     CHECK((controller.status() & oven_status::kInputError) != 0);
     CHECK((controller.status() & oven_status::kHeating) == 0);
@@ -190,7 +192,7 @@ TEST_CASE("a broken sensor shows as an input error and as the end of the range",
 
 TEST_CASE("alarm 1 is raised at its distance above the set point", "[sim][oven_controller]") {
     FakeOven oven;
-    const OvenController controller(oven);
+    const oven::Controller controller(oven);
     oven.reading = DegC(52.4);
     CHECK((controller.status() & oven_status::kAlarm1) == 0);
     oven.reading = DegC(52.5);
@@ -199,7 +201,7 @@ TEST_CASE("alarm 1 is raised at its distance above the set point", "[sim][oven_c
 
 TEST_CASE("values written to RAM only are lost in a restart", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(controller.operate(0x04, 0x01) == std::nullopt);
     CHECK(put(controller, 0x2103, 440) == std::nullopt);
@@ -229,7 +231,7 @@ TEST_CASE("values written to RAM only are lost in a restart", "[sim][oven_contro
 TEST_CASE("initial settings can be written in setup area 1 only, where control is stopped",
           "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(put(controller, 0x2D14, 0) == Refusal::operation);
     CHECK(controller.operate(0x07, 0x00) == std::nullopt);
@@ -248,7 +250,7 @@ TEST_CASE("initial settings can be written in setup area 1 only, where control i
 TEST_CASE("in setup area 1 the status bits of the sensor keep their last values",
           "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     oven.break_sensor(true);
     REQUIRE(controller.operate(0x07, 0x00) == std::nullopt);
@@ -261,7 +263,7 @@ TEST_CASE("in setup area 1 the status bits of the sensor keep their last values"
 TEST_CASE("input type 5 shows whole degrees", "[sim][oven_controller]") {
     FakeOven oven;
     oven.reading = DegC(42.7);
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     REQUIRE(controller.operate(0x07, 0x00) == std::nullopt);
     CHECK(put(controller, 0x2C00, 7) == Refusal::data);  // J: no such couple in this oven
@@ -277,7 +279,7 @@ TEST_CASE("input type 5 shows whole degrees", "[sim][oven_controller]") {
 
 TEST_CASE("the settings of P and I reach the oven", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     REQUIRE(controller.write(0x2A00, Words{80, 233}) == std::nullopt);
     CHECK(oven.pi.proportional_band_degc == 8.0);
@@ -289,7 +291,7 @@ TEST_CASE("set point and tuning that are not written stay unchanged", "[sim][ove
     FakeOven oven;
     oven.target = DegC(42.53);
     oven.pi = {5.0, 133.333};
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     REQUIRE(controller.operate(0x01, 0x01) == std::nullopt);
     controller.restart();
@@ -299,7 +301,7 @@ TEST_CASE("set point and tuning that are not written stay unchanged", "[sim][ove
 
 TEST_CASE("initialising the parameters ends the Modbus communication", "[sim][oven_controller]") {
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     CHECK(controller.operate(0x0B, 0x00) == Refusal::operation);  // Setup area 1 only
     CHECK(controller.speaks_modbus());
@@ -314,7 +316,7 @@ TEST_CASE("commands that this controller cannot execute are refused", "[sim][ove
         std::optional<Refusal> refusal;
     };
     FakeOven oven;
-    OvenController controller(oven);
+    oven::Controller controller(oven);
     enable_writing(controller);
     for (const Case& c : {Case{0x02, 0x00, std::nullopt},
                           {0x02, 0x01, Refusal::operation},

@@ -14,8 +14,10 @@
 
 #include "fake_oven.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::line;
+using namespace a351::sim::oven;
 using namespace std::chrono_literals;
 
 namespace {
@@ -50,10 +52,10 @@ public:
     }
 
     /// Returns the port, for use while the thread is stopped.
-    OvenPort& port() { return port_; }
+    oven::Port& port() { return port_; }
 
 private:
-    OvenPort port_;
+    oven::Port port_;
     std::atomic<bool> stop_ = false;
     std::thread thread_;
 };
@@ -182,7 +184,7 @@ TEST_CASE("libmodbus gives up on silence and on a late answer", "[sim][oven_port
 TEST_CASE("the oven sensor is broken and repaired by the name of the fault", "[sim][oven_port]") {
     RunningOven running;
     CHECK_FALSE(running.port().apply_fault("oven_fire", 1));
-    for (const std::string_view kind : OvenPort::fault_kinds()) {
+    for (const std::string_view kind : oven::Port::fault_kinds()) {
         CAPTURE(kind);
         CHECK((kind == "oven_power_cycle" || running.port().apply_fault(kind, 0)));
     }

@@ -12,7 +12,9 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/sim/replay/replay_host.hpp"
 
-namespace a351::sim {
+using namespace a351::sim::signal;
+
+namespace a351::sim::replay {
 namespace {
 
 using namespace std::chrono_literals;
@@ -29,7 +31,7 @@ public:
     /// Appends samples [first, end) of channel `field`, sample k at kStart + k periods + late.
     void add(std::size_t field, int first, int end, Nanoseconds late = 0ns, bool is_run = false) {
         static constexpr std::array<const char*, 4> kChannels{"BN1", "BN2", "BNZ", "BK1"};
-        record::RecordHeader header;
+        archive::RecordHeader header;
         header.network = "XX";
         header.station = "A351";
         header.location = "00";
@@ -43,9 +45,9 @@ public:
             }
             header.start = kStart + first * kPeriod + late;
             header.starts_series = std::exchange(is_run, false);
-            const auto packed = record::pack_record(header, counts);
+            const auto packed = archive::pack_record(header, counts);
             std::ofstream(file(field), std::ios::binary | std::ios::app)
-                .write(reinterpret_cast<const char*>(packed.bytes.data()), record::kRecordSize);
+                .write(reinterpret_cast<const char*>(packed.bytes.data()), archive::kRecordSize);
             first += static_cast<int>(packed.sample_count);
         }
     }
@@ -151,12 +153,12 @@ TEST_CASE("damage in a day file is skipped and reported", "[sim][replay]") {
     Archive archive;
     archive.add_all(0, 300);
     auto bytes = test::read_bytes(archive.file(1));
-    bytes.insert(bytes.begin() + record::kRecordSize, 100, std::byte{0x55});
+    bytes.insert(bytes.begin() + archive::kRecordSize, 100, std::byte{0x55});
     test::write_bytes(archive.file(1), bytes);
     ArchiveSource source = archive.source();
     CHECK(all_of(source).size() == 300);
     REQUIRE(source.damage().size() == 1);
-    CHECK(source.damage().front().offset == record::kRecordSize);
+    CHECK(source.damage().front().offset == archive::kRecordSize);
     CHECK(source.damage().front().byte_count == 100);
 }
 
@@ -179,8 +181,8 @@ TEST_CASE("an archive is sent from its first sample in the layout that the host 
     CAPTURE(burst_ctrl);
     wire::SensorSettings settings;
     settings.layout = *wire::BurstLayout::from_burst_ctrl(burst_ctrl);
-    const auto timing = GENERATE(ReplayTiming::as_recorded, ReplayTiming::as_fast_as_read);
-    ReplayDevice device(archive.open(), timing, Nanoseconds(0));
+    const auto timing = GENERATE(Timing::as_recorded, Timing::as_fast_as_read);
+    Device device(archive.open(), timing, Nanoseconds(0));
     ReplayHost host(device, kStart - 10s);
     host.configure(settings);
     host.listen();
@@ -205,7 +207,7 @@ TEST_CASE("each run of sampling in an archive waits for the host to start it", "
         archive.add(field, 0, 100, 0ns, true);
         archive.add(field, 3000, 3050, 0ns, true);
     }
-    ReplayDevice device(archive.open(), ReplayTiming::as_fast_as_read, Nanoseconds(0));
+    Device device(archive.open(), Timing::as_fast_as_read, Nanoseconds(0));
     ReplayHost host(device, kStart);
     const auto layout = wire::SensorSettings{}.layout;
     host.configure();
@@ -226,7 +228,7 @@ TEST_CASE("each run of sampling in an archive waits for the host to start it", "
 TEST_CASE("samples of an archive leave the device after its delay", "[sim][replay]") {
     Archive archive;
     archive.add_all(0, 3);
-    ReplayDevice device(archive.open(), ReplayTiming::as_recorded, Nanoseconds(0));
+    Device device(archive.open(), Timing::as_recorded, Nanoseconds(0));
     ReplayHost host(device, kStart - 10s);
     host.configure();
     host.listen();
@@ -241,7 +243,7 @@ TEST_CASE("samples of an archive leave the device after its delay", "[sim][repla
 TEST_CASE("fields and rates that an archive lacks are refused in one line", "[sim][replay]") {
     Archive archive;
     for (const std::size_t field : {0U, 1U, 2U}) archive.add(field, 0, 100);
-    ReplayDevice device(archive.open(), ReplayTiming::as_recorded, Nanoseconds(0));
+    Device device(archive.open(), Timing::as_recorded, Nanoseconds(0));
     ReplayHost host(device, kStart);
     CHECK_THROWS_WITH(host.configure(), "the host asks for temperature, which the archive lacks");
     wire::SensorSettings settings;
@@ -253,4 +255,4 @@ TEST_CASE("fields and rates that an archive lacks are refused in one line", "[si
     CHECK_NOTHROW(host.configure(settings));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

@@ -7,7 +7,7 @@
 #include "sim/replay/recording.hpp"
 #include "tests/unit/sim/replay/replay_host.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 namespace {
 
 const std::string kLogs = A351_GOLDEN "/logs/";
@@ -15,10 +15,10 @@ const std::string kLogs = A351_GOLDEN "/logs/";
 /// A row of the expected samples: index, count, x, y, z, temp.
 using Row = std::array<std::int64_t, 6>;
 
-class Samples final : public record::ArchiveSink {
+class Samples final : public archive::Sink {
 public:
-    void record(const std::string&, const record::PackedRecord&, std::int64_t) override {}
-    void sample(const record::Sample& sample) override {
+    void record(const std::string&, const archive::PackedRecord&, std::int64_t) override {}
+    void sample(const archive::Sample& sample) override {
         const auto& [flag, temperature, axes, count] = sample.values;
         rows.push_back({sample.index, count, axes[0], axes[1], axes[2], temperature});
     }
@@ -48,7 +48,7 @@ Counters expected_counters(const std::string& name) {
     return counters;
 }
 
-Counters named(const record::ArchiverCounters& counters) {
+Counters named(const archive::Counters& counters) {
     return {{"bytes", counters.bytes},
             {"frames", counters.frames},
             {"bytes_skipped", counters.bytes_skipped},
@@ -67,11 +67,10 @@ struct Outcome {
 };
 
 /// Replays the log.  @return the samples and counters that a daemon gets from it
-Outcome replayed(const std::string& name, ReplayTiming timing) {
-    record::JournalReader reader(kLogs + name + ".a351j");
-    const auto header = std::get<record::JournalHeader>(*reader.next());
-    ReplayDevice device(open_recording({.files = {kLogs + name + ".a351j"}}), timing,
-                        Nanoseconds(0));
+Outcome replayed(const std::string& name, Timing timing) {
+    journal::Reader reader(kLogs + name + ".a351j");
+    const auto header = std::get<journal::Header>(*reader.next());
+    Device device(open_recording({.files = {kLogs + name + ".a351j"}}), timing, Nanoseconds(0));
     ReplayHost host(device, header.clock.realtime);
     const auto identity = host.configure();
     CHECK(identity.product_id == header.product_id);
@@ -82,12 +81,12 @@ Outcome replayed(const std::string& name, ReplayTiming timing) {
     CHECK(device.recording().damage().empty());
 
     Samples sink;
-    record::Archiver archiver(sink);
+    archive::Archiver archiver(sink);
     archiver.take(header);
     const Nanoseconds raw_minus_utc =
         header.clock.raw.time_since_epoch() - header.clock.realtime.time_since_epoch();
     for (const auto& piece : host.line.pieces) {
-        record::RxChunk chunk;
+        journal::RxChunk chunk;
         chunk.bytes = piece.bytes;
         chunk.reads = {{static_cast<std::uint32_t>(piece.bytes.size()),
                         RawTime(piece.leaves.time_since_epoch() + raw_minus_utc)}};
@@ -104,7 +103,7 @@ TEST_CASE("every golden log replays to its expected samples and counters",
     const std::string name = GENERATE("clean_start", "flipped_bits", "lost_bytes_and_garbage",
                                       "gap_over_a_wrap", "duplicates", "markers_in_payload");
     CAPTURE(name);
-    const Outcome outcome = replayed(name, ReplayTiming::as_recorded);
+    const Outcome outcome = replayed(name, Timing::as_recorded);
     CHECK(outcome.samples.size() >= 240);
     CHECK(outcome.samples == expected_samples(name));
     CHECK(outcome.counters == expected_counters(name));
@@ -116,9 +115,9 @@ TEST_CASE("a log replayed as fast as it is read keeps samples, order and counter
     const std::string name = GENERATE("clean_start", "flipped_bits", "lost_bytes_and_garbage",
                                       "duplicates", "markers_in_payload");
     CAPTURE(name);
-    const Outcome outcome = replayed(name, ReplayTiming::as_fast_as_read);
+    const Outcome outcome = replayed(name, Timing::as_fast_as_read);
     CHECK(outcome.samples == expected_samples(name));
     CHECK(outcome.counters == expected_counters(name));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/sim/replay/replay_host.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 namespace {
 
 using namespace std::chrono_literals;
@@ -15,8 +15,8 @@ using namespace std::chrono_literals;
 const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00Z");
 constexpr RawTime kRawStart{1000s};
 
-record::JournalHeader header_of(std::uint8_t session, Nanoseconds since_start = 0s) {
-    record::JournalHeader header;
+journal::Header header_of(std::uint8_t session, Nanoseconds since_start = 0s) {
+    journal::Header header;
     header.session.bytes[0] = session;
     header.boot_id = "boot";
     header.program_version = "test";
@@ -34,7 +34,7 @@ record::JournalHeader header_of(std::uint8_t session, Nanoseconds since_start = 
 }
 
 /// Returns one read of `text`, received `since_start`.
-record::RxChunk read_of(const std::string& text, Nanoseconds since_start) {
+journal::RxChunk read_of(const std::string& text, Nanoseconds since_start) {
     const auto bytes = test::bytes_of(text);
     return {{bytes.begin(), bytes.end()},
             {{static_cast<std::uint32_t>(text.size()), kRawStart + since_start}}};
@@ -43,11 +43,11 @@ record::RxChunk read_of(const std::string& text, Nanoseconds since_start) {
 /// A directory of segments, and the device that replays them.
 class Recorded {
 public:
-    std::filesystem::path segment(const std::vector<record::JournalChunk>& chunks) {
-        auto bytes = record::encode_preamble();
+    std::filesystem::path segment(const std::vector<journal::Chunk>& chunks) {
+        auto bytes = journal::encode_preamble();
         std::uint32_t sequence = 0;
         for (const auto& chunk : chunks) {
-            const auto more = record::encode_chunk(chunk, sequence++);
+            const auto more = journal::encode_chunk(chunk, sequence++);
             bytes.insert(bytes.end(), more.begin(), more.end());
         }
         files_.push_back(directory_.path() /
@@ -56,7 +56,7 @@ public:
         return files_.back();
     }
 
-    [[nodiscard]] ReplayDevice device(ReplayTiming timing = ReplayTiming::as_recorded) const {
+    [[nodiscard]] Device device(Timing timing = Timing::as_recorded) const {
         return {std::make_unique<JournalRecording>(files_), timing, Nanoseconds(0)};
     }
 
@@ -79,7 +79,7 @@ TEST_CASE("a device that replays a journal has the identity of the recorded unit
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("a", 5s)});
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     ReplayHost host(device, kStart);
     const auto identity = host.configure({}, kProfile);
     CHECK(identity.product_id == "A352AD10");
@@ -93,7 +93,7 @@ TEST_CASE("a device that replays a journal starts at the recorded baud rate", "[
     auto header = header_of(1);
     header.baud = 115200;
     recorded.segment({header, read_of("a", 5s)});
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     CHECK(device.baud() == 115200);
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
@@ -104,7 +104,7 @@ TEST_CASE("recorded bytes leave at their recorded times, and not before the host
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.wait(4s);
     host.configure({}, kProfile);
@@ -122,11 +122,11 @@ TEST_CASE("recorded bytes leave at their recorded times, and not before the host
 
 TEST_CASE("reads of one chunk keep their own times", "[sim][replay]") {
     Recorded recorded;
-    record::RxChunk chunk = read_of("abcdef", 5s);
+    journal::RxChunk chunk = read_of("abcdef", 5s);
     chunk.reads = {{2, kRawStart + 5s}, {3, kRawStart + 5500ms}, {6, kRawStart + 7s}};
     // Raw time goes back to 6 s, as no real clock does: the order of the reads is kept.
     recorded.segment({header_of(1), chunk, read_of("earlier", 6s)});
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
     host.listen();
@@ -141,7 +141,7 @@ TEST_CASE("a host that starts late gets the missed bytes at once and the rest on
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     ReplayHost host(device, kStart + 7s);
     host.configure({}, kProfile);
     host.wait(0s);
@@ -155,7 +155,7 @@ TEST_CASE("a host that starts late gets the missed bytes at once and the rest on
 TEST_CASE("without a shared clock the recording begins when the host begins", "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s)});
-    ReplayDevice device = recorded.device(ReplayTiming::from_host_start);
+    Device device = recorded.device(Timing::from_host_start);
     ReplayHost host(device, kStart + 24h);
     host.wait(1h);
     host.configure({}, kProfile);
@@ -168,7 +168,7 @@ TEST_CASE("without a shared clock the recording begins when the host begins", "[
 TEST_CASE("a replay as fast as it is read sends whenever the line accepts more", "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 600s), read_of("3", 700s)});
-    ReplayDevice device = recorded.device(ReplayTiming::as_fast_as_read);
+    Device device = recorded.device(Timing::as_fast_as_read);
     ReplayHost host(device, kStart - 1h);
     host.configure({}, kProfile);
     host.line.capacity = 2;
@@ -186,7 +186,7 @@ TEST_CASE("segments of a session follow each other without a break", "[sim][repl
     recorded.segment({header_of(1), read_of("one", 5s)});
     recorded.segment({header_of(1, 6s)});
     recorded.segment({header_of(1, 7s), read_of("two", 8s)});
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
     host.listen();
@@ -207,7 +207,7 @@ TEST_CASE("segments with one session id are two sessions if the boot differs or 
     }
     const Nanoseconds read = other_day.clock.raw - kRawStart + 5s;
     recorded.segment({other_day, read_of("two", read)});
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
     host.listen();
@@ -229,8 +229,8 @@ TEST_CASE("a session ends in configuration mode, and the next waits for a new st
     auto third = header_of(3, 20s);
     third.serial_number = GENERATE("T0000007", "T0000008");
     recorded.segment({third, read_of("three", 25s)});
-    const auto timing = GENERATE(ReplayTiming::as_recorded, ReplayTiming::as_fast_as_read);
-    ReplayDevice device = recorded.device(timing);
+    const auto timing = GENERATE(Timing::as_recorded, Timing::as_fast_as_read);
+    Device device = recorded.device(timing);
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
     host.listen();
@@ -250,7 +250,7 @@ TEST_CASE("a host that stops and starts again continues with the next recorded b
           "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
     host.wait_until(kStart + 5s);
@@ -274,13 +274,13 @@ TEST_CASE("a clock step of the recording host is not replayed within a boot, a s
     auto rebooted = header_of(3, 20s);
     rebooted.boot_id = "another";
     rebooted.clock.raw = RawTime(3s);
-    recorded.segment({rebooted, {record::RxChunk{{std::byte{1}}, {{1, RawTime(5s)}}}}});
+    recorded.segment({rebooted, {journal::RxChunk{{std::byte{1}}, {{1, RawTime(5s)}}}}});
     auto set_back = rebooted;
     set_back.session.bytes[0] = 4;
     set_back.boot_id = "a third";
     set_back.clock.realtime -= 24h;
-    recorded.segment({set_back, {record::RxChunk{{std::byte{1}}, {{1, RawTime(9s)}}}}});
-    ReplayDevice device = recorded.device();
+    recorded.segment({set_back, {journal::RxChunk{{std::byte{1}}, {{1, RawTime(9s)}}}}});
+    Device device = recorded.device();
     ReplayHost host(device, kStart);
     std::vector<UtcTime> left;
     for (int session = 0; session < 4; ++session) {
@@ -296,7 +296,7 @@ TEST_CASE("settings other than the recorded ones are refused in one line", "[sim
     const auto file = recorded.segment({header_of(1), read_of("one", 5s)});
     wire::SensorSettings settings;
     const auto refusal = [&] {
-        ReplayDevice device = recorded.device();
+        Device device = recorded.device();
         ReplayHost host(device, kStart);
         try {
             host.configure(settings, kProfile);
@@ -325,10 +325,10 @@ TEST_CASE("a damaged tail is left out and reported, and good data before and aft
         recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("x", 7s)});
     recorded.segment({header_of(1, 10s), read_of("three", 12s)});
     auto bytes = test::read_bytes(file);
-    const std::size_t last_chunk = record::kChunkHeaderSize + 12 + 12 + 1;
+    const std::size_t last_chunk = journal::kChunkHeaderSize + 12 + 12 + 1;
     bytes[bytes.size() - 1] ^= std::byte{1};
     test::write_bytes(file, bytes);
-    ReplayDevice device = recorded.device();
+    Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
     host.listen();
@@ -341,4 +341,4 @@ TEST_CASE("a damaged tail is left out and reported, and good data before and aft
     CHECK(damage.reason == "wrong checksum");
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

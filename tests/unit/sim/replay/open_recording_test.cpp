@@ -7,16 +7,16 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/journal/journal_samples.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::byte> segment_of(const std::vector<record::JournalChunk>& chunks) {
-    auto bytes = record::encode_preamble();
+std::vector<std::byte> segment_of(const std::vector<journal::Chunk>& chunks) {
+    auto bytes = journal::encode_preamble();
     std::uint32_t sequence = 0;
     for (const auto& chunk : chunks) {
-        const auto more = record::encode_chunk(chunk, sequence++);
+        const auto more = journal::encode_chunk(chunk, sequence++);
         bytes.insert(bytes.end(), more.begin(), more.end());
     }
     return bytes;
@@ -133,4 +133,4 @@ TEST_CASE("journal segments and other files cannot be mixed", "[sim][replay]") {
               .starts_with((directory.path() / "b").string() + ": not a journal segment, "));
 }
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

@@ -9,17 +9,17 @@
 #include "protocol/wire/handshake.hpp"
 #include "sim/replay/replay_device.hpp"
 
-namespace a351::sim {
+namespace a351::sim::replay {
 
 /// A line that keeps the bytes of a device, piece by piece.
-class SentPieces final : public LineSink {
+class SentPieces final : public device::LineSink {
 public:
     struct Piece {
         std::vector<std::byte> bytes;
         UtcTime leaves;
     };
 
-    void send(std::span<const std::byte> bytes, UtcTime leaves, const TruthRecord*) override {
+    void send(std::span<const std::byte> bytes, UtcTime leaves, const truth::Record*) override {
         pieces.push_back({{bytes.begin(), bytes.end()}, leaves});
     }
     [[nodiscard]] bool is_full() const override { return pieces.size() >= capacity; }
@@ -39,7 +39,7 @@ public:
 /// A host whose clocks move only in the test's calls.  Simulated time begins at `now`.
 class ReplayHost {
 public:
-    ReplayHost(ReplayDevice& device, UtcTime now) : device_(device) { now_.simulated = now; }
+    ReplayHost(Device& device, UtcTime now) : device_(device) { now_.simulated = now; }
 
     /// Runs the daemon's handshake without waiting.  @throws std::runtime_error  if it fails
     wire::DeviceIdentity configure(const wire::SensorSettings& settings = {},
@@ -94,8 +94,8 @@ public:
     SentPieces line;
 
 private:
-    ReplayDevice& device_;
-    Instant now_;
+    Device& device_;
+    device::Instant now_;
 };
 
-}  // namespace a351::sim
+}  // namespace a351::sim::replay

@@ -12,14 +12,15 @@ TEST_CASE("the tide agrees with a worked example of Longman's formulas", "[sim][
     // 1.1575: 0.00354 mGal upward.
     const UtcTime time = *parse_rfc3339("2015-04-23T00:00:00Z");
     const MilliGal tide =
-        sim::earth_tide(Degrees(40.7914), Degrees(282.1414), Metres(370.0), time, 1.1575);
+        sim::signal::earth_tide(Degrees(40.7914), Degrees(282.1414), Metres(370.0), time, 1.1575);
     CHECK(tide.value() == Approx(-0.00354).margin(5e-6));
 }
 
 TEST_CASE("the tide is proportional to the factor", "[sim][tide]") {
     const UtcTime time = *parse_rfc3339("2017-07-16T03:00:00Z");
     const auto tide = [&](double factor) {
-        return sim::earth_tide(Degrees(36.2), Degrees(140.1), Metres(500.0), time, factor).value();
+        return sim::signal::earth_tide(Degrees(36.2), Degrees(140.1), Metres(500.0), time, factor)
+            .value();
     };
     CHECK(tide(1.16) == Approx(1.16 * tide(1.0)).epsilon(1e-14));
 }
@@ -33,9 +34,10 @@ TEST_CASE("the tide of the survey day agrees with the publication's column", "[s
         std::size_t site = 0;
         while (sites.cell(site, "site") != rows.cell(row, "site")) ++site;
         const UtcTime time = *parse_rfc3339(rows.cell(row, "time_jst") + "+09:00");
-        const MilliGal tide = sim::earth_tide(Degrees(sites.number(site, "latitude_deg")),
-                                              Degrees(sites.number(site, "longitude_deg")),
-                                              Metres(sites.number(site, "altitude_m")), time, 1.20);
+        const MilliGal tide =
+            sim::signal::earth_tide(Degrees(sites.number(site, "latitude_deg")),
+                                    Degrees(sites.number(site, "longitude_deg")),
+                                    Metres(sites.number(site, "altitude_m")), time, 1.20);
         CHECK(tide.value() == Approx(rows.number(row, "earth_tide_mgal")).margin(0.0035));
     }
 }

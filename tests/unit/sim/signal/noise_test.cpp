@@ -8,7 +8,9 @@
 
 #include "sim/signal/signal_source.hpp"
 
-using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::noise;
+using namespace a351::sim::signal;
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <vector>
 #include "tests/support/catch.hpp"
 
-using a351::sim::normal_quantile;
-using a351::sim::RandomStream;
+using a351::sim::noise::normal_quantile;
+using a351::sim::noise::RandomStream;
 
 TEST_CASE("the same seed and name give the same draws, another seed or name gives others",
           "[sim][random]") {

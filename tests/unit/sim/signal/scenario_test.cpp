@@ -9,7 +9,9 @@
 #include "sim/signal/set_up_truth.hpp"
 
 using namespace a351;
-using namespace a351::sim;
+using namespace a351::sim::plant;
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
 
 namespace {
 

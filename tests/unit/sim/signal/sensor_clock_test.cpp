@@ -5,8 +5,10 @@
 
 #include "sim/signal/signal_source.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
 
 namespace {
 
@@ -67,7 +69,7 @@ TEST_CASE("the clock changes the times of the samples and not their values",
         "wander_ppm_per_sqrt_h = 0.1\ntemperature_ppm_per_degc = 0.5\n",
         "x.toml");
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
-    SignalSource steady(truth, profile, 2), moved(fast, profile, 2);
+    signal::Source steady(truth, profile, 2), moved(fast, profile, 2);
     UtcTime before = truth.start() - std::chrono::milliseconds(20);
     for (int i = 0; i < 50 * 1000; ++i) {
         const TimedSample expected = steady.next(), sample = moved.next();

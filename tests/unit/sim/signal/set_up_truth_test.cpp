@@ -6,15 +6,17 @@
 #include "protocol/text/csv.hpp"
 #include "sim/signal/signal_source.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
 
 namespace {
 
 /// Returns the mean norm of the samples of each set-up without its first and last minute.
 std::vector<double> mean_norms_mgal(const Scenario& scenario, std::uint64_t seed) {
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
-    SignalSource source(scenario, profile, seed);
+    signal::Source source(scenario, profile, seed);
     std::vector<double> means;
     for (const PlannedSetUp& set_up : source.plan()) {
         constexpr std::chrono::minutes kMargin{1};

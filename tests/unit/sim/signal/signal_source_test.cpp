@@ -6,8 +6,10 @@
 
 #include "sim/signal/earth_tide.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
 
 namespace {
 
@@ -31,7 +33,7 @@ struct Means {
 /// Returns the means over each occupation without its first and last minute.
 std::vector<Means> occupation_means(const std::string& name, std::uint64_t seed) {
     const Scenario scenario = load_scenario(name);
-    SignalSource source(scenario, a351_profile(), seed);
+    signal::Source source(scenario, a351_profile(), seed);
     std::vector<Means> means;
     for (const PlannedSetUp& occupation : source.plan()) {
         const text::Site& site = occupation.site;
@@ -59,7 +61,7 @@ std::vector<Means> occupation_means(const std::string& name, std::uint64_t seed)
 
 TEST_CASE("the same seed gives the same samples, another seed others", "[sim][signal_source]") {
     const Scenario scenario = load_scenario("tsukuba");
-    SignalSource first(scenario, a351_profile(), 5), again(scenario, a351_profile(), 5),
+    signal::Source first(scenario, a351_profile(), 5), again(scenario, a351_profile(), 5),
         other(scenario, a351_profile(), 6);
     int equal = 0;
     for (int i = 0; i < 20'000; ++i) {
@@ -72,7 +74,7 @@ TEST_CASE("the same seed gives the same samples, another seed others", "[sim][si
 
 TEST_CASE("samples lie on a grid of 20 ms from the scenario's start", "[sim][signal_source]") {
     const Scenario scenario = load_scenario("tsukuba");
-    SignalSource source(scenario, a351_profile(), 1);
+    signal::Source source(scenario, a351_profile(), 1);
     CHECK(source.next().instant == scenario.start());
     CHECK(*source.next_instant() - scenario.start() == std::chrono::milliseconds(20));
     CHECK(static_cast<double>(source.sample_count()) / 50.0 / 3600.0 == Approx(13.2).margin(0.01));
@@ -102,7 +104,7 @@ TEST_CASE("the bias of axis z stays on it when the box is turned", "[sim][signal
         "[sensor]\nwhite_mgal = 0.0\n[[occupation]]\nsite = \"No.1\"\nambient_degc = 25\n"
         "centre_utc = \"2017-07-16T00:00:00Z\"\nabout_y_deg = [30]\nabout_x_deg = [0]\n",
         "x.toml");
-    SignalSource source(scenario, a351_profile(), 1);
+    signal::Source source(scenario, a351_profile(), 1);
     const SensorSample sample = source.next().values;
     const auto mgal = [](std::int32_t counts) {
         return to_milligal(a351_profile().acceleration(counts)).value();

@@ -12,6 +12,7 @@
 
 using namespace a351;
 using namespace a351::sim;
+using namespace a351::sim::scenario;
 
 namespace {
 
@@ -29,7 +30,7 @@ double gain(double period_s) {
     for (std::size_t i = 0; i < sine.size(); ++i) {
         sine[i] = std::sin(2.0 * std::numbers::pi * 20.0 * static_cast<double>(i) / period_s);
     }
-    const auto passed = corrector::band_pass(sine, 20.0, 600.0, 1500.0);
+    const auto passed = corrector::reading::band_pass(sine, 20.0, 600.0, 1500.0);
     double in = 0.0, out = 0.0;
     for (std::size_t i = 1000; i < 3000; ++i) {
         in += sine[i] * sine[i];

@@ -12,8 +12,11 @@
 #include "sim/scenario/scenario.hpp"
 #include "sim/signal/signal_source.hpp"
 
-using namespace a351;
 using namespace a351::sim;
+using namespace a351;
+using namespace a351::sim::plant;
+using namespace a351::sim::scenario;
+using namespace a351::sim::signal;
 
 namespace {
 
@@ -178,9 +181,9 @@ TEST_CASE("writing a set point changes the samples from then on, and reading it 
           "[sim][oven_plant]") {
     const Scenario scenario = load_scenario("tsukuba");
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
-    SignalSource untouched(scenario, profile, 1), looked_at(scenario, profile, 1),
+    signal::Source untouched(scenario, profile, 1), looked_at(scenario, profile, 1),
         written(scenario, profile, 1);
-    constexpr int kWriteAt = 60 * SignalSource::kRateHz;
+    constexpr int kWriteAt = 60 * signal::Source::kRateHz;
     bool has_changed = false;
     for (int i = 0; i < 5 * kWriteAt; ++i) {
         if (i == kWriteAt) written.oven().set_set_point(DegC(50.0));

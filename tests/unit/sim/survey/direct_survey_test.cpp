@@ -17,6 +17,9 @@
 
 using namespace a351;
 using namespace a351::sim;
+using namespace a351::sim::scenario;
+using namespace a351::sim::survey;
+using namespace a351::sim::truth;
 
 namespace {
 
@@ -66,8 +69,8 @@ TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_
     REQUIRE(written.frames == static_cast<std::int64_t>(truth.size()));
     REQUIRE(truth.size() > 50 * 60 * 15);
 
-    const auto channel = record::read_channel(root / "archive", {}, "BNZ", scenario.start(),
-                                              scenario.end() + std::chrono::hours(1));
+    const auto channel = archive::read_channel(root / "archive", {}, "BNZ", scenario.start(),
+                                               scenario.end() + std::chrono::hours(1));
     REQUIRE(channel.segments.size() == 1);
     REQUIRE(channel.segments[0].counts.size() == truth.size());
     for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -77,14 +80,14 @@ TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_
         REQUIRE(std::abs(seconds_between(truth[i].utc, channel.segments[0].time_of(i))) < 1e-4);
     }
 
-    const auto occupations = record::occupations_of(record::read_events(root / "events").events);
+    const auto occupations = events::occupations_of(events::read_events(root / "events").events);
     const auto plan = plan_survey(scenario, 1);
     REQUIRE(occupations.size() == 1);
     CHECK(occupations[0].site == "No.0");
     REQUIRE(occupations[0].set_ups.size() == 1);
     CHECK(std::abs(seconds_between(plan[0].start, occupations[0].set_ups[0].start)) <= 0.02);
     CHECK(std::abs(seconds_between(plan[0].end, occupations[0].set_ups[0].end)) <= 0.02);
-    CHECK(record::read_station_xml(root / "metadata" / "station.xml").channels.size() >= 4);
+    CHECK(station::read_station_xml(root / "metadata" / "station.xml").channels.size() >= 4);
     CHECK_FALSE(std::filesystem::exists(root / "survey.toml"));  // One site: nothing to survey.
     CHECK_FALSE(std::filesystem::exists(root / "partial"));
 }
@@ -134,11 +137,10 @@ TEST_CASE("the session id of a day depends on its scenario, start, profile and s
         const Root directory;
         static_cast<void>(
             write_survey(scenario, *wire::find_profile(profile), seed, directory.path()));
-        record::JournalReader reader(
-            record::journal_segments(directory.path() / "journal").front());
-        return std::get<record::JournalHeader>(*reader.next());
+        journal::Reader reader(journal::segment_files(directory.path() / "journal").front());
+        return std::get<journal::Header>(*reader.next());
     };
-    std::vector<record::JournalHeader> headers;
+    std::vector<journal::Header> headers;
     headers.push_back(header_of(brief_day(), "A351", 1));
     headers.push_back(header_of(brief_day("another"), "A351", 1));
     headers.push_back(header_of(brief_day("brief", "2017-07-17"), "A351", 1));
@@ -160,7 +162,7 @@ TEST_CASE("events and tables are in true time, even if the clock of the sensor i
     const Scenario scenario = brief_day("brief", "2017-07-16", "[clock]\nerror_ppm = 100\n");
     static_cast<void>(write_survey(scenario, *wire::find_profile("A351"), 1, directory.path()));
     const auto truth = read_truth(directory.path() / "truth.bin");
-    const auto events = record::read_events(directory.path() / "events").events;
+    const auto events = events::read_events(directory.path() / "events").events;
     const auto schedule = text::read_csv(directory.path() / "schedule.csv");
     const auto rows = text::read_csv(directory.path() / "truth.csv");
     const auto plan = plan_survey(scenario, 1);
@@ -171,7 +173,7 @@ TEST_CASE("events and tables are in true time, even if the clock of the sensor i
         const UtcTime counted = i % 2 == 0 ? plan[i / 2].start : plan[i / 2].end;
         CAPTURE(i);
         REQUIRE(events[i].index);
-        const TruthRecord& frame = truth.at(static_cast<std::size_t>(*events[i].index));
+        const truth::Record& frame = truth.at(static_cast<std::size_t>(*events[i].index));
         CHECK(std::abs(seconds_between(frame.utc, events[i].utc)) < 0.01);
         CHECK(seconds_between(listed, events[i].utc) > -0.001);
         CHECK(seconds_between(listed, events[i].utc) < 0.021);
@@ -193,7 +195,7 @@ TEST_CASE("further set-ups are in the event log and in the tables", "[sim][direc
         "short.toml");
     static_cast<void>(write_survey(scenario, *wire::find_profile("A351"), 1, directory.path()));
     const auto occupations =
-        record::occupations_of(record::read_events(directory.path() / "events").events);
+        events::occupations_of(events::read_events(directory.path() / "events").events);
     const auto plan = plan_survey(scenario, 1);
     REQUIRE(occupations.size() == 1);
     REQUIRE(occupations[0].set_ups.size() == 2);
@@ -226,8 +228,8 @@ TEST_CASE("a record at one point has an archive, one site and no survey", "[sim]
     CHECK(seconds_between(scenario.start(), truth.back().utc) ==
           Approx(359.98 * (1.0 - 1e-4)).margin(1e-4));
     const auto channel =
-        record::read_channel(directory.path() / "archive", {}, "BNZ", scenario.start(),
-                             scenario.end() + std::chrono::hours(1));
+        archive::read_channel(directory.path() / "archive", {}, "BNZ", scenario.start(),
+                              scenario.end() + std::chrono::hours(1));
     REQUIRE(channel.segments.size() == 1);
     REQUIRE(channel.segments[0].counts.size() == truth.size());
     CHECK(std::abs(seconds_between(truth.back().utc,

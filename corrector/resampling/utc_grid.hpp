@@ -16,7 +16,7 @@
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::resampling {
 
 /// Returns the instant k / rate_hz seconds after 1970, rounded down to a nanosecond; k may be
 /// negative.
@@ -64,7 +64,7 @@ public:
     /// A segment that is too short, or outside [from, to), gives no values.  A value costs about 64
     /// products; for a lower rate more, in proportion to 1 / c.
     ///
-    /// Accuracy (tests/unit/export/utc_grid_test.cpp): a constant returns within 1e-9 counts.
+    /// Accuracy (tests/unit/resampling/utc_grid_test.cpp): a constant returns within 1e-9 counts.
     /// Sines up to 0.4 of the rate are within 1e-5 of their amplitude, from a clock 100 ppm off.
     /// Frequencies above 0.6 of the rate are reduced to 1e-4.  The errors of the times in the
     /// archive are added to this.
@@ -72,7 +72,7 @@ public:
     /// Pearson, 2010, sections 4.6 (resampling) and 7.5.3 (Kaiser window).
     /// @param segment  as read_channel() gives it: at least one sample and one anchor.  It may have
     ///                 samples outside [from, to), which the filter needs.
-    [[nodiscard]] GridRun resample(const record::Segment& segment, UtcTime from, UtcTime to) const;
+    [[nodiscard]] GridRun resample(const archive::Segment& segment, UtcTime from, UtcTime to) const;
 
 private:
     [[nodiscard]] double at(const std::vector<std::int32_t>& counts, double position) const;
@@ -82,4 +82,4 @@ private:
     std::vector<double> kernel_;  ///< h from 0 to half_width_, kSteps per sample.
 };
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::resampling

@@ -1,4 +1,4 @@
-#include "corrector/export/export.hpp"
+#include "corrector/resampling/export.hpp"
 
 #include <fmt/core.h>
 
@@ -8,13 +8,13 @@
 #include <memory>
 #include <optional>
 
-#include "corrector/export/utc_grid.hpp"
+#include "corrector/resampling/utc_grid.hpp"
 #include "protocol/archive/miniseed.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::resampling {
 namespace {
 
 using std::chrono::days;
@@ -74,7 +74,7 @@ private:
 
 class MiniseedGrid : public GridWriter {
 public:
-    MiniseedGrid(const Write& write, int rate_hz, const record::StationCodes& codes,
+    MiniseedGrid(const Write& write, int rate_hz, const journal::StationCodes& codes,
                  const std::string& channel)
         : GridWriter(write, rate_hz) {
         header_.network = codes.network;
@@ -93,12 +93,12 @@ private:
         for (const double value : run.values) {
             counts_.push_back(static_cast<std::int32_t>(
                 std::llround(std::clamp(value, -2147483648.0, 2147483647.0))));
-            if (counts_.size() == record::kMostSamplesPerRecord) pack();
+            if (counts_.size() == archive::kMostSamplesPerRecord) pack();
         }
     }
     void pack() {
         header_.start = time_of(first_);
-        const record::PackedRecord packed = record::pack_record(header_, counts_);
+        const archive::PackedRecord packed = archive::pack_record(header_, counts_);
         write({reinterpret_cast<const char*>(packed.bytes.data()), packed.bytes.size()});
         counts_.erase(counts_.begin(),
                       counts_.begin() + static_cast<std::ptrdiff_t>(packed.sample_count));
@@ -106,16 +106,16 @@ private:
         header_.sequence = header_.sequence % 999999 + 1;
     }
 
-    record::RecordHeader header_;
+    archive::RecordHeader header_;
     std::vector<std::int32_t> counts_;
     std::int64_t first_ = 0;
 };
 
 /// Adds damage that is not yet in the report.  The same record may be read for two days, because
 /// each day is read with a margin.
-void note(ExportReport& report, const std::vector<record::ArchiveDamage>& damage) {
-    for (const record::ArchiveDamage& one : damage) {
-        const auto is_known = [&](const record::ArchiveDamage& known) {
+void note(ExportReport& report, const std::vector<archive::Damage>& damage) {
+    for (const archive::Damage& one : damage) {
+        const auto is_known = [&](const archive::Damage& known) {
             return known.file == one.file && known.offset == one.offset;
         };
         if (std::ranges::none_of(report.damage, is_known)) report.damage.push_back(one);
@@ -127,7 +127,7 @@ void note(ExportReport& report, const std::vector<record::ArchiveDamage>& damage
 ExportReport export_channel(const ExportOptions& options,
                             const std::function<void(std::string_view)>& write) {
     const auto metadata =
-        record::read_station_xml(options.root / "metadata" / "station.xml", options.from);
+        station::read_station_xml(options.root / "metadata" / "station.xml", options.from);
     std::unique_ptr<GridWriter> writer;
     if (options.format == ExportFormat::csv) {
         writer = std::make_unique<CsvGrid>(write, options.rate_hz);
@@ -143,10 +143,10 @@ ExportReport export_channel(const ExportOptions& options,
             std::min<UtcTime>(options.to, std::chrono::floor<days>(begin) + days(1));
         // The kernel needs 32 zero crossings on either side: 32 s at 1 Hz.
         const std::chrono::seconds margin(33 / options.rate_hz + 1);
-        const record::ChannelData data =
-            record::read_channel(options.root / "archive", metadata.codes, options.channel,
-                                 begin - margin, end + margin);
-        for (const record::Segment& segment : data.segments) {
+        const archive::ChannelData data =
+            archive::read_channel(options.root / "archive", metadata.codes, options.channel,
+                                  begin - margin, end + margin);
+        for (const archive::Segment& segment : data.segments) {
             if (segment.rate_hz != source_rate_hz) {
                 source_rate_hz = segment.rate_hz;
                 if (options.rate_hz > 1.01 * source_rate_hz) {
@@ -170,4 +170,4 @@ ExportReport export_channel(const ExportOptions& options,
     return report;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::resampling

@@ -22,7 +22,7 @@
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::resampling {
 
 /// Formats of an export.
 /// - `csv`: for tables and plots; the values keep their fractions of a count.
@@ -47,9 +47,9 @@ struct ExportOptions {
 /// Summary of an export.  A run is a sequence of values without a gap on the grid.  Damaged records
 /// are missing in the values, which is a gap.
 struct ExportReport {
-    std::int64_t values = 0;                    ///< Values written.
-    std::int64_t runs = 0;                      ///< Runs without a gap.
-    std::vector<record::ArchiveDamage> damage;  ///< Damaged records of the archive, each once.
+    std::int64_t values = 0;              ///< Values written.
+    std::int64_t runs = 0;                ///< Runs without a gap.
+    std::vector<archive::Damage> damage;  ///< Damaged records of the archive, each once.
 };
 
 /// Exports a channel on an exact grid of UTC, see UtcGrid.
@@ -71,4 +71,4 @@ struct ExportReport {
 ExportReport export_channel(const ExportOptions& options,
                             const std::function<void(std::string_view)>& write);
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::resampling

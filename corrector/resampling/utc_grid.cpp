@@ -1,4 +1,4 @@
-#include "corrector/export/utc_grid.hpp"
+#include "corrector/resampling/utc_grid.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace a351::corrector {
+namespace a351::corrector::resampling {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
@@ -29,7 +29,7 @@ double kernel(double zero_crossings) {
 /// Computes u(t) for increasing t.
 class Position {
 public:
-    explicit Position(const record::Segment& segment)
+    explicit Position(const archive::Segment& segment)
         : segment_(segment), samples_per_s_(segment.rate_hz) {
         measure();
     }
@@ -53,7 +53,7 @@ private:
                          seconds_between(anchor.time, next.time);
     }
 
-    const record::Segment& segment_;
+    const archive::Segment& segment_;
     double samples_per_s_;
     std::size_t i_ = 0;
 };
@@ -88,7 +88,7 @@ UtcGrid::UtcGrid(double source_rate_hz, int rate_hz) : rate_hz_(rate_hz) {
     }
 }
 
-GridRun UtcGrid::resample(const record::Segment& segment, UtcTime from, UtcTime to) const {
+GridRun UtcGrid::resample(const archive::Segment& segment, UtcTime from, UtcTime to) const {
     const UtcTime begin = std::max(from, segment.anchors.front().time);
     const UtcTime end = std::min(to, segment.time_of(segment.counts.size() - 1) + Nanoseconds(1));
     GridRun run;
@@ -123,4 +123,4 @@ double UtcGrid::at(const std::vector<std::int32_t>& counts, double position) con
     return origin + sum / weights;
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::resampling

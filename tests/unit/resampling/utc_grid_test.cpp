@@ -1,4 +1,4 @@
-#include "corrector/export/utc_grid.hpp"
+#include "corrector/resampling/utc_grid.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -6,15 +6,15 @@
 #include <stdexcept>
 #include "tests/support/catch.hpp"
 
-namespace a351::corrector {
+namespace a351::corrector::resampling {
 namespace {
 
 const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00.013Z");
 constexpr double kAmplitude = 1e8;  // counts; rounding to counts adds 1e-8 of it
 
 /// Returns two minutes of a sine from a clock that is `ppm` fast, in records of 500 samples.
-record::Segment sine(double frequency_hz, double ppm, double offset = 0.0) {
-    record::Segment segment;
+archive::Segment sine(double frequency_hz, double ppm, double offset = 0.0) {
+    archive::Segment segment;
     segment.rate_hz = 50.0;
     const double true_rate_hz = 50.0 * (1.0 + 1e-6 * ppm);
     for (int i = 0; i < 6000; ++i) {
@@ -40,7 +40,7 @@ double error(const GridRun& run, int rate_hz, double frequency_hz) {
     return largest / kAmplitude;
 }
 
-GridRun resampled(const record::Segment& segment, int rate_hz) {
+GridRun resampled(const archive::Segment& segment, int rate_hz) {
     return UtcGrid(segment.rate_hz, rate_hz)
         .resample(segment, kStart - std::chrono::hours(1), kStart + std::chrono::hours(1));
 }
@@ -84,7 +84,7 @@ TEST_CASE("frequencies that the lower rate cannot represent are reduced to 1e-4"
 }
 
 TEST_CASE("a constant is unchanged on the grid", "[export]") {
-    record::Segment segment = sine(1.0, 20.0);
+    archive::Segment segment = sine(1.0, 20.0);
     for (auto& count : segment.counts) count = 16'777'215;
     for (const double value : resampled(segment, 50).values)
         CHECK(std::abs(value - 16'777'215.0) < 1e-9);
@@ -94,7 +94,7 @@ TEST_CASE(
     "no value is computed if its filter reaches outside the segment, or outside the requested "
     "range",
     "[export]") {
-    const record::Segment segment = sine(1.0, 0.0);
+    const archive::Segment segment = sine(1.0, 0.0);
     const GridRun all = resampled(segment, 50);
     CHECK(all.values.size() == 5999 - 64);  // The grid lies between the samples.
     CHECK(seconds_between(kStart, grid_time(all.first, 50)) == Approx(0.64).margin(0.02));
@@ -102,7 +102,7 @@ TEST_CASE(
     const GridRun part = UtcGrid(50.0, 50).resample(segment, from, from + std::chrono::seconds(2));
     CHECK(part.values.size() == 100);
     CHECK(grid_time(part.first, 50) >= from);
-    record::Segment shortest = segment;
+    archive::Segment shortest = segment;
     shortest.counts.resize(64);
     shortest.anchors.resize(1);
     CHECK(resampled(shortest, 50).values.empty());
@@ -113,4 +113,4 @@ TEST_CASE("a rate above that of the samples is refused", "[export]") {
     CHECK_THROWS_AS(UtcGrid(50.0, 0), std::invalid_argument);
 }
 
-}  // namespace a351::corrector
+}  // namespace a351::corrector::resampling
