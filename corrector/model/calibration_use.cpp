@@ -75,8 +75,10 @@ bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration) {
 whole_day::DayPriors day_priors_of(const std::optional<unit::Calibration>& calibration) {
     whole_day::DayPriors priors = whole_day::usual_day_priors();
     if (!calibration) return priors;
-    if (const auto& bias = calibration->axis_bias)
+    if (const auto& bias = calibration->axis_bias) {
+        priors.free_axes();
         priors.observe(kAxisPlaces, bias->values, bias->covariance);
+    }
     if (const auto& thermal = calibration->thermal)
         priors.observe(kThermalPlaces, thermal->values,
                        unit::kThermalErrorFactor * unit::kThermalErrorFactor * thermal->covariance);

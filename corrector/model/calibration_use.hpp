@@ -28,8 +28,7 @@ namespace a351::corrector::model {
 inline constexpr double kContradictionP = 0.01;
 
 /// Returns true if the calibration has axis biases or a thermal response.  A warm-up time alone
-/// does not help to correct a day.  If true, the whole-day model needs one row with a reference
-/// instead of six.
+/// does not help to correct a day.
 [[nodiscard]] bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration);
 
 /// Returns the usual priors, combined with the calibration: axis biases with their covariance, the

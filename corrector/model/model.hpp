@@ -82,10 +82,10 @@ struct Model {
 /// Returns the model of this name; null if there is none.  kAutomatic is no model.
 [[nodiscard]] const Model* find_model(std::string_view name);
 
-/// Name of the choice between the whole-day model and kLinearModels.
+/// Name of the choice between the whole-day model, kLinearModels and the network.
 inline constexpr std::string_view kAutomatic = "auto";
-/// Names of the publication's correction and of the whole-day model.
-inline constexpr std::string_view kPaper = "paper", kWholeDay = "day";
+/// Names of the publication's correction, of the whole-day model and of the network.
+inline constexpr std::string_view kPaper = "paper", kWholeDay = "day", kNetwork = "network";
 
 /// Returns the names that SurveyOptions::model may have: kAutomatic and the names of models().
 [[nodiscard]] std::vector<std::string> model_names();

@@ -22,12 +22,12 @@ Eigen::VectorXd as_vector(const std::vector<double>& values) {
 
 using ModelOf = std::function<const LinearModel*(const std::vector<reading::SurveyRow>&)>;
 
-/// Returns the leave-one-station-out error (mGal) of the model that `model_of` chooses for the
-/// remaining rows.
-std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
-                                             const std::vector<reading::SurveyRow>& rows,
-                                             UtcTime origin, const Priors& priors) {
-    double sum = 0.0;
+/// Returns the error (mGal) of each row, predicted without the rows of its station by the model that
+/// `model_of` chooses for the remaining rows.
+std::optional<std::vector<double>> station_left_out_mgal(
+    const ModelOf& model_of, const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+    const Priors& priors) {
+    std::vector<double> errors(rows.size());
     for (const std::string& station : station_names(rows)) {
         std::vector<reading::SurveyRow> others = rows;
         std::erase_if(others, [&](const reading::SurveyRow& row) { return row.site == station; });
@@ -39,11 +39,21 @@ std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
         const std::vector<double> differences = differences_mgal(rows);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].site != station) continue;
-            const double error =
+            errors[i] =
                 differences[i] - fit->at(columns.row(static_cast<Eigen::Index>(i)).transpose());
-            sum += error * error;
         }
     }
+    return errors;
+}
+
+/// Returns the rms of the errors of station_left_out_mgal().
+std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
+                                             const std::vector<reading::SurveyRow>& rows,
+                                             UtcTime origin, const Priors& priors) {
+    const auto errors = station_left_out_mgal(model_of, rows, origin, priors);
+    if (!errors) return std::nullopt;
+    double sum = 0.0;
+    for (const double error : *errors) sum += error * error;
     return std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
@@ -210,40 +220,56 @@ Score score_paper_model(const std::vector<reading::SurveyRow>& rows,
     return score;
 }
 
+std::optional<std::vector<double>> left_out_errors_mgal(const LinearModel& model,
+                                                        const std::vector<reading::SurveyRow>& rows,
+                                                        UtcTime origin, const Priors& priors) {
+    return station_left_out_mgal([&model](const auto&) { return &model; }, rows, origin, priors);
+}
+
 std::optional<Interval> bootstrap_rms_interval(const std::vector<double>& errors,
                                                const std::vector<std::string>& stations,
                                                std::uint64_t seed) {
+    std::vector<double> squares;
+    for (const double error : errors) squares.push_back(error * error);
+    auto interval = bootstrap_mean_interval(squares, stations, seed);
+    if (interval) interval = Interval{std::sqrt(interval->low), std::sqrt(interval->high)};
+    return interval;
+}
+
+std::optional<Interval> bootstrap_mean_interval(const std::vector<double>& values,
+                                                const std::vector<std::string>& stations,
+                                                std::uint64_t seed) {
     struct Station {
         std::string name;
-        double squares = 0.0;
+        double sum = 0.0;
         double count = 0.0;
     };
     std::vector<Station> sums;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
         auto at = std::ranges::find(sums, stations[i], &Station::name);
         if (at == sums.end()) at = sums.insert(sums.end(), {stations[i]});
-        at->squares += errors[i] * errors[i];
+        at->sum += values[i];
         at->count += 1.0;
     }
     if (sums.size() < 2) return std::nullopt;
 
     // The distributions of <random> differ between libraries; the generator is the same everywhere.
     std::mt19937_64 generator(seed);
-    std::vector<double> values;
+    std::vector<double> means;
     for (int draw = 0; draw < kBootstrapDraws; ++draw) {
-        double squares = 0.0;
+        double sum = 0.0;
         double count = 0.0;
         for (std::size_t k = 0; k < sums.size(); ++k) {
             const Station& station = sums[generator() % sums.size()];
-            squares += station.squares;
+            sum += station.sum;
             count += station.count;
         }
-        values.push_back(std::sqrt(squares / count));
+        means.push_back(sum / count);
     }
-    std::ranges::sort(values);
+    std::ranges::sort(means);
     // Values outside either limit: 2.5 % of the draws.
     constexpr auto kTail = static_cast<std::size_t>(kBootstrapDraws / 40);
-    return Interval{values[kTail], values[values.size() - 1 - kTail]};
+    return Interval{means[kTail], means[means.size() - 1 - kTail]};
 }
 
 std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows, UtcTime origin,
@@ -252,7 +278,8 @@ std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows, 
     for (const LinearModel& model : kLinearModels) {
         if (!takes_part(model, rows, base)) continue;
         Score score = score_linear_model(model, rows, origin, priors);
-        if (score.loso_mgal && score.row_count > score.parameter_count) scores.push_back(score);
+        if (score.loso_mgal && score.row_count >= score.parameter_count + kFewestChoiceDof)
+            scores.push_back(score);
     }
     if (scores.empty()) return std::nullopt;
     const Score& best = *std::ranges::min_element(scores, {}, &Score::loso_mgal);

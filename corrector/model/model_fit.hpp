@@ -211,11 +211,36 @@ inline constexpr int kBootstrapDraws = 1000;
     const std::vector<double>& errors, const std::vector<std::string>& stations,
     std::uint64_t seed);
 
+/// Returns the 95 % bootstrap interval of a mean, drawn by station as bootstrap_rms_interval(), which
+/// is the root of the interval of the squares.
+///
+/// For a paired comparison of two models give the differences of their squared errors.
+/// @param values    (n) finite, any unit.
+/// @param stations  (n) name of the station of each value.
+/// @param seed      seed of the draws.
+/// @return limits in the unit of the values; std::nullopt for fewer than two different stations.
+[[nodiscard]] std::optional<Interval> bootstrap_mean_interval(
+    const std::vector<double>& values, const std::vector<std::string>& stations,
+    std::uint64_t seed);
+
+/// Returns the error (mGal) of each row, predicted by a fit without the rows of its station.
+///
+/// Their rms is Score::loso_mgal.
+/// @param rows, origin, priors  as score_linear_model().
+/// @return (n); std::nullopt if one of the fits is not determined.
+[[nodiscard]] std::optional<std::vector<double>> left_out_errors_mgal(
+    const LinearModel& model, const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+    const Priors& priors = {});
+
 /// The model that was chosen, and the limit that it had to meet.
 struct Choice {
     std::string model;        ///< Name of the model.
     double limit_mgal = 0.0;  ///< Least LOSO plus its standard error.
 };
+
+/// Least number of rows minus coefficients of a model that `auto` may choose.  Reason: s has then a
+/// standard error of a third (1 / sqrt(2 x 5)), and a line does not follow single readings.
+inline constexpr std::size_t kFewestChoiceDof = 5;
 
 /// Chooses one of kLinearModels by its LOSO.
 ///
@@ -229,7 +254,7 @@ struct Choice {
 /// @param origin  instant at which t = 0.
 /// @param base    name of the base station.
 /// @param priors  priors on the slopes.
-/// @return std::nullopt if no model has a LOSO and more rows than coefficients.
+/// @return std::nullopt if no model has a LOSO and kFewestChoiceDof more rows than coefficients.
 [[nodiscard]] std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows,
                                                  UtcTime origin, std::string_view base,
                                                  const Priors& priors = {});

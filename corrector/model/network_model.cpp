@@ -10,11 +10,9 @@
 namespace a351::corrector::model {
 namespace {
 
-constexpr const char* kName = "network";
-
 Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     Score score;
-    score.model = kName;
+    score.model = kNetwork;
     score.row_count = network.reading_count;
     score.parameter_count = static_cast<std::size_t>(network.unknowns.size());
     score.dof = network.dof;
@@ -200,12 +198,12 @@ Score score_network(const SurveyProblem& problem, const RowChoice& choice) {
     if (adjusted.adjustment)
         return score_of(*adjusted.adjustment, problem.options.priors.reading_sd_mgal);
     Score none;
-    none.model = kName;
+    none.model = kNetwork;
     return none;
 }
 
 }  // namespace
 
-Model network_model() { return {kName, false, fit_network, score_network}; }
+Model network_model() { return {kNetwork, false, fit_network, score_network}; }
 
 }  // namespace a351::corrector::model

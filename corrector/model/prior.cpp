@@ -44,6 +44,21 @@ void set_prior(Priors& priors, std::string_view origin, std::string_view name, P
     priors.values[static_cast<std::size_t>(at - kPriorNames.begin())] = prior;
 }
 
+std::string add_published_priors(Priors& priors) {
+    // In the order of kPriorNames: temperature, its rate, time.
+    constexpr std::array<std::optional<Prior>, kPriorNames.size()> kPublished{
+        Prior{-29.0, 10.0}, std::nullopt, Prior{0.0, 1.0}};
+    std::vector<std::string> texts;
+    for (std::size_t k = 0; k < kPriorNames.size(); ++k) {
+        std::optional<Prior>& prior = priors.values[k];
+        if (!prior) prior = kPublished[k];
+        if (prior)
+            texts.push_back(fmt::format("{} {} +- {}", kPriorNames[k], text::shortest(prior->mean),
+                                        text::shortest(prior->sd)));
+    }
+    return text::joined(texts);
+}
+
 void read_priors(Priors& priors, text::TomlTable table) {
     for (std::size_t k = 0; k < kPriorNames.size(); ++k) {
         const auto numbers = table.numbers(kPriorNames[k], -kGreatestPrior, kGreatestPrior);

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "protocol/text/strict_toml.hpp"
@@ -69,6 +70,14 @@ struct Priors {
 /// @throws InputError  if the name is unknown, or mean or standard deviation is out of range (or
 ///                     NaN).
 void set_prior(Priors& priors, std::string_view origin, std::string_view name, Prior prior);
+
+/// Adds the priors of a unit that nobody has calibrated, where there is none yet: the temperature
+/// -29 +- 10 mGal/degC, the drift 0 +- 1 mGal/h.
+///
+/// They are weak: the mean of the first is the publication's slope from station to station, and its
+/// deviation allows for another unit; that of the drift is the whole-day model's.
+/// @return all priors in words, such as "temperature_mgal_per_degc -29 +- 10".
+std::string add_published_priors(Priors& priors);
 
 /// Reads `name = [mean, sd]` for each of kPriorNames; absent keys leave the prior as it is.
 /// @param table  table `prior` of a survey file; may be empty.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "corrector/model/model.hpp"
 #include "corrector/model/outlier_tests.hpp"
@@ -11,6 +12,10 @@
 
 namespace a351::corrector::model {
 namespace {
+
+// `auto` compares linear models only with as many known stations.  Reason: with fewer, a left-out
+// station says more about its own reading than about the model.
+constexpr std::size_t kFewestComparedStations = 3;
 
 void require_row_of(const std::vector<reading::SurveyRow>& rows, const std::string& site,
                     const char* role) {
@@ -38,31 +43,115 @@ struct Chosen {
     FitResult fit;
     std::optional<Choice> choice;
     std::optional<double> choice_loso_mgal;
+    std::optional<Priors> priors;  ///< Priors that were fitted, if not those of the options.
     std::vector<std::string> remarks;
 };
+
+std::vector<reading::SurveyRow> used_rows(const SurveyProblem& problem, const RowChoice& rows) {
+    return chosen_rows(problem.rows, rows.in_use);
+}
+
+/// Chooses one of the linear models; nullopt if the known stations are too few to compare them.
+std::optional<Choice> choose_linear(const SurveyProblem& problem, const RowChoice& rows) {
+    const std::vector<reading::SurveyRow> used = used_rows(problem, rows);
+    if (station_names(used).size() < kFewestComparedStations) return std::nullopt;
+    return choose_model(used, problem.origin(), problem.options.base, problem.options.priors);
+}
+
+/// Fits the chosen linear model; without a choice, the network with the published priors.
+void fit_without_record(Chosen& chosen, const SurveyProblem& problem, const RowChoice& rows) {
+    const std::vector<reading::SurveyRow> used = used_rows(problem, rows);
+    SurveyOptions options = problem.options;
+    if (chosen.choice) {
+        chosen.model = find_model(chosen.choice->model);
+        chosen.choice_loso_mgal =
+            choice_loso_mgal(used, problem.origin(), options.base, options.priors);
+    } else {
+        chosen.model = find_model(kNetwork);
+        chosen.remarks.push_back(fmt::format(
+            "{} readings at {} known stations do not allow to compare models: network, with the "
+            "priors {}",
+            used.size(), station_names(used).size(), add_published_priors(options.priors)));
+        chosen.priors = options.priors;
+    }
+    chosen.fit = chosen.model->fit({problem.rows, options, problem.day}, rows);
+}
+
+/// Returns the reason if stations left out are predicted worse by the whole-day model than by the
+/// linear model that `auto` would choose.
+///
+/// Both errors of a row contain the same placement, so they are compared in pairs: the whole-day
+/// model is worse if the 95 % interval of the mean difference of the squares, by station, is above
+/// 0.  With few stations the interval is only a rough one.
+std::optional<std::string> simpler_model_is_better(const SurveyProblem& problem, const Fit& day,
+                                                   const std::optional<Choice>& choice,
+                                                   const RowChoice& rows) {
+    const SurveyOptions& options = problem.options;
+    if (!day.score.loso_mgal || !choice) return std::nullopt;
+    const auto errors =
+        left_out_errors_mgal(*find_linear_model(choice->model), used_rows(problem, rows),
+                             problem.origin(), options.priors);
+    if (!errors) return std::nullopt;
+    std::vector<double> differences;
+    std::vector<std::string> stations;
+    double squares = 0.0;
+    for (const CorrectedRow& row : day.rows) {
+        if (!row.is_used) continue;
+        const double linear = (*errors)[differences.size()];
+        const MilliGal error = *row.row.reference - row.as<WholeDayRow>()->left_out.value();
+        differences.push_back(error.value() * error.value() - linear * linear);
+        stations.push_back(row.row.site);
+        squares += linear * linear;
+    }
+    const auto interval = bootstrap_mean_interval(differences, stations, options.seed);
+    if (!interval || interval->low <= 0.0) return std::nullopt;
+    return fmt::format(
+        "it predicts stations left out with an error of {} mGal, {} with {}",
+        text::fixed(*day.score.loso_mgal, 2), choice->model,
+        text::fixed(std::sqrt(squares / static_cast<double>(differences.size())), 2));
+}
+
+/// Returns true if the survey asks for the network and nothing that only the adjustment has.
+bool is_plain_network(const SurveyOptions& options) {
+    const NetworkOptions usual;
+    return options.model == kNetwork && options.network.drift_degree == usual.drift_degree &&
+           options.network.datum_sd_mgal == usual.datum_sd_mgal &&
+           std::ranges::none_of(options.priors.values,
+                                [](const auto& prior) { return prior.has_value(); });
+}
 
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     Chosen chosen;
     const SurveyOptions& options = problem.options;
-    if (options.model != kAutomatic) {
+    const bool is_automatic = options.model == kAutomatic;
+    if (!is_automatic && (problem.day == nullptr || !is_plain_network(options))) {
         chosen.model = find_model(options.model);
         chosen.fit = chosen.model->fit(problem, rows);
         return chosen;
     }
     chosen.model = find_model(kWholeDay);
     chosen.fit = chosen.model->fit(problem, rows);
-    const auto* const refusal = std::get_if<Refusal>(&chosen.fit);
-    if (refusal == nullptr) return chosen;
-    if (problem.day != nullptr)
-        chosen.remarks.push_back("not the whole-day model: " + refusal->trouble);
-    const std::vector<reading::SurveyRow> used = chosen_rows(problem.rows, rows.in_use);
-    chosen.choice = choose_model(used, problem.origin(), options.base, options.priors);
-    chosen.choice_loso_mgal =
-        choice_loso_mgal(used, problem.origin(), options.base, options.priors);
-    // With too few stations to compare models, the simplest one is taken, or its refusal.
-    chosen.model =
-        chosen.choice ? find_model(chosen.choice->model) : find_model(kLinearModels.front().name);
-    chosen.fit = chosen.model->fit(problem, rows);
+    const std::optional<Choice> choice = is_automatic ? choose_linear(problem, rows) : std::nullopt;
+    std::optional<std::string> trouble;
+    if (const auto* const refusal = std::get_if<Refusal>(&chosen.fit))
+        trouble = refusal->trouble;
+    else
+        trouble = simpler_model_is_better(problem, std::get<Fit>(chosen.fit), choice, rows);
+    if (!trouble) {
+        if (!is_automatic)
+            chosen.remarks.emplace_back(
+                "network: the whole-day model is used, because it adjusts the same and knows the "
+                "temperature between the readings");
+        return chosen;
+    }
+    if (problem.day != nullptr) chosen.remarks.push_back("not the whole-day model: " + *trouble);
+    if (is_automatic) {
+        chosen.choice = choice;
+        fit_without_record(chosen, problem, rows);
+    } else {
+        chosen.model = find_model(kNetwork);
+        chosen.fit = chosen.model->fit(problem, rows);
+    }
     return chosen;
 }
 
@@ -79,7 +168,9 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     if (options.model != kAutomatic && find_model(options.model) == nullptr)
         throw InputError(fmt::format("model = {}: unknown; allowed: {}", options.model,
                                      text::joined(model_names())));
-    if (rows.empty()) throw InputError("no occupations; allowed: at least two with a reference");
+    if (rows.size() < 2)
+        throw InputError(
+            fmt::format("{} rows, nothing to compare; allowed: at least 2 rows", rows.size()));
     SurveyOptions applied = options;
     if (applied.base.empty()) applied.base = rows.front().site;
     require_row_of(rows, applied.base, "base");
@@ -102,10 +193,13 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
 
     const auto scores_of = [&](const char* name, const RowChoice& choice) {
         ScoredRowSet set{name, {}};
+        SurveyOptions of_chosen = applied;
+        if (chosen.priors) of_chosen.priors = *chosen.priors;
+        const SurveyProblem fitted{rows, of_chosen, day};
         const auto add = [&](const Model& model) {
-            const auto score = &model == chosen.model && choice == in_fit
-                                   ? result.score
-                                   : model.score(problem, choice);
+            const auto score = &model != chosen.model ? model.score(problem, choice)
+                               : choice == in_fit     ? result.score
+                                                      : model.score(fitted, choice);
             if (score) set.scores.push_back(*score);
         };
         for (const Model& model : models())
@@ -115,6 +209,7 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     };
     result.row_sets = {scores_of("used", unflagged), scores_of("all", all)};
     for (CorrectedRow& row : result.rows) row.doubt_physical = physical_doubt(row.row);
+    if (chosen.priors) applied.priors = *chosen.priors;
     result.options = std::move(applied);
     return result;
 }

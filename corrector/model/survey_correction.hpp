@@ -32,8 +32,10 @@ void add_left_out(SurveyCorrection& result, const std::vector<reading::LeftOut>&
 /// flagged.  All other rows are corrected too and have no influence.  A calibration is not applied
 /// to the readings here, except as prior of the whole-day model: see correct_with_calibration().
 ///
-/// `auto` takes the whole-day model unless it refuses, else choose_model(); without a choice it
-/// takes `t`.  If it has a record, a remark says why it does not use the whole-day model.
+/// `auto` takes the whole-day model unless it refuses, or unless stations left out are predicted
+/// significantly worse than by a linear model; else choose_model(); without a choice the network,
+/// with add_published_priors().  `network` with a record is the whole-day model, unless that
+/// refuses.  If there is a record, a remark says why the whole-day model is not used.
 ///
 /// The result has scores of each model that is always scored, and of the applied one.  They are for
 /// two row sets: without the flagged rows, and with them.

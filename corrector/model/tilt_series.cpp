@@ -96,8 +96,7 @@ void require_tilt_series(const reading::OccupationRows& read, const TiltSeries& 
                            text::fixed(series.temperature_range_degc, 2)),
                text::fixed(kGreatestRange_degc, 1) + " degC");
     const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
-    const auto refusal =
-        day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day, false);
+    const auto refusal = day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day);
     if (refusal) refuse(origin, *refusal, "a record without this");
     require_both_axes(tilts_deg(read), origin);
 }
@@ -148,12 +147,13 @@ TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::str
     Eigen::Vector3d biases(0.0, 0.0, mean);
     constexpr int kRounds = 3;  // each round leaves about 1e-3 of the change of the round before
     reading::DayRecord day = *read.day;
-    const whole_day::DayPriors priors = whole_day::usual_day_priors();
+    const auto x = whole_day::DayPriors::place_of(whole_day::DayTerm::x),
+               y = whole_day::DayPriors::place_of(whole_day::DayTerm::y);
+    whole_day::DayPriors priors = whole_day::usual_day_priors();
+    priors.free_axes();
     for (int round = 0; round < kRounds; ++round) {
         day.bins = freed_from(read.day->bins, biases);
         const whole_day::DayFit fit = whole_day::fit_day(day, stations, nullptr, priors).value();
-        const auto x = whole_day::DayPriors::place_of(whole_day::DayTerm::x),
-                   y = whole_day::DayPriors::place_of(whole_day::DayTerm::y);
         const whole_day::DayPriors::Vector change = priors.factor * fit.shift;
         const whole_day::DayPriors::Matrix covariance =
             priors.factor * fit.shift_covariance * priors.factor.transpose();

@@ -11,17 +11,15 @@
 #include "corrector/model/row_doubts.hpp"
 #include "corrector/reading/on_all_cores.hpp"
 #include "corrector/whole_day/day_model.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::model {
 namespace {
 
-constexpr std::size_t kFewestRows = 6;    // fewer add little to the priors
-constexpr double kLongestGap_s = 1800.0;  // shorter than the slow lag
-constexpr double kWantedLead_s = 7200.0;  // several slow lags
-
-std::size_t count_of(const std::vector<bool>& rows) {
-    return static_cast<std::size_t>(std::ranges::count(rows, true));
-}
+constexpr double kLongestGap_s = 21600.0;  // a longer pause begins another survey day
+constexpr double kWantedLead_s = 7200.0;   // several slow lags
+constexpr double kNotableShare = 0.25;     // of a variance: half of a standard deviation
+constexpr double kNotableGap_s = 300.0;    // shorter ones change the slow lag by less than a tenth
 
 /// Returns the stations of a fit.  Held is the reference of rows in use, except those of
 /// `left_out`.  Unknown is one value for each other station, and one for each row that stands
@@ -230,9 +228,41 @@ std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, 
     return stations;
 }
 
+/// Returns the standard deviation of rA + rS: the response to a steady temperature.
+double slope_deviation(const whole_day::DayPriors& priors,
+                       const whole_day::DayPriors::Matrix& covariance) {
+    const whole_day::DayPriors::Vector sum =
+        (priors.factor.row(whole_day::DayPriors::place_of(whole_day::DayTerm::level)) +
+         priors.factor.row(whole_day::DayPriors::place_of(whole_day::DayTerm::slow)))
+            .transpose();
+    return std::sqrt(sum.dot(covariance * sum));
+}
+
+/// Adds in words what the priors contribute and what gaps of the temperature leave unknown.
+void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::DayPriors& priors,
+                    bool is_calibrated, const reading::DayTemperature& temperature) {
+    const double prior = slope_deviation(priors, whole_day::DayPriors::Matrix::Identity());
+    const double posterior = slope_deviation(priors, fit.shift_covariance);
+    // The variance that is left, of the prior's: the share that no reading has determined.
+    const double share = posterior * posterior / (prior * prior);
+    if (!is_calibrated && share > kNotableShare)
+        result.remarks.push_back(fmt::format(
+            "the slope for a steady temperature is {} % prior: the readings at known stations "
+            "determine it little (standard error {} mGal/degC, of the prior alone {})",
+            std::lround(100.0 * share), text::fixed(posterior, 1), text::fixed(prior, 1)));
+    double missing_s = 0.0;
+    for (const reading::TemperatureGap& gap : temperature.gaps)
+        missing_s +=
+            static_cast<double>(gap.after - gap.before - 1) / temperature.series.rate().value();
+    if (missing_s >= kNotableGap_s)
+        result.remarks.push_back(fmt::format(
+            "{} min of the temperature are missing, the longest gap has {}; what it left in the "
+            "instrument is estimated, and u contains its uncertainty, if the sensor stayed powered",
+            std::lround(missing_s / 60.0), std::lround(temperature.longest_gap_s() / 60.0)));
+}
+
 std::optional<std::string> refusal_of(const SurveyProblem& problem, const RowChoice& choice) {
-    auto refusal = day_refusal(problem.rows, choice.in_use, problem.day,
-                               helps_to_correct_day(problem.options.calibration));
+    auto refusal = day_refusal(problem.rows, choice.in_use, problem.day);
     if (!refusal && std::ranges::any_of(problem.options.priors.values,
                                         [](const auto& prior) { return prior.has_value(); }))
         refusal = "uses its own priors, `prior` would be ignored";
@@ -251,7 +281,8 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     const std::vector<reading::SurveyRow>& rows = problem.rows;
     const SurveyOptions& options = problem.options;
     const reading::DayRecord& day = *problem.day;
-    const DayFits fits = fit_with_and_without(problem, choice, day_priors_of(options.calibration));
+    const whole_day::DayPriors priors = day_priors_of(options.calibration);
+    const DayFits fits = fit_with_and_without(problem, choice, priors);
     Fit result;
     result.own = WholeDayPart{};
     result.rows = uncorrected(problem, choice);
@@ -267,6 +298,8 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
         report_prior_use(result, *options.calibration, fits.all.fit, usual.all.fit,
                          score_of(rows, choice.in_use, usual).loso_mgal);
     }
+    remark_sources(result, fits.all.fit, priors,
+                   options.calibration && options.calibration->thermal, day.temperature);
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
         result.remarks.push_back(
@@ -281,15 +314,12 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
 
 std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& rows,
                                        const std::vector<bool>& in_use,
-                                       const reading::DayRecord* day, bool is_calibrated) {
+                                       const reading::DayRecord* day) {
     if (day == nullptr) return "needs the record of the day's temperature";
-    const std::size_t used = count_of(in_use);
-    const std::size_t fewest = is_calibrated ? 1 : kFewestRows;
-    if (used < fewest)
-        return fmt::format("needs at least {} rows with a reference, has {}", fewest, used);
-    if (day->temperature.longest_gap_s > kLongestGap_s)
+    if (std::ranges::count(in_use, true) == 0) return "needs a row with a reference, has none";
+    if (day->temperature.longest_gap_s() > kLongestGap_s)
         return fmt::format("the temperature has a gap of {} min, more than the allowed {}",
-                           std::lround(day->temperature.longest_gap_s / 60.0),
+                           std::lround(day->temperature.longest_gap_s() / 60.0),
                            std::lround(kLongestGap_s / 60.0));
     std::vector<bool> has_bins(rows.size(), false);
     for (const reading::DayBin& bin : day->bins) has_bins[bin.set_up] = true;

@@ -16,20 +16,17 @@ namespace a351::corrector::model {
 /// Returns the reason why the whole-day model cannot be fitted to these rows; std::nullopt if it
 /// can.
 ///
-/// It needs a record of the day, at least six rows in use (one if `is_calibrated`), no gap of the
-/// temperature longer than 30 min, and a bin in every set-up.
+/// It needs a record of the day, a row in use, no gap of the temperature longer than 6 h, and a bin
+/// in every set-up.
 ///
 /// The bin is required of flagged and excluded rows too.  If several things are missing, the first
 /// of this list is given.  whole_day_model() refuses priors in addition.
-/// @param rows           (n), one per set-up, in the order of the record.
-/// @param in_use         (n) rows of the fit, each with a reference.
-/// @param day            record of these rows; null: there is none.
-/// @param is_calibrated  helps_to_correct_day(): terms that few rows cannot determine are
-///                       calibrated.
+/// @param rows    (n), one per set-up, in the order of the record.
+/// @param in_use  (n) rows of the fit, each with a reference.
+/// @param day     record of these rows; null: there is none.
 [[nodiscard]] std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& rows,
                                                      const std::vector<bool>& in_use,
-                                                     const reading::DayRecord* day,
-                                                     bool is_calibrated);
+                                                     const reading::DayRecord* day);
 
 /// The whole-day model:
 ///
@@ -45,6 +42,8 @@ namespace a351::corrector::model {
 ///   studentised residual.  There is no LOSO then.
 /// - A station without an accepted row has the mean of its rows.  Its uncertainty neglects that the
 ///   errors of these rows are correlated.
+/// - A remark says how much of the temperature slope comes from the prior if it is more than a
+///   quarter, and how much of the temperature is missing if it is more than 5 min.
 /// - The slow term needs two hours of temperature before the first bin.  There is a remark if the
 ///   record begins later.
 /// - With a calibration the fit is repeated with the usual priors, and the use of the calibration

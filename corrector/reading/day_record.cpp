@@ -101,7 +101,7 @@ std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
     std::vector<double> values = decimated.values();
     const std::vector<Stretch> runs =
         runs_between_gaps(values, static_cast<std::size_t>(cutoff) / 2);
-    std::size_t valid = 0, longest_gap = 0;
+    std::size_t valid = 0;
     for (const Stretch& run : runs) {
         valid += run.behind - run.first;
         if (run.behind - run.first < static_cast<std::size_t>(cutoff)) continue;
@@ -114,18 +114,32 @@ std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
     std::optional<std::size_t> last;
     for (std::size_t i = runs.front().first; i < runs.back().behind; ++i) {
         if (std::isnan(values[i])) continue;
-        if (last && i - *last > 1) {
-            longest_gap = std::max(longest_gap, i - *last - 1);
-            bridge(values, *last, i);
-        }
+        if (last && i - *last > 1) bridge(values, *last, i);
         last = i;
     }
+    std::vector<TemperatureGap> gaps;
+    const std::size_t first = runs.front().first;
+    for (std::size_t k = 1; k < runs.size(); ++k)
+        gaps.push_back({runs[k - 1].behind - 1 - first, runs[k].first - first});
     const auto begin = values.begin();
-    std::vector<double> kept(begin + static_cast<std::ptrdiff_t>(runs.front().first),
+    std::vector<double> kept(begin + static_cast<std::ptrdiff_t>(first),
                              begin + static_cast<std::ptrdiff_t>(runs.back().behind));
-    return DayTemperature{{decimated.time_of(static_cast<double>(runs.front().first)),
-                           decimated.rate(), std::move(kept)},
-                          static_cast<double>(longest_gap) / decimated.rate().value()};
+    return DayTemperature{
+        {decimated.time_of(static_cast<double>(first)), decimated.rate(), std::move(kept)},
+        std::move(gaps)};
+}
+
+bool DayTemperature::is_bridged(UtcTime time) const {
+    return std::ranges::any_of(gaps, [&](const TemperatureGap& gap) {
+        return series.time_of(static_cast<double>(gap.before)) < time &&
+               time < series.time_of(static_cast<double>(gap.after));
+    });
+}
+
+double DayTemperature::longest_gap_s() const {
+    std::size_t longest = 0;
+    for (const TemperatureGap& gap : gaps) longest = std::max(longest, gap.after - gap.before - 1);
+    return static_cast<double>(longest) / series.rate().value();
 }
 
 }  // namespace a351::corrector::reading

@@ -57,16 +57,26 @@ inline constexpr std::size_t kBinSamples = 25;
 [[nodiscard]] std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes,
                                              double threshold);
 
+/// A stretch of a series that is a straight line between two samples.
+struct TemperatureGap {
+    std::size_t before = 0,
+                after = 0;  ///< Numbers of the last sample before it and the first after.
+};
+
 /// The temperature of a day, decimated to 1/100 of the rate and smoothed with a cut-off of 120 s,
 /// so that the noise of the thermometer does not become noise of the temperature rate.
 /// Invariant of the result of day_temperature(): every value is finite.  The delay of the smoother
 /// is zero.
 struct DayTemperature {
     TimeSeries<DegC> series;  ///< Temperature without gaps.
-    /// Longest gap bridged by a straight line, s; 0 if there is none.  The filters make a gap of
-    /// the raw samples longer by about 18 s at 50 Hz.  Above 30 min `auto` does not choose the
-    /// whole-day model (methods.md).
-    double longest_gap_s = 0.0;
+    /// Gaps between the pieces, in order of time.  The filters make a gap of the raw samples longer
+    /// by about 18 s at 50 Hz.
+    std::vector<TemperatureGap> gaps;
+
+    /// Returns the duration of the longest gap, s; 0 if there is none.
+    [[nodiscard]] double longest_gap_s() const;
+    /// Returns true if an instant is inside a gap.
+    [[nodiscard]] bool is_bridged(UtcTime time) const;
 };
 
 /// Decimates and smooths the temperature of a day.

@@ -194,7 +194,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         rows[i]->reference = text::find_site(sites, window.site)->gravity;
         for (DayBin& bin : bins[i]) {
             bin.set_up = result.rows.size();
-            if (result.day) result.day->bins.push_back(std::move(bin));
+            if (result.day && !result.day->temperature.is_bridged(bin.time))
+                result.day->bins.push_back(std::move(bin));
         }
         result.rows.push_back(std::move(*rows[i]));
         result.records.push_back(std::move(*values[i]));

@@ -10,6 +10,7 @@
 #include "corrector/figure/reading_name.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/report/html.hpp"
+#include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::report {
@@ -18,12 +19,13 @@ namespace {
 constexpr std::array<const char*, 3> kGradeTexts{"trust", "with care", "repeat"};
 
 /// Returns the error of the value to which u belongs.  For the model day this is the value without
-/// the reading's station.
+/// the reading's station, which does not exist if only this station is held.
 std::optional<double> error_of(const model::CorrectedRow& row) {
     if (!row.residual) return std::nullopt;
     const auto* const day = row.as<model::WholeDayRow>();
-    if (day != nullptr && day->left_out) return (*row.row.reference - *day->left_out).value();
-    return row.residual->value();
+    if (day == nullptr) return row.residual->value();
+    if (!day->left_out) return std::nullopt;
+    return (*row.row.reference - *day->left_out).value();
 }
 
 /// Returns the occupations without a value for each reason, in order of time.
@@ -85,16 +87,13 @@ std::string counted(std::size_t count, const std::string& what) {
 }
 
 std::string headline(const model::SurveyCorrection& result) {
-    const char* const chosen = result.options.model != model::kAutomatic ? ""
-                               : result.as<model::WholeDayPart>() != nullptr
-                                   ? " (chosen because the whole day was recorded)"
-                                   : " (chosen by the error of stations left out)";
     const auto* const network = result.as<model::NetworkAdjustment>();
     return fmt::format(
         "{} to {}: {} of {}, base {}. Model {}{}; {} in the fit, {}{}, {} degrees of freedom.",
         to_rfc3339(result.rows.front().row.time), to_rfc3339(result.rows.back().row.time),
         counted(result.rows.size(), "reading"), counted(result.stations.size(), "station"),
-        result.options.base, result.model, chosen, counted(result.score.row_count, "reading"),
+        result.options.base, result.model, result::choice_text(result),
+        counted(result.score.row_count, "reading"),
         counted(result.score.parameter_count, network != nullptr ? "unknown" : "coefficient"),
         network != nullptr
             ? fmt::format(", of which {} ({} held)", counted(network->stations.size(), "station"),
@@ -173,6 +172,13 @@ std::optional<double> standard_error_of_rms(const model::Score& score) {
 }
 
 std::string scatter_sentence(const model::Score& score) {
+    const bool has_priors = score.model == model::kWholeDay || score.model == model::kNetwork;
+    if (has_priors && !score.loso_mgal)
+        return fmt::format(
+            "n = {}: no known station can be left out, because the others would hold nothing. For "
+            "a new station quote its u, which contains what the priors of the instrument leave "
+            "open.",
+            score.row_count);
     const auto error = standard_error_of_rms(score);
     const std::string scatter =
         error ? fmt::format(

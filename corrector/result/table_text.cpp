@@ -54,12 +54,7 @@ std::string coefficients_text(const model::SurveyCorrection& result) {
 
 std::string summary_text(const model::SurveyCorrection& result) {
     const model::Score& score = result.score;
-    std::string text = "model " + result.model;
-    if (result.options.model == model::kAutomatic) {
-        text += result.as<model::WholeDayPart>() != nullptr
-                    ? " (chosen because the whole day was recorded)"
-                    : " (chosen by leave-one-station-out error)";
-    }
+    std::string text = "model " + result.model + choice_text(result);
     text +=
         fmt::format(": RMS {} mGal (in sample, n = {})", cell(score.rms_mgal, 3), score.row_count);
     const auto add = [&text](std::string_view before, const std::optional<double>& value_mgal,
@@ -94,6 +89,14 @@ std::string weights_text(const model::SurveyCorrection& result) {
 }
 
 }  // namespace
+
+std::string choice_text(const model::SurveyCorrection& result) {
+    if (result.options.model != model::kAutomatic) return "";
+    if (result.choice) return " (chosen by leave-one-station-out error)";
+    return result.as<model::WholeDayPart>() != nullptr
+               ? " (chosen because the whole day was recorded)"
+               : " (chosen because the known stations do not allow to compare models)";
+}
 
 std::string flags_of(const model::CorrectedRow& row, const model::SurveyOptions& options) {
     std::vector<std::string> flags = row.row.notes;

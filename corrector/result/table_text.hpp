@@ -38,6 +38,9 @@ void in_order_of_time(const model::SurveyCorrection& result,
                       const std::function<void(std::size_t)>& row,
                       const std::function<void(const reading::LeftOut&)>& left_out);
 
+/// Returns why `auto` took the model, as " (chosen because ...)"; empty if the user chose it.
+[[nodiscard]] std::string choice_text(const model::SurveyCorrection& result);
+
 /// A model and the rows that it was fitted to.  The pointers are into a SurveyCorrection, which
 /// must outlive them; they are null only in a default-constructed object.
 struct ScoreRow {

@@ -36,12 +36,13 @@ Estimates estimate(const DayProblem& problem, const reading::DayRecord& record, 
     result.values = problem.unscaled(u, scaled);
 
     Eigen::MatrixXd all(x.rows(), 1 + estimated + kLags);
-    all << problem.scaled(u), problem.lag_columns(u, result.values);
-    whiten(record.bins, problem.expected_noise(u), all);
+    const DayFit::Point expected = problem.expected(u);
+    all << problem.scaled(expected), problem.lag_columns(u, result.values);
+    whiten(record.bins, problem.noise(expected), all);
     const Eigen::MatrixXd covariance =
         linear_algebra::Cholesky(linear_algebra::normal_matrix(all.rightCols(estimated + kLags)))
             .inverse();
-    const Eigen::MatrixXd unscaling = problem.unscaling();
+    const Eigen::MatrixXd unscaling = problem.unscaling(expected);
     result.standard_errors =
         (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();
     fit.shift << u[kFastLag], u[kSlowLag], scaled.head(kTerms);
@@ -83,6 +84,13 @@ std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const reading:
             const auto term = static_cast<Index>(k);
             mean.effect_mgal.at(k) += weight * coefficients(term) * x(row, term);
         }
+        // States behind gaps are in turn of the fast and of the slow lag.
+        for (Index k = problem.states_begin(); k < problem.estimated(); ++k) {
+            const DayTerm term =
+                (k - problem.states_begin()) % 2 == 0 ? DayTerm::fast : DayTerm::slow;
+            mean.effect_mgal.at(static_cast<std::size_t>(term)) +=
+                weight * coefficients(k) * x(row, k);
+        }
     }
     return means;
 }
@@ -106,10 +114,20 @@ void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::Ve
     factor = linear_algebra::Cholesky(0.5 * (after + after.transpose())).lower();
 }
 
+void DayPriors::free_axes() {
+    // The data sheet's initial bias error is +-2 mg.
+    constexpr double kGreatestBias_mgal_per_g = 2000.0;
+    for (const Index place : {place_of(DayTerm::x), place_of(DayTerm::y)}) {
+        factor.row(place).setZero();
+        factor(place, place) = kGreatestBias_mgal_per_g;
+    }
+    bias_factor = 1.0;
+}
+
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 DayPriors usual_day_priors() {
     constexpr double kFreeDeviation_mgal = 1e4;
-    constexpr double kDrift_mgal_per_h = 1.0, kBias_mgal_per_g = 2000.0;
+    constexpr double kDrift_mgal_per_h = 1.0, kBias_mgal_per_g = 300.0, kBiasFactor = 3.0;
     const unit::ThermalPrior fast_lag = unit::day_prior(unit::ThermalTerm::fast_lag),
                              slow_lag = unit::day_prior(unit::ThermalTerm::slow_lag),
                              level = unit::day_prior(unit::ThermalTerm::level),
@@ -123,6 +141,7 @@ DayPriors usual_day_priors() {
         slow.deviation, fast.deviation, kDrift_mgal_per_h, unit::kTypicalUnit.warm_up_mgal,
         kBias_mgal_per_g, kBias_mgal_per_g;
     priors.factor = deviations.asDiagonal();
+    priors.bias_factor = kBiasFactor;
     return priors;
 }
 

@@ -51,8 +51,30 @@ DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DaySt
       unknowns_(static_cast<Index>(unknown_count(stations))),
       means_(record.temperature.series, record.bins),
       white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {
+    set_states();
     set_readings();
     set_fixed_columns();
+}
+
+void DayProblem::set_states() {
+    const double fast_lag_s = lag_s({}, kFastLag), slow_lag_s = lag_s({}, kSlowLag);
+    states_ = lag_states(record_.temperature, fast_lag_s, slow_lag_s);
+    // Root of the mean square of a slope, by its prior.
+    const auto size = [this](DayTerm term) {
+        const Index place = DayPriors::place_of(term);
+        return std::hypot(priors_.mean(place), priors_.factor.row(place).norm());
+    };
+    const double of_fast = size(DayTerm::fast) * kSecondsPerHour / fast_lag_s;
+    // Short gaps have no effect that matters, and each state is one more column.
+    constexpr double kLeastEffect_mgal = 0.05;
+    std::erase_if(states_, [&](const LagStates& state) {
+        return of_fast * state.fast_sd_degc < kLeastEffect_mgal &&
+               size(DayTerm::slow) * state.slow_sd_degc < kLeastEffect_mgal;
+    });
+    states_sd_mgal_.resize(2 * static_cast<Index>(states_.size()));
+    for (std::size_t k = 0; k < states_.size(); ++k)
+        states_sd_mgal_.segment<2>(2 * static_cast<Index>(k)) << of_fast * states_[k].fast_sd_degc,
+            size(DayTerm::slow) * states_[k].slow_sd_degc;
 }
 
 void DayProblem::set_readings() {
@@ -117,16 +139,25 @@ Eigen::VectorXd DayProblem::slow_column(double lag_s) const {
 Eigen::VectorXd DayProblem::unscaled(const Point& u, const Eigen::VectorXd& scaled) const {
     Eigen::VectorXd all(estimated() + kLags);
     all << scaled, u[kFastLag], u[kSlowLag];
-    Eigen::VectorXd values = unscaling() * all;
+    Eigen::VectorXd values = unscaling(u) * all;
     values.head(kTerms) += priors_.mean.tail<kTerms>();
     return values;
 }
 
-Eigen::MatrixXd DayProblem::unscaling() const {
+DayPriors::Matrix DayProblem::prior_factor(const Point& u) const {
+    DayPriors::Matrix factor = priors_.factor;
+    for (const DayTerm axis : {DayTerm::x, DayTerm::y})
+        factor.row(DayPriors::place_of(axis)) *= std::pow(priors_.bias_factor, u[kBiasSize]);
+    return factor;
+}
+
+Eigen::MatrixXd DayProblem::unscaling(const Point& u) const {
+    const DayPriors::Matrix factor = prior_factor(u);
     Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(estimated(), estimated() + kLags);
-    derivative.topLeftCorner(kTerms, kTerms) = priors_.factor.bottomRightCorner<kTerms, kTerms>();
-    derivative.diagonal().tail(unknowns_).setConstant(kFreeDeviation_mgal);
-    derivative.topRightCorner(kTerms, kLags) = priors_.factor.bottomLeftCorner<kTerms, kLags>();
+    derivative.topLeftCorner(kTerms, kTerms) = factor.bottomRightCorner<kTerms, kTerms>();
+    derivative.diagonal().segment(kTerms, unknowns_).setConstant(kFreeDeviation_mgal);
+    derivative.diagonal().segment(states_begin(), states_sd_mgal_.size()) = states_sd_mgal_;
+    derivative.topRightCorner(kTerms, kLags) = factor.bottomLeftCorner<kTerms, kLags>();
     return derivative;
 }
 
@@ -135,22 +166,22 @@ DayNoise DayProblem::noise(const Point& u) const {
             white_mgal_.at(u[kWhite])};
 }
 
-DayNoise DayProblem::expected_noise(const Point& u) const {
+DayProblem::Point DayProblem::expected(const Point& u) const {
     constexpr double kStep = 0.25;
-    const auto growth = [&](DayHyper place, double factor) {
+    Point expected = u;
+    const auto grow = [&](DayHyper place, double factor) {
         Point more = u, less = u;
         more.at(place) += kStep;
         less.at(place) -= kStep;
         const double curvature = (cost(more) - 2.0 * cost(u) + cost(less)) / (kStep * kStep);
-        // If ln x is normal with the mean m and the variance v, the root of the mean square of x is
-        // exp(m + v).
-        const double variance = std::pow(std::log(factor), 2) / std::max(curvature, 1.0);
-        return std::exp(variance);
+        // x = median factor^u.  If ln x is normal with the mean m and the variance v, the root of
+        // the mean square of x is exp(m + v), with v = (ln factor)^2 / curvature.
+        expected.at(place) += std::log(factor) / std::max(curvature, 1.0);
     };
-    DayNoise noise = this->noise(u);
-    noise.placement_mgal *= growth(kPlacement, kPlacementPrior_mgal.factor);
-    noise.flicker_mgal *= growth(kFlicker, kFlickerPrior_mgal.factor);
-    return noise;
+    grow(kPlacement, kPlacementPrior_mgal.factor);
+    grow(kFlicker, kFlickerPrior_mgal.factor);
+    grow(kBiasSize, priors_.bias_factor);
+    return expected;
 }
 
 double DayProblem::lag_s(const Point& u, DayHyper lag) const {
@@ -163,6 +194,14 @@ Eigen::MatrixXd DayProblem::design(const Point& u) const {
     Eigen::MatrixXd columns = fixed_;
     columns.col(static_cast<Index>(DayTerm::fast)) = fast_column(lag_s(u, kFastLag));
     columns.col(static_cast<Index>(DayTerm::slow)) = slow_column(lag_s(u, kSlowLag));
+    for (std::size_t k = 0; k < states_.size(); ++k)
+        for (const DayHyper lag : {kFastLag, kSlowLag}) {
+            auto column =
+                columns.col(states_begin() + 2 * static_cast<Index>(k) + static_cast<Index>(lag));
+            for (Index i = 0; i < column.size(); ++i)
+                column(i) = remaining(record_.bins[static_cast<std::size_t>(i)], states_[k].from,
+                                      lag_s(u, lag));
+        }
     return columns;
 }
 
@@ -171,8 +210,11 @@ Eigen::MatrixXd DayProblem::scaled(const Point& u) const {
     Eigen::MatrixXd columns(x.rows(), x.cols() + 1);
     columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
     columns.middleCols(1, kTerms) =
-        x.leftCols(kTerms) * priors_.factor.bottomRightCorner<kTerms, kTerms>();
-    columns.rightCols(unknowns_) = kFreeDeviation_mgal * x.rightCols(unknowns_);
+        x.leftCols(kTerms) * prior_factor(u).bottomRightCorner<kTerms, kTerms>();
+    columns.middleCols(1 + kTerms, unknowns_) =
+        kFreeDeviation_mgal * x.middleCols(kTerms, unknowns_);
+    columns.rightCols(states_sd_mgal_.size()) =
+        x.rightCols(states_sd_mgal_.size()) * states_sd_mgal_.asDiagonal();
     return columns;
 }
 
@@ -182,7 +224,7 @@ Eigen::MatrixXd DayProblem::lag_columns(const Point& u, const Eigen::VectorXd& v
         return values(static_cast<Index>(DayTerm::fast)) * fast_column(lag_s(at, kFastLag)) +
                values(static_cast<Index>(DayTerm::slow)) * slow_column(lag_s(at, kSlowLag));
     };
-    Eigen::MatrixXd columns = design(u) * unscaling().rightCols(kLags);
+    Eigen::MatrixXd columns = design(u) * unscaling(u).rightCols(kLags);
     for (const DayHyper lag : {kFastLag, kSlowLag}) {
         Point more = u, less = u;
         more.at(lag) += kStep;

@@ -4,7 +4,7 @@
 /// and noise.
 ///
 /// It is a part of fit_day().  A point u has five numbers: lags, placement, flicker and white
-/// noise, each in standard deviations from its prior.  For a fixed point the model is linear:
+/// noise, size of the axis biases, each in standard deviations from its prior.  For a fixed point the model is linear:
 ///
 ///     const DayProblem problem(record, stations, priors);
 ///     const DayProblem::Point u = problem.most_likely(std::nullopt);
@@ -24,6 +24,7 @@
 
 #include "corrector/whole_day/day_columns.hpp"
 #include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/lag_states.hpp"
 
 namespace a351::corrector::whole_day {
 
@@ -41,10 +42,11 @@ struct LogNormalPrior {
 };
 
 /// Places in DayFit::Point.  kFastLag and kSlowLag are also places in DayPriors.
-enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite };
+enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite, kBiasSize };
 
 /// Readings and columns of fit_day() for n bins.  The estimated quantities are the terms, then the
-/// unknowns.
+/// unknowns, then for each gap of the temperature the effects of the fast and of the slow lag's
+/// state, mGal where the gap ends (lag_states.hpp).
 ///
 /// An unknown is counted from its rough gravity: the mean of its readings minus the mean constant
 /// of the set-ups that are held.  Therefore the prior of an unknown, 0 +- 1e4 mGal, has practically
@@ -60,8 +62,10 @@ public:
     DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
                const DayPriors& priors);
 
-    /// Returns the number of terms and unknowns.
-    [[nodiscard]] Eigen::Index estimated() const { return kTerms + unknowns_; }
+    /// Returns the number of terms, unknowns and states.
+    [[nodiscard]] Eigen::Index estimated() const { return states_begin() + states_sd_mgal_.size(); }
+    /// Returns the place of the first state behind a gap.
+    [[nodiscard]] Eigen::Index states_begin() const { return kTerms + unknowns_; }
 
     /// Returns the estimates (estimated) in the units of the terms: a linear function of the
     /// point's lags and of the scaled coefficients.
@@ -71,18 +75,19 @@ public:
     /// @param scaled  (estimated) coefficients of scaled().
     [[nodiscard]] Eigen::VectorXd unscaled(const Point& u, const Eigen::VectorXd& scaled) const;
     /// Returns the derivative of unscaled() (estimated, estimated + 2); the lags are last.
-    [[nodiscard]] Eigen::MatrixXd unscaling() const;
+    [[nodiscard]] Eigen::MatrixXd unscaling(const Point& u) const;
 
     /// Returns the noise at a point.  The median of white noise is the scatter between neighbouring
     /// bins of a set-up, at least 1e-3 mGal; 1 mGal if no set-up has two bins.
     [[nodiscard]] DayNoise noise(const Point& u) const;
 
-    /// Returns the roots of the expected variances of placement and flicker; white as noise().
+    /// Returns the point with the roots of the expected variances of placement, flicker and axis
+    /// biases; the rest as in `u`.
     ///
     /// They are larger than the most likely ones, because the distribution is skew.  It is taken as
     /// log-normal, with the variance from the curvature of the cost.
     /// @param u  most likely point.  Elsewhere the curvature means nothing.
-    [[nodiscard]] DayNoise expected_noise(const Point& u) const;
+    [[nodiscard]] Point expected(const Point& u) const;
     /// Returns a lag at a point, s.
     /// @param lag  kFastLag or kSlowLag.
     [[nodiscard]] double lag_s(const Point& u, DayHyper lag) const;
@@ -101,7 +106,7 @@ public:
     [[nodiscard]] double cost(const Point& u) const;
 
     /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
-    /// the terms, then 1 for the bins of each unknown.
+    /// the terms, then 1 for the bins of each unknown, then what remains of each state.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
@@ -126,13 +131,18 @@ public:
 private:
     void set_readings();
     void set_fixed_columns();
+    void set_states();
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
     [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
+    /// Returns the priors' factor of lags and terms, with the size of the axis biases at a point.
+    [[nodiscard]] DayPriors::Matrix prior_factor(const Point& u) const;
 
     const reading::DayRecord& record_;
     const std::vector<DayStation>& stations_;
     const DayPriors& priors_;
     Eigen::Index unknowns_;
+    std::vector<LagStates> states_;   ///< One per gap whose effect matters.
+    Eigen::VectorXd states_sd_mgal_;  ///< Prior deviations of the effects, fast and slow per gap.
     BinMeans means_;
     LogNormalPrior white_mgal_;
     std::vector<double> rough_mgal_;

@@ -15,14 +15,15 @@ ThermalPrior of_lag(double median_s, double factor) {
     return {std::log(median_s), std::log(factor)};
 }
 
-ThermalPrior as_large(double mean) { return {mean, std::abs(mean)}; }
+// Assumed: how much units differ is not known.
+ThermalPrior within_60_percent(double mean) { return {mean, 0.6 * std::abs(mean)}; }
 
 }  // namespace
 
 ThermalPrior day_prior(ThermalTerm term) {
-    static const Priors priors{as_large(kTypicalUnit.level_mgal_per_degc),
-                               as_large(kTypicalUnit.slow_mgal_per_degc),
-                               as_large(kTypicalUnit.fast_mgal_per_degc_per_h),
+    static const Priors priors{within_60_percent(kTypicalUnit.level_mgal_per_degc),
+                               within_60_percent(kTypicalUnit.slow_mgal_per_degc),
+                               within_60_percent(kTypicalUnit.fast_mgal_per_degc_per_h),
                                of_lag(kTypicalUnit.fast_lag_s, kDayLagFactor),
                                of_lag(kTypicalUnit.slow_lag_s, kDayLagFactor)};
     return priors.at(static_cast<std::size_t>(term));

@@ -51,7 +51,7 @@ inline constexpr std::array<std::string_view, kThermalTerms> kThermalNames{
 
 /// A unit of this type, as the published records show it.
 ///
-/// Another unit can differ by as much as these values; day_prior() allows for that.  Use a
+/// How much another unit differs is not known; day_prior() allows for 60 %.  Use a
 /// calibration (calibration.hpp) where the unit's own numbers matter.
 struct TypicalUnit {
     double level_mgal_per_degc = -12.0;      ///< rA
@@ -70,7 +70,7 @@ struct ThermalPrior {
     double deviation = 0.0;  ///< Standard deviation, > 0; of a lag, ln of the factor.
 };
 
-/// Returns the prior for a survey day.  Slopes: the typical unit, with deviations as large as the
+/// Returns the prior for a survey day.  Slopes: the typical unit, with deviations of 60 % of the
 /// values; lags: log-normal, factor 1.5.
 ///
 /// A day alone does not determine all parameters, so its prior has means that are not 0.  The

@@ -21,50 +21,25 @@ allowed without a warning.
 
 import concurrent.futures
 import json
-import math
 import os
 import pathlib
-import random
 import shutil
 import statistics
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
+from simulated_units import TWO_DAYS, VALID_FROM, correct, hide_references, measure, rms, seeds_of, simulate
 from programs import BIN, Scratch, read_json, rows, run
 
 LEAST_GAIN = 0.30  # Promised reduction of the error by axis biases, one datum.
 MOST_LOSS = 0.03  # Largest allowed increase of the error by a thermal prior.
 SCATTER = 0.25  # Relative scatter of the units.
 OTHER_SCATTER = 0.6  # Relative scatter of the other units.
-UNIT = {"crystal_static_mgal_per_degc": -12.0, "crystal_dynamic_mgal_per_degc": -950.0, "crystal_tau_s": 43.0,
-        "clock_mgal_per_degc": -20.0, "clock_tau_s": 2700.0, "warm_up_mgal": 36.0, "warm_up_tau_h": 2.5}
 STAYS = ("No.0", "No.1", "No.2", "No.3", "No.0", "No.4", "No.5", "No.6", "No.0")
 AMBIENT = (24.3, 23.4, 24.1, 23.8, 26.7, 30.6, 31.4, 31.7, 32.0)
 NOTHING = "no calibration"
 WHOLE_DAY = "19 occupations, leave-one-station-out"
-TWO_DAYS = "[schedule]\nduration_h = 48.0\n"
-VALID_FROM = "2017-01-01T00:00:00Z"
 PRIORS = ("[prior]\nrate_mgal_per_degc_per_h = [10, 6]\ntemperature_mgal_per_degc = [-30, 15]\n"
           "time_mgal_per_h = [0, 1]\n")
-
-
-def seeds_of(text):
-    first, _, last = text.partition("-")
-    return range(int(first), int(last or first) + 1)
-
-
-def unit_of(seed, scatter=SCATTER):
-    draw = random.Random(seed)
-    return {key: value * draw.uniform(1.0 - scatter, 1.0 + scatter) for key, value in UNIT.items()}
-
-
-def simulate(folder, name, base, seed, more="", scatter=SCATTER):
-    """Simulates a day of the seed's unit and returns its folder."""
-    file = folder / f"{name}-scenario.toml"
-    error = "".join(f"{key} = {value}\n" for key, value in unit_of(seed, scatter).items())
-    file.write_text(f'base = "{base}"\nname = "{name}"\n[temperature_error]\n{error}{more}')
-    run(BIN / "a351-sim", "survey", "--scenario", file, "--seed", seed, "--out", folder / name)
-    return folder / name
 
 
 def nine_stays():
@@ -74,26 +49,6 @@ def nine_stays():
         text += (f'[[occupation]]\nsite = "{site}"\nnumber = {STAYS[:i + 1].count(site)}\n'
                  f'centre_utc = "2017-07-16T{minutes // 60:02}:{minutes % 60:02}:00Z"\nambient_degc = {ambient}\n')
     return text
-
-
-def measure(folder, name, base, seed, more="", scatter=SCATTER):
-    """Calibrates the seed's unit from a long record; returns the option that uses the file, empty if it was refused."""
-    record = simulate(folder, name, base, seed, more, scatter)
-    file = folder / f"{name}.toml"
-    run(BIN / "a351-correct", "calibrate", record, "--out", file, "--valid-from", VALID_FROM, check=False)
-    shutil.rmtree(record)
-    return ["--calibration", file] if file.exists() else []
-
-
-def correct(folder, survey, name, *options):
-    out = folder / name
-    run(BIN / "a351-correct", "survey", survey, "--out", out, *options,
-        env={"PATH": str(folder)})  # A folder without gnuplot, so that no figures are drawn.
-    return out
-
-
-def rms(values):
-    return math.sqrt(statistics.fmean(value * value for value in values))
 
 
 def unknown_errors(out, truth):
@@ -115,26 +70,12 @@ def is_called_worse(out):
     return calibration.get("worse_with_it") is True
 
 
-def hide_all_but_datum(day):
-    """Removes the gravity of all sites but the datum from the day's sites.csv; returns the true gravity by site."""
-    sites = rows(day / "sites.csv")
-    truth = {row["site"]: float(row["gravity_mgal"]) for row in sites}
-    lines = ["site,longitude_deg,latitude_deg,altitude_m,gravity_mgal"]
-    for row in sites:
-        gravity = row["gravity_mgal"] if row["site"] == "No.0" else ""
-        lines.append(",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], gravity]))
-    (day / "sites.csv").write_text("\n".join(lines) + "\n")
-    return truth
-
-
 def one_datum(folder, seed, axes, both, night, days):
     """Corrects nine occupations of the unit with different calibrations; returns the RMS error of each."""
-    day = simulate(folder, "nine", "tilted", seed, nine_stays())
-    truth = hide_all_but_datum(day)
-    survey = day / "survey.toml"
-    survey.write_text(survey.read_text() + PRIORS)
-    plain = day / "plain.toml"
-    plain.write_text(survey.read_text().replace(PRIORS, ""))
+    day = simulate(folder, "nine", "tilted", seed, SCATTER, nine_stays())
+    plain, truth = hide_references(day, ["No.0"], "plain")
+    survey = day / "priors.toml"
+    survey.write_text(plain.read_text() + PRIORS)
     outs = {
         "network": correct(day, survey, "1", "--model", "network"),
         "network, axis biases": correct(day, survey, "2", "--model", "network", *axes),
@@ -148,7 +89,7 @@ def one_datum(folder, seed, axes, both, night, days):
 
 def whole_day(folder, seed, calibrations):
     """Corrects 19 occupations of the unit; returns the error by calibration, and flags for the warnings of the report."""
-    day = simulate(folder, "whole", "tilted", seed)
+    day = simulate(folder, "whole", "tilted", seed, SCATTER)
     errors, flags = {}, {}
     for i, (name, options) in enumerate(calibrations.items()):
         out = correct(day, day / "survey.toml", f"w{i}", *options)
@@ -168,9 +109,10 @@ def whole_day(folder, seed, calibrations):
 def look_at(scratch, seed):
     folder = scratch / str(seed)
     folder.mkdir()
-    night, days = measure(folder, "night", "indoor", seed), measure(folder, "days", "week", seed, TWO_DAYS)
-    other = measure(folder, "other", "week", seed + 100, TWO_DAYS, OTHER_SCATTER)
-    tilt = simulate(folder, "tilt-series", "tilt-series", seed)
+    night, days = (measure(folder, "night", "indoor", seed, SCATTER),
+                   measure(folder, "days", "week", seed, SCATTER, TWO_DAYS))
+    other = measure(folder, "other", "week", seed + 100, OTHER_SCATTER, TWO_DAYS)
+    tilt = simulate(folder, "tilt-series", "tilt-series", seed, SCATTER)
     calibrate = (BIN / "a351-correct", "calibrate", "--tilt", tilt, "--valid-from", VALID_FROM, "--out")
     axes, both, turned = folder / "axes.toml", folder / "both.toml", folder / "turned.toml"
     run(*calibrate, axes)

@@ -224,3 +224,30 @@ TEST_CASE("the robust temperature line gives the publication's three the least w
     CHECK(largest_flagged < smallest_other);
     CHECK(coefficient(result, "temperature_mgal_per_degc").value == Approx(-29.2).margin(2.2));
 }
+
+TEST_CASE("with one known station auto takes the network with weak priors, and is honest",
+          "[golden][models]") {
+    SurveyOptions options;
+    options.base = "No.0";
+    options.datum = {"No.0"};
+    const SurveyCorrection result = correct_survey(tsukuba::observations(), options);
+    CHECK(result.model == "network");
+    CHECK_FALSE(result.choice);
+    REQUIRE_FALSE(result.remarks.empty());
+    CHECK(result.remarks.front().find("temperature_mgal_per_degc -29 +- 10") != std::string::npos);
+    // The priors are those of the network alone: no other model is scored with them.
+    for (const Score& score : result.row_sets.front().scores)
+        if (score.model == "t") CHECK(score.dof == 1);
+    double squares = 0.0, ratios = 0.0, count = 0.0;
+    for (const StationValue& station : result.stations) {
+        if (station.site == "No.0") continue;
+        const double error = (station.gravity - station.reference.value()).value();
+        squares += error * error;
+        ratios += std::pow(error / station.u_gravity.value().value(), 2);
+        count += 1.0;
+    }
+    CHECK(count == 13.0);
+    CHECK(std::sqrt(squares / count) < 2.5);
+    CHECK(std::sqrt(ratios / count) < 1.2);
+    CHECK(std::sqrt(ratios / count) > 0.5);
+}

@@ -86,7 +86,7 @@ TEST_CASE("the whole-day model refuses priors that it would ignore", "[survey][m
     const auto rows = made_up::day();
     SurveyOptions options = options_for(rows);
     set_prior(options.priors, "test", "time_mgal_per_h", {0.0, 0.1});
-    DayRecord day{{{rows.front().time, Hertz(0.5), {42.5}}, 0.0}, {}};
+    DayRecord day{{{rows.front().time, Hertz(0.5), {42.5}}, {}}, {}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         DayBin bin;
         bin.set_up = i;

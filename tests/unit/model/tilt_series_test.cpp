@@ -35,7 +35,7 @@ OccupationRows series(const std::vector<Tilt>& tilts, double placement_mgal = 0.
     for (std::size_t i = 0; i < degc.size(); ++i)
         degc[i] = 42.45 + degc_per_set_up * static_cast<double>(i) / 300.0;
     OccupationRows read;
-    read.day = DayRecord{{{start, Hertz(0.5), degc}, 0.0}, {}};
+    read.day = DayRecord{{{start, Hertz(0.5), degc}, {}}, {}};
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     for (std::size_t s = 0; s < tilts.size(); ++s) {

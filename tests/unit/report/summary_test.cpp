@@ -91,6 +91,10 @@ TEST_CASE("the scatter is given with its own standard error", "[report][summary]
     score.dof = 0;
     CHECK_FALSE(standard_error_of_rms(score).has_value());
     CHECK_THAT(scatter_sentence(score), ContainsSubstring("say nothing about accuracy"));
+    score.model = "day";
+    score.loso_mgal.reset();
+    CHECK_THAT(scatter_sentence(score), EndsWith("For a new station quote its u, which contains "
+                                                 "what the priors of the instrument leave open."));
 }
 
 TEST_CASE("the summary says of every accuracy figure whether it is in sample or cross-validated",

@@ -120,6 +120,7 @@ TEST_CASE("narrower priors determine what the day does not determine", "[day]") 
     // Level and slow slope are known to 2 mGal/degC each and better together, x to 1 mGal/g.
     const MadeUpDay day{.placement_mgal = 1.2, .white_mgal = 0.2};
     DayPriors priors = usual_day_priors();
+    priors.free_axes();
     const auto level = DayPriors::place_of(DayTerm::level);
     const auto slow = DayPriors::place_of(DayTerm::slow), x = DayPriors::place_of(DayTerm::x);
     Eigen::Matrix3d covariance = Eigen::Vector3d(4.0, 4.0, 1.0).asDiagonal();

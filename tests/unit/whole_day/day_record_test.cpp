@@ -72,7 +72,7 @@ TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") 
               std::numeric_limits<double>::quiet_NaN());  // 300 s
     const auto day = day_temperature({kStart, kRate, degc});
     REQUIRE(day);
-    CHECK(day->longest_gap_s == Approx(318.0).margin(4.0));
+    CHECK(day->longest_gap_s() == Approx(318.0).margin(4.0));
     const double late_s = seconds_between(kStart, day->series.start());
     for (std::size_t i = 0; i < day->series.size(); ++i) {
         const double exact = 42.0 + 1e-6 * 50.0 * (late_s + 2.0 * static_cast<double>(i));

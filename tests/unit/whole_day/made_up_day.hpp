@@ -39,7 +39,7 @@ struct MadeUpDay {
     }
 
     [[nodiscard]] reading::DayRecord record(std::uint64_t seed = 1) const {
-        reading::DayRecord day{{temperature(), 0.0}, {}};
+        reading::DayRecord day{{temperature(), {}}, {}};
         std::mt19937_64 random(seed);
         std::normal_distribution<double> normal;
         for (std::size_t s = 0; s < kSetUps; ++s) {

@@ -1,0 +1,92 @@
+"""Measures what an hour without any record costs: on the road, over a stay, before the first stay.
+
+usage: missing_hour.py [SEEDS]    (A351_BIN, A351_TOOLS)
+SEEDS: default 9601-9620, which were not used while the model was developed.  Each seed draws a unit within +-25 %.
+The scenario is tsukuba.  All channels lose every miniSEED record that overlaps the hour.  The error is that of
+left_out_mgal, over the stays that remain; for comparison the same stays of the complete day.
+"""
+
+import concurrent.futures
+import datetime
+import os
+import pathlib
+import shutil
+import struct
+import sys
+
+from simulated_units import correct, rms, seeds_of, simulate
+from programs import Scratch, rows
+
+MOST_MGAL = 1.75
+SCATTER = 0.25
+STAY_S = 720.0
+RECORD = 512  # Bytes of each record that the archiver writes.
+
+
+def record_times(record):
+    """Returns the begin and the end of a miniSEED 2 record (SEED manual 2.4, fixed section of the header)."""
+    year, day, hour, minute, second, _, fraction, count, factor, multiplier = struct.unpack(">HHBBBBHHhh", record[20:36])
+    rate = (factor if factor > 0 else -1.0 / factor) * (multiplier if multiplier > 0 else -1.0 / multiplier)
+    begin = (datetime.datetime(year, 1, 1, tzinfo=datetime.timezone.utc)
+             + datetime.timedelta(days=day - 1, hours=hour, minutes=minute, seconds=second, microseconds=100 * fraction))
+    return begin, begin + datetime.timedelta(seconds=count / rate)
+
+
+def lose(day, begin, end):
+    """Removes the records that overlap the time from the archive of a day; returns their number."""
+    lost = 0
+    for file in (day / "archive").rglob("*.D.*"):
+        data = file.read_bytes()
+        kept = []
+        for at in range(0, len(data), RECORD):
+            first, last = record_times(data[at:at + RECORD])
+            if last <= begin or first >= end:
+                kept.append(data[at:at + RECORD])
+            else:
+                lost += 1
+        file.write_bytes(b"".join(kept))
+    return lost
+
+
+def errors_of(out):
+    return {(row["site"], row["occupation"]): float(row["left_out_mgal"]) - float(row["reference_mgal"])
+            for row in rows(out / "occupations.csv") if row["left_out_mgal"]}
+
+
+def look_at(scratch, seed):
+    """Returns for each kind of gap the errors of the remaining stays with the gap, and in the complete day."""
+    folder = scratch / str(seed)
+    folder.mkdir()
+    day = simulate(folder, "day", "tsukuba", seed, SCATTER)
+    survey = day / "survey.toml"
+    whole = correct(day, survey, "whole", "--model", "day", "--flags", "ignore")
+    complete = errors_of(whole)
+    times = [datetime.datetime.fromisoformat(row["time_utc"].replace("Z", "+00:00"))
+             for row in rows(whole / "occupations.csv")]
+    hour, stay = datetime.timedelta(hours=1), datetime.timedelta(seconds=STAY_S)
+    found = {}
+    # The road from the third to the fourth stay takes about 50 min, which is extended into the stay before; the ninth stay
+    # is in the middle of the hour; the third hour ends a quarter of an hour before the first stay.
+    for name, begin in (("on the road", times[3] - stay - hour), ("over a stay", times[8] - hour / 2),
+                        ("before the first stay", times[0] - stay - hour)):
+        cut = folder / name.replace(" ", "-")
+        shutil.copytree(day, cut)
+        assert lose(cut, begin, begin + hour) > 0
+        left = errors_of(correct(cut, cut / "survey.toml", "out", "--model", "day", "--flags", "ignore"))
+        found[name] = (list(left.values()), [complete[stay] for stay in left])
+    shutil.rmtree(folder)
+    return found
+
+
+seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "9601-9620")
+with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    days = list(pool.map(lambda seed: look_at(scratch, seed), seeds))
+failures = []
+for name in days[0]:
+    gap, complete = (rms(error for day in days for error in day[name][k]) for k in (0, 1))
+    print(f"an hour missing {name}: error {gap:.2f} mGal of {sum(len(day[name][0]) for day in days)} stays left out in turn, "
+          f"complete days {complete:.2f}")
+    if gap > MOST_MGAL:
+        failures.append(f"{name}: {gap:.2f} mGal, promised {MOST_MGAL}")
+print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
+sys.exit(bool(failures))

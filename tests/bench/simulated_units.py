@@ -1,0 +1,77 @@
+"""Simulated days of units whose thermal parameters are drawn, and calibrations measured on their records."""
+
+import math
+import pathlib
+import random
+import shutil
+import statistics
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
+from programs import BIN, rows, run
+
+UNIT = {"crystal_static_mgal_per_degc": -12.0, "crystal_dynamic_mgal_per_degc": -950.0, "crystal_tau_s": 43.0,
+        "clock_mgal_per_degc": -20.0, "clock_tau_s": 2700.0, "warm_up_mgal": 36.0, "warm_up_tau_h": 2.5}
+TWO_DAYS = "[schedule]\nduration_h = 48.0\n"
+VALID_FROM = "2017-01-01T00:00:00Z"
+
+
+def seeds_of(text):
+    """Returns the seeds that an argument such as 8101-8120 names."""
+    first, _, last = text.partition("-")
+    return range(int(first), int(last or first) + 1)
+
+
+def unit_of(seed, scatter):
+    """Returns the thermal parameters of a seed's unit: those of the scenarios, each within +- scatter of its value."""
+    draw = random.Random(seed)
+    return {key: value * draw.uniform(1.0 - scatter, 1.0 + scatter) for key, value in UNIT.items()}
+
+
+def simulate(folder, name, base, seed, scatter, more=""):
+    """Simulates a day of the seed's unit and returns its folder."""
+    file = folder / f"{name}-scenario.toml"
+    error = "".join(f"{key} = {value}\n" for key, value in unit_of(seed, scatter).items())
+    file.write_text(f'base = "{base}"\nname = "{name}"\n[temperature_error]\n{error}{more}')
+    run(BIN / "a351-sim", "survey", "--scenario", file, "--seed", seed, "--out", folder / name)
+    return folder / name
+
+
+def measure(folder, name, base, seed, scatter, more=""):
+    """Calibrates the seed's unit from a long record; returns the option that uses the file, empty if it was refused."""
+    record = simulate(folder, name, base, seed, scatter, more)
+    file = folder / f"{name}.toml"
+    run(BIN / "a351-correct", "calibrate", record, "--out", file, "--valid-from", VALID_FROM, check=False)
+    shutil.rmtree(record)
+    return ["--calibration", file] if file.exists() else []
+
+
+def correct(folder, survey, name, *options):
+    """Corrects a day and returns the folder of the results."""
+    out = folder / name
+    run(BIN / "a351-correct", "survey", survey, "--out", out, *options,
+        env={"PATH": str(folder)})  # A folder without gnuplot, so that no figures are drawn.
+    return out
+
+
+def hide_references(day, known, name):
+    """Writes a survey file of the day in which only the sites `known` have gravity.
+
+    @return  the file, and the true gravity by site
+    """
+    sites = rows(day / "sites.csv")
+    lines = ["site,longitude_deg,latitude_deg,altitude_m,gravity_mgal"]
+    for row in sites:
+        gravity = row["gravity_mgal"] if row["site"] in known else ""
+        lines.append(",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], gravity]))
+    (day / f"{name}.csv").write_text("\n".join(lines) + "\n")
+    survey = day / f"{name}.toml"
+    text = (day / "survey.toml").read_text()
+    assert '"sites.csv"' in text
+    survey.write_text(text.replace('"sites.csv"', f'"{name}.csv"'))
+    return survey, {row["site"]: float(row["gravity_mgal"]) for row in sites}
+
+
+def rms(values):
+    """Returns the root mean square of the values."""
+    return math.sqrt(statistics.fmean(value * value for value in values))
