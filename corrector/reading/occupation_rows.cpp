@@ -8,6 +8,7 @@
 
 #include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/on_all_cores.hpp"
+#include "corrector/reading/vertical_axis.hpp"
 #include "protocol/archive/sds.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -147,10 +148,12 @@ SurveyStays read_survey_inputs(const SurveySource& source) {
 
 OccupationRows average_occupations(const SurveySource& source, const SurveyStays& stays,
                                    const Progress& progress) {
-    const auto& [sites, list, amendments, metadata, station, channels] = stays;
+    const auto& [sites, list, amendments, metadata, station, channels_of_file] = stays;
     OccupationRows result;
     result.serial_number = station.serial_number;
-    const SurveySamples samples = read_samples(source, station.codes, channels, list.windows);
+    SurveyChannels channels = channels_of_file;
+    SurveySamples samples = read_samples(source, station.codes, channels, list.windows);
+    const VerticalAxis vertical = put_vertical_last(samples, channels, list.windows, metadata);
 
     std::vector<std::optional<SurveyRow>> rows(list.windows.size());
     std::vector<std::optional<RepresentativeValue>> values(list.windows.size());
@@ -158,7 +161,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     std::vector<std::vector<DayBin>> bins(list.windows.size());
     const auto average = [&](std::size_t i) {
         const OccupationWindow& window = stays.list.windows[i];
-        const auto record = cut_occupation(samples, stays.channels, window.start, window.end);
+        const auto record = cut_occupation(samples, channels, window.start, window.end);
         if (!record) {
             troubles[i] = "no samples";
             return;
@@ -181,6 +184,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.day = DayRecord{std::move(*temperature), {}};
     result.left_out = list.left_out;
     result.warnings = list.warnings;
+    if (!vertical.warning.empty()) result.warnings.push_back(vertical.warning);
     result.amendments = amendments;
     result.sites = sites;
     for (const archive::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);

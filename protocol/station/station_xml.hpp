@@ -93,6 +93,8 @@ struct ChannelScale {
     double gain = 0.0;    ///< Value of one count, in `unit`.
     double offset = 0.0;  ///< Value at 0 counts, in `unit`.
     std::string unit;     ///< "m/s**2", "degC", "%" or "s".
+    /// Dip of the channel, deg, positive down; absent if the file has none.
+    std::optional<double> dip_deg = {};
 };
 
 /// Content of a station's epochs at one instant.

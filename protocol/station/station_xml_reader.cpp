@@ -31,6 +31,7 @@ double number_in(const std::filesystem::path& file, const std::string& channel,
 ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channel) {
     ChannelScale scale;
     scale.code = channel.attribute("code").value();
+    if (const auto dip = channel.child("Dip")) scale.dip_deg = dip.text().as_double();
     const auto response = channel.child("Response");
     const auto sensitivity = response.child("InstrumentSensitivity");
     const auto polynomial = response.child("InstrumentPolynomial");

@@ -1,0 +1,47 @@
+#pragma once
+/// @file
+/// Which axis of the sensor is vertical, by the samples.
+///
+/// Gravity itself says it.  The order of the channels in station.xml does not: another program may
+/// write the vertical channel first, and a sensor may be mounted on its side.
+///
+///     const VerticalAxis vertical = put_vertical_last(samples, channels, windows, file);
+///     // channels.axes[2] is the vertical axis now
+///     if (!vertical.warning.empty()) warnings.push_back(vertical.warning);
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "corrector/reading/occupation_list.hpp"
+#include "corrector/reading/occupation_window.hpp"
+#include "protocol/core/units.hpp"
+
+namespace a351::corrector::reading {
+
+/// Least mean of the vertical axis, g.  Reason: it is 25 deg from the vertical then, which is not a
+/// mounting.
+inline constexpr StandardGravity kLeastVertical{0.9};
+
+/// The vertical axis of a survey.
+struct VerticalAxis {
+    std::string code;      ///< Channel, e.g. BNZ.
+    StandardGravity mean;  ///< Mean over the windows; negative: mounted upside down.
+    std::string warning;   ///< What the user should know; empty if all is as the metadata say.
+};
+
+/// Finds the axis whose |mean| is nearest to 1 g, and exchanges axes of samples and channels so
+/// that it is the last.  The horizontal axes keep their order.
+///
+/// The warning says if another axis has a dip of more than 45 deg in the metadata, or if the sensor
+/// is upside down; the norm is the same then.
+///
+/// The mean is over one sample per second, within the windows.
+/// @param windows  occupations; if an axis has no sample in them, nothing is exchanged.
+/// @param file     name of the metadata, for messages.
+/// @throws InputError  no axis has |mean| >= kLeastVertical; the message has all three.
+VerticalAxis put_vertical_last(SurveySamples& samples, SurveyChannels& channels,
+                               const std::vector<OccupationWindow>& windows,
+                               const std::filesystem::path& file);
+
+}  // namespace a351::corrector::reading

@@ -1,0 +1,89 @@
+#include "corrector/reading/vertical_axis.hpp"
+
+#include <algorithm>
+#include <array>
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/input_error.hpp"
+
+using namespace a351;
+using namespace a351::corrector::reading;
+
+namespace {
+
+const UtcTime kStart = *parse_rfc3339("2026-05-01T00:00:00Z");
+
+/// A sensor whose axes BN1, BN2, BNZ sense these values, in g, on the way to a stay and during it.
+struct Mounted {
+    std::array<double, 3> sensed_g;
+    std::array<std::size_t, 3> order;  ///< Order of the channels in the file.
+    std::array<double, 3> dip_deg{0.0, 0.0, -90.0};
+
+    SurveySamples samples = {};
+    SurveyChannels channels = {};
+    VerticalAxis vertical = {};
+
+    void look() {
+        const std::array<const char*, 3> codes{"BN1", "BN2", "BNZ"};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t axis = order[k];
+            const double counts = sensed_g[axis] * 9.80665 * 1e5;
+            archive::Segment segment{50.0, {}, {{0, kStart}}};
+            segment.counts.assign(30'000, static_cast<std::int32_t>(counts));
+            std::fill_n(segment.counts.begin(), 15'000, 980'665);  // on the way: not looked at
+            samples.axes[k].segments = {segment};
+            channels.axes[k] = {codes[axis], 1e-5, 0.0, "m/s**2", dip_deg[axis]};
+        }
+        OccupationWindow window;
+        window.start = kStart + from_seconds(300.0);
+        window.end = kStart + from_seconds(600.0);
+        vertical = put_vertical_last(samples, channels, {window}, "station.xml");
+    }
+};
+
+constexpr std::array<std::array<std::size_t, 3>, 3> kOrders{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+
+}  // namespace
+
+TEST_CASE("the vertical axis is found in six mountings and three orders of the channels",
+          "[survey][vertical]") {
+    const std::array<const char*, 3> codes{"BN1", "BN2", "BNZ"};
+    for (const auto& order : kOrders)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (const double sign : {1.0, -1.0}) {
+                Mounted sensor{{0.002, -0.003, 0.004}, order};
+                sensor.sensed_g[axis] = sign * 1.0018;
+                sensor.look();
+                CAPTURE(codes[axis], sign, sensor.vertical.warning);
+                CHECK(sensor.vertical.code == codes[axis]);
+                CHECK(sensor.channels.axes[2].code == codes[axis]);
+                std::vector<std::string> horizontal;
+                for (const std::size_t other : order)
+                    if (other != axis) horizontal.emplace_back(codes[other]);
+                CHECK(sensor.channels.axes[0].code == horizontal[0]);
+                CHECK(sensor.channels.axes[1].code == horizontal[1]);
+                CHECK(sensor.vertical.mean.value() == Approx(sign * 1.0018).epsilon(1e-5));
+                CHECK(std::abs(sensor.samples.axes[2].segments[0].counts.back()) > 900'000);
+                const bool is_upside_down =
+                    sensor.vertical.warning.find("upside down") != std::string::npos;
+                CHECK(is_upside_down == (sign < 0.0));
+                const bool is_other =
+                    sensor.vertical.warning.find("BNZ is vertical by its dip") != std::string::npos;
+                CHECK(is_other == (axis != 2));
+            }
+}
+
+TEST_CASE("a dip that contradicts gravity is named, and gravity counts", "[survey][vertical]") {
+    Mounted sensor{{0.0, 0.001, 1.0}, kOrders[0], {-90.0, 0.0, 0.0}};
+    sensor.look();
+    CHECK(sensor.vertical.code == "BNZ");
+    CHECK_THAT(sensor.vertical.warning, ContainsSubstring("BN1 is vertical by its dip"));
+}
+
+TEST_CASE("a sensor that lies askew is refused with the means of its axes", "[survey][vertical]") {
+    Mounted sensor{{0.7, 0.1, 0.71}, kOrders[0]};
+    CHECK_THROWS_WITH(sensor.look(),
+                      "station.xml: no axis is vertical: BN1 0.7000 g, BN2 0.1000 "
+                      "g, BNZ 0.7100 g; allowed: an axis with at least 0.9000 g "
+                      "along gravity");
+}
