@@ -92,8 +92,9 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
                                      : row.residual->value() / row.u_corrected->value();
     if (std::abs(ratio) <= kCareRatio) return;
     add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
-        fmt::format("off its reference by {} mGal{}, {} times its uncertainty",
-                    text::fixed(ratio * row.u_corrected->value(), 1),
+        fmt::format("{} mGal {} its reference{}, {} times its uncertainty",
+                    text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
+                    ratio > 0.0 ? "below" : "above",
                     is_left_out ? " when its station is left out" : "",
                     text::fixed(std::abs(ratio), 1)));
 }

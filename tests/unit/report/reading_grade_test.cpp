@@ -88,7 +88,7 @@ TEST_CASE("the whole-day model is graded by its prediction without the station",
     CHECK(first_grade(result) == Grade::repeat);
     CHECK(
         first_reasons(result) ==
-        "off its reference by -6.2 mGal when its station is left out, 3.1 times its uncertainty|");
+        "6.2 mGal above its reference when its station is left out, 3.1 times its uncertainty|");
 }
 
 TEST_CASE("set-ups of one station are compared by the placement scatter of the whole-day model",
@@ -134,7 +134,7 @@ TEST_CASE("a residual above two u is graded care, above three u repeat", "[repor
     SurveyCorrection result = quiet(1);
     result.rows[0].residual = MilliGal(-4.1);
     CHECK(first_grade(result) == Grade::care);
-    CHECK_THAT(first_reasons(result), ContainsSubstring("off its reference by -4.1 mGal"));
+    CHECK_THAT(first_reasons(result), ContainsSubstring("4.1 mGal above its reference"));
     result.rows[0].residual = MilliGal(6.1);
     CHECK(first_grade(result) == Grade::repeat);
     result.rows[0].residual.reset();

@@ -42,7 +42,7 @@ TEST_CASE("360 degrees of longitude more change nothing", "[tide]") {
 }
 
 TEST_CASE("both methods agree within Longman's known error over a month", "[tide]") {
-    // 0.0025 mGal: largest deviation of his formulas from a catalogue (earth_tide.hpp).
+    // 0.0025 mGal: largest deviation of his formulas in this month; over decades see earth_tide.hpp.
     for (int hour = 0; hour < 30 * 24; ++hour) {
         const UtcTime time = kTime + std::chrono::hours(hour);
         CAPTURE(hour);
