@@ -168,9 +168,9 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     if (options.model != kAutomatic && find_model(options.model) == nullptr)
         throw InputError(fmt::format("model = {}: unknown; allowed: {}", options.model,
                                      text::joined(model_names())));
-    if (rows.size() < 2)
-        throw InputError(
-            fmt::format("{} rows, nothing to compare; allowed: at least 2 rows", rows.size()));
+    if (rows.empty()) throw InputError("no occupations; allowed: at least two with a reference");
+    if (rows.size() == 1 && options.model == kAutomatic)
+        throw InputError("one row, nothing to compare it with; allowed: at least 2 rows");
     SurveyOptions applied = options;
     if (applied.base.empty()) applied.base = rows.front().site;
     require_row_of(rows, applied.base, "base");
