@@ -22,8 +22,8 @@ Eigen::VectorXd as_vector(const std::vector<double>& values) {
 
 using ModelOf = std::function<const LinearModel*(const std::vector<reading::SurveyRow>&)>;
 
-/// Returns the error (mGal) of each row, predicted without the rows of its station by the model that
-/// `model_of` chooses for the remaining rows.
+/// Returns the error (mGal) of each row, predicted without the rows of its station.  `model_of`
+/// chooses the model for the remaining rows.
 std::optional<std::vector<double>> station_left_out_mgal(
     const ModelOf& model_of, const std::vector<reading::SurveyRow>& rows, UtcTime origin,
     const Priors& priors) {

@@ -74,8 +74,8 @@ void set_prior(Priors& priors, std::string_view origin, std::string_view name, P
 /// Adds the priors of a unit that nobody has calibrated, where there is none yet: the temperature
 /// -29 +- 10 mGal/degC, the drift 0 +- 1 mGal/h.
 ///
-/// They are weak: the mean of the first is the publication's slope from station to station, and its
-/// deviation allows for another unit; that of the drift is the whole-day model's.
+/// -29 mGal/degC is the publication's slope from station to station.  Its deviation, a third,
+/// allows for another unit; this is an assumption.  The drift has the prior of the whole-day model.
 /// @return all priors in words, such as "temperature_mgal_per_degc -29 +- 10".
 std::string add_published_priors(Priors& priors);
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kLongestGap_s = 21600.0;  // a longer pause begins another survey day
 constexpr double kWantedLead_s = 7200.0;   // several slow lags
 constexpr double kNotableShare = 0.25;     // of a variance: half of a standard deviation
-constexpr double kNotableGap_s = 300.0;    // shorter ones change the slow lag by less than a tenth
+constexpr double kNotableGap_s = 300.0;    // together less than a ninth of the slow lag
 
 /// Returns the stations of a fit.  Held is the reference of rows in use, except those of
 /// `left_out`.  Unknown is one value for each other station, and one for each row that stands

@@ -13,7 +13,7 @@ namespace a351::corrector::reading {
 namespace {
 
 constexpr double kSteepDip_deg = 45.0;
-constexpr double kMps2PerG = 9.80665;  // 3rd CGPM 1901, exact
+constexpr double kMps2PerG = kMilliGalPerStandardGravity * 1e-5;
 
 /// Returns the mean of an axis over one sample per second in the windows, g; absent without one.
 std::optional<double> mean_g(const std::vector<archive::Segment>& segments,
@@ -67,8 +67,7 @@ VerticalAxis put_vertical_last(SurveySamples& samples, SurveyChannels& channels,
     if (named != channels.axes.end() && named->code != vertical.code)
         vertical.warning = fmt::format(
             "{}: {} is vertical by its dip, but gravity is along {} ({}); {} is used; the axis "
-            "biases of a calibration are those of "
-            "the usual mounting",
+            "biases of a calibration belong to the usual mounting",
             file.string(), named->code, vertical.code, list, vertical.code);
     if (means[nearest] < 0.0)
         vertical.warning += fmt::format("{}the sensor is mounted upside down: {} has {}",

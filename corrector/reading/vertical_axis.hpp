@@ -19,15 +19,15 @@
 
 namespace a351::corrector::reading {
 
-/// Least mean of the vertical axis, g.  Reason: it is 25 deg from the vertical then, which is not a
-/// mounting.
+/// Least mean of the vertical axis, g.  Reason: less means more than 25 deg from the vertical, so the
+/// box is not level.
 inline constexpr StandardGravity kLeastVertical{0.9};
 
 /// The vertical axis of a survey.
 struct VerticalAxis {
     std::string code;      ///< Channel, e.g. BNZ.
     StandardGravity mean;  ///< Mean over the windows; negative: mounted upside down.
-    std::string warning;   ///< What the user should know; empty if all is as the metadata say.
+    std::string warning;   ///< Sentence for the user; empty if there is nothing to say.
 };
 
 /// Finds the axis whose |mean| is nearest to 1 g, and exchanges axes of samples and channels so

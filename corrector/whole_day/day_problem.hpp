@@ -3,8 +3,9 @@
 /// The whole-day model as a regression whose columns depend on the lags, and the likelihood of lags
 /// and noise.
 ///
-/// It is a part of fit_day().  A point u has five numbers: lags, placement, flicker and white
-/// noise, size of the axis biases, each in standard deviations from its prior.  For a fixed point the model is linear:
+/// It is a part of fit_day().  A point u has six numbers: both lags, placement, flicker, white noise
+/// and the size of the axis biases, each in standard deviations from its prior.  For a fixed point
+/// the model is linear:
 ///
 ///     const DayProblem problem(record, stations, priors);
 ///     const DayProblem::Point u = problem.most_likely(std::nullopt);

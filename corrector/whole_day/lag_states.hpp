@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a gap of the temperature leaves unknown: the states of both lags where it ends.
+/// The states of both lags at the end of a gap of the temperature.  They are unknown.
 ///
 /// In a gap the temperature is taken as a straight line, which misses what the oven and the weather
 /// did.  Behind the gap the temperature is known again, but the lags remember:
