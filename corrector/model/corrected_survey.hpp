@@ -19,6 +19,7 @@
 /// own their content and have no references to the input.
 /// Methods and sources: corrector/methods.md.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@
 #include "corrector/model/model_fit.hpp"
 #include "corrector/model/network.hpp"
 #include "corrector/reading/survey_row.hpp"
+#include "corrector/whole_day/day_model.hpp"
 #include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector::model {
@@ -120,10 +122,24 @@ struct CorrectedRow {
     }
 };
 
+/// Sources of the uncertainty of a station, as only `day` knows them.
+struct StationErrors {
+    /// Contributions to u, mGal, in the order of whole_day::ErrorSource; the sum of their squares is
+    /// u^2.
+    std::array<double, whole_day::kErrorSources> parts_mgal{};
+    /// Errors that all days of one unit have in common (whole_day::GravityEstimate::shared_mgal).
+    std::array<double, whole_day::kSharedErrors> shared_mgal{};
+    bool is_calibrated = false;  ///< The shared errors are those of a calibration.
+};
+
+/// Factor of a coverage of about 95 % where the standard deviations do not come from the scatter of
+/// few values.
+inline constexpr double kCoverageFactor = 2.0;
+
 /// The value of a station.
 ///
 /// For a station with a reference in the fit, `gravity` is in sample: the fit has seen the
-/// reference.  The error to expect at an unknown station is Score::loso_mgal.
+/// reference.  `left_out` has not.
 struct StationValue {
     std::string site;              ///< Name of the station.
     std::size_t row_count = 0;     ///< Number of rows averaged; `network`: readings adjusted.
@@ -138,6 +154,31 @@ struct StationValue {
     /// Sum of 1 - leverage over its rows in the fit; `network`: and the redundancy of its datum.
     /// Absent without a row in the fit, and for `day`.
     std::optional<double> redundancy;
+    /// Value with the station's own reference hidden, and its standard uncertainty.  Without a
+    /// reference in the fit: gravity and its uncertainty.  Absent for `paper` and `robust`, and if
+    /// the station alone is held.
+    std::optional<MilliGal> left_out, u_left_out;
+    /// Effective degrees of freedom of u_gravity, and the factor of a coverage of 95 %.  Absent
+    /// without u_gravity; the degrees are absent for `network`, whose u is a priori.
+    std::optional<double> dof, coverage_factor;
+    std::optional<StationErrors> errors;  ///< `day` only.
+};
+
+/// Gravity of station `to` minus gravity of station `from`.
+///
+/// `day` and the linear models hide the references of both; `network` adjusts with all of them.
+struct StationDifference {
+    std::string from, to;
+    MilliGal difference;
+    MilliGal u;                         ///< Standard uncertainty.
+    std::optional<MilliGal> reference;  ///< Difference of the references, if both have one.
+};
+
+/// Covariance of stations' values.
+struct StationCovariance {
+    std::vector<std::string> sites;
+    /// (sites, sites) Of StationValue::left_out for `day`, else of StationValue::gravity.
+    Eigen::MatrixXd mgal2;
 };
 
 /// A coefficient of the model.
@@ -189,7 +230,12 @@ struct Fit {
     std::vector<CorrectedRow> rows;
     /// Occupations that have no row, or that cannot be corrected.
     std::vector<reading::LeftOut> left_out;
-    std::vector<StationValue> stations;     ///< In order of their first row.
+    std::vector<StationValue> stations;  ///< In order of their first row.
+    /// Differences of all pairs of stations, in the order of the stations; none for `paper` and
+    /// `robust`.  A station with flagged rows only is in none.
+    std::vector<StationDifference> differences;
+    /// Present if there are differences.
+    std::optional<StationCovariance> covariance;
     std::vector<Coefficient> coefficients;  ///< In the order of the model.
     Score score;                            ///< Score on the rows of the fit.
     std::vector<std::string> remarks;       ///< Further facts for the user, in sentences.

@@ -1,6 +1,7 @@
 #include <functional>
 
 #include "corrector/model/applied_fit.hpp"
+#include "corrector/model/left_out_stations.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/row_doubts.hpp"
 
@@ -37,6 +38,7 @@ FitResult fit(const LinearModel& terms, const SurveyProblem& problem, const RowC
     correct_rows(result, terms, linear);
     result.own = LinearPart{loo_interval(result, problem.options.seed)};
     result.stations = average_stations(result, choice.accepted, linear, result.score.s_mgal);
+    set_left_out_stations(result, terms, problem, choice);
     doubt_by_linear_fit(result.rows, terms, priors);
     return result;
 }

@@ -10,6 +10,8 @@
 namespace a351::corrector::model {
 namespace {
 
+constexpr double kLeastRedundancy = 1e-9;  // below it nothing but the datum itself determines it
+
 Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     Score score;
     score.model = kNetwork;
@@ -153,6 +155,50 @@ void set_stations(Fit& result, const NetworkAdjustment& network, double sd) {
     }
 }
 
+/// Sets the values without the own datum, the covariance and the differences of all stations in the
+/// network.
+void set_station_errors(Fit& result, const NetworkAdjustment& network) {
+    StationCovariance covariance;
+    std::vector<Eigen::Index> places;
+    for (StationValue& station : result.stations) {
+        station.coverage_factor = kCoverageFactor;
+        const auto at = std::ranges::find(network.stations, station.site);
+        if (at == network.stations.end()) continue;
+        covariance.sites.push_back(station.site);
+        places.push_back(at - network.stations.begin());
+        station.left_out = station.gravity;
+        station.u_left_out = station.u_gravity;
+        for (const NetworkRow& row : network.rows) {
+            if (row.label != "datum " + station.site) continue;
+            // The prediction without the row: reference + v / r, with the variance sd^2 (1 - r) / r.
+            station.left_out.reset();
+            station.u_left_out.reset();
+            if (row.redundancy < kLeastRedundancy) continue;
+            station.left_out = *station.reference + MilliGal(row.residual / row.redundancy);
+            station.u_left_out =
+                MilliGal(row.sd * std::sqrt((1.0 - row.redundancy) / row.redundancy));
+        }
+    }
+    covariance.mgal2 = network.covariance(places, places);
+    for (std::size_t b = 0; b < covariance.sites.size(); ++b) {
+        const StationValue& to =
+            *std::ranges::find(result.stations, covariance.sites[b], &StationValue::site);
+        for (std::size_t a = 0; a < b; ++a) {
+            const StationValue& from =
+                *std::ranges::find(result.stations, covariance.sites[a], &StationValue::site);
+            const auto i = static_cast<Eigen::Index>(a), k = static_cast<Eigen::Index>(b);
+            const Eigen::MatrixXd& c = covariance.mgal2;
+            StationDifference difference{from.site, to.site, to.gravity - from.gravity,
+                                         MilliGal(std::sqrt(c(i, i) + c(k, k) - 2.0 * c(i, k))),
+                                         std::nullopt};
+            if (from.reference && to.reference)
+                difference.reference = *to.reference - *from.reference;
+            result.differences.push_back(std::move(difference));
+        }
+    }
+    result.covariance = std::move(covariance);
+}
+
 NetworkResult adjust(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use,
                      const SurveyOptions& options) {
     return adjust_network(rows, in_use, options.datum, options.priors, options.network);
@@ -174,6 +220,7 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     }
     set_rows(result, network, choice.accepted, sd);
     set_stations(result, network, sd);
+    set_station_errors(result, network);
     leave_out_untied(result, network);
     result.remarks.insert(result.remarks.end(), network.remarks.begin(), network.remarks.end());
     doubt_in_turn(result.rows,

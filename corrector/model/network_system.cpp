@@ -102,7 +102,7 @@ NetworkReadings find_stations(const std::vector<reading::SurveyRow>& rows,
                               const std::vector<bool>& in_use,
                               const std::vector<std::string>& datum) {
     NetworkReadings readings;
-    auto& [stations, is_held, station_of, loop_of, references] = readings;
+    auto& [stations, is_held, station_of, loop_of, references, u_references] = readings;
     const Loops loops = find_loops(rows, in_use);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!in_use[i]) continue;
@@ -115,6 +115,7 @@ NetworkReadings find_stations(const std::vector<reading::SurveyRow>& rows,
         stations.push_back(site);
         is_held.push_back(rows[i].reference && is_listed);
         references.push_back(rows[i].reference.value_or(MilliGal(0.0)));
+        u_references.push_back(rows[i].u_reference);
     }
     return readings;
 }
@@ -141,7 +142,9 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<reading
     for (std::size_t k = 0; k < network.stations.size(); ++k) {
         if (!is_held[k]) continue;
         ++network.datum_count;
-        auto line = add_row(system, network, "datum " + network.stations[k], options.datum_sd_mgal,
+        const MilliGal u = readings.u_references[k].value_or(MilliGal(options.datum_sd_mgal));
+        auto line = add_row(system, network, "datum " + network.stations[k],
+                            std::max(u.value(), kLeastSd_mgal),
                             (readings.references[k] - network.origin).value());
         line(static_cast<Eigen::Index>(k)) = 1.0;
     }

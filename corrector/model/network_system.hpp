@@ -29,6 +29,7 @@ struct NetworkReadings {
     /// Number of the loop of each reading, from 0; loops without a reading in use are not counted.
     std::vector<std::size_t> loop_of;
     std::vector<MilliGal> references;  ///< (s) Known gravity; 0 for an unknown station.
+    std::vector<std::optional<MilliGal>> u_references;  ///< (s) Their own uncertainties, if given.
 };
 
 /// Returns stations, loops and references of the readings in use.

@@ -136,7 +136,7 @@ TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::str
     std::vector<whole_day::DayStation> stations;
     for (std::size_t i = 0; i < read.rows.size(); ++i) {
         whole_day::DayStation station{read.rows[i].tide, gravity, 0};
-        if (!is_in_series(read.rows[i])) station = {read.rows[i].tide, std::nullopt, i};
+        if (!is_in_series(read.rows[i])) station = {read.rows[i].tide, std::nullopt, i + 1};
         stations.push_back(station);
     }
     double mean = 0.0;

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "corrector/model/calibration_use.hpp"
+#include "corrector/model/day_fits.hpp"
+#include "corrector/model/day_stations.hpp"
 #include "corrector/model/row_doubts.hpp"
-#include "corrector/reading/on_all_cores.hpp"
 #include "corrector/whole_day/day_model.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -20,78 +19,6 @@ constexpr double kLongestGap_s = 21600.0;  // a longer pause begins another surv
 constexpr double kWantedLead_s = 7200.0;   // several slow lags
 constexpr double kNotableShare = 0.25;     // of a variance: half of a standard deviation
 constexpr double kNotableGap_s = 300.0;    // together less than a ninth of the slow lag
-
-/// Returns the stations of a fit.  Held is the reference of rows in use, except those of
-/// `left_out`.  Unknown is one value for each other station, and one for each row that stands
-/// alone.
-std::vector<whole_day::DayStation> stations_of(const std::vector<reading::SurveyRow>& rows,
-                                               const RowChoice& choice,
-                                               const std::string& left_out) {
-    std::vector<whole_day::DayStation> stations;
-    std::map<std::string, std::size_t> unknowns;
-    const auto number_of = [&](const std::string& name) {
-        return unknowns.emplace(name, unknowns.size()).first->second;
-    };
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const reading::SurveyRow& row = rows[i];
-        whole_day::DayStation station{row.tide, std::nullopt, 0};
-        if (choice.in_use[i] && row.site != left_out)
-            station.gravity = row.reference;
-        else if (!choice.accepted[i])
-            station.unknown = number_of(fmt::format("row {}", i));
-        else
-            station.unknown = number_of("station " + row.site);
-        stations.push_back(station);
-    }
-    return stations;
-}
-
-/// A fit and its stations, one per row.
-struct Fitted {
-    std::vector<whole_day::DayStation> stations;
-    whole_day::DayFit fit;
-
-    /// Returns gravity of the unknown of a row, with its standard error.
-    [[nodiscard]] const whole_day::Estimate& unknown_of(std::size_t row) const {
-        return fit.unknown_mgal[stations[row].unknown];
-    }
-};
-
-/// The fit of one set of rows, and the fits without each station.
-struct DayFits {
-    Fitted all;                         ///< Fit of all rows in use.
-    std::vector<std::string> left_out;  ///< Names of the stations left out in turn.
-    std::vector<Fitted> others;         ///< Fits without each station of `left_out`.
-
-    /// Returns the fit without a station; null if it is not left out.
-    [[nodiscard]] const Fitted* without(const std::string& site) const {
-        const auto found = std::ranges::find(left_out, site);
-        return found == left_out.end() ? nullptr : others.data() + (found - left_out.begin());
-    }
-};
-
-DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choice,
-                             const whole_day::DayPriors& priors) {
-    const std::vector<reading::SurveyRow>& rows = problem.rows;
-    const reading::DayRecord& day = *problem.day;
-    DayFits fits;
-    fits.all.stations = stations_of(rows, choice, "");
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::string& site = rows[i].site;
-        if (choice.in_use[i] && std::ranges::find(fits.left_out, site) == fits.left_out.end())
-            fits.left_out.push_back(site);
-    }
-    if (fits.left_out.size() < 2)
-        fits.left_out.clear();  // without the only one, no station would be held
-    for (const std::string& site : fits.left_out)
-        fits.others.push_back({stations_of(rows, choice, site), {}});
-    fits.all.fit = whole_day::fit_day(day, fits.all.stations, nullptr, priors).value();
-    reading::on_all_cores(fits.others.size(), [&](std::size_t k) {
-        Fitted& other = fits.others[k];
-        other.fit = whole_day::fit_day(day, other.stations, &fits.all.fit, priors).value();
-    });
-    return fits;
-}
 
 Score score_of(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use,
                const DayFits& fits) {
@@ -119,11 +46,16 @@ std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit) {
     for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
         list.push_back({std::string(whole_day::kDayTermNames.at(k)), fit.coefficients.at(k).value,
                         fit.coefficients.at(k).standard_error});
-    list.push_back({"fast_lag_s", fit.fast_lag_s, std::nullopt});
-    list.push_back({"slow_lag_s", fit.slow_lag_s, std::nullopt});
-    list.push_back({"placement_mgal", fit.noise.placement_mgal, std::nullopt});
-    list.push_back({"flicker_mgal", fit.noise.flicker_mgal, std::nullopt});
-    list.push_back({"white_mgal", fit.noise.white_mgal, std::nullopt});
+    list.push_back({"fast_lag_s", fit.fast_lag_s, fit.fast_lag_s * fit.lag_log_errors[0]});
+    list.push_back({"slow_lag_s", fit.slow_lag_s, fit.slow_lag_s * fit.lag_log_errors[1]});
+    const auto add_noise = [&](std::size_t place, std::string name, double mgal) {
+        std::optional<double> error;
+        if (fit.noise_log_errors) error = mgal * fit.noise_log_errors->at(place);
+        list.push_back({std::move(name), mgal, error});
+    };
+    add_noise(0, "placement_mgal", fit.noise.placement_mgal);
+    add_noise(1, "flicker_mgal", fit.noise.flicker_mgal);
+    add_noise(2, "white_mgal", fit.noise.white_mgal);
     return list;
 }
 
@@ -133,9 +65,9 @@ std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit) {
 MilliGal row_uncertainty(const Fitted& fitted, std::size_t row) {
     double count = 0.0;
     for (const whole_day::DayStation& station : fitted.stations)
-        if (!station.gravity && station.unknown == fitted.stations[row].unknown) count += 1.0;
+        if (station.number == fitted.stations[row].number) count += 1.0;
     const double own = fitted.fit.noise.placement_mgal * std::sqrt(1.0 - 1.0 / count);
-    const double error = fitted.unknown_of(row).standard_error;
+    const double error = fitted.gravity_of(row).standard_error;
     return MilliGal(std::sqrt(error * error + own * own));
 }
 
@@ -175,57 +107,13 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
         out.residual = *out.row.reference - out.corrected;
     }
     // The values that the row has if its reference is unknown.
-    const Fitted* const other =
-        fits.all.stations[i].gravity ? fits.without(out.row.site) : &fits.all;
+    const Fitted* const other = fits.with_unknown(i, out.row.site);
     if (other == nullptr) return;
     out.u_corrected = row_uncertainty(*other, i);
     if (!out.row.reference) return;
     own.left_out = other->fit.set_ups[i].corrected;
     out.studentised_residual =
         (*out.row.reference - *own.left_out).value() / out.u_corrected->value();
-}
-
-/// Returns the uncertainty of a station's value: that of its unknown, or of the mean of several.
-std::optional<MilliGal> station_uncertainty(const DayFits& fits,
-                                            const std::vector<std::size_t>& members,
-                                            const std::string& site) {
-    double squares = 0.0;
-    std::set<std::size_t> unknowns;
-    for (const std::size_t i : members) {
-        const Fitted* const fitted = fits.all.stations[i].gravity ? fits.without(site) : &fits.all;
-        if (fitted == nullptr) return std::nullopt;
-        if (unknowns.insert(fitted->stations[i].unknown).second)
-            squares += std::pow(fitted->unknown_of(i).standard_error, 2);
-    }
-    return MilliGal(std::sqrt(squares) / static_cast<double>(unknowns.size()));
-}
-
-std::vector<StationValue> station_values(const std::vector<CorrectedRow>& rows, const DayFits& fits,
-                                         const RowChoice& choice) {
-    std::vector<StationValue> stations;
-    std::set<std::string> done;
-    for (const CorrectedRow& first : rows) {
-        if (!done.insert(first.row.site).second) continue;
-        StationValue station;
-        station.site = first.row.site;
-        station.reference = first.row.reference;
-        std::vector<std::size_t> own, members;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows[i].row.site != station.site) continue;
-            own.push_back(i);
-            if (choice.accepted[i]) members.push_back(i);
-        }
-        station.is_flagged_only = members.empty();
-        if (members.empty()) members = own;
-        double sum = 0.0;
-        for (const std::size_t i : members) sum += rows[i].corrected.value();
-        station.row_count = members.size();
-        station.gravity = MilliGal(sum / static_cast<double>(members.size()));
-        station.u_gravity = station_uncertainty(fits, members, station.site);
-        if (station.reference) station.residual = *station.reference - station.gravity;
-        stations.push_back(std::move(station));
-    }
-    return stations;
 }
 
 /// Returns the standard deviation of rA + rS: the response to a steady temperature.
@@ -292,7 +180,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
         averaged[bin.set_up].insert(averaged[bin.set_up].end(), bin.times.begin(), bin.times.end());
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
     result.coefficients = coefficients_of(fits.all.fit);
-    result.stations = station_values(result.rows, fits, choice);
+    set_day_stations(result, problem, choice, fits, priors);
     if (options.calibration) {
         const DayFits usual = fit_with_and_without(problem, choice, whole_day::usual_day_priors());
         report_prior_use(result, *options.calibration, fits.all.fit, usual.all.fit,

@@ -195,7 +195,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
             leave_out(result.left_out, result.warnings, window, troubles[i]);
             continue;
         }
-        rows[i]->reference = text::find_site(sites, window.site)->gravity;
+        const text::Site& site = *text::find_site(sites, window.site);
+        rows[i]->reference = site.gravity;
+        rows[i]->u_reference = site.u_gravity;
         for (DayBin& bin : bins[i]) {
             bin.set_up = result.rows.size();
             if (result.day && !result.day->temperature.is_bridged(bin.time))

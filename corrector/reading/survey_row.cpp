@@ -77,6 +77,7 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         const text::Site* const site = text::find_site(sites, row.site);
         if (site == nullptr) table.refuse(i, "site", "unknown", "a name of the table of sites");
         row.reference = site->gravity;
+        row.u_reference = site->u_gravity;
         row.occupation = whole_number(table, i, "occupation", 1, 1'000'000);
         row.time = time_of(table, i, column);
         if (table.has_column("outlier")) row.is_flagged = whole_number(table, i, "outlier", 0, 1);

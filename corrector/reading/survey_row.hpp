@@ -42,8 +42,9 @@ struct SurveyRow {
     double rate_degc_per_h = 0.0;
     /// Tide that came with the row, effect on gravity; used by the tide `given` only.
     std::optional<MilliGal> given_tide;
-    MilliGal tide;                      ///< Effect of the tide on gravity; to be subtracted.
-    std::optional<MilliGal> reference;  ///< Known gravity of the site.
+    MilliGal tide;                        ///< Effect of the tide on gravity; to be subtracted.
+    std::optional<MilliGal> reference;    ///< Known gravity of the site.
+    std::optional<MilliGal> u_reference;  ///< Its standard uncertainty, if given.
     /// Record of the row; present in all rows of a survey, absent in all rows of a table of
     /// averages.
     std::optional<RecordSummary> record;

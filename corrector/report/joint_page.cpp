@@ -82,9 +82,11 @@ std::string stations_table(const std::vector<JointDay>& days,
         for (const model::SurveyCorrection& result : results) {
             const model::StationValue* const value = find_station(result, stations[i].site);
             table.rows[i].push_back(
-                value == nullptr ? "-"
-                                 : text::fixed((value->gravity - stations[i].gravity).value(), 3) +
-                                       (value->is_flagged_only ? " *" : ""));
+                value == nullptr
+                    ? "-"
+                    : text::fixed((result::day_value(*value).gravity - stations[i].gravity).value(),
+                                  3) +
+                          (value->is_flagged_only ? " *" : ""));
         }
     }
     return html_table(table.alignment, table.headings, table.rows);
@@ -100,7 +102,7 @@ std::string scatter_sentence(const std::vector<model::SurveyCorrection>& results
         text::fixed(scatter->rms_mgal, 2), scatter->dof,
         expected.empty()
             ? ""
-            : fmt::format("; expected from their u: {}, less if a day's fit holds their references",
+            : fmt::format("; expected from the part of u that the days do not share: {}",
                           expected));
 }
 
@@ -117,9 +119,12 @@ std::optional<DayScatter> scatter_of_days(const std::vector<model::SurveyCorrect
         for (const model::SurveyCorrection& day : days) {
             const model::StationValue* const value = find_station(day, station.site);
             if (value == nullptr) continue;
-            values.push_back((value->gravity - station.gravity).value());
-            has_all_u = has_all_u && value->u_gravity;
-            if (value->u_gravity) expected += std::pow(value->u_gravity->value(), 2);
+            const result::DayValue of_day = result::day_value(*value);
+            values.push_back((of_day.gravity - station.gravity).value());
+            has_all_u = has_all_u && of_day.u;
+            if (of_day.u) expected += std::pow(of_day.u->value(), 2);
+            if (value->errors)
+                for (const double shared : value->errors->shared_mgal) expected -= shared * shared;
         }
         double mean = 0.0;
         for (const double value : values) mean += value / static_cast<double>(values.size());
@@ -154,9 +159,11 @@ std::string joint_html(const std::vector<JointDay>& days) {
             stations_table(days, results),
             html_paragraph(
                 "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no "
-                "u). u assumes that the days are independent, although they share instrument and "
-                "references. NAME - joint: the day's value minus the mean. *: only readings that "
-                "were left out of the day's fit."),
+                "u). The value of a day does not use the station's own reference; in sample: a day "
+                "gives only a value that does. u contains what the days share of the instrument's "
+                "uncertainty, but not that of shared references. NAME - joint: the day's value "
+                "minus "
+                "the mean. *: only readings that were left out of the day's fit."),
             html_paragraph(scatter_sentence(results))));
 }
 

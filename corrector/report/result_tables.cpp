@@ -68,18 +68,33 @@ std::string explanation(const model::SurveyCorrection& result) {
            "left out) / u.";
 }
 
+std::string budget_html(const model::SurveyCorrection& result) {
+    const result::Table table = result::budget_table(result);
+    if (table.rows.empty()) return "";
+    return "<h3>Sources of the uncertainty</h3>\n" + html_table(table) +
+           html_paragraph(
+               "Standard uncertainties in mGal; the sum of their squares is u squared. Placement "
+               "becomes smaller with further set-ups. Levelling: unknown biases of the horizontal "
+               "axes; smaller if the box is level, or with a tilt series. Thermal: the unit's "
+               "response to temperature; smaller with a calibration or more known stations. Datum: "
+               "the references.");
+}
+
 }  // namespace
 
 std::string stations_html(const model::SurveyCorrection& result) {
     return html_table(result::stations_table(result)) +
            html_paragraph(fmt::format(
-               "Residuals are in sample. u is a standard uncertainty, {}.{}",
+               "Residuals are in sample. Left out: value without the station's own reference "
+               "(cross-validated). u is a standard uncertainty, {}; with 95 % it is right within ± "
+               "U.{}",
                result.as<model::WholeDayPart>() != nullptr        ? "as if the station were unknown"
                : result.as<model::NetworkAdjustment>() != nullptr ? "a priori"
                                                                   : "from the scatter in sample",
                std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only)
                    ? " Flagged only: only readings that were left out of the fit."
-                   : ""));
+                   : "")) +
+           budget_html(result);
 }
 
 std::string occupations_html(const model::SurveyCorrection& result) {

@@ -66,6 +66,22 @@ Column<model::CorrectedRow> tilt_column() {
     return {"tilt_correction_mgal", of(&model::CorrectedRow::tilt_correction), {"Tilt corr."}};
 }
 
+/// Returns the half width of the interval that contains 95 %.
+Cell expanded_uncertainty(const model::StationValue& station) {
+    if (!station.u_gravity || !station.coverage_factor) return {};
+    return station.u_gravity->value() * *station.coverage_factor;
+}
+
+/// Returns the column of a contribution to u, which only the whole-day model gives.
+Column<model::StationValue> part_column(std::string_view key, std::string_view heading,
+                                        whole_day::ErrorSource source) {
+    const auto cell_of = [source](const model::StationValue& station) -> Cell {
+        if (!station.errors) return {};
+        return station.errors->parts_mgal.at(static_cast<std::size_t>(source));
+    };
+    return {key, cell_of, {heading, 2}};
+}
+
 Columns columns_of_day() {
     using Day = model::WholeDayRow;
     return {of_model("averaged_s", &Day::averaged_s, {"s", 0}),
@@ -131,6 +147,31 @@ std::vector<Column<model::StationValue>> station_columns() {
         {"redundancy", of(&model::StationValue::redundancy), {"Redundancy", 2}},
         {"flagged_only", of(&model::StationValue::is_flagged_only), {"Flagged only", 0, 'l'}},
         {"u_a_posteriori_mgal", of(&model::StationValue::u_a_posteriori)},
+        {"left_out_mgal", of(&model::StationValue::left_out), {"Left out mGal"}},
+        {"u_left_out_mgal", of(&model::StationValue::u_left_out)},
+        {"dof", of(&model::StationValue::dof)},
+        {"k_95", of(&model::StationValue::coverage_factor)},
+        {"expanded_u_mgal", expanded_uncertainty, {"U 95 % mGal", 2}},
+        part_column("u_placement_mgal", "Placement", whole_day::ErrorSource::placement),
+        part_column("u_flicker_mgal", "Flicker", whole_day::ErrorSource::flicker),
+        part_column("u_white_mgal", "White", whole_day::ErrorSource::white),
+        part_column("u_levelling_mgal", "Levelling", whole_day::ErrorSource::levelling),
+        part_column("u_thermal_mgal", "Thermal", whole_day::ErrorSource::thermal),
+        part_column("u_drift_mgal", "Drift", whole_day::ErrorSource::drift),
+        part_column("u_datum_mgal", "Datum", whole_day::ErrorSource::datum),
+    };
+}
+
+std::vector<Column<model::StationDifference>> difference_columns() {
+    using Row = const model::StationDifference&;
+    return {
+        {"from", of(&model::StationDifference::from)},
+        {"to", of(&model::StationDifference::to)},
+        {"difference_mgal", of(&model::StationDifference::difference)},
+        {"u_difference_mgal", of(&model::StationDifference::u)},
+        {"reference_difference_mgal", of(&model::StationDifference::reference)},
+        {"residual_mgal",
+         [](Row row) { return row.reference ? cell(*row.reference - row.difference) : Cell(); }},
     };
 }
 

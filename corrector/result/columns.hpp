@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The columns of occupations.csv, stations.csv and models.csv, in their order.  result.json has
+/// The columns of occupations.csv, stations.csv, differences.csv and models.csv, in their order.  result.json has
 /// the same rows with the same keys.  table-format.md explains each column.
 ///
 ///     const auto columns = occupation_columns(result);
@@ -31,6 +31,9 @@ namespace a351::corrector::result {
 /// Returns the columns of stations.csv.  They are the same for every model; cells that a model does
 /// not give are empty.
 [[nodiscard]] std::vector<Column<model::StationValue>> station_columns();
+
+/// Returns the columns of differences.csv.
+[[nodiscard]] std::vector<Column<model::StationDifference>> difference_columns();
 
 /// Returns the columns of models.csv, for the rows of score_rows().  The pointers in a row must not
 /// be null.

@@ -3,35 +3,59 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace a351::corrector::result {
 namespace {
 
+/// Returns the covariance of two days' errors at a station, mGal^2: that of the unit's parameters,
+/// if both days took them from priors of one kind.
+double covariance_mgal2(const model::StationValue& a, const model::StationValue& b) {
+    if (!a.errors || !b.errors || a.errors->is_calibrated != b.errors->is_calibrated) return 0.0;
+    return std::inner_product(a.errors->shared_mgal.begin(), a.errors->shared_mgal.end(),
+                              b.errors->shared_mgal.begin(), 0.0);
+}
+
 JointStation join(const std::string& site, const std::vector<model::StationValue>& days) {
     const bool is_weighted = std::ranges::all_of(days, [](const model::StationValue& day) {
-        return day.u_gravity && day.u_gravity->value() > 0.0;
+        const auto u = day_value(day).u;
+        return u && u->value() > 0.0;
     });
     JointStation joint;
     joint.site = site;
     joint.day_count = days.size();
     // The sum is about the first day, so that full values near 980000 keep their last digits.
-    const MilliGal origin = days.front().gravity;
-    double sum = 0.0;
-    double weights = 0.0;
+    const MilliGal origin = day_value(days.front()).gravity;
+    std::vector<double> weights;
+    double sum = 0.0, of_weights = 0.0;
     for (const model::StationValue& day : days) {
-        const double u = is_weighted ? day.u_gravity->value() : 1.0;
-        sum += (day.gravity - origin).value() / (u * u);
-        weights += 1.0 / (u * u);
+        const DayValue value = day_value(day);
+        weights.push_back(is_weighted ? std::pow(value.u->value(), -2) : 1.0);
+        sum += weights.back() * (value.gravity - origin).value();
+        of_weights += weights.back();
         joint.row_count += day.row_count;
+        joint.is_in_sample = joint.is_in_sample || value.is_in_sample;
         if (day.reference) joint.reference = day.reference;
     }
-    joint.gravity = origin + MilliGal(sum / weights);
-    if (is_weighted) joint.u_gravity = MilliGal(1.0 / std::sqrt(weights));
+    joint.gravity = origin + MilliGal(sum / of_weights);
+    if (is_weighted) {
+        double variance = 0.0;
+        for (std::size_t i = 0; i < days.size(); ++i)
+            for (std::size_t k = 0; k < days.size(); ++k)
+                variance += weights[i] * weights[k] *
+                            (i == k ? 1.0 / weights[i] : covariance_mgal2(days[i], days[k]));
+        joint.u_gravity = MilliGal(std::sqrt(variance) / of_weights);
+    }
     if (joint.reference) joint.residual = *joint.reference - joint.gravity;
     return joint;
 }
 
 }  // namespace
+
+DayValue day_value(const model::StationValue& station) {
+    if (station.left_out) return {*station.left_out, station.u_left_out, false};
+    return {station.gravity, station.u_gravity, station.reference.has_value()};
+}
 
 std::vector<JointStation> join_days(const std::vector<model::SurveyCorrection>& days) {
     std::vector<std::string> sites;
@@ -57,6 +81,7 @@ const std::vector<Column<JointStation>>& joint_columns() {
         {"u_gravity_mgal", of(&JointStation::u_gravity), {"u mGal", 2}},
         {"reference_mgal", of(&JointStation::reference), {"Reference mGal"}},
         {"residual_mgal", of(&JointStation::residual), {"Residual mGal"}},
+        {"in_sample", of(&JointStation::is_in_sample), {"In sample", 0, 'l'}},
     };
     return columns;
 }

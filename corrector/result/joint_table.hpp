@@ -5,8 +5,8 @@
 ///     const std::vector<JointStation> joint = join_days(days);
 ///     const std::string csv = csv_table(joint_columns(), joint);
 ///
-/// The days are corrected one by one before, and nothing is fitted here.  Days that share
-/// references or a unit are not independent, so u_gravity is then too small.
+/// The days are corrected one by one before, and nothing is fitted here.  Values are those in which
+/// the station's own reference had no part, where the model gives them.
 
 #include <string>
 #include <vector>
@@ -20,6 +20,10 @@ namespace a351::corrector::result {
 /// `row_count` the number of rows in these values.
 ///
 /// `reference` is that of the last day that has one; `residual` is reference - gravity.
+///
+/// The uncertainty is sqrt(sum_de w_d w_e C_de) / sum w with w = 1/u^2.  C_dd = u_d^2, and C_de is
+/// the covariance by the unit's parameters, which the days of the whole-day model have in common.
+/// References that several days hold are in no covariance.
 struct JointStation {
     std::string site;
     std::size_t day_count = 0;
@@ -27,10 +31,21 @@ struct JointStation {
     /// Mean of the days, each weighted by 1/u^2; not weighted if a day has no u.  A u of 0 counts
     /// as none.
     MilliGal gravity;
-    std::optional<MilliGal> u_gravity;  ///< 1 / sqrt(sum 1/u^2), which assumes independent days.
+    std::optional<MilliGal> u_gravity;
     std::optional<MilliGal> reference;
     std::optional<MilliGal> residual;
+    bool is_in_sample = false;  ///< True: the fit of a day has seen the station's reference.
 };
+
+/// The value of a station on one day, as it is joined.
+struct DayValue {
+    MilliGal gravity;
+    std::optional<MilliGal> u;
+    bool is_in_sample = false;
+};
+
+/// Returns left_out with its uncertainty, or gravity if the model gives no such value.
+[[nodiscard]] DayValue day_value(const model::StationValue& station);
 
 /// Returns the stations in the order of their first appearance.
 ///

@@ -20,6 +20,14 @@ Json interval_json(const std::optional<model::Interval>& interval) {
     return interval ? Json{interval->low, interval->high} : Json(nullptr);
 }
 
+Json covariance_json(const std::optional<model::StationCovariance>& covariance) {
+    if (!covariance) return nullptr;
+    Json rows = Json::array();
+    for (const auto& row : covariance->mgal2.rowwise())
+        rows.push_back(std::vector<double>(row.begin(), row.end()));
+    return {{"sites", covariance->sites}, {"mgal2", rows}};
+}
+
 Json priors_json(const model::SurveyCorrection& result) {
     Json json{{"reading_sd_mgal", result.options.priors.reading_sd_mgal}};
     for (const std::string_view name : model::kPriorNames) {
@@ -48,6 +56,10 @@ std::string occupations_csv(const model::SurveyCorrection& result) {
 
 std::string stations_csv(const model::SurveyCorrection& result) {
     return csv_table(station_columns(), result.stations);
+}
+
+std::string differences_csv(const model::SurveyCorrection& result) {
+    return csv_table(difference_columns(), result.differences);
 }
 
 std::string models_csv(const model::SurveyCorrection& result) {
@@ -98,6 +110,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
     json["remarks"] = result.remarks;
     json["models"] = json_array(score_columns(result), score_rows(result));
     json["stations"] = json_array(station_columns(), result.stations);
+    json["station_covariance"] = covariance_json(result.covariance);
     json["occupations"] = json_array(occupation_columns(result), result.rows);
     json["left_out"] = Json::array();
     for (const reading::LeftOut& occupation : result.left_out) {
@@ -117,6 +130,7 @@ std::vector<text::NamedText> result_files(const model::SurveyCorrection& result,
                                           const std::vector<text::Site>& sites) {
     return {{"occupations.csv", occupations_csv(result)},
             {"stations.csv", stations_csv(result)},
+            {"differences.csv", differences_csv(result)},
             {"models.csv", models_csv(result)},
             {"result.json", result_json(result, settings, inputs)},
             {"stations.geojson", stations_geojson(result, sites)},

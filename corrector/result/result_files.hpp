@@ -27,6 +27,10 @@ namespace a351::corrector::result {
 [[nodiscard]] std::string occupations_csv(const model::SurveyCorrection& result);
 /// Returns the content of stations.csv: a line per station of the result, in its order.
 [[nodiscard]] std::string stations_csv(const model::SurveyCorrection& result);
+/// Returns the content of differences.csv: a line per pair of stations; only the header if the model
+/// gives none.
+[[nodiscard]] std::string differences_csv(const model::SurveyCorrection& result);
+
 /// Returns the content of models.csv: a line per model and set of rows.  One line has `selected` 1,
 /// that of the applied model on the rows of its fit.
 [[nodiscard]] std::string models_csv(const model::SurveyCorrection& result);
@@ -41,7 +45,7 @@ namespace a351::corrector::result {
                                       const nlohmann::ordered_json& settings,
                                       const std::vector<text::InputFile>& inputs);
 
-/// Returns these four files of a survey, stations.geojson and gsadjust.csv (export_files.hpp).
+/// Returns these five files of a survey, stations.geojson and gsadjust.csv (export_files.hpp).
 /// @param result    as occupations_csv().
 /// @param settings  as result_json().
 /// @param inputs    as result_json().

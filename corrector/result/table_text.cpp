@@ -140,12 +140,24 @@ bool is_selected(const model::SurveyCorrection& result, const ScoreRow& row) {
 }
 
 Table stations_table(const model::SurveyCorrection& result) {
-    std::vector<std::string_view> keys{
-        "site",          "n",         "gravity_mgal", "u_gravity_mgal", "reference_mgal",
-        "residual_mgal", "redundancy"};
+    std::vector<std::string_view> keys{"site",           "n",
+                                       "gravity_mgal",   "u_gravity_mgal",
+                                       "reference_mgal", "residual_mgal",
+                                       "left_out_mgal",  "expanded_u_mgal",
+                                       "redundancy"};
     if (std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only))
         keys.emplace_back("flagged_only");
     return table_of(with_keys(station_columns(), keys), result.stations);
+}
+
+Table budget_table(const model::SurveyCorrection& result) {
+    std::vector<model::StationValue> stations = result.stations;
+    std::erase_if(stations, [](const model::StationValue& station) { return !station.errors; });
+    return table_of(
+        with_keys(station_columns(), {"site", "u_placement_mgal", "u_flicker_mgal", "u_white_mgal",
+                                      "u_levelling_mgal", "u_thermal_mgal", "u_drift_mgal",
+                                      "u_datum_mgal", "u_gravity_mgal", "expanded_u_mgal"}),
+        stations);
 }
 
 Table models_table(const model::SurveyCorrection& result) {

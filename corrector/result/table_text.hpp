@@ -59,6 +59,9 @@ struct ScoreRow {
 /// Returns the values of the stations; flagged_only is shown only if it is true for a station.
 [[nodiscard]] Table stations_table(const model::SurveyCorrection& result);
 
+/// Returns the sources of the stations' uncertainties; no rows unless `day` is applied.
+[[nodiscard]] Table budget_table(const model::SurveyCorrection& result);
+
 /// Returns the scores of all models, without columns in which no model has a value.
 [[nodiscard]] Table models_table(const model::SurveyCorrection& result);
 

@@ -14,9 +14,77 @@ using Index = Eigen::Index;
 
 /// Estimates in the units of the terms.
 struct Estimates {
-    Eigen::VectorXd values, standard_errors;  ///< (estimated) Terms, then unknowns.
+    Eigen::VectorXd values, standard_errors;  ///< (estimated) Terms, then gravities.
     Eigen::VectorXd placement_mgal;           ///< (set-ups) Expectation, given all readings.
 };
+
+/// Returns the source of the prior of column k of DayProblem::linearised().
+ErrorSource source_of(const DayProblem& problem, Index k) {
+    if (k >= problem.states_begin()) return ErrorSource::thermal;  // states, then lags
+    if (k >= kTerms) return ErrorSource::datum;
+    switch (static_cast<DayTerm>(k)) {
+        case DayTerm::constant:
+            return ErrorSource::datum;
+        case DayTerm::drift:
+        case DayTerm::warm_up:
+            return ErrorSource::drift;
+        case DayTerm::x:
+        case DayTerm::y:
+            return ErrorSource::levelling;
+        default:
+            return ErrorSource::thermal;
+    }
+}
+
+/// Sets the gravities with the sources of their errors.
+///
+/// The error of an estimate is s'(X'e + p): e are the whitened readings' errors and p the priors',
+/// all independent and of variance 1.  X is `all`, and s the row of unscaling x covariance.
+/// The noise is split with the weights of the readings, W'X s, where W is the whitening.
+void set_gravities(const DayProblem& problem, const reading::DayRecord& record,
+                   const Estimates& estimates, const Eigen::MatrixXd& unscaling,
+                   const Eigen::MatrixXd& all, const Eigen::MatrixXd& covariance, DayFit& fit) {
+    const DayNoise noise = problem.noise(fit.expected);
+    Eigen::MatrixXd whitening = Eigen::MatrixXd::Identity(all.rows(), all.rows());
+    whiten(record.bins, noise, whitening);
+    for (std::size_t number = 0; number < problem.base_mgal().size(); ++number) {
+        GravityEstimate& gravity = fit.gravity_mgal.emplace_back();
+        gravity.value = problem.base_mgal()[number];
+        const Index place = problem.place_of(number);
+        if (place < 0) continue;
+        gravity.value += estimates.values(place);
+        gravity.standard_error = estimates.standard_errors(place);
+        const Eigen::VectorXd s = unscaling(place, place) * covariance.col(place);
+        std::array<double, kErrorSources> squares{};
+        const auto square = [&squares](ErrorSource source) -> double& {
+            return squares.at(static_cast<std::size_t>(source));
+        };
+        for (Index k = 0; k < s.size(); ++k) square(source_of(problem, k)) += s(k) * s(k);
+        const Eigen::VectorXd whitened = all * s;
+        const Eigen::VectorXd weights = whitening.transpose() * whitened;
+        std::vector<double> of_set_up(record.bins.back().set_up + 1);
+        for (std::size_t i = 0; i < record.bins.size(); ++i) {
+            const reading::DayBin& bin = record.bins[i];
+            const double weight = weights(static_cast<Index>(i));
+            of_set_up[bin.set_up] += weight;
+            square(ErrorSource::white) += std::pow(weight * noise.white_mgal, 2) *
+                                          static_cast<double>(reading::kBinSamples) /
+                                          static_cast<double>(bin.times.size());
+        }
+        for (const double weight : of_set_up)
+            square(ErrorSource::placement) += std::pow(weight * noise.placement_mgal, 2);
+        square(ErrorSource::flicker) =
+            std::max(0.0, whitened.squaredNorm() - square(ErrorSource::white) -
+                              square(ErrorSource::placement));
+        std::ranges::transform(squares, gravity.parts_mgal.begin(),
+                               [](double value) { return std::sqrt(value); });
+        const Index lags = problem.estimated();
+        const auto of = [&s](DayTerm term) { return s(static_cast<Index>(term)); };
+        gravity.shared_mgal = {s(lags),           s(lags + 1),       of(DayTerm::level),
+                               of(DayTerm::slow), of(DayTerm::fast), of(DayTerm::x),
+                               of(DayTerm::y)};
+    }
+}
 
 /// Returns values by least squares at the fit's point, and errors with the lags as two more terms
 /// and with the expected noise; sets the shift and its covariance.
@@ -35,17 +103,15 @@ Estimates estimate(const DayProblem& problem, const reading::DayRecord& record, 
     Estimates result;
     result.values = problem.unscaled(u, scaled);
 
-    Eigen::MatrixXd all(x.rows(), 1 + estimated + kLags);
-    const DayFit::Point expected = problem.expected(u);
-    all << problem.scaled(expected), problem.lag_columns(u, result.values);
-    whiten(record.bins, problem.noise(expected), all);
+    fit.expected = problem.expected(u);
+    const Eigen::MatrixXd all = problem.linearised(fit.expected, result.values);
     const Eigen::MatrixXd covariance =
-        linear_algebra::Cholesky(linear_algebra::normal_matrix(all.rightCols(estimated + kLags)))
-            .inverse();
-    const Eigen::MatrixXd unscaling = problem.unscaling(expected);
+        linear_algebra::Cholesky(linear_algebra::normal_matrix(all)).inverse();
+    const Eigen::MatrixXd unscaling = problem.unscaling(fit.expected);
     result.standard_errors =
         (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();
     fit.shift << u[kFastLag], u[kSlowLag], scaled.head(kTerms);
+    set_gravities(problem, record, result, unscaling, all, covariance, fit);
     // The lags are last in `covariance` and first in the shift.
     fit.shift_covariance << covariance.bottomRightCorner(kLags, kLags),
         covariance.bottomLeftCorner(kLags, kTerms), covariance.topRightCorner(kTerms, kLags),
@@ -158,27 +224,26 @@ std::optional<DayFit> fit_day(const reading::DayRecord& record,
         problem.most_likely(nearby != nullptr ? std::optional(nearby->point) : std::nullopt);
     const DayFit::Point& u = fit.point;
     fit.noise = problem.noise(u);
+    fit.noise_log_errors = problem.noise_log_errors(u);
     const Estimates estimates = estimate(problem, record, stations.size(), fit);
     fit.fast_lag_s = problem.lag_s(u, kFastLag);
     fit.slow_lag_s = problem.lag_s(u, kSlowLag);
+    const DayPriors::Matrix covariance =
+        priors.factor * fit.shift_covariance * priors.factor.transpose();
+    fit.lag_log_errors = {std::sqrt(covariance(kFastLag, kFastLag)),
+                          std::sqrt(covariance(kSlowLag, kSlowLag))};
     for (std::size_t k = 0; k < kDayTerms; ++k) {
         const auto term = static_cast<Index>(k);
         fit.coefficients.at(k) = {estimates.values(term), estimates.standard_errors(term)};
-    }
-    for (std::size_t k = 0; k < problem.rough_mgal().size(); ++k) {
-        const auto at = static_cast<Index>(kDayTerms + k);
-        fit.unknown_mgal.push_back(
-            {problem.rough_mgal()[k] + estimates.values(at), estimates.standard_errors(at)});
     }
     fit.set_ups = means_of_set_ups(problem, record, stations.size(), u, estimates.values);
     for (std::size_t s = 0; s < stations.size(); ++s) {
         DaySetUp& set_up = fit.set_ups[s];
         const DayStation& station = stations[s];
-        const double base =
-            station.gravity ? station.gravity->value() : problem.rough_mgal()[station.unknown];
-        const double gravity = station.gravity ? base : fit.unknown_mgal[station.unknown].value;
-        set_up.reading = MilliGal(base) + set_up.reading + station.tide;
-        set_up.corrected = MilliGal(gravity + estimates.placement_mgal(static_cast<Index>(s)));
+        set_up.reading =
+            MilliGal(problem.base_mgal()[station.number]) + set_up.reading + station.tide;
+        set_up.corrected = MilliGal(fit.gravity_mgal[station.number].value +
+                                    estimates.placement_mgal(static_cast<Index>(s)));
         double effects = 0.0;
         for (const double effect : set_up.effect_mgal) effects += effect;
         set_up.flicker = set_up.reading - station.tide - MilliGal(effects) - set_up.corrected;

@@ -27,10 +27,10 @@
 ///
 ///     std::vector<DayStation> stations;
 ///     for (const SurveyRow& row : rows)  // one row per set-up
-///         stations.push_back({row.tide, row.reference, 0});
-///     stations[3].gravity.reset();       // to be found: unknown number 0
+///         stations.push_back({row.tide, row.reference, stations.size()});
+///     stations[3].gravity.reset();       // to be found
 ///     const auto fit = fit_day(record, stations);
-///     fit->unknown_mgal[0].value;        // its gravity
+///     fit->gravity_mgal[3].value;        // its gravity
 ///
 /// Methods and figures: corrector/methods.md, "The whole-day model".
 
@@ -125,16 +125,41 @@ struct DayPriors {
 /// The station of a set-up: its gravity is held or unknown.
 struct DayStation {
     MilliGal tide;                    ///< Effect on gravity; subtracted.
-    std::optional<MilliGal> gravity;  ///< Gravity that is held; absent: unknown.
-    /// Number of the unknown from 0, shared by set-ups of one station; ignored if gravity is held.
-    /// A number that no set-up has gives the estimate 0 with the deviation of its prior.
-    std::size_t unknown = 0;
+    std::optional<MilliGal> gravity;  ///< Reference that is held; absent: unknown.
+    /// Number of the station from 0.  Set-ups of one number share gravity; it is held if
+    /// one of them has a reference.
+    std::size_t number = 0;
+    MilliGal u_gravity{};  ///< Standard uncertainty of the reference; 0: it is exact.
 };
 
 /// An estimated value.
 struct Estimate {
     double value = 0.0;           ///< Posterior mean.
     double standard_error = 0.0;  ///< Posterior standard deviation, in the unit of the value.
+};
+
+/// Sources of the uncertainty of gravity, in the order of GravityEstimate::parts_mgal.
+///
+/// - placement, flicker, white: the three parts of the noise.
+/// - levelling: the biases bx and by.
+/// - thermal: both lags, rA, rS, rF and what gaps of the temperature left in the instrument.
+/// - drift: d and w.
+/// - datum: the references that are held.
+enum class ErrorSource { placement, flicker, white, levelling, thermal, drift, datum };
+/// Number of sources.
+inline constexpr std::size_t kErrorSources = 7;
+/// Number of the unit's parameters in GravityEstimate::shared_mgal.
+inline constexpr std::size_t kSharedErrors = 7;
+
+/// The gravity of a station, estimated or held.
+struct GravityEstimate : Estimate {
+    /// Contributions of the sources to the standard error, mGal; the sum of their squares is its
+    /// square (JCGM 100:2008, 5.1.2).  All 0 if gravity is held.
+    std::array<double, kErrorSources> parts_mgal{};
+    /// Contributions of the unit's parameters, whose priors several days of one unit have in common:
+    /// how the estimate answers to one deviation of the fast lag, the slow lag, rA, rS, rF, bx and
+    /// by, mGal.  All 0 if gravity is held.
+    std::array<double, kSharedErrors> shared_mgal{};
 };
 
 /// One set-up.  Effects are means over its bins, mGal, with the sign that they have in the reading.
@@ -157,11 +182,17 @@ struct DayFit {
     /// standard deviations.
     using Point = std::array<double, 6>;
 
-    Point point{};                                 ///< Most likely point; 0: medians of the priors.
+    Point point{};  ///< Most likely point; 0: medians of the priors.
+    Point
+        expected{};  ///< The same with the roots of the expected variances (DayProblem::expected()).
     DayNoise noise;                                ///< Most likely noise.
     double fast_lag_s = 0.0, slow_lag_s = 0.0;     ///< tF, tS.
+    std::array<double, 2> lag_log_errors{};        ///< Standard errors of ln tF and ln tS.
     std::array<Estimate, kDayTerms> coefficients;  ///< Errors include those of the lags.
-    std::vector<Estimate> unknown_mgal;            ///< Gravity of each unknown, by its number.
+    std::vector<GravityEstimate> gravity_mgal;     ///< Gravity of the stations, by their numbers.
+    /// Standard errors of the logarithms of placement, flicker and white, from the curvature of the
+    /// likelihood; absent if it has no maximum there.
+    std::optional<std::array<double, 3>> noise_log_errors;
     /// Posterior mean of lags and terms, in coordinates in which their priors are independent and
     /// of variance 1: estimate - prior mean = factor x shift, with the rows of bx and by in the size
     /// that the day decided.
@@ -177,8 +208,7 @@ struct DayFit {
 /// restricted likelihood times their priors.  Standard errors: posterior covariance with the lags
 /// to first order, at the expected noise, which is larger than the most likely one.
 ///
-/// Stations of known gravity determine the instrument; unknown stations follow from it.  A station
-/// that is held has no uncertainty.  To find the error of the method, fit again with the gravity of
+/// Stations of known gravity determine the instrument; unknown stations follow from it.  To find the error of the method, fit again with the gravity of
 /// a known station removed and compare.
 ///
 /// Usual priors, mean and standard deviation:
@@ -198,7 +228,7 @@ struct DayFit {
 /// Cost: at most 2000 evaluations of the likelihood, each of which filters all bins and columns;
 /// time is proportional to the number of bins.  Several threads may call it at a time.
 /// @param record    record of the day, finite; each set-up has a bin.  Order: see above.
-/// @param stations  one per set-up, in the record's numbering; unknowns are numbered from 0.
+/// @param stations  one per set-up, in the record's numbering; stations are numbered from 0.
 /// @param nearby    fit of a similar problem as start of the search, which is then faster; or null.
 ///                  It should have the same priors, because its point counts from them.
 /// @param priors    priors of lags and terms.

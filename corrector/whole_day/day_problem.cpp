@@ -16,18 +16,10 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
-constexpr double kFreeDeviation_mgal = 1e4;  // deviation of gravity's prior: practically no prior
 
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 constexpr LogNormalPrior kPlacementPrior_mgal{1.2, 2.0}, kFlickerPrior_mgal{1.2, 2.0};
 constexpr double kWhiteFactor = 2.0;
-
-std::size_t unknown_count(const std::vector<DayStation>& stations) {
-    std::size_t count = 0;
-    for (const DayStation& station : stations)
-        if (!station.gravity) count = std::max(count, station.unknown + 1);
-    return count;
-}
 
 /// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
 /// at least 1e-3.  It is the median of the white noise's prior.
@@ -48,10 +40,10 @@ DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DaySt
     : record_(record),
       stations_(stations),
       priors_(priors),
-      unknowns_(static_cast<Index>(unknown_count(stations))),
       means_(record.temperature.series, record.bins),
       white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {
     set_states();
+    set_gravities();
     set_readings();
     set_fixed_columns();
 }
@@ -77,32 +69,48 @@ void DayProblem::set_states() {
             size(DayTerm::slow) * states_[k].slow_sd_degc;
 }
 
+void DayProblem::set_gravities() {
+    std::size_t numbers = 0;
+    for (const DayStation& station : stations_) numbers = std::max(numbers, station.number + 1);
+    std::vector<double> deviations(numbers, kFreeGravity_mgal);
+    base_mgal_.resize(numbers);
+    is_held_.resize(numbers);
+    for (const DayStation& station : stations_) {
+        if (!station.gravity) continue;
+        is_held_[station.number] = true;
+        base_mgal_[station.number] = station.gravity->value();
+        deviations[station.number] = station.u_gravity.value();
+    }
+    std::vector<double> estimated;
+    for (const double deviation : deviations) {
+        places_.push_back(deviation > 0.0 ? kTerms + std::ssize(estimated) : -1);
+        if (deviation > 0.0) estimated.push_back(deviation);
+    }
+    gravity_sd_mgal_ = Eigen::Map<const Eigen::VectorXd>(estimated.data(), std::ssize(estimated));
+}
+
 void DayProblem::set_readings() {
     const auto count = static_cast<Index>(record_.bins.size());
     readings_mgal_.resize(count);
     double held_sum = 0.0, held_count = 0.0;
-    std::vector<double> sums(static_cast<std::size_t>(unknowns_)), counts(sums.size());
+    std::vector<double> sums(places_.size()), counts(sums.size());
     for (Index i = 0; i < count; ++i) {
         const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
         const DayStation& station = stations_[bin.set_up];
         readings_mgal_(i) = (bin.reading - station.tide).value();
-        if (station.gravity) {
-            readings_mgal_(i) -= station.gravity->value();
-            held_sum += readings_mgal_(i);
+        if (is_held_[station.number]) {
+            held_sum += readings_mgal_(i) - base_mgal_[station.number];
             held_count += 1.0;
         } else {
-            sums[station.unknown] += readings_mgal_(i);
-            counts[station.unknown] += 1.0;
+            sums[station.number] += readings_mgal_(i);
+            counts[station.number] += 1.0;
         }
     }
-    const double constant = held_sum / held_count;
-    rough_mgal_.resize(sums.size());
     for (std::size_t k = 0; k < sums.size(); ++k)
-        rough_mgal_[k] = counts[k] > 0.0 ? sums[k] / counts[k] - constant : 0.0;
-    for (Index i = 0; i < count; ++i) {
-        const DayStation& station = stations_[record_.bins[static_cast<std::size_t>(i)].set_up];
-        if (!station.gravity) readings_mgal_(i) -= rough_mgal_[station.unknown];
-    }
+        if (counts[k] > 0.0) base_mgal_[k] = sums[k] / counts[k] - held_sum / held_count;
+    for (Index i = 0; i < count; ++i)
+        readings_mgal_(i) -=
+            base_mgal_[stations_[record_.bins[static_cast<std::size_t>(i)].set_up].number];
 }
 
 void DayProblem::set_fixed_columns() {
@@ -122,8 +130,8 @@ void DayProblem::set_fixed_columns() {
                                                unit::kTypicalUnit.warm_up_h);
         column(DayTerm::x)(i) = bin.x.value();
         column(DayTerm::y)(i) = bin.y.value();
-        const DayStation& station = stations_[bin.set_up];
-        if (!station.gravity) fixed_(i, kTerms + static_cast<Index>(station.unknown)) = 1.0;
+        const Index place = place_of(stations_[bin.set_up].number);
+        if (place >= 0) fixed_(i, place) = 1.0;
     }
 }
 
@@ -155,7 +163,7 @@ Eigen::MatrixXd DayProblem::unscaling(const Point& u) const {
     const DayPriors::Matrix factor = prior_factor(u);
     Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(estimated(), estimated() + kLags);
     derivative.topLeftCorner(kTerms, kTerms) = factor.bottomRightCorner<kTerms, kTerms>();
-    derivative.diagonal().segment(kTerms, unknowns_).setConstant(kFreeDeviation_mgal);
+    derivative.diagonal().segment(kTerms, gravity_sd_mgal_.size()) = gravity_sd_mgal_;
     derivative.diagonal().segment(states_begin(), states_sd_mgal_.size()) = states_sd_mgal_;
     derivative.topRightCorner(kTerms, kLags) = factor.bottomLeftCorner<kTerms, kLags>();
     return derivative;
@@ -211,8 +219,8 @@ Eigen::MatrixXd DayProblem::scaled(const Point& u) const {
     columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
     columns.middleCols(1, kTerms) =
         x.leftCols(kTerms) * prior_factor(u).bottomRightCorner<kTerms, kTerms>();
-    columns.middleCols(1 + kTerms, unknowns_) =
-        kFreeDeviation_mgal * x.middleCols(kTerms, unknowns_);
+    columns.middleCols(1 + kTerms, gravity_sd_mgal_.size()) =
+        x.middleCols(kTerms, gravity_sd_mgal_.size()) * gravity_sd_mgal_.asDiagonal();
     columns.rightCols(states_sd_mgal_.size()) =
         x.rightCols(states_sd_mgal_.size()) * states_sd_mgal_.asDiagonal();
     return columns;
@@ -233,6 +241,42 @@ Eigen::MatrixXd DayProblem::lag_columns(const Point& u, const Eigen::VectorXd& v
             (lagged_effects(more) - lagged_effects(less)) / (2.0 * kStep);
     }
     return columns;
+}
+
+Eigen::MatrixXd DayProblem::linearised(const Point& expected, const Eigen::VectorXd& values) const {
+    Eigen::MatrixXd columns(readings_mgal_.size(), estimated() + kLags);
+    columns << scaled(expected).rightCols(estimated()), lag_columns(expected, values);
+    whiten(record_.bins, noise(expected), columns);
+    return columns;
+}
+
+std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u) const {
+    constexpr double kStep = 0.25;
+    constexpr std::array<DayHyper, 3> kParts{kPlacement, kFlicker, kWhite};
+    const auto moved = [&](std::size_t i, double by_i, std::size_t k, double by_k) {
+        Point point = u;
+        point.at(kParts.at(i)) += by_i;
+        point.at(kParts.at(k)) += by_k;
+        return cost(point);
+    };
+    Eigen::Matrix3d curvature;
+    for (std::size_t i = 0; i < kParts.size(); ++i)
+        for (std::size_t k = 0; k <= i; ++k) {
+            const double sum = moved(i, kStep, k, kStep) + moved(i, -kStep, k, -kStep) -
+                               moved(i, kStep, k, -kStep) - moved(i, -kStep, k, kStep);
+            curvature(static_cast<Index>(i), static_cast<Index>(k)) = sum / (4.0 * kStep * kStep);
+            curvature(static_cast<Index>(k), static_cast<Index>(i)) = sum / (4.0 * kStep * kStep);
+        }
+    const linear_algebra::Cholesky factor(curvature);
+    if (!factor.is_positive_definite()) return std::nullopt;
+    const Eigen::MatrixXd covariance = factor.inverse();
+    const std::array<double, 3> factors{kPlacementPrior_mgal.factor, kFlickerPrior_mgal.factor,
+                                        kWhiteFactor};
+    std::array<double, 3> errors{};
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        errors.at(i) = std::log(factors.at(i)) *
+                       std::sqrt(covariance(static_cast<Index>(i), static_cast<Index>(i)));
+    return errors;
 }
 
 double DayProblem::cost(const Point& u) const {

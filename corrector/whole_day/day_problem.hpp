@@ -19,6 +19,7 @@
 /// that day_model.hpp requires is not checked here either.
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -28,6 +29,10 @@
 #include "corrector/whole_day/lag_states.hpp"
 
 namespace a351::corrector::whole_day {
+
+/// Standard deviation of the gravity of a station of which nothing is known, mGal: practically no
+/// prior.
+inline constexpr double kFreeGravity_mgal = 1e4;
 
 /// kDayLags and kDayTerms as sizes of matrices.
 inline constexpr auto kLags = static_cast<Eigen::Index>(kDayLags);
@@ -46,12 +51,12 @@ struct LogNormalPrior {
 enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite, kBiasSize };
 
 /// Readings and columns of fit_day() for n bins.  The estimated quantities are the terms, then the
-/// unknowns, then for each gap of the temperature the effects of the fast and of the slow lag's
-/// state, mGal where the gap ends (lag_states.hpp).
+/// gravities, then for each gap of the temperature the effects of the fast and of the slow lag's
+/// state, mGal where the gap ends (lag_states.hpp).  A reference that is held with an uncertainty is
+/// one of the gravities, with that prior; an exact one is none.
 ///
-/// An unknown is counted from its rough gravity: the mean of its readings minus the mean constant
-/// of the set-ups that are held.  Therefore the prior of an unknown, 0 +- 1e4 mGal, has practically
-/// no influence.
+/// An unknown counts from a rough gravity: the mean of its readings minus the mean constant of the
+/// set-ups that are held.  Therefore its prior, 0 +- 1e4 mGal, has practically no influence.
 ///
 /// Constant members may be called from several threads at a time.
 class DayProblem {
@@ -63,16 +68,20 @@ public:
     DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
                const DayPriors& priors);
 
-    /// Returns the number of terms, unknowns and states.
+    /// Returns the number of terms, gravities and states.
     [[nodiscard]] Eigen::Index estimated() const { return states_begin() + states_sd_mgal_.size(); }
     /// Returns the place of the first state behind a gap.
-    [[nodiscard]] Eigen::Index states_begin() const { return kTerms + unknowns_; }
+    [[nodiscard]] Eigen::Index states_begin() const { return kTerms + gravity_sd_mgal_.size(); }
+    /// Returns the place of a station's gravity among the estimated quantities; -1 if a reference
+    /// without uncertainty is held.
+    /// @param number  as DayStation::number.
+    [[nodiscard]] Eigen::Index place_of(std::size_t number) const { return places_[number]; }
 
     /// Returns the estimates (estimated) in the units of the terms: a linear function of the
     /// point's lags and of the scaled coefficients.
     ///
     /// An estimate is mean + factor x (lags, coefficients) of the priors.  The lags take part
-    /// because a prior may correlate them with slopes.  An unknown is counted from rough_mgal().
+    /// because a prior may correlate them with slopes.  A gravity counts from base_mgal().
     /// @param scaled  (estimated) coefficients of scaled().
     [[nodiscard]] Eigen::VectorXd unscaled(const Point& u, const Eigen::VectorXd& scaled) const;
     /// Returns the derivative of unscaled() (estimated, estimated + 2); the lags are last.
@@ -89,6 +98,10 @@ public:
     /// log-normal, with the variance from the curvature of the cost.
     /// @param u  most likely point.  Elsewhere the curvature means nothing.
     [[nodiscard]] Point expected(const Point& u) const;
+    /// Returns the standard errors of the logarithms of placement, flicker and white noise, from the
+    /// curvature of the cost with the other three numbers held; absent if it has no minimum there.
+    /// @param u  most likely point.
+    [[nodiscard]] std::optional<std::array<double, 3>> noise_log_errors(const Point& u) const;
     /// Returns a lag at a point, s.
     /// @param lag  kFastLag or kSlowLag.
     [[nodiscard]] double lag_s(const Point& u, DayHyper lag) const;
@@ -107,7 +120,7 @@ public:
     [[nodiscard]] double cost(const Point& u) const;
 
     /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
-    /// the terms, then 1 for the bins of each unknown, then what remains of each state.
+    /// the terms, then 1 for the bins of each gravity, then what remains of each state.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
@@ -123,13 +136,21 @@ public:
     /// Returns the object that averages a series over the bins.  The reference is valid as long as
     /// this object.
     [[nodiscard]] const BinMeans& means() const { return means_; }
-    /// Returns the readings (n) minus tide and gravity, held or rough, mGal.
+    /// Returns the readings (n) minus tide and base_mgal().
     [[nodiscard]] const Eigen::VectorXd& readings_mgal() const { return readings_mgal_; }
-    /// Returns the rough gravity of each unknown, mGal, to which its estimate is added; 0 for an
-    /// unknown without a bin.
-    [[nodiscard]] const std::vector<double>& rough_mgal() const { return rough_mgal_; }
+    /// Returns the gravity of each station from which its estimate counts, mGal: the reference, or a
+    /// rough value; 0 for a number without a bin.
+    [[nodiscard]] const std::vector<double>& base_mgal() const { return base_mgal_; }
+
+    /// Returns the problem linearised at a fit: columns (n, estimated + 2) of coefficients whose
+    /// priors are independent and of variance 1, the lags last, whitened with the expected noise.
+    /// Their normal matrix plus 1 is the inverse of the posterior covariance.
+    /// @param values  (estimated) from unscaled().
+    [[nodiscard]] Eigen::MatrixXd linearised(const Point& expected,
+                                             const Eigen::VectorXd& values) const;
 
 private:
+    void set_gravities();
     void set_readings();
     void set_fixed_columns();
     void set_states();
@@ -141,12 +162,14 @@ private:
     const reading::DayRecord& record_;
     const std::vector<DayStation>& stations_;
     const DayPriors& priors_;
-    Eigen::Index unknowns_;
-    std::vector<LagStates> states_;   ///< One per gap whose effect matters.
-    Eigen::VectorXd states_sd_mgal_;  ///< Prior deviations of the effects, fast and slow per gap.
+    std::vector<bool> is_held_;         ///< By number: one of its set-ups has a reference.
+    std::vector<Eigen::Index> places_;  ///< place_of() each number.
+    Eigen::VectorXd gravity_sd_mgal_;   ///< Prior deviations of the gravities that are estimated.
+    std::vector<LagStates> states_;     ///< One per gap whose effect matters.
+    Eigen::VectorXd states_sd_mgal_;    ///< Prior deviations of the effects, fast and slow per gap.
     BinMeans means_;
     LogNormalPrior white_mgal_;
-    std::vector<double> rough_mgal_;
+    std::vector<double> base_mgal_;
     Eigen::VectorXd readings_mgal_;
     Eigen::MatrixXd fixed_;  ///< All columns of design(); 0 where one depends on the lags.
 };

@@ -71,6 +71,12 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
         // Gravity on the Earth's surface: 976 400 (Huascaran) to 983 400 mGal (Arctic Ocean).
         if (const auto gravity = table.number_if_given(row, "gravity_mgal", 976000.0, 984000.0))
             site.gravity = MilliGal(*gravity);
+        constexpr double kLeastReliable_mgal = 100.0;  // worse than any map of gravity anomalies
+        if (const auto u =
+                table.has_column("u_gravity_mgal")
+                    ? table.number_if_given(row, "u_gravity_mgal", 0.0, kLeastReliable_mgal)
+                    : std::nullopt)
+            site.u_gravity = MilliGal(*u);
         sites.push_back(std::move(site));
     }
     return sites;

@@ -5,7 +5,7 @@
 ///     const std::vector<Site> sites = read_sites("sites.csv");
 ///     if (const Site* const base = find_site(sites, "No.0")) use(base->gravity);
 ///
-/// The table has the five columns that Site names, in any order; other columns are not used.  Its
+/// The table has the columns that Site names, in any order; other columns are not used.  Its
 /// rules are in corrector/result/table-format.md.
 
 #include <filesystem>
@@ -18,7 +18,8 @@
 
 namespace a351::text {
 
-/// Benchmark, a row of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal.
+/// Benchmark, a row of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal, and if
+/// known u_gravity_mgal.
 struct Site {
     /// Name, not empty and unique in its table.  Upper and lower case are different.
     std::string name;
@@ -31,6 +32,7 @@ struct Site {
     /// The mean is good enough for a tide, which differs by less than 0.0001 mGal over a survey,
     /// but not for a map.
     bool is_placed = true;
+    std::optional<MilliGal> u_gravity = {};  ///< Standard uncertainty of the reference, if given.
 };
 
 /// Reads a table of sites; empty coordinates become the mean of the other sites.
@@ -40,7 +42,7 @@ struct Site {
 /// between them, which can be below -180 degrees.
 ///
 /// Limits: gravity 976 000 to 984 000 mGal, which finds a value in m/s2 or Gal; longitude, latitude
-/// and altitude as in Site.  An empty gravity is an unknown station.
+/// and altitude as in Site; an uncertainty 0 to 100 mGal.  An empty gravity is an unknown station.
 /// @return the sites in the order of the file.  A header without rows gives an empty list, and its
 ///         columns are not checked.
 /// @throws InputError  a column is missing, a number is not one or out of range, a coordinate is

@@ -53,7 +53,7 @@ TEST_CASE("table writes a report in the requested formats, the same bytes each t
         CHECK(text::read_text_file(entry.path()) ==
               text::read_text_file(folder.path() / "b" / name));
     }
-    CHECK(count == 7 + 6 * 5);  // six figures as .gp, .dat, .svg, .pdf and .png
+    CHECK(count == 8 + 6 * 5);  // six figures as .gp, .dat, .svg, .pdf and .png
     CHECK_THAT(text::read_text_file(folder.path() / "a/report.html"),
                ContainsSubstring("Gravity survey observations") &&
                    ContainsSubstring("n = 16: the scatter of 2.62 mGal (in sample)") &&

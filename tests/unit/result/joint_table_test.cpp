@@ -38,6 +38,25 @@ TEST_CASE("if a day has no uncertainty the plain mean of the days is used", "[su
     CHECK(joint[0].gravity.value() == Approx(979902.5).epsilon(1e-12));
     CHECK_FALSE(joint[0].u_gravity.has_value());
     CHECK(csv_table(joint_columns(), joint) ==
-          "site,days,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal\n"
-          "A,2,4,979902.500000,,979900.000000,-2.500000\n");
+          "site,days,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal,in_sample\n"
+          "A,2,4,979902.500000,,979900.000000,-2.500000,1\n");
+}
+
+TEST_CASE("days are joined by their values without the own reference, with the errors they share",
+          "[survey][joint]") {
+    std::vector<SurveyCorrection> days{day_with(979900.0, 1.0), day_with(979900.0, 1.0)};
+    for (SurveyCorrection& day : days) {
+        StationValue& station = day.stations.front();
+        station.left_out = MilliGal(979902.0);
+        station.u_left_out = MilliGal(1.0);
+        station.errors = StationErrors{};
+        station.errors->shared_mgal = {0.6, 0.0, 0.0, 0.0, -0.2, 0.0, 0.0};
+    }
+    const auto joint = join_days(days);
+    CHECK(joint[0].gravity.value() == Approx(979902.0).epsilon(1e-12));
+    CHECK_FALSE(joint[0].is_in_sample);
+    CHECK(joint[0].u_gravity->value() == Approx(std::sqrt(0.5 * (1.0 + 0.4))));
+    // A day with a calibration has other priors.
+    days[1].stations.front().errors->is_calibrated = true;
+    CHECK(join_days(days)[0].u_gravity->value() == Approx(std::sqrt(0.5)));
 }

@@ -41,6 +41,16 @@ TEST_CASE("an unknown station has no reference value", "[text][sites]") {
     CHECK_FALSE(sites[0].gravity.has_value());
 }
 
+TEST_CASE("a reference has an uncertainty if the column is there", "[text][sites]") {
+    const std::string header =
+        "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal,u_gravity_mgal\n";
+    const auto sites = read_sites(written(header + "X,140,36,0,979800,0.03\nY,140,36,0,979801,\n"));
+    CHECK(sites.at(0).u_gravity.value() == MilliGal(0.03));
+    CHECK_FALSE(sites.at(1).u_gravity.has_value());
+    CHECK_THROWS_WITH(read_sites(written(header + "X,140,36,0,979800,-1\n")),
+                      ContainsSubstring(":2: u_gravity_mgal = -1: out of range"));
+}
+
 TEST_CASE("a site without coordinates gets the mean position of the others, in any order",
           "[text][sites]") {
     const std::vector<std::string> rows{"W,179.9,-17.1,10,\n", "E,-179.7,-17.3,40,\n", "X,,,,\n",

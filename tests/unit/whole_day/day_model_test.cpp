@@ -55,12 +55,12 @@ TEST_CASE("the stated uncertainty of unknown stations covers their errors as oft
         auto stations = MadeUpDay::stations();
         for (const std::size_t s : {3U, 9U}) {
             stations[s].gravity.reset();
-            stations[s].unknown = s == 3U ? 0U : 1U;
+            stations[s].number = s == 3U ? 11U : 12U;  // set-up 14 is at site 3 too
         }
         const auto fit =
             fit_day(MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record(seed), stations);
         for (std::size_t k = 0; k < 2; ++k) {
-            const Estimate g = fit.value().unknown_mgal.at(k);
+            const Estimate g = fit.value().gravity_mgal.at(11 + k);
             const double error = g.value - MadeUpDay::gravity_mgal(k == 0 ? 3 : 9);
             sum += error * error;
             ++count;
@@ -76,12 +76,10 @@ TEST_CASE("the stated uncertainty of unknown stations covers their errors as oft
 
 TEST_CASE("set-ups of one unknown station share its value", "[day]") {
     auto stations = MadeUpDay::stations();
-    for (const std::size_t s : {2U, 13U}) {  // both at the third of eleven stations
+    for (const std::size_t s : {2U, 13U})  // both at the third of eleven stations
         stations[s].gravity.reset();
-        stations[s].unknown = 0;
-    }
     const auto fit = fit_day(MadeUpDay{.placement_mgal = 1.0}.record(), stations);
-    const double g = fit.value().unknown_mgal.at(0).value;
+    const double g = fit.value().gravity_mgal.at(2).value;
     CHECK(g == Approx(MadeUpDay::gravity_mgal(2)).margin(2.5));
     const double departure2 = fit->set_ups[2].corrected.value() - g,
                  departure13 = fit->set_ups[13].corrected.value() - g;
@@ -101,10 +99,10 @@ TEST_CASE("a fit that starts from a nearby fit gives the same result", "[day]") 
     const auto all = fit_day(record, stations);
     stations[5].gravity.reset();
     const auto afar = fit_day(record, stations), near = fit_day(record, stations, &all.value());
-    CHECK(near.value().unknown_mgal.at(0).value ==
-          Approx(afar.value().unknown_mgal.at(0).value).margin(0.005));
-    CHECK(near->unknown_mgal.at(0).standard_error ==
-          Approx(afar->unknown_mgal.at(0).standard_error).epsilon(0.005));
+    CHECK(near.value().gravity_mgal.at(5).value ==
+          Approx(afar.value().gravity_mgal.at(5).value).margin(0.005));
+    CHECK(near->gravity_mgal.at(5).standard_error ==
+          Approx(afar->gravity_mgal.at(5).standard_error).epsilon(0.005));
 }
 
 TEST_CASE("the whole-day fit is bit-identical each time", "[day]") {

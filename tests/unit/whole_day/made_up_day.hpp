@@ -20,6 +20,7 @@ struct MadeUpDay {
 
     static constexpr std::size_t kSetUps = 16;
     static constexpr std::size_t kBins = 14;
+    static constexpr std::size_t kSites = 11;
 
     [[nodiscard]] static UtcTime start() { return *parse_rfc3339("2026-05-01T00:00:00Z"); }
 
@@ -35,7 +36,7 @@ struct MadeUpDay {
     }
 
     [[nodiscard]] static double gravity_mgal(std::size_t set_up) {
-        return 979900.0 + 13.0 * static_cast<double>(set_up % 11);
+        return 979900.0 + 13.0 * static_cast<double>(set_up % kSites);
     }
 
     [[nodiscard]] reading::DayRecord record(std::uint64_t seed = 1) const {
@@ -82,7 +83,7 @@ struct MadeUpDay {
     [[nodiscard]] static std::vector<DayStation> stations() {
         std::vector<DayStation> all;
         for (std::size_t s = 0; s < kSetUps; ++s)
-            all.push_back({MilliGal(0.0), MilliGal(gravity_mgal(s)), 0});
+            all.push_back({MilliGal(0.0), MilliGal(gravity_mgal(s)), s % kSites});
         return all;
     }
 };
