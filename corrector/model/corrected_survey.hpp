@@ -30,6 +30,7 @@
 #include "corrector/model/network.hpp"
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/goodness_of_fit.hpp"
 #include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector::model {
@@ -221,8 +222,10 @@ struct RobustPart {
 };
 /// Marks a fit of `paper`, whose own values are in the rows.
 struct PaperPart {};
-/// Marks a fit of `day`, whose own values are in the rows.
-struct WholeDayPart {};
+/// Values that only `day` gives, besides those in the rows.
+struct WholeDayPart {
+    std::vector<whole_day::FitTest> fit_tests;  ///< Empty: there are too few readings to test.
+};
 
 /// A model fitted to a survey.
 struct Fit {

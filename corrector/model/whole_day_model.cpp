@@ -7,9 +7,9 @@
 
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/day_fits.hpp"
-#include "corrector/model/day_stations.hpp"
 #include "corrector/model/row_doubts.hpp"
 #include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/goodness_of_fit.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::model {
@@ -149,6 +149,54 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
             std::lround(missing_s / 60.0), std::lround(temperature.longest_gap_s() / 60.0)));
 }
 
+/// Says in words where the model does not fit, and enlarges the uncertainties if the readings that
+/// were left out scatter more than stated.
+void remark_misfit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
+    auto& part = std::get<WholeDayPart>(result.own);
+    part.fit_tests = tests;
+    if (tests.empty())
+        result.remarks.emplace_back(
+            "too few readings of known or repeated stations to test whether the model fits the "
+            "day");
+    std::vector<std::string> misfits;
+    for (const whole_day::FitTest& test : tests) {
+        if (!test.is_misfit()) continue;
+        const auto reading = [&](std::size_t i) {
+            const reading::SurveyRow& row = result.rows[i].row;
+            return fmt::format("{} ({})", row.site, row.occupation);
+        };
+        const std::string p = fmt::format(" (p = {})", text::fixed(test.p, 4));
+        switch (test.misfit) {
+            case whole_day::Misfit::curvature:
+                misfits.push_back(fmt::format("the residuals follow the square of the {}{}",
+                                              test.place == 0 ? "temperature" : "time", p));
+                break;
+            case whole_day::Misfit::step:
+                misfits.push_back(fmt::format("the readings from {} on are off by a step{}",
+                                              reading(test.place), p));
+                break;
+            case whole_day::Misfit::tails:
+                misfits.push_back(
+                    fmt::format("a few set-ups are much further off than the others, {} most{}",
+                                reading(test.place), p));
+                break;
+        }
+    }
+    if (misfits.empty()) return;
+    double squares = 0.0, count = 0.0;
+    for (const CorrectedRow& row : result.rows) {
+        if (!row.is_used || !row.studentised_residual) continue;
+        squares += std::pow(*row.studentised_residual, 2);
+        count += 1.0;
+    }
+    const double factor = count > 0.0 ? std::max(1.0, std::sqrt(squares / count)) : 1.0;
+    enlarge_uncertainties(result, factor);
+    result.remarks.push_back(fmt::format(
+        "the model does not fit this day: {}; {}", text::joined(misfits),
+        factor > 1.0 ? fmt::format("all uncertainties are enlarged by {}", text::fixed(factor, 2))
+                     : "the uncertainties already contain the scatter"));
+}
+
 std::optional<std::string> refusal_of(const SurveyProblem& problem, const RowChoice& choice) {
     auto refusal = day_refusal(problem.rows, choice.in_use, problem.day);
     if (!refusal && std::ranges::any_of(problem.options.priors.values,
@@ -195,6 +243,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
                         "slow effect needs two hours",
                         std::lround(lead_s / 60.0)));
     doubt_by_prediction(result);
+    remark_misfit(result, whole_day::goodness_of_fit(day, fits.all.stations, fits.all.fit, priors));
     return result;
 }
 

@@ -28,6 +28,18 @@ Json covariance_json(const std::optional<model::StationCovariance>& covariance) 
     return {{"sites", covariance->sites}, {"mgal2", rows}};
 }
 
+Json fit_tests_json(const model::SurveyCorrection& result) {
+    const auto* const day = result.as<model::WholeDayPart>();
+    if (day == nullptr) return nullptr;
+    Json tests = Json::array();
+    for (const whole_day::FitTest& test : day->fit_tests)
+        tests.push_back(
+            {{"misfit", whole_day::kMisfitNames.at(static_cast<std::size_t>(test.misfit))},
+             {"p", test.p},
+             {"is_found", test.is_misfit()}});
+    return tests;
+}
+
 Json priors_json(const model::SurveyCorrection& result) {
     Json json{{"reading_sd_mgal", result.options.priors.reading_sd_mgal}};
     for (const std::string_view name : model::kPriorNames) {
@@ -106,6 +118,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
         {"bootstrap_seed", result.options.seed}};
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);
     json["network"] = network_json(result);
+    json["goodness_of_fit"] = fit_tests_json(result);
     json["calibration"] = model::calibration_json(result);
     json["remarks"] = result.remarks;
     json["models"] = json_array(score_columns(result), score_rows(result));

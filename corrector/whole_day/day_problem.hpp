@@ -162,7 +162,7 @@ private:
     const reading::DayRecord& record_;
     const std::vector<DayStation>& stations_;
     const DayPriors& priors_;
-    std::vector<bool> is_held_;         ///< By number: one of its set-ups has a reference.
+    std::vector<bool> is_held_;         ///< One per number: one of its set-ups has a reference.
     std::vector<Eigen::Index> places_;  ///< place_of() each number.
     Eigen::VectorXd gravity_sd_mgal_;   ///< Prior deviations of the gravities that are estimated.
     std::vector<LagStates> states_;     ///< One per gap whose effect matters.

@@ -65,7 +65,7 @@ private:
     [[nodiscard]] Combination combined(const std::vector<std::size_t>& numbers,
                                        const std::vector<double>& factors, bool are_hidden) const;
 
-    std::vector<Gravity> gravities_;    ///< By number.
+    std::vector<Gravity> gravities_;    ///< One per number.
     std::vector<Eigen::Index> common_;  ///< Columns that every system has.
     Eigen::MatrixXd columns_;           ///< Whitened; their priors are independent.
     Eigen::VectorXd gradient_;          ///< Products of the columns with the residuals of the fit.

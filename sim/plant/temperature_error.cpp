@@ -16,7 +16,9 @@ MilliGal TemperatureError::next(DegC body, double since_power_on_s) noexcept {
     const double body_degc = body.value();
     crystal_degc_ += crystal_gain_ * (body_degc - crystal_degc_);
     clock_degc_ += clock_gain_ * (body_degc - clock_degc_);
-    terms_.static_mgal = p_.crystal_static_mgal_per_degc * (body_degc - p_.reference_degc);
+    const double above_degc = body_degc - p_.reference_degc;
+    terms_.static_mgal = p_.crystal_static_mgal_per_degc * above_degc +
+                         p_.crystal_quadratic_mgal_per_degc2 * above_degc * above_degc;
     terms_.dynamic_mgal = p_.crystal_dynamic_mgal_per_degc * (crystal_degc_ - body_degc);
     terms_.clock_mgal = p_.clock_mgal_per_degc * (clock_degc_ - p_.reference_degc);
     terms_.warm_up_mgal =

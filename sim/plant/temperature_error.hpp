@@ -6,8 +6,9 @@ namespace a351::sim::plant {
 
 struct TemperatureErrorParameters {
     double reference_degc = 0.0;
-    double crystal_static_mgal_per_degc = 0.0;   ///< rA
-    double crystal_dynamic_mgal_per_degc = 0.0;  ///< kA
+    double crystal_static_mgal_per_degc = 0.0;      ///< rA
+    double crystal_quadratic_mgal_per_degc2 = 0.0;  ///< qA
+    double crystal_dynamic_mgal_per_degc = 0.0;     ///< kA
     double crystal_tau_s = 0.0;
     double clock_mgal_per_degc = 0.0;  ///< rC
     double clock_tau_s = 0.0;
@@ -25,7 +26,7 @@ struct TemperatureErrorTerms {
 
 /// Effect of temperature on the reading that remains after the sensor's own compensation:
 ///
-///     err = rA (Tb - T0) + kA (lag(Tb, tauA) - Tb) + rC (lag(Tb, tauC) - T0) + B exp(-t/tauW)
+///     err = rA (Tb - T0) + qA (Tb - T0)^2 + kA (lag(Tb, tauA) - Tb) + rC (lag(Tb, tauC) - T0) + B exp(-t/tauW)
 ///
 /// lag is first order, y += (1 - exp(-dt/tau)) (x - y), and starts in equilibrium.  Tb is the
 /// temperature of the body, t the time since power-on.

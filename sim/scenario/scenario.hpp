@@ -104,9 +104,12 @@ struct SlowNoiseParameters {
     double resonant_mgal = 0.0;
     double resonant_period_s = 0.0;
     double resonant_quality = 0.0;
-    double white_mgal = 0.0;        ///< Rms of 20 s means.
-    double temperature_degc = 0.0;  ///< White, rms of 20 s means of the reported temperature.
-    double placement_mgal = 0.0;    ///< One draw per set-up.
+    double white_mgal = 0.0;              ///< Rms of 20 s means.
+    double temperature_degc = 0.0;        ///< White, rms of 20 s means of the reported temperature.
+    double placement_mgal = 0.0;          ///< One draw per set-up.
+    double placement_gross_share = 0.0;   ///< Share of set-ups with a larger placement.
+    double placement_gross_factor = 0.0;  ///< How much larger.
+    double transport_step_mgal = 0.0;     ///< From one drive on, which is drawn.
     double drift_linear_mgal_per_h = 0.0;
     double drift_quadratic_mgal_per_h2 = 0.0;
     double drift_walk_mgal_per_sqrt_h = 0.0;

@@ -134,6 +134,7 @@ void read_oven(Section& s, plant::OvenParameters& p) {
 void read_error(Section& s, plant::TemperatureErrorParameters& p, double& unit_scatter) {
     s.number("reference_degc", p.reference_degc, 0.0, 80.0);
     s.number("crystal_static_mgal_per_degc", p.crystal_static_mgal_per_degc, -1e5, 1e5);
+    s.number("crystal_quadratic_mgal_per_degc2", p.crystal_quadratic_mgal_per_degc2, -1e5, 1e5);
     s.number("crystal_dynamic_mgal_per_degc", p.crystal_dynamic_mgal_per_degc, -1e5, 1e5);
     s.number("crystal_tau_s", p.crystal_tau_s, 1.0, 1e6);
     s.number("clock_mgal_per_degc", p.clock_mgal_per_degc, -1e5, 1e5);
@@ -182,6 +183,9 @@ void read_slow_noise(Section& s, SlowNoiseParameters& p) {
     s.number("white_20s_mgal", p.white_mgal, 0.0, 1000.0);
     s.number("temperature_20s_degc", p.temperature_degc, 0.0, 10.0);
     s.number("placement_mgal", p.placement_mgal, 0.0, 1000.0);
+    s.number("placement_gross_share", p.placement_gross_share, 0.0, 1.0);
+    s.number("placement_gross_factor", p.placement_gross_factor, 1.0, 1000.0);
+    s.number("transport_step_mgal", p.transport_step_mgal, -1e5, 1e5);
     s.number("drift_linear_mgal_per_h", p.drift_linear_mgal_per_h, -1000.0, 1000.0);
     s.number("drift_quadratic_mgal_per_h2", p.drift_quadratic_mgal_per_h2, -1000.0, 1000.0);
     s.number("drift_walk_mgal_per_sqrt_h", p.drift_walk_mgal_per_sqrt_h, 0.0, 1000.0);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <fstream>
 #include <system_error>
 
@@ -80,19 +81,23 @@ class SetUpDraws {
 public:
     SetUpDraws(const Scenario& scenario, std::uint64_t seed)
         : sigma_rad_(scenario.sensor.levelling_sigma_deg * kRadPerDeg),
-          placement_rms_mgal_(scenario.slow_noise.placement_mgal),
+          noise_(scenario.slow_noise),
           levelling_(seed, "levelling"),
-          placement_(seed, "placement") {}
+          placement_(seed, "placement"),
+          gross_(seed, "gross") {}
 
     void draw(PlannedSetUp& set_up) {
         set_up.about_y_rad = sigma_rad_ * levelling_.normal();
         set_up.about_x_rad = sigma_rad_ * levelling_.normal();
-        set_up.placement_mgal = placement_rms_mgal_ * placement_.normal();
+        set_up.placement_mgal = noise_.placement_mgal * placement_.normal();
+        if (gross_.uniform() < noise_.placement_gross_share)
+            set_up.placement_mgal *= noise_.placement_gross_factor;
     }
 
 private:
-    double sigma_rad_, placement_rms_mgal_;
-    noise::RandomStream levelling_, placement_;
+    double sigma_rad_;
+    const SlowNoiseParameters& noise_;
+    noise::RandomStream levelling_, placement_, gross_;
 };
 
 }  // namespace
@@ -110,6 +115,9 @@ std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t se
     }
     const std::vector<Interval> intervals = draw_intervals(scenario, seed);
     std::vector<PlannedSetUp> plan;
+    // The reading steps in one of the drives between two occupations.
+    const double drives = static_cast<double>(intervals.size()) - 1.0;
+    const double stepped = 1.0 + std::floor(noise::RandomStream(seed, "step").uniform(0.0, drives));
     for (std::size_t i = 0; i < intervals.size(); ++i) {
         const ListedOccupation& listed = scenario.occupations[i];
         const auto [from, start, end] = intervals[i];
@@ -117,6 +125,8 @@ std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t se
         set_up.site = *text::find_site(scenario.sites, listed.site);
         set_up.number = listed.number;
         set_up.is_outlier = listed.is_outlier;
+        if (static_cast<double>(i) >= stepped)
+            set_up.step_mgal = scenario.slow_noise.transport_step_mgal;
         set_up.parts = listed.levelling.empty() ? scenario.schedule.set_ups
                                                 : static_cast<int>(listed.levelling.size());
         for (int part = 1; part <= set_up.parts; ++part) {

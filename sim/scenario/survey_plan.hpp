@@ -24,6 +24,7 @@ struct PlannedSetUp {
     double about_y_rad = 0.0;  ///< Levelling, first turn.
     double about_x_rad = 0.0;  ///< Levelling, second turn.
     double placement_mgal = 0.0;
+    double step_mgal = 0.0;   ///< Change of the reading by the drives so far.
     bool is_occupied = true;  ///< False for the one set-up of a record without occupations.
 };
 

@@ -89,7 +89,7 @@ SlowValue SlowSignal::next() {
     term(Term::flicker) = flicker_.next();
     term(Term::resonant) = resonant_.next();
     term(Term::white) = scenario_.slow_noise.white_mgal * white_gain * white_.normal();
-    term(Term::drift) = drift_mgal(elapsed_s / 3600.0);
+    term(Term::drift) = drift_mgal(elapsed_s / 3600.0) + set_up.step_mgal;
     term(Term::ripple) = ripple_mgal();
     value.along_z = MilliGal(scenario_.sensor.bias_mgal) + temperature_error +
                     MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +

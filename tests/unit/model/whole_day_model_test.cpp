@@ -1,5 +1,6 @@
 #include "corrector/model/whole_day_model.hpp"
 
+#include <cmath>
 #include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
@@ -182,6 +183,38 @@ TEST_CASE("the reason why auto does not use the whole-day model is reported", "[
     REQUIRE_FALSE(result.remarks.empty());
     CHECK_THAT(result.remarks.front(),
                ContainsSubstring("not the whole-day model: the temperature"));
+}
+
+TEST_CASE("a day that the model does not fit is named, and its uncertainties are enlarged",
+          "[survey][day]") {
+    DayRecord day = kScattered.record();
+    const auto rows = rows_of(day);
+    const auto fits = correct_survey(rows, with_model("day"), &day);
+    const auto remark_of = [](const SurveyCorrection& result) {
+        std::string text;
+        for (const std::string& remark : result.remarks)
+            if (remark.starts_with("the model does not fit this day: ")) text = remark;
+        return text;
+    };
+    CHECK(remark_of(fits).empty());
+    for (DayBin& bin : day.bins)
+        if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(25.0);
+    const auto misfit = correct_survey(rows, with_model("day"), &day);
+    CHECK_THAT(remark_of(misfit), ContainsSubstring("a few set-ups are much further off"));
+    double squares = 0.0, count = 0.0;
+    for (const CorrectedRow& row : misfit.rows) {
+        squares += std::pow(row.studentised_residual.value(), 2);
+        count += 1.0;
+        CHECK(row.studentised_residual.value() ==
+              Approx((*row.row.reference - *row.as<WholeDayRow>()->left_out).value() /
+                     row.u_corrected->value()));
+    }
+    CHECK(std::sqrt(squares / count) < 1.01);
+    for (const StationValue& station : misfit.stations) {
+        double sum = 0.0;
+        for (const double part : station.errors.value().parts_mgal) sum += part * part;
+        CHECK(std::sqrt(sum) == Approx(station.u_gravity->value()).epsilon(1e-9));
+    }
 }
 
 TEST_CASE("one reading at a known station is enough for the whole-day model", "[survey][day]") {

@@ -93,6 +93,7 @@ TEST_CASE("each term of the truth agrees with its effect on the norm of the samp
     const auto [column, toml, least_mgal] = GENERATE(values<Case>({
         {"tide_mgal", "", 0.1},
         {"static_mgal", "[temperature_error]\ncrystal_static_mgal_per_degc = -12\n", 0.5},
+        {"static_mgal", "[temperature_error]\ncrystal_quadratic_mgal_per_degc2 = 500\n", 0.5},
         {"dynamic_mgal", "[temperature_error]\ncrystal_dynamic_mgal_per_degc = -950\n", 0.05},
         {"clock_mgal", "[temperature_error]\nclock_mgal_per_degc = -20\n", 0.5},
         {"warm_up_mgal", "[temperature_error]\nwarm_up_mgal = 36\n", 0.1},

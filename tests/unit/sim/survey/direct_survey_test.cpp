@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <set>
 #include "tests/support/catch.hpp"
 
 #include "protocol/archive/archive_reader.hpp"
@@ -234,4 +235,27 @@ TEST_CASE("a record at one point has an archive, one site and no survey", "[sim]
     REQUIRE(channel.segments[0].counts.size() == truth.size());
     CHECK(std::abs(seconds_between(truth.back().utc,
                                    channel.segments[0].time_of(truth.size() - 1))) < 1e-3);
+}
+
+TEST_CASE("a step and gross placements are planned as the scenario asks", "[sim][plan]") {
+    const Scenario tsukuba = parse_scenario(
+        "base = \"tsukuba\"\nname = \"x\"\n[slow_noise]\ntransport_step_mgal = 8\n"
+        "placement_gross_share = 0.25\nplacement_gross_factor = 100\n",
+        "x.toml");
+    int gross = 0;
+    std::set<std::size_t> places;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const auto plan = plan_survey(tsukuba, seed);
+        std::size_t place = 0;
+        for (std::size_t i = 0; i < plan.size(); ++i) {
+            if (i > 0) CHECK(plan[i].step_mgal >= plan[i - 1].step_mgal);
+            if (plan[i].step_mgal == 0.0) place = i + 1;
+            if (std::abs(plan[i].placement_mgal) > 6.0) ++gross;  // five deviations
+        }
+        CHECK(plan.front().step_mgal == 0.0);
+        CHECK(plan.back().step_mgal == 8.0);
+        places.insert(place);
+    }
+    CHECK(places.size() > 10);  // of 18 drives
+    CHECK(gross / (40.0 * 19.0) == Approx(0.25).margin(0.05));
 }

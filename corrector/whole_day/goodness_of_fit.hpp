@@ -1,0 +1,65 @@
+#pragma once
+/// @file
+/// Tests whether the whole-day model fits a day.
+///
+///     for (const FitTest& test : goodness_of_fit(record, stations, fit, priors))
+///         if (test.is_misfit()) warn(test.misfit, test.p);
+///
+/// The means of the set-ups scatter about the model with a known covariance: that of the noise and of
+/// the priors.  What the model lacks shows in them:
+/// - curvature: a course with the square of the temperature or of the time, for example a response
+///   that is not linear;
+/// - step: all readings from one set-up on are higher or lower;
+/// - tails: a quarter of the set-ups has most of the scatter, so placement is not normal.
+///
+/// A statistic is a ratio of squares, so a wrong size of the noise has no effect.  Its probability is
+/// counted in simulations of the same day without a misfit, with the same draws each time.
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "corrector/reading/day_record.hpp"
+#include "corrector/whole_day/day_model.hpp"
+
+namespace a351::corrector::whole_day {
+
+/// Kind of misfit that a test finds.
+enum class Misfit { curvature, step, tails };
+
+/// Names of the tests in result.json.
+inline constexpr std::array<std::string_view, 3> kMisfitNames{"curvature", "step", "tails"};
+
+/// Probabilities below which a test counts as a misfit.  Reason: together they are wrong for at most
+/// one ordinary day in 20.  A step is allowed more, because temperature and drift hide it best.
+inline constexpr std::array<double, 3> kMisfitProbabilities{0.01, 0.025, 0.015};
+
+/// A test of the fit.
+struct FitTest {
+    Misfit misfit{};
+    double p = 1.0;  ///< Probability of at least this statistic on a day that the model fits.
+    /// curvature: 0 of the temperature, 1 of the time; step: first set-up behind it; tails: the
+    /// set-up that fits worst.
+    std::size_t place = 0;
+
+    /// Returns true if the model does not fit the day.
+    [[nodiscard]] bool is_misfit() const {
+        return p < kMisfitProbabilities.at(static_cast<std::size_t>(misfit));
+    }
+};
+
+/// Least number of degrees of freedom of the tests: set-ups minus unknown stations minus 1.
+/// Reason: with fewer, a curve and a step leave nothing to compare them with.
+inline constexpr int kFewestFitDof = 5;
+
+/// Tests a fit.
+///
+/// Error rates on simulated days: tests/bench/misfits.py.
+/// @param record, stations, priors  those of the fit.
+/// @return one test of each kind; none with fewer than kFewestFitDof degrees of freedom.
+/// Source: B. D. Ripley, Stochastic Simulation, Wiley 1987, section 7.1 (Monte Carlo tests).
+[[nodiscard]] std::vector<FitTest> goodness_of_fit(const reading::DayRecord& record,
+                                                   const std::vector<DayStation>& stations,
+                                                   const DayFit& fit, const DayPriors& priors);
+
+}  // namespace a351::corrector::whole_day
