@@ -136,9 +136,7 @@ void read_filter(TomlTable& table, source::LinkOptions& sensor, station::Descrip
 source::LinkOptions read_sensor(TomlTable table, station::Description& station) {
     source::LinkOptions sensor;
     sensor.address = read_address(table);
-    std::vector<std::string> profiles;
-    for (const auto& profile : wire::all_profiles()) profiles.emplace_back(profile.name);
-    sensor.profile = wire::find_profile(table.choice_or("profile", "A351", profiles));
+    sensor.profile = wire::find_profile(table.choice_or("profile", "A351", wire::profile_names()));
 
     sensor.baud = coded_value(table, "baud", 460800, sensor.profile->baud_rates);
     sensor.settings.output_rate_hz =

@@ -116,6 +116,10 @@ const DeviceProfile* find_profile(std::string_view name) noexcept {
     return found == kProfiles.end() ? nullptr : &*found;
 }
 
-std::span<const DeviceProfile> all_profiles() noexcept { return kProfiles; }
+std::vector<std::string> profile_names() {
+    std::vector<std::string> names;
+    for (const DeviceProfile& profile : kProfiles) names.emplace_back(profile.name);
+    return names;
+}
 
 }  // namespace a351::wire

@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -47,7 +48,7 @@ struct Coded {
 
 /// Description of one type of device.
 ///
-/// Take profiles from find_profile() or all_profiles().  The spans and names refer to constant
+/// Take profiles from find_profile().  The spans and names refer to constant
 /// tables, so a copy remains valid.  A default-constructed profile has no rates and no filters; do
 /// not convert with it, because an internal rate of 0 would be a divisor.
 struct DeviceProfile {
@@ -118,7 +119,7 @@ struct DeviceProfile {
 /// The pointer is valid for the whole run.  Upper and lower case differ: "a351" is unknown.
 [[nodiscard]] const DeviceProfile* find_profile(std::string_view name) noexcept;
 
-/// Returns all profiles, in a fixed order, for lists of permitted values.
-[[nodiscard]] std::span<const DeviceProfile> all_profiles() noexcept;
+/// Returns the names of all profiles, in a fixed order, for lists of permitted values.
+[[nodiscard]] std::vector<std::string> profile_names();
 
 }  // namespace a351::wire

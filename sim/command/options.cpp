@@ -1,6 +1,7 @@
 #include "sim/command/options.hpp"
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/wire/device_profile.hpp"
 #include "sim/device/register_machine.hpp"
 #include "sim/line/service.hpp"
 
@@ -27,7 +28,7 @@ void add_day(CLI::App& command, DayOptions& day) {
 void add_profile(CLI::App& command, std::string& profile, const std::string& used_for) {
     command.add_option("--profile", profile, used_for + "Kind of device")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"A351", "A352AD10"}))
+        ->check(CLI::IsMember(wire::profile_names()))
         ->capture_default_str();
 }
 

@@ -1,6 +1,6 @@
 #include "sim/replay/journal_recording.hpp"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -37,8 +37,8 @@ journal::Header read_header(const std::filesystem::path& file) {
 void require_known_settings(const std::filesystem::path& file, const journal::Header& header) {
     const auto* profile = wire::find_profile(header.profile);
     if (profile == nullptr) {
-        throw InputError(fmt::format("{}: profile {}: unknown; allowed: A351, A352AD10",
-                                     file.string(), header.profile));
+        throw InputError(fmt::format("{}: profile {}: unknown; allowed: {}", file.string(),
+                                     header.profile, fmt::join(wire::profile_names(), ", ")));
     }
     const bool has_baud =
         std::ranges::count(profile->baud_rates, header.baud, &wire::Coded::value) > 0;

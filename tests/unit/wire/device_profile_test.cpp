@@ -14,7 +14,7 @@ using Names = std::vector<std::string_view>;
 
 TEST_CASE("profiles are found by name, and only the documented one is verified",
           "[wire][device_profile]") {
-    REQUIRE(all_profiles().size() == 2);
+    CHECK(profile_names() == std::vector<std::string>{"A351", "A352AD10"});
     const DeviceProfile* documented = find_profile("A352AD10");
     const DeviceProfile* copy = find_profile("A351");
     REQUIRE(documented != nullptr);
