@@ -30,7 +30,7 @@ using std::chrono::days;
 using Day = std::chrono::sys_time<days>;
 
 constexpr std::size_t kChannels = kRecordChannels;
-constexpr std::size_t kVertical = 2;
+constexpr std::size_t kLeading = 2;  // the channel whose gaps divide the record; any axis would do
 constexpr std::int64_t kBlockSamples = 16384;  // so that a channel's block fits in the cache
 constexpr double kSameRate = 1e-3;             // relative; ten times the error of a sensor's clock
 
@@ -62,7 +62,7 @@ public:
     /// Adds the samples of a day, or of an epoch's part of it, after those taken so far.
     void take(const DayOfChannels& day) {
         std::vector<Placed> run;
-        for (const archive::Segment& segment : day[kVertical].segments) {
+        for (const archive::Segment& segment : day[kLeading].segments) {
             const UtcTime start = segment.time_of(0);
             if (rate_hz_ == 0.0) begin(segment.rate_hz);
             if (!has_rate(segment)) {
@@ -172,7 +172,7 @@ private:
         if (run.empty()) return;
         std::array<std::vector<Placed>, kChannels> placed;
         for (std::size_t k = 0; k < kChannels; ++k)
-            placed[k] = k == kVertical ? run : place(day[k], run);
+            placed[k] = k == kLeading ? run : place(day[k], run);
         const std::int64_t behind = run.back().behind();
         for (std::int64_t at = builder_->input_count(); at < behind; at += kBlockSamples) {
             const auto count = static_cast<std::size_t>(std::min(kBlockSamples, behind - at));
@@ -272,7 +272,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     const std::vector<RecordEpoch> epochs = read_record_epochs(metadata);
     std::set<Day> of_days;
     for (const RecordEpoch& epoch : epochs)
-        of_days.merge(days_with_files(archive, epoch.codes, epoch.scales[kVertical].code, window));
+        of_days.merge(days_with_files(archive, epoch.codes, epoch.scales[kLeading].code, window));
 
     LongRecord record;
     ArchiveStream stream(record);
@@ -293,7 +293,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
             for (const archive::ChannelData& channel : samples)
                 reading::add_damage(record.warnings, channel);
             from = to;
-            if (samples[kVertical].segments.empty()) continue;
+            if (samples[kLeading].segments.empty()) continue;
             stream.use(epoch);
             stream.take(samples);
         }
@@ -303,7 +303,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     if (record.stretches.empty())
         throw InputError(fmt::format(
             "{}: archive: no sample of {}; allowed: an archive with samples from --from to --to",
-            root.string(), epochs.back().scales[kVertical].code));
+            root.string(), epochs.back().scales[kLeading].code));
     if (const auto position = position_of(metadata))
         remove_tide(record, *position);
     else

@@ -135,7 +135,8 @@ std::string reading(const json& status) {
 std::string tilt(const json& status) {
     const json& advice = at(status, "tilt/advice");
     return fmt::format(
-        "x {}   y {} compared with {}{}", number_of(status, "tilt/x_arcmin", "{:+.1f}'"),
+        "{} {}   {} {} compared with {}{}", text_of(status, "tilt/axes/0"),
+        number_of(status, "tilt/x_arcmin", "{:+.1f}'"), text_of(status, "tilt/axes/1"),
         number_of(status, "tilt/y_arcmin", "{:+.1f}'"), text_of(status, "tilt/reference/site"),
         advice.empty() ? "" : ": " + joined(advice));
 }

@@ -150,30 +150,38 @@ verdict::RunningReading Record::reading(UtcTime from, UtcTime to, MilliGal targe
 
 std::optional<Level> Record::level_against(UtcTime from, UtcTime to) const {
     const std::lock_guard lock(mutex_);
-    std::array<std::vector<double>, 2> stood_mgal;
+    constexpr std::size_t kAxes = 3;
+    std::array<std::vector<double>, kAxes> stood_mgal;
     for (const verdict::LiveSample& sample : thinned_) {
         // Data from before the set-up must not reach in through the filters.
         if (seconds_between(from, sample.time) < verdict::kReachSeconds) continue;
         if (seconds_between(sample.time, to) < verdict::kReachSeconds) break;
-        const double x = sample.axes[0].value(), y = sample.axes[1].value();
-        if (!std::isfinite(x + y)) continue;
-        stood_mgal[0].push_back(x);
-        stood_mgal[1].push_back(y);
+        for (std::size_t axis = 0; axis < kAxes; ++axis)
+            if (const double mgal = sample.axes[axis].value(); std::isfinite(mgal))
+                stood_mgal[axis].push_back(mgal);
     }
     const auto now = recent_.mean_of_last(kLevelSeconds * static_cast<std::size_t>(rate_hz_));
-    if (stood_mgal[0].empty() || !now) return std::nullopt;
+    if (!now || std::ranges::any_of(stood_mgal, &std::vector<double>::empty)) return std::nullopt;
+    std::array<double, kAxes> reference_mgal{};
+    for (std::size_t axis = 0; axis < kAxes; ++axis)
+        reference_mgal[axis] = signal::median(std::move(stood_mgal[axis]));
+    const auto vertical = static_cast<std::size_t>(
+        std::ranges::max_element(reference_mgal, {}, [](double mgal) { return std::abs(mgal); }) -
+        reference_mgal.begin());
     Level level;
     const double g_per_count = profile_.acceleration(1).value();
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        const MilliGal reference(signal::median(std::move(stood_mgal[axis])));
+    std::size_t place = 0;
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+        if (axis == vertical) continue;
         const double tilt = elevation_arcmin(StandardGravity(g_per_count * (*now)[axis])) -
-                            elevation_arcmin(to_standard_gravity(reference));
-        level.tilt_arcmin[axis] = tilt;
+                            elevation_arcmin(to_standard_gravity(MilliGal(reference_mgal[axis])));
+        const char letter = "xyz"[axis];
+        level.axes[place] = letter;
+        level.tilt_arcmin[place++] = tilt;
         if (std::abs(tilt) <= kMostTiltArcmin) continue;
         level.is_within = false;
         level.advice.push_back(fmt::format("{} the +{} side by {:.1f}'",
-                                           tilt > 0.0 ? "lower" : "raise", axis == 0 ? 'x' : 'y',
-                                           std::abs(tilt)));
+                                           tilt > 0.0 ? "lower" : "raise", letter, std::abs(tilt)));
     }
     return level;
 }

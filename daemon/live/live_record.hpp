@@ -38,9 +38,11 @@ struct OvenPoint {
 ///     tilt = asin(a) - asin(reference)
 ///
 /// An axis at rest that points up reads +1 g, so its reading in g is the sine of its elevation.
-/// For a sensor of opposite sign the advice reverses.
+/// For a sensor of opposite sign the advice reverses.  The vertical axis is the one that read most at
+/// the first set-up, so the sensor may be mounted on its side.
 struct Level {
-    /// Tilt of x and y; positive if the + end is higher than at the first set-up.
+    std::array<char, 2> axes{'x', 'y'};  ///< Letters of the horizontal axes.
+    /// Tilt of both; positive if the + end is higher than at the first set-up.
     std::array<double, 2> tilt_arcmin{};
     bool is_within = true;            ///< Both are within kMostTiltArcmin.
     std::vector<std::string> advice;  ///< "lower the +x side by 2.4'"; empty if within.

@@ -235,7 +235,9 @@ json to_json(const verdict::RunningReading& reading, MilliGal target) {
 json tilt_of(const survey::FieldStatus& field) {
     if (field.level_site.empty()) return nullptr;
     const auto& level = field.level;
-    return {{"x_arcmin", level ? json(level->tilt_arcmin[0]) : json()},
+    const live::Level known = level.value_or(live::Level{});
+    return {{"axes", {std::string(1, known.axes[0]), std::string(1, known.axes[1])}},
+            {"x_arcmin", level ? json(level->tilt_arcmin[0]) : json()},
             {"y_arcmin", level ? json(level->tilt_arcmin[1]) : json()},
             {"limit_arcmin", live::kMostTiltArcmin},
             {"is_within", level ? json(level->is_within) : json()},

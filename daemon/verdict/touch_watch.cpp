@@ -62,13 +62,15 @@ void TouchWatch::follow_shake(const LiveSample& sample) {
 
 /// Compares the axes of a minute ago with those of now.
 void TouchWatch::follow_tilt(const LiveSample& sample) {
-    tilts_mgal_.push_back({sample.axes[0].value(), sample.axes[1].value()});
+    tilts_mgal_.push_back({sample.axes[0].value(), sample.axes[1].value(), sample.axes[2].value()});
     if (tilts_mgal_.size() <= kMinute) return;
-    const double x = tilts_mgal_.back()[0] - tilts_mgal_.front()[0];
-    const double y = tilts_mgal_.back()[1] - tilts_mgal_.front()[1];
+    // The vertical axis changes only with the square of the tilt, so which one it is has no effect.
+    std::array<double, 3> change_mgal{};
+    for (std::size_t axis = 0; axis < change_mgal.size(); ++axis)
+        change_mgal[axis] = tilts_mgal_.back()[axis] - tilts_mgal_.front()[axis];
     tilts_mgal_.pop_front();
     const double most_mgal = kMilliGalPerStandardGravity * options_.tilt_deg * kRadPerDeg;
-    if (std::hypot(x, y) > most_mgal) {
+    if (std::hypot(change_mgal[0], change_mgal[1], change_mgal[2]) > most_mgal) {
         last_handled_ = last_knock_ = sample.seen_at;
         tilts_mgal_.clear();
         norms_mgal_.clear();

@@ -41,7 +41,7 @@ private:
     std::optional<UtcTime> last_shaken_;  ///< Like last_knock_, but not set by a change of tilt.
     std::optional<UtcTime> last_knock_, last_handled_, last_shaking_;
     std::deque<double> shakes_mgal_;
-    std::deque<std::array<double, 2>> tilts_mgal_;  ///< Horizontal axes.
+    std::deque<std::array<double, 3>> tilts_mgal_;  ///< All axes.
     std::deque<double> norms_mgal_;
     std::deque<double> minutes_mgal_;  ///< Noise of past minutes.
     int since_minute_ = 0;

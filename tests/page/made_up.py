@@ -48,7 +48,7 @@ def finished(site, number=1, hours_ago=1.0, **changes):
 
 
 def tilt(x_arcmin, y_arcmin, advice=()):
-    return {"x_arcmin": x_arcmin, "y_arcmin": y_arcmin, "limit_arcmin": 1.2,
+    return {"axes": ["x", "y"], "x_arcmin": x_arcmin, "y_arcmin": y_arcmin, "limit_arcmin": 1.2,
             "is_within": None if x_arcmin is None else not advice, "advice": list(advice),
             "reference": {"site": "No.0", "utc": rfc3339(time.time() - 7200)}}
 

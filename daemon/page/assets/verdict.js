@@ -63,7 +63,7 @@ export function show_tilt(tilt) {
     spot.setAttribute("cx", kBubbleScale * at_rim * tilt.x_arcmin);
     spot.setAttribute("cy", -kBubbleScale * at_rim * tilt.y_arcmin);
     spot.setAttribute("class", tilt.is_within ? "within" : "beyond");
-    set_text("level-numbers", `x ${signed(tilt.x_arcmin)}′  y ${signed(tilt.y_arcmin)}′`);
+    set_text("level-numbers", `${tilt.axes[0]} ${signed(tilt.x_arcmin)}′  ${tilt.axes[1]} ${signed(tilt.y_arcmin)}′`);
     set_text("level-word", tilt.is_within ? `✓ within ${number(tilt.limit_arcmin, 1)}′ on both axes`
         : `✗ more than ${number(tilt.limit_arcmin, 1)}′`);
     set_items("level-advice", tilt.advice.map((text) => [visible(text).replaceAll("'", "′"), ""]));

@@ -223,6 +223,20 @@ TEST_CASE("tilt is given relative to a set-up, with the side to turn", "[live][l
     CHECK_FALSE(record.level_against(after(500.0), after(600.0)));
 }
 
+TEST_CASE("the level of a sensor on its side is that of its horizontal axes", "[live][level]") {
+    constexpr double kArcmin_mgal = 285.26;  // g sin 1'
+    Record record(kProfile, 50, {});
+    for (std::int64_t i = 0; i < 6000; ++i)
+        record.take(placed(i, -980000.0, 5.0 * kArcmin_mgal, 2.0 * kArcmin_mgal));
+    for (std::int64_t i = 6000; i < 6200; ++i)
+        record.take(placed(i, -980000.0, 5.5 * kArcmin_mgal, 0.0));
+    const auto level = record.level_against(kZero, after(120.0));
+    REQUIRE(level);
+    CHECK(level->axes == std::array{'y', 'z'});
+    CHECK(level->tilt_arcmin[0] == Approx(0.5).margin(0.001));
+    CHECK(level->advice == std::vector<std::string>{"raise the +z side by 2.0'"});
+}
+
 TEST_CASE("lifting the box at the end of a set-up does not change the level of that set-up",
           "[live][level]") {
     constexpr double kLevel = 8000.0, kLifted = 80'000.0;  // 28' and 4.7 deg.
