@@ -130,7 +130,7 @@ struct StationErrors {
     std::array<double, whole_day::kErrorSources> parts_mgal{};
     /// Errors that all days of one unit have in common (whole_day::GravityEstimate::shared_mgal).
     std::array<double, whole_day::kSharedErrors> shared_mgal{};
-    bool is_calibrated = false;  ///< The shared errors are those of a calibration.
+    bool is_calibrated = false;  ///< The shared errors are those of the unit's calibration.
 };
 
 /// Factor of a coverage of about 95 % where the standard deviations do not come from the scatter of
@@ -174,6 +174,15 @@ struct StationDifference {
     MilliGal u;                         ///< Standard uncertainty.
     std::optional<MilliGal> reference;  ///< Difference of the references, if both have one.
 };
+
+/// Returns the difference of two stations, with that of their references if both have one.
+[[nodiscard]] inline StationDifference difference_of(const StationValue& from,
+                                                     const StationValue& to, MilliGal difference,
+                                                     MilliGal u) {
+    StationDifference result{from.site, to.site, difference, u, std::nullopt};
+    if (from.reference && to.reference) result.reference = *to.reference - *from.reference;
+    return result;
+}
 
 /// Covariance of stations' values.
 struct StationCovariance {
@@ -225,6 +234,7 @@ struct PaperPart {};
 /// Values that only `day` gives, besides those in the rows.
 struct WholeDayPart {
     std::vector<whole_day::FitTest> fit_tests;  ///< Empty: there are too few readings to test.
+    double uncertainty_factor = 1.0;  ///< By which a misfit enlarged the uncertainties of stations.
 };
 
 /// A model fitted to a survey.

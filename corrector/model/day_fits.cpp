@@ -121,10 +121,6 @@ DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choi
 }
 
 void enlarge_uncertainties(Fit& result, double factor) {
-    for (CorrectedRow& row : result.rows) {
-        enlarge(row.u_corrected, factor);
-        if (row.studentised_residual) *row.studentised_residual /= factor;
-    }
     for (StationValue& station : result.stations) {
         enlarge(station.u_gravity, factor);
         enlarge(station.u_left_out, factor);
@@ -172,12 +168,9 @@ void set_day_stations(Fit& result, const SurveyProblem& problem, const RowChoice
     for (std::size_t b = 0; b < compared.size(); ++b)
         for (std::size_t a = 0; a < b; ++a) {
             const whole_day::Estimate estimate = system.difference(numbers[a], numbers[b]);
-            StationDifference difference{compared[a]->site, compared[b]->site,
-                                         MilliGal(estimate.value),
-                                         MilliGal(estimate.standard_error), std::nullopt};
-            if (compared[a]->reference && compared[b]->reference)
-                difference.reference = *compared[b]->reference - *compared[a]->reference;
-            result.differences.push_back(std::move(difference));
+            result.differences.push_back(difference_of(*compared[a], *compared[b],
+                                                       MilliGal(estimate.value),
+                                                       MilliGal(estimate.standard_error)));
         }
     const Eigen::MatrixXd correlation = system.correlation();
     StationCovariance covariance;

@@ -64,8 +64,8 @@ struct DayFits {
 void set_day_stations(Fit& result, const SurveyProblem& problem, const RowChoice& choice,
                       const DayFits& fits, const whole_day::DayPriors& priors);
 
-/// Multiplies all uncertainties of a fit of the whole-day model by a factor; studentised residuals
-/// are divided by it.
+/// Multiplies the uncertainties of stations and differences by a factor.  Those of readings remain,
+/// so that a reading that is far off still looks so.
 void enlarge_uncertainties(Fit& result, double factor);
 
 }  // namespace a351::corrector::model

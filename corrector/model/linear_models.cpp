@@ -91,7 +91,7 @@ StationCovariance covariance_of(const std::vector<StationMean>& means, const Lin
 /// A value is that of the fit to the rows of the other stations, a difference that of the fit
 /// without both stations: d = mean(D)_to - mean(D)_from - (x_to - x_from)' b, with
 /// u^2 = s^2 (1/n_from + 1/n_to + (x_to - x_from)' C (x_to - x_from)).  x are mean regressors, n
-/// numbers of rows, and C is the cofactor of the slopes b.  The coverage factor is Student's for
+/// numbers of rows, s is that of the fit to all rows, and C is the cofactor of the slopes b.  The coverage factor is Student's for
 /// 95 %.  The covariance is that of StationValue::gravity as if the stations were not in the fit.
 ///
 /// A pair without which the rows do not determine the model is left out.  Cost: one fit for each
@@ -103,6 +103,7 @@ void set_left_out_stations(Fit& result, const LinearModel& terms, const SurveyPr
         means_of(result, model_columns(terms, problem.rows, problem.origin()), choice);
     const auto all = fit_without(terms, problem, choice, "", "");
     if (!all || !all->residual_scale()) return;
+    const double s_mgal = *all->residual_scale();
     const auto dof = static_cast<double>(all->dof());
     for (StationValue& station : result.stations) {
         station.dof = dof;
@@ -110,29 +111,24 @@ void set_left_out_stations(Fit& result, const LinearModel& terms, const SurveyPr
     }
     for (std::size_t b = 0; b < means.size(); ++b) {
         const StationMean& to = means[b];
-        if (const auto fit = fit_without(terms, problem, choice, to.value->site, "");
-            fit && fit->residual_scale()) {
+        if (const auto fit = fit_without(terms, problem, choice, to.value->site, "")) {
             to.value->left_out = to.reading - MilliGal(fit->at(to.x));
-            to.value->u_left_out = MilliGal(*fit->residual_scale() *
-                                            std::sqrt(1.0 / to.count + fit->leverage_at(to.x)));
+            to.value->u_left_out =
+                MilliGal(s_mgal * std::sqrt(1.0 / to.count + fit->leverage_at(to.x)));
         }
         for (std::size_t a = 0; a < b; ++a) {
             const StationMean& from = means[a];
             const auto fit = fit_without(terms, problem, choice, from.value->site, to.value->site);
-            if (!fit || !fit->residual_scale()) continue;
+            if (!fit) continue;
             const Eigen::VectorXd step = to.x - from.x;
-            StationDifference difference{
-                from.value->site, to.value->site,
-                to.reading - from.reading - MilliGal(fit->at(to.x) - fit->at(from.x)),
-                MilliGal(*fit->residual_scale() *
-                         std::sqrt(1.0 / from.count + 1.0 / to.count + product(*fit, step, step))),
-                std::nullopt};
-            if (from.value->reference && to.value->reference)
-                difference.reference = *to.value->reference - *from.value->reference;
-            result.differences.push_back(std::move(difference));
+            result.differences.push_back(
+                difference_of(*from.value, *to.value,
+                              to.reading - from.reading - MilliGal(fit->at(to.x) - fit->at(from.x)),
+                              MilliGal(s_mgal * std::sqrt(1.0 / from.count + 1.0 / to.count +
+                                                          product(*fit, step, step)))));
         }
     }
-    result.covariance = covariance_of(means, *all, *all->residual_scale());
+    result.covariance = covariance_of(means, *all, s_mgal);
 }
 
 Score score(const LinearModel& terms, const SurveyProblem& problem, const RowChoice& choice) {

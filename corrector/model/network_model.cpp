@@ -10,7 +10,7 @@
 namespace a351::corrector::model {
 namespace {
 
-constexpr double kLeastRedundancy = 1e-9;  // below it nothing but the datum itself determines it
+constexpr double kLeastRedundancy = 1e-9;  // below it the prediction v / r is rounding
 
 Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     Score score;
@@ -161,7 +161,7 @@ void set_station_errors(Fit& result, const NetworkAdjustment& network) {
     StationCovariance covariance;
     std::vector<Eigen::Index> places;
     for (StationValue& station : result.stations) {
-        station.coverage_factor = kCoverageFactor;
+        if (network.passes_global_test().value_or(true)) station.coverage_factor = kCoverageFactor;
         const auto at = std::ranges::find(network.stations, station.site);
         if (at == network.stations.end()) continue;
         covariance.sites.push_back(station.site);
@@ -188,12 +188,9 @@ void set_station_errors(Fit& result, const NetworkAdjustment& network) {
                 *std::ranges::find(result.stations, covariance.sites[a], &StationValue::site);
             const auto i = static_cast<Eigen::Index>(a), k = static_cast<Eigen::Index>(b);
             const Eigen::MatrixXd& c = covariance.mgal2;
-            StationDifference difference{from.site, to.site, to.gravity - from.gravity,
-                                         MilliGal(std::sqrt(c(i, i) + c(k, k) - 2.0 * c(i, k))),
-                                         std::nullopt};
-            if (from.reference && to.reference)
-                difference.reference = *to.reference - *from.reference;
-            result.differences.push_back(std::move(difference));
+            result.differences.push_back(
+                difference_of(from, to, to.gravity - from.gravity,
+                              MilliGal(std::sqrt(c(i, i) + c(k, k) - 2.0 * c(i, k)))));
         }
     }
     result.covariance = std::move(covariance);

@@ -120,6 +120,30 @@ bool is_plain_network(const SurveyOptions& options) {
                                 [](const auto& prior) { return prior.has_value(); });
 }
 
+/// Gives stations whose reference no fit has seen their value as the one without it.
+void value_stations_outside(Fit& result) {
+    for (StationValue& station : result.stations) {
+        const bool is_in_fit = std::ranges::any_of(result.rows, [&](const CorrectedRow& row) {
+            return row.is_used && row.row.reference && row.row.site == station.site;
+        });
+        if (is_in_fit) continue;
+        station.left_out = station.gravity;
+        station.u_left_out = station.u_gravity;
+    }
+}
+
+/// Says that a model takes references as exact that have an uncertainty.
+void remark_unused_uncertainties(Fit& result, const Model& model) {
+    const bool uses_them = model.name == kWholeDay || model.name == kNetwork;
+    if (!uses_them && std::ranges::any_of(result.rows, [](const CorrectedRow& row) {
+            return row.is_used && row.row.u_reference.value_or(MilliGal(0.0)).value() > 0.0;
+        }))
+        result.remarks.push_back(fmt::format(
+            "{} takes the references as exact: their uncertainties in the table of sites are not "
+            "used",
+            model.name));
+}
+
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     Chosen chosen;
     const SurveyOptions& options = problem.options;
@@ -186,6 +210,8 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
                                      refusal->trouble, refusal->allowed));
     SurveyCorrection result;
     static_cast<Fit&>(result) = std::get<Fit>(std::move(chosen.fit));
+    value_stations_outside(result);
+    remark_unused_uncertainties(result, *chosen.model);
     result.model = chosen.model->name;
     result.choice = chosen.choice;
     result.choice_loso_mgal = chosen.choice_loso_mgal;

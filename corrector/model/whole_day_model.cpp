@@ -112,8 +112,9 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
     out.u_corrected = row_uncertainty(*other, i);
     if (!out.row.reference) return;
     own.left_out = other->fit.set_ups[i].corrected;
-    out.studentised_residual =
-        (*out.row.reference - *own.left_out).value() / out.u_corrected->value();
+    const double u_reference_mgal = out.row.u_reference.value_or(MilliGal(0.0)).value();
+    out.studentised_residual = (*out.row.reference - *own.left_out).value() /
+                               std::hypot(out.u_corrected->value(), u_reference_mgal);
 }
 
 /// Returns the standard deviation of rA + rS: the response to a steady temperature.
@@ -149,8 +150,8 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
             std::lround(missing_s / 60.0), std::lround(temperature.longest_gap_s() / 60.0)));
 }
 
-/// Says in words where the model does not fit, and enlarges the uncertainties if the readings that
-/// were left out scatter more than stated.
+/// Says in words where the model does not fit, and enlarges the uncertainties of stations and
+/// differences if the readings that were left out scatter more than stated.
 void remark_misfit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
     auto& part = std::get<WholeDayPart>(result.own);
     part.fit_tests = tests;
@@ -189,12 +190,21 @@ void remark_misfit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
         squares += std::pow(*row.studentised_residual, 2);
         count += 1.0;
     }
-    const double factor = count > 0.0 ? std::max(1.0, std::sqrt(squares / count)) : 1.0;
-    enlarge_uncertainties(result, factor);
-    result.remarks.push_back(fmt::format(
-        "the model does not fit this day: {}; {}", text::joined(misfits),
-        factor > 1.0 ? fmt::format("all uncertainties are enlarged by {}", text::fixed(factor, 2))
-                     : "the uncertainties already contain the scatter"));
+    std::string consequence = "no reading could be left out, so the uncertainties are unchecked";
+    if (count > 0.0) {
+        constexpr double kNotable = 1.01;  // less would be printed as 1.00
+        const double factor = std::sqrt(squares / count);
+        consequence = "the uncertainties already contain the scatter of the readings left out";
+        if (factor > kNotable) {
+            part.uncertainty_factor = factor;
+            enlarge_uncertainties(result, factor);
+            consequence =
+                fmt::format("the uncertainties of stations and differences are enlarged by {}",
+                            text::fixed(factor, 2));
+        }
+    }
+    result.remarks.push_back(
+        fmt::format("the model does not fit this day: {}; {}", text::joined(misfits), consequence));
 }
 
 std::optional<std::string> refusal_of(const SurveyProblem& problem, const RowChoice& choice) {

@@ -35,7 +35,7 @@ namespace a351::corrector::model {
 ///   that time.
 /// - The fit is repeated without each station.  u_corrected is the uncertainty that the row has if
 ///   the reference of its station is unknown.  The studentised residual is the error of this
-///   prediction divided by u_corrected.
+///   prediction divided by sqrt(u_corrected^2 + u_reference^2).
 /// - A row that is excluded, or flagged and not used, gets its own unknown station, so that it has
 ///   a value and no influence.
 /// - If only one station is held, its rows have no such prediction: neither u_corrected nor a
@@ -44,6 +44,8 @@ namespace a351::corrector::model {
 ///   errors of these rows are correlated.
 /// - A remark says how much of the temperature slope comes from the prior if it is more than a
 ///   quarter, and how much of the temperature is missing if it is more than 5 min.
+/// - goodness_of_fit() tests the fit.  A misfit is a remark, and enlarges the uncertainties of stations
+///   and differences by the rms of the studentised residuals.
 /// - The slow term needs two hours of temperature before the first bin.  There is a remark if the
 ///   record begins later.
 /// - With a calibration the fit is repeated with the usual priors, and the use of the calibration

@@ -111,30 +111,32 @@ std::string scatter_sentence(const std::vector<model::SurveyCorrection>& results
 std::optional<DayScatter> scatter_of_days(const std::vector<model::SurveyCorrection>& days) {
     DayScatter scatter;
     double squares = 0.0, expected = 0.0;
-    std::size_t count = 0;
     bool has_all_u = true;
     for (const result::JointStation& station : result::join_days(days)) {
         if (station.day_count < 2) continue;
-        std::vector<double> values;
-        for (const model::SurveyCorrection& day : days) {
-            const model::StationValue* const value = find_station(day, station.site);
-            if (value == nullptr) continue;
-            const result::DayValue of_day = result::day_value(*value);
-            values.push_back((of_day.gravity - station.gravity).value());
-            has_all_u = has_all_u && of_day.u;
-            if (of_day.u) expected += std::pow(of_day.u->value(), 2);
-            if (value->errors)
-                for (const double shared : value->errors->shared_mgal) expected -= shared * shared;
+        std::vector<const model::StationValue*> values;
+        for (const model::SurveyCorrection& day : days)
+            if (const model::StationValue* const value = find_station(day, station.site))
+                values.push_back(value);
+        const auto n = static_cast<double>(values.size());
+        double mean = 0.0;  // of the differences from the joint value
+        const auto off = [&station](const model::StationValue& value) {
+            return (result::day_value(value).gravity - station.gravity).value();
+        };
+        for (const auto* const value : values) mean += off(*value) / n;
+        for (const auto* const a : values) {
+            squares += std::pow(off(*a) - mean, 2);
+            const auto u = result::day_value(*a).u;
+            has_all_u = has_all_u && u;
+            if (u) expected += std::pow(u->value(), 2) * (1.0 - 1.0 / n);
+            for (const auto* const b : values)
+                if (a != b) expected -= result::covariance_mgal2(*a, *b) / n;
         }
-        double mean = 0.0;
-        for (const double value : values) mean += value / static_cast<double>(values.size());
-        for (const double value : values) squares += std::pow(value - mean, 2);
-        count += values.size();
         scatter.dof += values.size() - 1;
     }
     if (scatter.dof == 0) return std::nullopt;
     scatter.rms_mgal = std::sqrt(squares / static_cast<double>(scatter.dof));
-    if (has_all_u) scatter.expected_mgal = std::sqrt(expected / static_cast<double>(count));
+    if (has_all_u) scatter.expected_mgal = std::sqrt(expected / static_cast<double>(scatter.dof));
     return scatter;
 }
 

@@ -26,11 +26,13 @@ struct JointDay {
 /// Scatter from day to day of stations measured on several days.
 ///
 /// If `rms_mgal` is well above `expected_mgal`, the days differ by more than their uncertainties
-/// explain.  It is smaller than expected if a day's fit holds the references of these stations.
+/// explain.
 struct DayScatter {
     double rms_mgal = 0.0;  ///< RMS about the mean of each station, divisor `dof`.
     std::size_t dof = 0;    ///< Degrees of freedom: the sum over stations of days minus one.
-    std::optional<double> expected_mgal;  ///< RMS of the values' u; absent if a value has no u.
+    /// The same from the covariance of the days' values, E = sum over stations of
+    /// [sum_d u_d^2 (1 - 1/n) - sum_{d != e} C_de / n] / dof; absent if a value has no u.
+    std::optional<double> expected_mgal;
 };
 
 /// Computes the scatter from day to day:

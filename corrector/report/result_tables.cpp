@@ -83,14 +83,23 @@ std::string budget_html(const model::SurveyCorrection& result) {
 }  // namespace
 
 std::string stations_html(const model::SurveyCorrection& result) {
-    return html_table(result::stations_table(result)) +
+    const result::Table table = result::stations_table(result);
+    const auto has = [&table](std::string_view heading) {
+        return std::ranges::find(table.headings, heading) != table.headings.end();
+    };
+    return html_table(table) +
            html_paragraph(fmt::format(
-               "Residuals are in sample. Left out: value without the station's own reference "
-               "(cross-validated). u is a standard uncertainty, {}; with 95 % it is right within ± "
-               "U.{}",
+               "Residuals are in sample.{} u is a standard uncertainty, {}.{}{}",
+               has("Left out mGal")
+                   ? " Left out: value without the station's own reference (cross-validated)."
+                   : "",
                result.as<model::WholeDayPart>() != nullptr        ? "as if the station were unknown"
                : result.as<model::NetworkAdjustment>() != nullptr ? "a priori"
                                                                   : "from the scatter in sample",
+               has("U 95 % mGal")
+                   ? " Gravity of an unknown station is within ± U of the value with a "
+                     "probability of 95 %."
+                   : "",
                std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only)
                    ? " Flagged only: only readings that were left out of the fit."
                    : "")) +

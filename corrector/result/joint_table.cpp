@@ -8,14 +8,6 @@
 namespace a351::corrector::result {
 namespace {
 
-/// Returns the covariance of two days' errors at a station, mGal^2: that of the unit's parameters,
-/// if both days took them from priors of one kind.
-double covariance_mgal2(const model::StationValue& a, const model::StationValue& b) {
-    if (!a.errors || !b.errors || a.errors->is_calibrated != b.errors->is_calibrated) return 0.0;
-    return std::inner_product(a.errors->shared_mgal.begin(), a.errors->shared_mgal.end(),
-                              b.errors->shared_mgal.begin(), 0.0);
-}
-
 JointStation join(const std::string& site, const std::vector<model::StationValue>& days) {
     const bool is_weighted = std::ranges::all_of(days, [](const model::StationValue& day) {
         const auto u = day_value(day).u;
@@ -51,6 +43,12 @@ JointStation join(const std::string& site, const std::vector<model::StationValue
 }
 
 }  // namespace
+
+double covariance_mgal2(const model::StationValue& a, const model::StationValue& b) {
+    if (!a.errors || !b.errors || a.errors->is_calibrated != b.errors->is_calibrated) return 0.0;
+    return std::inner_product(a.errors->shared_mgal.begin(), a.errors->shared_mgal.end(),
+                              b.errors->shared_mgal.begin(), 0.0);
+}
 
 DayValue day_value(const model::StationValue& station) {
     if (station.left_out) return {*station.left_out, station.u_left_out, false};

@@ -47,6 +47,10 @@ struct DayValue {
 /// Returns left_out with its uncertainty, or gravity if the model gives no such value.
 [[nodiscard]] DayValue day_value(const model::StationValue& station);
 
+/// Returns the covariance of two days' errors at a station, mGal^2: that of the unit's parameters, if
+/// both days took them from priors of one kind.  All days are taken as days of one unit.
+[[nodiscard]] double covariance_mgal2(const model::StationValue& a, const model::StationValue& b);
+
 /// Returns the stations in the order of their first appearance.
 ///
 /// Every station of a day takes part, also one with flagged rows only.  A day without u makes the

@@ -28,6 +28,14 @@ Json covariance_json(const std::optional<model::StationCovariance>& covariance) 
     return {{"sites", covariance->sites}, {"mgal2", rows}};
 }
 
+/// Returns what a test's place means: temperature or time, or a reading.
+std::string place_of(const model::SurveyCorrection& result, const whole_day::FitTest& test) {
+    if (test.misfit == whole_day::Misfit::curvature)
+        return test.place == 0 ? "temperature" : "time";
+    const reading::SurveyRow& row = result.rows[test.place].row;
+    return fmt::format("{} ({})", row.site, row.occupation);
+}
+
 Json fit_tests_json(const model::SurveyCorrection& result) {
     const auto* const day = result.as<model::WholeDayPart>();
     if (day == nullptr) return nullptr;
@@ -36,8 +44,9 @@ Json fit_tests_json(const model::SurveyCorrection& result) {
         tests.push_back(
             {{"misfit", whole_day::kMisfitNames.at(static_cast<std::size_t>(test.misfit))},
              {"p", test.p},
-             {"is_found", test.is_misfit()}});
-    return tests;
+             {"is_found", test.is_misfit()},
+             {"at", place_of(result, test)}});
+    return {{"tests", tests}, {"uncertainty_factor", day->uncertainty_factor}};
 }
 
 Json priors_json(const model::SurveyCorrection& result) {

@@ -192,7 +192,6 @@ void DayPriors::free_axes() {
 
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 DayPriors usual_day_priors() {
-    constexpr double kFreeDeviation_mgal = 1e4;
     constexpr double kDrift_mgal_per_h = 1.0, kBias_mgal_per_g = 300.0, kBiasFactor = 3.0;
     const unit::ThermalPrior fast_lag = unit::day_prior(unit::ThermalTerm::fast_lag),
                              slow_lag = unit::day_prior(unit::ThermalTerm::slow_lag),
@@ -203,7 +202,7 @@ DayPriors usual_day_priors() {
     priors.mean << fast_lag.mean, slow_lag.mean, 0.0, level.mean, slow.mean, fast.mean, 0.0, 0.0,
         0.0, 0.0;
     DayPriors::Vector deviations;
-    deviations << fast_lag.deviation, slow_lag.deviation, kFreeDeviation_mgal, level.deviation,
+    deviations << fast_lag.deviation, slow_lag.deviation, kFreeGravity_mgal, level.deviation,
         slow.deviation, fast.deviation, kDrift_mgal_per_h, unit::kTypicalUnit.warm_up_mgal,
         kBias_mgal_per_g, kBias_mgal_per_g;
     priors.factor = deviations.asDiagonal();

@@ -154,11 +154,11 @@ inline constexpr std::size_t kSharedErrors = 7;
 /// The gravity of a station, estimated or held.
 struct GravityEstimate : Estimate {
     /// Contributions of the sources to the standard error, mGal; the sum of their squares is its
-    /// square (JCGM 100:2008, 5.1.2).  All 0 if gravity is held.
+    /// square (JCGM 100:2008, 5.1.2).  All 0 if an exact reference is held.
     std::array<double, kErrorSources> parts_mgal{};
     /// Contributions of the unit's parameters, whose priors several days of one unit have in common:
     /// how the estimate answers to one deviation of the fast lag, the slow lag, rA, rS, rF, bx and
-    /// by, mGal.  All 0 if gravity is held.
+    /// by, mGal.  All 0 if an exact reference is held.
     std::array<double, kSharedErrors> shared_mgal{};
 };
 
@@ -172,7 +172,8 @@ struct DaySetUp {
     std::array<double, kDayTerms> effect_mgal{};  ///< Effects in the order of DayTerm.
     MilliGal flicker;  ///< Estimated flicker, with the rest of the white noise.
     /// reading - tide - effects - flicker: gravity and placement.  If gravity is held, it is the
-    /// held value plus the estimated placement, and so in sample.
+    /// held value (or the value between an uncertain reference and the readings) plus the estimated
+    /// placement, and so in sample.
     MilliGal corrected;
 };
 
@@ -208,8 +209,8 @@ struct DayFit {
 /// restricted likelihood times their priors.  Standard errors: posterior covariance with the lags
 /// to first order, at the expected noise, which is larger than the most likely one.
 ///
-/// Stations of known gravity determine the instrument; unknown stations follow from it.  To find the error of the method, fit again with the gravity of
-/// a known station removed and compare.
+/// Stations of known gravity determine the instrument; unknown stations follow from it.  To find the
+/// error of the method, fit again with the gravity of a known station removed and compare.
 ///
 /// Usual priors, mean and standard deviation:
 /// - rA -12, 7.2 mGal/degC; rS -20, 12 mGal/degC; rF 11.3, 6.8 mGal/(degC/h)

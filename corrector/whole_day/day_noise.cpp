@@ -52,4 +52,25 @@ double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
     return log_determinant;
 }
 
+Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const DayNoise& noise) {
+    Eigen::MatrixXd covariance(std::ssize(bins), std::ssize(bins));
+    for (std::size_t i = 0; i < bins.size(); ++i)
+        for (std::size_t k = 0; k <= i; ++k) {
+            double correlation = 0.0;
+            for (const double period_s : kFlickerPeriods_s)
+                correlation +=
+                    std::exp(-2.0 * std::numbers::pi *
+                             std::abs(seconds_between(bins[k].time, bins[i].time)) / period_s) /
+                    static_cast<double>(kFlickerPeriods_s.size());
+            double sum = std::pow(noise.flicker_mgal, 2) * correlation;
+            if (bins[i].set_up == bins[k].set_up) sum += std::pow(noise.placement_mgal, 2);
+            if (i == k)
+                sum += std::pow(noise.white_mgal, 2) * static_cast<double>(reading::kBinSamples) /
+                       static_cast<double>(bins[i].times.size());
+            covariance(static_cast<Index>(i), static_cast<Index>(k)) = sum;
+            covariance(static_cast<Index>(k), static_cast<Index>(i)) = sum;
+        }
+    return covariance;
+}
+
 }  // namespace a351::corrector::whole_day

@@ -30,8 +30,8 @@
 
 namespace a351::corrector::whole_day {
 
-/// Standard deviation of the gravity of a station of which nothing is known, mGal: practically no
-/// prior.
+/// Standard deviation of the constant, and of the gravity of a station of which nothing is known,
+/// mGal: practically no prior.
 inline constexpr double kFreeGravity_mgal = 1e4;
 
 /// kDayLags and kDayTerms as sizes of matrices.

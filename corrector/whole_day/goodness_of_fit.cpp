@@ -27,27 +27,12 @@ Eigen::MatrixXd averaging(const reading::DayRecord& record, std::size_t set_ups)
     return mean.array().colwise() / mean.rowwise().sum().array();
 }
 
-/// Returns the covariance of the bins' noise (whiten() describes it), mGal^2.
-Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const DayNoise& noise) {
-    Eigen::MatrixXd covariance(std::ssize(bins), std::ssize(bins));
-    for (std::size_t i = 0; i < bins.size(); ++i)
-        for (std::size_t k = 0; k <= i; ++k) {
-            double correlation = 0.0;
-            for (const double period_s : kFlickerPeriods_s)
-                correlation +=
-                    std::exp(-2.0 * std::numbers::pi *
-                             std::abs(seconds_between(bins[k].time, bins[i].time)) / period_s) /
-                    static_cast<double>(kFlickerPeriods_s.size());
-            double sum = std::pow(noise.flicker_mgal, 2) * correlation;
-            if (bins[i].set_up == bins[k].set_up) sum += std::pow(noise.placement_mgal, 2);
-            if (i == k)
-                sum += std::pow(noise.white_mgal, 2) * static_cast<double>(reading::kBinSamples) /
-                       static_cast<double>(bins[i].times.size());
-            covariance(static_cast<Index>(i), static_cast<Index>(k)) = sum;
-            covariance(static_cast<Index>(k), static_cast<Index>(i)) = sum;
-        }
-    return covariance;
-}
+constexpr double kNothing = 1e-6;  // relative length that is left by rounding
+
+/// A direction in the residuals, of length 1 or 0, and its part in the scatter.
+struct Direction {
+    Eigen::VectorXd unit, scatter;
+};
 
 /// The means of the set-ups as residuals.  If the model fits, they are independent errors of variance
 /// 1 without their part in the space of what nobody knows: constant and unknown stations.
@@ -65,15 +50,15 @@ struct SetUpResiduals {
         whitened -= unknown * (unknown.transpose() * whitened);
     }
 
-    /// Returns the direction in the residuals of an effect on the set-ups, of length 1; 0 if the
-    /// unknown quantities explain it.
-    [[nodiscard]] Eigen::VectorXd direction(const Eigen::VectorXd& effect) const {
-        Eigen::VectorXd direction = whitening * effect;
-        const double length = direction.norm();
-        project(direction);
-        constexpr double kNothing = 1e-6;  // rounding of the projection
-        if (direction.norm() < kNothing * length) return Eigen::VectorXd::Zero(direction.size());
-        return direction.normalized();
+    /// Returns the direction in the residuals of an effect on the set-ups; 0 if the unknown
+    /// quantities explain it.
+    [[nodiscard]] Direction direction(const Eigen::VectorXd& effect) const {
+        Eigen::VectorXd unit = whitening * effect;
+        const double length = unit.norm();
+        project(unit);
+        unit = unit.norm() < kNothing * length ? Eigen::VectorXd::Zero(unit.size())
+                                               : Eigen::VectorXd(unit.normalized());
+        return {unit, to_scatter * unit};
     }
 };
 
@@ -118,40 +103,50 @@ struct Statistic {
     std::size_t place = 0;
 };
 
+/// Residuals and their part in the scatter.
+using Residuals = Direction;
+
 /// Returns the largest share t^2 / (t^2 + scatter), where t is the part in one of the directions and
 /// the scatter that of the readings without it.
-Statistic largest_share(const std::vector<Eigen::VectorXd>& directions, const Eigen::VectorXd& r,
-                        const Eigen::MatrixXd& to_scatter) {
+Statistic largest_share(const std::vector<Direction>& directions, const Residuals& r) {
     Statistic best;
+    const double square = r.scatter.squaredNorm();
     for (std::size_t k = 0; k < directions.size(); ++k) {
-        const double t = directions[k].dot(r);
-        const double scatter = (to_scatter * (r - directions[k] * t)).squaredNorm();
+        const Direction& direction = directions[k];
+        const double t = direction.unit.dot(r.unit);
+        const double scatter = square - 2.0 * t * direction.scatter.dot(r.scatter) +
+                               t * t * direction.scatter.squaredNorm();
         if (const double share = t * t / (t * t + scatter); share > best.value) best = {share, k};
     }
     return best;
 }
 
+/// Removes the part in a direction of length 1.
+void remove(Direction& from, const Direction& taken) {
+    const double part = taken.unit.dot(from.unit);
+    from.unit -= part * taken.unit;
+    from.scatter -= part * taken.scatter;
+}
+
 /// Returns the share of the scatter in a quarter of the directions, taken one after the other: each
 /// time the one that leaves the least.
-Statistic worst_quarter(std::vector<Eigen::VectorXd> directions, const Eigen::VectorXd& r,
-                        const Eigen::MatrixXd& to_scatter) {
-    Eigen::VectorXd rest = r;
+Statistic worst_quarter(std::vector<Direction> directions, const Residuals& r) {
+    Residuals rest = r;
     Statistic first;
     for (std::size_t count = std::max<std::size_t>(1, directions.size() / 4); count > 0; --count) {
-        const Statistic worst = largest_share(directions, rest, to_scatter);
+        const Statistic worst = largest_share(directions, rest);
         if (first.value == 0.0) first = worst;
-        const Eigen::VectorXd taken = directions[worst.place];
-        rest -= taken * taken.dot(rest);
-        for (Eigen::VectorXd& direction : directions) {
-            direction -= taken * taken.dot(direction);
-            constexpr double kNothing = 1e-6;  // it is a combination of those that were taken
-            if (direction.norm() < kNothing)
-                direction.setZero();
-            else
-                direction.normalize();
+        const Direction taken = directions[worst.place];
+        remove(rest, taken);
+        for (Direction& direction : directions) {
+            remove(direction, taken);
+            const double length = direction.unit.norm();
+            const double scale = length < kNothing ? 0.0 : 1.0 / length;  // 0: it is used up
+            direction.unit *= scale;
+            direction.scatter *= scale;
         }
     }
-    return {1.0 - (to_scatter * rest).squaredNorm() / (to_scatter * r).squaredNorm(), first.place};
+    return {1.0 - rest.scatter.squaredNorm() / r.scatter.squaredNorm(), first.place};
 }
 
 /// Returns a vector of independent normal numbers of variance 1 (Box and Muller).
@@ -160,9 +155,10 @@ Eigen::VectorXd normal_vector(std::mt19937_64& generator, Index size) {
         return (static_cast<double>(generator() >> 11) + 1.0) * 0x1p-53;
     };
     Eigen::VectorXd values(size);
-    for (double& value : values)
-        value =
-            std::sqrt(-2.0 * std::log(uniform())) * std::cos(2.0 * std::numbers::pi * uniform());
+    for (double& value : values) {
+        const double radius = std::sqrt(-2.0 * std::log(uniform()));
+        value = radius * std::cos(2.0 * std::numbers::pi * uniform());
+    }
     return values;
 }
 
@@ -177,7 +173,7 @@ std::vector<FitTest> goodness_of_fit(const reading::DayRecord& record,
     const Index set_ups = mean.rows();
     if (set_ups - residuals.unknown.cols() < kFewestFitDof) return {};
 
-    std::vector<Eigen::VectorXd> curves, steps, singles;
+    std::vector<Direction> curves, steps, singles;
     for (const DayTerm term : {DayTerm::level, DayTerm::drift}) {
         const Eigen::VectorXd course =
             mean * problem.design(fit.point).col(static_cast<Index>(term));
@@ -190,19 +186,19 @@ std::vector<FitTest> goodness_of_fit(const reading::DayRecord& record,
     }
     for (Index k = 0; k < set_ups; ++k)
         singles.push_back(residuals.direction(Eigen::VectorXd::Unit(set_ups, k)));
-    const auto statistics = [&](const Eigen::VectorXd& r) {
-        return std::array{largest_share(curves, r, residuals.to_scatter),
-                          largest_share(steps, r, residuals.to_scatter),
-                          worst_quarter(singles, r, residuals.to_scatter)};
+    const auto statistics = [&](const Eigen::VectorXd& values) {
+        const Residuals r{values, residuals.to_scatter * values};
+        return std::array{largest_share(curves, r), largest_share(steps, r),
+                          worst_quarter(singles, r)};
     };
 
     const auto found = statistics(residuals.values);
     std::array<int, 3> larger{};
     std::mt19937_64 generator(1);  // fixed seed: the same day gives the same probability
     for (int draw = 0; draw < kDraws; ++draw) {
-        Eigen::VectorXd r = normal_vector(generator, set_ups);
-        residuals.project(r);
-        const auto simulated = statistics(r);
+        Eigen::VectorXd values = normal_vector(generator, set_ups);
+        residuals.project(values);
+        const auto simulated = statistics(values);
         for (std::size_t k = 0; k < found.size(); ++k)
             if (simulated.at(k).value >= found.at(k).value) ++larger.at(k);
     }

@@ -12,7 +12,8 @@
 /// - step: all readings from one set-up on are higher or lower;
 /// - tails: a quarter of the set-ups has most of the scatter, so placement is not normal.
 ///
-/// A statistic is a ratio of squares, so a wrong size of the noise has no effect.  Its probability is
+/// A statistic is a ratio of squares, so the size of the noise has little effect; lags and the sizes
+/// of the noise relative to each other and to the priors are those of the fit.  Its probability is
 /// counted in simulations of the same day without a misfit, with the same draws each time.
 
 #include <array>

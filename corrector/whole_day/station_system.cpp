@@ -59,36 +59,14 @@ StationSystem::StationSystem(const reading::DayRecord& record,
     gradient_.head(fitted.cols()).setZero();
 }
 
-StationSystem::Combination StationSystem::combined(const std::vector<std::size_t>& numbers,
-                                                   const std::vector<double>& factors,
-                                                   bool are_hidden) const {
-    std::vector<Index> columns = common_;
-    for (std::size_t number = 0; number < gravities_.size(); ++number) {
-        const Gravity& gravity = gravities_[number];
-        if (!gravity.is_held) continue;
-        const bool is_hidden = are_hidden && std::ranges::find(numbers, number) != numbers.end();
-        if (is_hidden)
-            columns.push_back(gravity.own);
-        else if (gravity.held >= 0)
-            columns.push_back(gravity.held);
-    }
+StationSystem::Combination StationSystem::solved(const std::vector<Index>& columns,
+                                                 const Eigen::VectorXd& wanted) const {
     const Eigen::MatrixXd x = columns_(Eigen::all, columns);
-    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(x.cols());
-    Combination result;
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        const Gravity& gravity = gravities_[numbers[k]];
-        result.value_mgal += factors[k] * gravity.fitted_mgal;
-        const bool is_free = are_hidden || !gravity.is_held;
-        const auto column = std::ranges::find(columns, is_free ? gravity.own : gravity.held);
-        if (column != columns.end())
-            wanted(column - columns.begin()) =
-                factors[k] * (is_free ? kFreeGravity_mgal : gravity.u_mgal);
-    }
     // The error of s'X'y is s'(X'e + p), with s = (X'X + 1)^-1 wanted.
     const Eigen::VectorXd s =
-        linear_algebra::Cholesky(linear_algebra::normal_matrix(x)).solve(wanted);
-    result.value_mgal += s.dot(gradient_(columns));
-    result.errors_mgal = Eigen::VectorXd::Zero(columns_.rows() + columns_.cols());
+        linear_algebra::Cholesky(linear_algebra::normal_matrix(x)).solve(wanted(columns));
+    Combination result{s.dot(gradient_(columns)),
+                       Eigen::VectorXd::Zero(columns_.rows() + columns_.cols())};
     result.errors_mgal.head(columns_.rows()) = x * s;
     for (std::size_t k = 0; k < columns.size(); ++k)
         result.errors_mgal(columns_.rows() + columns[k]) = s(static_cast<Index>(k));
@@ -96,17 +74,49 @@ StationSystem::Combination StationSystem::combined(const std::vector<std::size_t
 }
 
 Estimate StationSystem::difference(std::size_t from, std::size_t to) const {
-    const Combination both = combined({from, to}, {-1.0, 1.0}, true);
-    return {both.value_mgal, both.errors_mgal.norm()};
+    std::vector<Index> columns = common_;
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(columns_.cols());
+    bool has_datum = false;
+    for (std::size_t number = 0; number < gravities_.size(); ++number) {
+        const Gravity& gravity = gravities_[number];
+        const bool is_hidden = number == from || number == to;
+        if (is_hidden || !gravity.is_held) continue;
+        has_datum = true;
+        if (gravity.held >= 0) columns.push_back(gravity.held);
+    }
+    // Without another reference one of both stations is the datum of their difference.
+    const bool is_from_datum = !has_datum && gravities_[from].is_held;
+    const bool is_to_datum = !has_datum && !is_from_datum;
+    const auto add = [&](std::size_t number, bool is_datum, double factor) {
+        const Gravity& gravity = gravities_[number];
+        if (is_datum) return;
+        if (gravity.is_held) columns.push_back(gravity.own);
+        wanted(gravity.own) = factor * kFreeGravity_mgal;
+    };
+    add(from, is_from_datum, -1.0);
+    add(to, is_to_datum, 1.0);
+    const Combination both = solved(columns, wanted);
+    return {gravities_[to].fitted_mgal - gravities_[from].fitted_mgal + both.value_mgal,
+            both.errors_mgal.norm()};
 }
 
 Eigen::MatrixXd StationSystem::correlation() const {
     // Without its only reference the system has no datum.
     const bool are_hidden = std::ranges::count(gravities_, true, &Gravity::is_held) > 1;
     Eigen::MatrixXd errors(columns_.rows() + columns_.cols(), std::ssize(gravities_));
-    for (std::size_t number = 0; number < gravities_.size(); ++number)
-        errors.col(static_cast<Index>(number)) =
-            combined({number}, {1.0}, are_hidden).errors_mgal.normalized();
+    for (std::size_t number = 0; number < gravities_.size(); ++number) {
+        std::vector<Index> columns = common_;
+        Eigen::VectorXd wanted = Eigen::VectorXd::Zero(columns_.cols());
+        for (std::size_t other = 0; other < gravities_.size(); ++other) {
+            const Gravity& gravity = gravities_[other];
+            const bool is_own = gravity.is_held && are_hidden && other == number;
+            const Index column = is_own ? gravity.own : gravity.held;
+            if (gravity.is_held && column >= 0) columns.push_back(column);
+            if (other == number && column >= 0)
+                wanted(column) = gravity.is_held && !is_own ? gravity.u_mgal : kFreeGravity_mgal;
+        }
+        errors.col(static_cast<Index>(number)) = solved(columns, wanted).errors_mgal.normalized();
+    }
     return errors.transpose() * errors;
 }
 

@@ -3,7 +3,8 @@
 /// All stations of a day in one linear system, in which any references can be hidden.
 ///
 /// It answers what the instrument measured, as if the references of some stations were not known.
-/// Lags and noise are those of a fit; a change of the lags enters to first order:
+/// Lags and noise are those of a fit, the noise with its expected variances; a change of the lags
+/// enters to first order:
 ///
 ///     const DayFit fit = fit_day(record, stations).value();
 ///     const StationSystem system(record, stations, fit, priors);
@@ -52,7 +53,7 @@ private:
         double fitted_mgal = 0.0;
         bool is_held = false;
         double u_mgal = 0.0;     ///< Uncertainty of the reference that is held.
-        Eigen::Index held = -1;  ///< Column of a reference with an uncertainty.
+        Eigen::Index held = -1;  ///< Column in the fit: of an unknown, or an uncertain reference.
         Eigen::Index own = -1;   ///< Column without prior knowledge.
     };
     /// A sum of gravities, and how its error answers to each independent error.
@@ -60,10 +61,10 @@ private:
         double value_mgal = 0.0;
         Eigen::VectorXd errors_mgal;
     };
-    /// Returns sum of factor x gravity.
-    /// @param are_hidden  true: the references of these stations are hidden.
-    [[nodiscard]] Combination combined(const std::vector<std::size_t>& numbers,
-                                       const std::vector<double>& factors, bool are_hidden) const;
+    /// Returns the sum of wanted coefficient x its change from the fit, in a system of these columns.
+    /// @param wanted  one per column of all; 0 for columns that the system lacks.
+    [[nodiscard]] Combination solved(const std::vector<Eigen::Index>& columns,
+                                     const Eigen::VectorXd& wanted) const;
 
     std::vector<Gravity> gravities_;    ///< One per number.
     std::vector<Eigen::Index> common_;  ///< Columns that every system has.

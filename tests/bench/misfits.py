@@ -35,7 +35,7 @@ def look_at(scratch, name, seed):
     folder.mkdir()
     day = simulate(folder, "day", "tsukuba", seed, 0.25, DAYS[name][0])
     out = correct(folder, day / "survey.toml", "result", "--model", "day")
-    found = {test["misfit"] for test in read_json(out / "result.json")["goodness_of_fit"] if test["is_found"]}
+    found = {test["misfit"] for test in read_json(out / "result.json")["goodness_of_fit"]["tests"] if test["is_found"]}
     errors = [(float(row["left_out_mgal"]) - float(row["reference_mgal"]), float(row["u_left_out_mgal"]))
               for row in rows(out / "stations.csv")]
     shutil.rmtree(folder)

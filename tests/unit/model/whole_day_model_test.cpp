@@ -201,20 +201,36 @@ TEST_CASE("a day that the model does not fit is named, and its uncertainties are
         if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(25.0);
     const auto misfit = correct_survey(rows, with_model("day"), &day);
     CHECK_THAT(remark_of(misfit), ContainsSubstring("a few set-ups are much further off"));
-    double squares = 0.0, count = 0.0;
-    for (const CorrectedRow& row : misfit.rows) {
-        squares += std::pow(row.studentised_residual.value(), 2);
-        count += 1.0;
-        CHECK(row.studentised_residual.value() ==
-              Approx((*row.row.reference - *row.as<WholeDayRow>()->left_out).value() /
-                     row.u_corrected->value()));
-    }
-    CHECK(std::sqrt(squares / count) < 1.01);
+    double squares = 0.0;
+    for (const CorrectedRow& row : misfit.rows) squares += std::pow(*row.studentised_residual, 2);
+    const double factor = misfit.as<WholeDayPart>()->uncertainty_factor;
+    CHECK(factor == Approx(std::sqrt(squares / static_cast<double>(misfit.rows.size()))));
+    CHECK(factor > 2.0);
+    CHECK_FALSE(misfit.rows[5].doubt_statistical.empty());  // it still looks as bad as it is
     for (const StationValue& station : misfit.stations) {
         double sum = 0.0;
         for (const double part : station.errors.value().parts_mgal) sum += part * part;
         CHECK(std::sqrt(sum) == Approx(station.u_gravity->value()).epsilon(1e-9));
     }
+    CHECK(misfit.stations[8].u_gravity->value() ==
+          Approx(factor * misfit.rows[8].u_corrected->value()).epsilon(1e-9));
+}
+
+TEST_CASE("the residual of a reference counts in units of both uncertainties", "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    auto rows = rows_of(day);
+    for (SurveyRow& row : rows)
+        if (row.site == rows[8].site) {
+            row.reference = *row.reference + MilliGal(12.0);
+            row.u_reference = MilliGal(10.0);
+        }
+    const auto result = correct_survey(rows, with_model("day"), &day);
+    const CorrectedRow& loose = result.rows[8];
+    const double off = (*loose.row.reference - *loose.as<WholeDayRow>()->left_out).value();
+    CHECK(off == Approx(12.0).margin(4.0));
+    CHECK(*loose.studentised_residual ==
+          Approx(off / std::hypot(10.0, loose.u_corrected->value())));
+    CHECK(loose.doubt_statistical.empty());
 }
 
 TEST_CASE("one reading at a known station is enough for the whole-day model", "[survey][day]") {

@@ -41,6 +41,20 @@ TEST_CASE("the scatter from day to day is given with the value expected from u",
     CHECK_FALSE(scatter_of_days({day_with("S4", 0.0)}).has_value());
 }
 
+TEST_CASE("the expected scatter leaves out what the days share, with its sign", "[report][joint]") {
+    std::vector<SurveyCorrection> days{day_with("S4", 0.0), day_with("S4", 0.0)};
+    const auto expected = [&days](double shared_a, double shared_b) {
+        for (std::size_t k = 0; k < 2; ++k)
+            for (StationValue& station : days[k].stations) {
+                station.errors = StationErrors{};
+                station.errors->shared_mgal[2] = k == 0 ? shared_a : shared_b;
+            }
+        return scatter_of_days(days).value().expected_mgal.value();
+    };
+    CHECK(expected(0.9, 0.9) == Approx(std::sqrt(1.5 * 1.5 - 0.81)));
+    CHECK(expected(0.9, -0.9) == Approx(std::sqrt(1.5 * 1.5 + 0.81)));
+}
+
 TEST_CASE("the joint page lists every day, the differences, and the reason for a missing day",
           "[report][joint]") {
     const SurveyCorrection first = day_with("S4", 0.0);

@@ -70,6 +70,23 @@ TEST_CASE("the tables have the documented columns and one line per item", "[surv
               .margin(2e-6));
     CHECK(stations_csv(result).starts_with(
         "site,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal,redundancy"));
+    const auto differences = text::CsvTable::parse(differences_csv(result), "differences.csv");
+    REQUIRE(differences.row_count() == result.differences.size());
+    REQUIRE(differences.row_count() > 0);
+    const StationDifference& first = result.differences.front();
+    CHECK(differences.cell(0, "from") == first.from);
+    CHECK(differences.number(0, "difference_mgal") ==
+          Approx(first.difference.value()).margin(1e-6));
+    CHECK(differences.number(0, "residual_mgal") ==
+          Approx((*first.reference - first.difference).value()).margin(1e-6));
+    const auto json = nlohmann::json::parse(result_json(result, {}, {}));
+    const auto& covariance = json.at("station_covariance");
+    REQUIRE(covariance.at("sites").size() == covariance.at("mgal2").size());
+    CHECK(covariance.at("mgal2")[0][1] == covariance.at("mgal2")[1][0]);
+    CHECK(json.at("goodness_of_fit").is_null());
+    const auto stations = text::CsvTable::parse(stations_csv(result), "stations.csv");
+    CHECK(stations.number(0, "expanded_u_mgal") ==
+          Approx(stations.number(0, "k_95") * stations.number(0, "u_gravity_mgal")).margin(1e-5));
     const auto models = text::CsvTable::parse(models_csv(result), "models.csv");
     CHECK(models_csv(result).starts_with(
         "model,rows,n,p,rms_mgal,s_mgal,loo_mgal,loso_mgal,aicc,selected"));

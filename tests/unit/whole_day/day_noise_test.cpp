@@ -11,37 +11,6 @@ using namespace a351;
 using namespace a351::corrector::reading;
 using namespace a351::corrector::whole_day;
 
-namespace {
-
-/// Returns the covariance of flicker of unit variance at two times `lag_s` apart.
-double flicker_correlation(double lag_s) {
-    double sum = 0.0;
-    for (const double period_s : kFlickerPeriods_s)
-        sum += std::exp(-2.0 * std::numbers::pi * std::abs(lag_s) / period_s);
-    return sum / static_cast<double>(kFlickerPeriods_s.size());
-}
-
-/// Returns the covariance of the bins from the definition of the noise.
-Eigen::MatrixXd covariance(const std::vector<DayBin>& bins, const DayNoise& noise) {
-    const auto n = static_cast<Eigen::Index>(bins.size());
-    Eigen::MatrixXd matrix(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const DayBin& a = bins[static_cast<std::size_t>(i)];
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const DayBin& b = bins[static_cast<std::size_t>(j)];
-            matrix(i, j) = noise.flicker_mgal * noise.flicker_mgal *
-                           flicker_correlation(seconds_between(a.time, b.time));
-            if (a.set_up == b.set_up) matrix(i, j) += std::pow(noise.placement_mgal, 2);
-            if (i == j)
-                matrix(i, j) += std::pow(noise.white_mgal, 2) * static_cast<double>(kBinSamples) /
-                                static_cast<double>(a.times.size());
-        }
-    }
-    return matrix;
-}
-
-}  // namespace
-
 TEST_CASE("the filter whitens like the dense covariance", "[day]") {
     std::vector<DayBin> bins = MadeUpDay{}.record().bins;
     for (std::size_t i = 0; i < bins.size(); i += 3) bins[i].times.resize(9);
@@ -51,7 +20,7 @@ TEST_CASE("the filter whitens like the dense covariance", "[day]") {
     Eigen::MatrixXd white = columns;
     const double log_determinant = whiten(bins, noise, white);
 
-    const Eigen::LLT<Eigen::MatrixXd> dense(covariance(bins, noise));
+    const Eigen::LLT<Eigen::MatrixXd> dense(noise_covariance(bins, noise));
     const Eigen::MatrixXd expected = columns.transpose() * dense.solve(columns);
     CHECK((white.transpose() * white - expected).norm() < 1e-9 * expected.norm());
     CHECK(log_determinant ==
