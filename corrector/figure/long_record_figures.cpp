@@ -154,7 +154,7 @@ Figure scatter_figure(const std::string& name, const std::string& caption,
     return data.figure(
         caption, 480, 400,
         fmt::format(
-            "set xlabel 'Temperature (°C)'\n{}set xtics rotate by -30\n{}", ylabel,
+            "set xlabel 'Temperature (°C)'\n{}set xtics rotate by -30\nset rmargin 5\n{}", ylabel,
             plot_command(
                 {fmt::format("{} using 1:2 with points pt 7 ps 0.2 lc rgb {} notitle", points,
                              kBlue),

@@ -221,7 +221,8 @@ void require_no_day(const fs::path& root) {
 /// Writes survey.toml, with which a351-correct corrects the day from the tables of write_plan();
 /// nothing if there are no occupations at two sites: at a single site gravity does not change, and a
 /// fitted model would be meaningless.
-void write_survey_file(const scenario::Scenario& scenario, const fs::path& directory) {
+void write_survey_file(const scenario::Scenario& scenario, std::uint64_t seed,
+                       const fs::path& directory) {
     const auto is_elsewhere = [&](const scenario::ListedOccupation& one) {
         return one.site != scenario.occupations.front().site;
     };
@@ -232,14 +233,14 @@ void write_survey_file(const scenario::Scenario& scenario, const fs::path& direc
                     "log, which\n"
                     "# has the same times.\n"
                     "[survey]\n"
-                    "name = \"{}\"\n"
+                    "name = \"{}-{}\"\n"
                     "root = \".\"\n"
                     "sites = \"sites.csv\"\n"
                     "occupations = \"schedule.csv\"\n"
                     "base = \"{}\"\n"
                     "model = \"auto\"\n"
                     "flags = \"ignore\"\n",
-                    scenario.name, scenario.sites.front().name));
+                    scenario.name, seed, scenario.sites.front().name));
 }
 
 DirectSurvey write_day(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
@@ -282,7 +283,7 @@ DirectSurvey write_day(const scenario::Scenario& scenario, const wire::DevicePro
     write_station_xml(scenario, profile, header, root);
     for (const events::Event& event : collected.events())
         events::append_event(files, root / "events", event);
-    write_survey_file(scenario, root);
+    write_survey_file(scenario, seed, root);
     return {collected.frames(), static_cast<std::int64_t>(archive.records_written())};
 }
 
