@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <utility>
 
@@ -94,9 +95,16 @@ std::vector<StationValue> average_stations(const Fit& result, const std::vector<
         const auto n = static_cast<double>(station.row_count);
         station.gravity = MilliGal(sum / n);
         // u = s sqrt(1/n + h of the mean of its rows)
-        if (s_mgal)
+        if (s_mgal) {
+            const auto dof = static_cast<double>(applied.fit.dof());
             station.u_gravity =
                 MilliGal(*s_mgal * std::sqrt(1.0 / n + applied.fit.leverage_at(x / n)));
+            if (dof > 0.0) {
+                station.dof = dof;
+                station.coverage_factor =
+                    boost::math::quantile(boost::math::students_t(dof), 0.975);
+            }
+        }
         if (station.reference) station.residual = *station.reference - station.gravity;
         stations.push_back(std::move(station));
     }

@@ -73,7 +73,8 @@ void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t r
 void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied);
 
 /// Returns the values of the stations: means of their accepted rows, or of all their rows if none
-/// is accepted.  u = s sqrt(1/n + leverage of the mean of these rows).
+/// is accepted.  u = s sqrt(1/n + leverage of the mean of these rows); its factor for 95 % is
+/// Student's with the degrees of freedom of the fit.
 ///
 /// Stations are in the order of their first row, which also gives the reference.  The redundancy is
 /// summed over the rows in the fit.  The part of the leverage remains with many rows, so u does not

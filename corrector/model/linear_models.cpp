@@ -1,4 +1,3 @@
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <functional>
 
@@ -85,14 +84,13 @@ StationCovariance covariance_of(const std::vector<StationMean>& means, const Lin
     return covariance;
 }
 
-/// Sets left_out, u_left_out, dof and coverage_factor of the stations, all differences and the
-/// covariance.
+/// Sets left_out and u_left_out of the stations, all differences and the covariance.
 ///
 /// A value is that of the fit to the rows of the other stations, a difference that of the fit
 /// without both stations: d = mean(D)_to - mean(D)_from - (x_to - x_from)' b, with
 /// u^2 = s^2 (1/n_from + 1/n_to + (x_to - x_from)' C (x_to - x_from)).  x are mean regressors, n
-/// numbers of rows, s is that of the fit to all rows, and C is the cofactor of the slopes b.  The coverage factor is Student's for
-/// 95 %.  The covariance is that of StationValue::gravity as if the stations were not in the fit.
+/// numbers of rows, s is that of the fit to all rows, and C is the cofactor of the slopes b.  The
+/// covariance is that of StationValue::gravity as if the stations were not in the fit.
 ///
 /// A pair without which the rows do not determine the model is left out.  Cost: one fit for each
 /// pair.
@@ -104,11 +102,6 @@ void set_left_out_stations(Fit& result, const LinearModel& terms, const SurveyPr
     const auto all = fit_without(terms, problem, choice, "", "");
     if (!all || !all->residual_scale()) return;
     const double s_mgal = *all->residual_scale();
-    const auto dof = static_cast<double>(all->dof());
-    for (StationValue& station : result.stations) {
-        station.dof = dof;
-        station.coverage_factor = boost::math::quantile(boost::math::students_t(dof), 0.975);
-    }
     for (std::size_t b = 0; b < means.size(); ++b) {
         const StationMean& to = means[b];
         if (const auto fit = fit_without(terms, problem, choice, to.value->site, "")) {

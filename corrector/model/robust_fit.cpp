@@ -173,14 +173,18 @@ Eigen::VectorXd bisquare_weights(const Eigen::VectorXd& residuals, double scale)
     return (u.abs() < 1.0).select((1.0 - u.square()).square(), 0.0);
 }
 
-/// Returns s of s^2 = sum psi^2 / (n - p) / mean(psi')^2 (Huber 1981, 7.6), where psi = w r and
-/// psi' = (1 - u^2)(1 - 5 u^2) for |u| < 1, else 0.
+/// Returns s of s^2 = K^2 sum psi^2 / (n - p) / mean(psi')^2 (Huber 1981, 7.6), where psi = w r and
+/// psi' = (1 - u^2)(1 - 5 u^2) for |u| < 1, else 0.  K = 1 + p / n var(psi') / mean(psi')^2 corrects
+/// for few rows.
 double covariance_scale(const RobustFit& robust) {
     const Eigen::ArrayXd r = robust.fit.residuals.array();
     const Eigen::ArrayXd u2 = (r / (kBisquareTuning * robust.start_scale)).square();
-    const double slope = (u2 < 1.0).select((1.0 - u2) * (1.0 - 5.0 * u2), 0.0).mean();
-    const auto dof = static_cast<double>(robust.fit.row_count() - robust.fit.parameter_count());
-    return std::sqrt((robust.weights.array() * r).square().sum() / dof) / slope;
+    const Eigen::ArrayXd slopes = (u2 < 1.0).select((1.0 - u2) * (1.0 - 5.0 * u2), 0.0);
+    const double slope = slopes.mean(), variance = (slopes - slope).square().mean();
+    const auto n = static_cast<double>(robust.fit.row_count()),
+               p = static_cast<double>(robust.fit.parameter_count());
+    const double k = 1.0 + p / n * variance / (slope * slope);
+    return k * std::sqrt((robust.weights.array() * r).square().sum() / (n - p)) / slope;
 }
 
 /// Returns the root mean square error (mGal) of predicting each row from the rows that `is_other`

@@ -47,7 +47,8 @@ struct RobustFit {
 /// 2. Scale: 1.4826 (1 + 5 / (n - p)) median |r| of the start, at least 1e-6; it is then kept.
 /// 3. Weights (1 - u^2)^2 for |u| < 1, else 0, with u = r / (c scale).  They are iterated until no
 ///    fitted value changes by 1e-9, at most 200 times.
-/// 4. s^2 = sum psi^2 / (n - p) / mean(psi')^2, with psi = weight x r.
+/// 4. s^2 = K^2 sum psi^2 / (n - p) / mean(psi')^2, with psi = weight x r and
+///    K = 1 + p / n var(psi') / mean(psi')^2.
 ///
 /// Cost: up to 12650 small systems for four coefficients and 25 rows, or 3000 for more rows, before
 /// the iteration.
