@@ -79,12 +79,13 @@ void doubt_by_linear_fit(std::vector<CorrectedRow>& rows, const LinearModel& mod
 }
 
 void doubt_by_prediction(Fit& result) {
-    const Score& score = result.score;
-    if (score.dof == 0) return;
-    const double limit = studentised_limit(score.row_count, static_cast<double>(score.dof));
-    for (CorrectedRow& row : result.rows)
-        if (row.studentised_residual && std::abs(*row.studentised_residual) > limit)
+    for (CorrectedRow& row : result.rows) {
+        const auto station = std::ranges::find(result.stations, row.row.site, &StationValue::site);
+        if (!row.studentised_residual || !station->dof) continue;
+        const double limit = studentised_limit(result.score.row_count, *station->dof);
+        if (std::abs(*row.studentised_residual) > limit)
             row.doubt_statistical = statistical_doubt(*row.studentised_residual, limit);
+    }
 }
 
 std::string doubts_text(const SurveyCorrection& result) {

@@ -55,11 +55,11 @@ void doubt_by_linear_fit(std::vector<CorrectedRow>& rows, const LinearModel& mod
                          const Priors& priors);
 
 /// Sets doubt_statistical where the studentised residual of the prediction without the row's
-/// station is above studentised_limit() with the degrees of freedom of the score.  Here one bad row
+/// station is above studentised_limit() with the degrees of freedom of the station.  Here one bad row
 /// does not hide another, so no row is removed.
 ///
-/// Nothing is tested if these degrees of freedom are 0.
-/// @param result  with score and studentised residuals; its rows are changed.
+/// Rows of a station without degrees of freedom are not tested.
+/// @param result  with score, stations and studentised residuals; its rows are changed.
 void doubt_by_prediction(Fit& result);
 
 /// Returns the doubtful rows with their reasons, one per line, or a line that there are none.

@@ -216,6 +216,21 @@ TEST_CASE("a day that the model does not fit is named, and its uncertainties are
           Approx(factor * misfit.rows[8].u_corrected->value()).epsilon(1e-9));
 }
 
+TEST_CASE("a bad reading is doubted although only four stations are known", "[survey][day]") {
+    DayRecord day = kScattered.record();
+    auto rows = rows_of(day);
+    for (SurveyRow& row : rows)
+        if (const int number = std::stoi(row.site.substr(1)); number % 3 != 0 || number > 9)
+            row.reference.reset();
+    for (const double error_mgal : {0.0, 30.0}) {
+        for (DayBin& bin : day.bins)
+            if (bin.set_up == 6) bin.reading = bin.reading + MilliGal(error_mgal);
+        const auto result = correct_survey(rows, with_model("day"), &day);
+        CHECK(result.score.dof == 0);
+        CHECK(result.rows[6].doubt_statistical.empty() == (error_mgal == 0.0));
+    }
+}
+
 TEST_CASE("the residual of a reference counts in units of both uncertainties", "[survey][day]") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
