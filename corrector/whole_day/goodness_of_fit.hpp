@@ -33,7 +33,7 @@ inline constexpr std::array<std::string_view, 3> kMisfitNames{"curvature", "step
 
 /// Probabilities below which a test counts as a misfit.  Reason: together they are wrong for at most
 /// one ordinary day in 20.  A step is allowed more, because temperature and drift hide it best.
-inline constexpr std::array<double, 3> kMisfitProbabilities{0.01, 0.025, 0.015};
+inline constexpr std::array<double, 3> kMisfitProbabilities{0.015, 0.025, 0.01};
 
 /// A test of the fit.
 struct FitTest {

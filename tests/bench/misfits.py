@@ -1,14 +1,12 @@
 """Measures how often the whole-day model says that it does not fit a day.
 
 usage: misfits.py [FIRST_SEED]    (A351_BIN, A351_TOOLS)
-FIRST_SEED: default 9901.  The first 200 seeds have ordinary days; from each of the first 40 the days with a misfit are made,
+FIRST_SEED: default 10401.  The first 200 seeds have ordinary days; from each of the first 40 the days with a misfit are made,
 too.  None of them was used while the tests were developed.  Each seed draws a unit within +-25 % and a day of tsukuba, whose
 stations are all known.
 - quadratic: the reading changes by 60 mGal/degC^2 times the square of the temperature.
 - step: all readings after one drive, which is drawn, are off by 8 mGal.
 - heavy tails: one set-up in five has a placement that is ten times as large.
-The days random walk, drift and gross are for information: drift that walks by 2 mGal in an hour, a drift of 0.3 mGal/h^2,
-and a placement ten times as large for one set-up in twenty.
 e/u is the rms of error divided by stated uncertainty, at stations left out in turn.
 """
 
@@ -21,11 +19,9 @@ from simulated_units import correct, rms, simulate
 from programs import Scratch, read_json, rows
 
 ORDINARY, MISFIT = 200, 40
-GROSS = "[slow_noise]\nplacement_gross_factor = 10.0\nplacement_gross_share = "
 DAYS = {"ordinary": ("", None), "quadratic": ("crystal_quadratic_mgal_per_degc2 = 60.0\n", 0.9),
-        "step": ("[slow_noise]\ntransport_step_mgal = 8.0\n", 0.9), "heavy tails": (GROSS + "0.2\n", 0.9),
-        "random walk": ("[slow_noise]\ndrift_walk_mgal_per_sqrt_h = 2.0\n", None),
-        "drift": ("[slow_noise]\ndrift_quadratic_mgal_per_h2 = 0.3\n", None), "gross": (GROSS + "0.05\n", None)}
+        "step": ("[slow_noise]\ntransport_step_mgal = 8.0\n", 0.9),
+        "heavy tails": ("[slow_noise]\nplacement_gross_share = 0.2\nplacement_gross_factor = 10.0\n", 0.9)}
 MOST_FALSE = 0.05
 
 
@@ -42,7 +38,7 @@ def look_at(scratch, name, seed):
     return found, errors
 
 
-first, failures = int(sys.argv[1]) if len(sys.argv) > 1 else 9901, []
+first, failures = int(sys.argv[1]) if len(sys.argv) > 1 else 10401, []
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     for name, (_, promised) in DAYS.items():
         count = ORDINARY if name == "ordinary" else MISFIT
