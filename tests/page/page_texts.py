@@ -28,7 +28,7 @@ def show_everywhere(stub, text):
     stub.occupations = [finished(text, note=text)]
     stub.status["occupation"] = occupation(text, operator=text, note=text, warnings=[text])
     stub.status["verdict"] = {**verdict("settling"), "checks": [], "reasons": [text]}
-    stub.status["tilt"] = {"axes": [text, text], "x_arcmin": 2.0, "y_arcmin": 0.0, "limit_arcmin": 1.2, "is_within": False,
+    stub.status["tilt"] = {"axes": ["x", "y"], "x_arcmin": 2.0, "y_arcmin": 0.0, "limit_arcmin": 1.2, "is_within": False,
                            "reference": {"site": text, "utc": None}, "advice": [text]}
     stub.status["level"], stub.status["reasons"] = "warning", [text]
     stub.status["device"]["port"] = stub.status["device"]["trouble"] = text
