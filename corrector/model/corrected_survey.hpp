@@ -155,9 +155,9 @@ struct StationValue {
     /// Sum of 1 - leverage over its rows in the fit; `network`: and the redundancy of its datum.
     /// Absent without a row in the fit, and for `day`.
     std::optional<double> redundancy;
-    /// Value with the station's own reference hidden, and its standard uncertainty.  Without a
-    /// reference in the fit: gravity and its uncertainty.  Absent for `paper` and `robust`, and if
-    /// the station alone is held.
+    /// Value with the station's own reference hidden, and its standard uncertainty.  A station
+    /// without a reference in the fit has gravity and its uncertainty.  Absent for the other stations
+    /// of `paper` and `robust`, and for a station that alone is held.
     std::optional<MilliGal> left_out, u_left_out;
     /// Effective degrees of freedom of u_gravity, and the factor of a coverage of 95 %.  Absent
     /// without u_gravity; the degrees are absent for `network`, whose u is a priori.
@@ -234,7 +234,9 @@ struct PaperPart {};
 /// Values that only `day` gives, besides those in the rows.
 struct WholeDayPart {
     std::vector<whole_day::FitTest> fit_tests;  ///< Empty: there are too few readings to test.
-    double uncertainty_factor = 1.0;  ///< By which a misfit enlarged the uncertainties of stations.
+    /// Factor by which the uncertainties of stations and differences are multiplied; 1 unless the
+    /// model does not fit.
+    double uncertainty_factor = 1.0;
 };
 
 /// A model fitted to a survey.

@@ -4,7 +4,7 @@
 /// instrument:
 ///
 ///     reading_i = g(station_i) + constant + drift (t_i - t0)^k + bT (T_i - T0) + bR R_i + error_i
-///     datum:      g(k) = reference_k +- u_k or datum_sd           one row for each station held
+///     datum:      g(k) = reference_k +- u_k or datum_sd    one row for each station held
 ///     prior:      coefficient = mean +- sd                 one row for each prior
 ///
 ///     x = (A^T W A)^-1 A^T W y,  v = A x - y,  s0^2 = v^T W v / dof,  r_i = (Q_vv W)_ii
@@ -55,8 +55,8 @@ inline constexpr double kControlledRedundancy = 0.1;
 
 /// Options of the adjustment.
 struct NetworkOptions {
-    /// Standard deviation of a reference that has none of its own, mGal.  Default: typical of gravity networks, and a
-    /// hundredth of what this sensor can achieve.  It must be above 0; this is not checked.
+    /// Standard deviation of a reference that has none of its own, mGal.  Default: typical of gravity
+    /// networks, and a hundredth of what this sensor can achieve.  It must be above 0; this is not checked.
     double datum_sd_mgal = 0.01;
     int drift_degree = 1;  ///< Degree of the drift, 0 to 2; column k is (t - t0)^k, t in h.
 };

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The columns of occupations.csv, stations.csv, differences.csv and models.csv, in their order.  result.json has
-/// the same rows with the same keys.  table-format.md explains each column.
+/// The columns of occupations.csv, stations.csv, differences.csv and models.csv, in their order.
+/// result.json has the same rows with the same keys.  table-format.md explains each column.
 ///
 ///     const auto columns = occupation_columns(result);
 ///     const std::string csv = csv_table(columns, result.rows);  // without result.left_out

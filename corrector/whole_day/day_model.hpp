@@ -184,8 +184,8 @@ struct DayFit {
     using Point = std::array<double, 6>;
 
     Point point{};  ///< Most likely point; 0: medians of the priors.
-    Point
-        expected{};  ///< The same with the roots of the expected variances (DayProblem::expected()).
+    /// The same with the roots of the expected variances (DayProblem::expected()).
+    Point expected{};
     DayNoise noise;                                ///< Most likely noise.
     double fast_lag_s = 0.0, slow_lag_s = 0.0;     ///< tF, tS.
     std::array<double, 2> lag_log_errors{};        ///< Standard errors of ln tF and ln tS.

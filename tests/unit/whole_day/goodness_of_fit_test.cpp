@@ -29,7 +29,7 @@ DayRecord with_effect(std::uint64_t seed, const Effect& effect_mgal) {
 
 }  // namespace
 
-TEST_CASE("an ordinary day fits, whatever the size of its noise", "[day][goodness]") {
+TEST_CASE("ordinary days with five times the usual noise fit", "[day][goodness]") {
     int misfits = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const auto tests =
