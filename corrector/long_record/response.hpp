@@ -16,6 +16,7 @@
 /// Accuracy of both ways (response_test.cpp): at least 85 % of the claimed points contain gain and
 /// phase of the simulated plant within their limits.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,18 +54,21 @@ inline constexpr double kSignificance = 0.05;
 struct ResponseOptions {
     double cycle_s = 900.0;  ///< Cycle of the oven; one half-octave band has it in its middle.
     bool is_joint = false;   ///< True: kSignificance is that of all bands together (Bonferroni).
+    /// Noise of the thermometer as in ThermometerSpectrum; empty: it is measured.  A residual needs
+    /// that of the record, because it contains the noise times the response.
+    std::optional<double> noise_degc2{};
 };
 
 /// Computes the response by cross-spectra.
 ///
 /// Both series without a straight line are multiplied by sine tapers over the whole segment;
 /// spectra are averaged over the tapers and over half-octave bands.  3 to 15 tapers are used, as
-/// many as resolve half the band.  H = S_aT / S_TT, coherence = |S_aT|^2 / (S_TT S_aa).  The limits
-/// are a circle about H:
+/// many as resolve half the band.  H = S_aT / (S_TT - N), coherence = |S_aT|^2 / (S_TT S_aa).  The
+/// limits are a circle about H:
 ///
-///     |H - estimate|^2 <= (significance^(-1 / (nu - 1)) - 1) (1 - coherence) S_aa / S_TT
+///     |H - estimate|^2 <= (significance^(-1 / (nu - 1)) - 1) (1 - coherence) S_aa S_TT / (S_TT - N)^2
 ///
-/// nu is the number of resolutions that the temperature's power fills in the band, minus one, at
+/// N is the thermometer's noise (ThermometerSpectrum), without which a gain would be too low.  nu is the number of resolutions that the temperature's power fills in the band, minus one, at
 /// least 2: a spectral line counts as little more than the tapers.
 ///
 /// A point is refused if the record has fewer than 6 cycles, if more than a fifth of the
@@ -86,16 +90,22 @@ struct ResponseOptions {
 /// Power spectrum of the temperature, and the noise of the thermometer.  White noise of variance v
 /// has the expected power v at every frequency.
 ///
+/// The noise is the power at periods from 70 to 110 s that the acceleration does not follow:
+/// N = (S_TT - |S_aT|^2 / S_aa) n / (n - 1), with n frequencies.  So a true fluctuation of the
+/// temperature, which the fast path shows, is not taken for noise (two_path_fit_test.cpp).
+///
 /// `noise` is 0 if no frequency is between 70 and 110 s, because the steps are too long or the
 /// record is too short.
 struct ThermometerSpectrum {
     std::vector<double> power;  ///< degC^2 at the frequencies k / (n step); seven sine tapers.
-    double noise = 0.0;         ///< degC^2: mean power of the first taper, periods 70-110 s.
+    double noise = 0.0;         ///< N, degC^2, of the first taper.
 };
 /// Returns the power spectrum of the temperature without a straight line.
-/// @param temperature_degc  (n) finite, with n = fast_length(n).
-/// @param step_s            time between samples, s.
+/// @param temperature_degc   (n) finite, with n = fast_length(n).
+/// @param acceleration_mgal  (n) finite.
+/// @param step_s             time between samples, s.
 [[nodiscard]] ThermometerSpectrum thermometer_spectrum(std::span<const double> temperature_degc,
+                                                       std::span<const double> acceleration_mgal,
                                                        double step_s);
 
 /// Computes the response by modes of the temperature.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFewestTapers = 3, kMostTapers = 15;
 constexpr double kHalfOctave = std::numbers::sqrt2;
-constexpr double kNoiseShare = 0.2;    // largest share of noise; it lowers the gain by this share
+constexpr double kNoiseShare = 0.2;    // largest share of the thermometer's noise in the power
 constexpr double kFewestCycles = 6.0;  // cycles of a period that the record must contain
 
 /// Spectra of both series with each taper; white noise of variance 1 has the mean square 1.
@@ -78,18 +78,26 @@ std::vector<Band> bands_of(const TaperedSpectra& spectrum, double step_s, double
     return bands;
 }
 
-/// Returns the white noise of the thermometer, degC^2: the mean power at periods where no oven
-/// acts.
+/// Returns the white noise of the thermometer, degC^2: the mean power of the temperature, at periods
+/// where an oven hardly acts, that the acceleration does not follow.
 double thermometer_noise(const TaperedSpectra& spectrum) {
     constexpr double kLongest_s = 110.0, kShortest_s = 70.0;  // the edge of the filters is at 40 s
-    double sum = 0.0, count = 0.0;
+    double tt = 0.0, aa = 0.0, count = 0.0;
+    std::complex<double> at = 0.0;
     for (std::size_t k = 1; k < spectrum.size(); ++k) {
         const double period_s = 1.0 / (static_cast<double>(k) * spectrum.bin_hz);
         if (period_s > kLongest_s || period_s < kShortest_s) continue;
-        sum += std::norm(spectrum.temperature.front()[k]);
+        const std::complex<double> x = spectrum.temperature.front()[k],
+                                   y = spectrum.acceleration.front()[k];
+        tt += std::norm(x);
+        aa += std::norm(y);
+        at += y * std::conj(x);
         count += 1.0;
     }
-    return count > 0.0 ? sum / count : 0.0;
+    // N = (S_TT - |S_aT|^2 / S_aa) n / (n - 1)
+    const double followed = std::norm(at) / aa;
+    if (!(followed <= tt) || count < 2.0) return count > 0.0 ? tt / count : 0.0;
+    return (tt - followed) / (count - 1.0);
 }
 
 ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, double noise,
@@ -113,18 +121,22 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
         }
         tt += power;
         tt2 += power * power;
-        frequency += power * static_cast<double>(k) * spectrum.bin_hz;
+        frequency += (power - noise) * static_cast<double>(k) * spectrum.bin_hz;
     }
     const auto bins = static_cast<double>(band.behind - band.first);
+    const bool is_noise = noise * bins > kNoiseShare * tt;
+    const double of_oven = tt - noise * bins;  // S_TT without the thermometer's noise
     ResponsePoint point;
     point.shortest_s = band.shortest_s;
     point.longest_s = band.longest_s;
-    point.period_s = tt > 0.0 ? tt / frequency : std::sqrt(band.shortest_s * band.longest_s);
+    point.period_s =
+        tt > 0.0 && !is_noise ? of_oven / frequency : std::sqrt(band.shortest_s * band.longest_s);
     point.temperature_rms_degc =
         std::sqrt(2.0 * tt / spectrum.rayleigh / static_cast<double>(samples));
-    // H = S_aT / S_TT.  If the temperature is constant, S_TT is 0 or a rounding error, and H can be
-    // infinite or NaN.
-    const std::complex<double> gain = at / tt;
+    // H = S_aT / (S_TT - N).  If the temperature is constant, S_TT is 0 or a rounding error, and H
+    // can be infinite or NaN.
+    const double s_tt = is_noise ? tt : of_oven;
+    const std::complex<double> gain = at / s_tt;
     if (!(tt > 0.0) || !(aa > 0.0) || !std::isfinite(std::abs(gain)) || !std::isfinite(aa / tt)) {
         point.refusal = "temperature or acceleration is constant";
         point.needed = "a record in which both vary";
@@ -134,9 +146,9 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     // tapers.
     const double freedom = std::max(tt * tt / tt2 / spectrum.rayleigh - 1.0, 2.0);
     point.coherence = std::min(1.0, std::norm(at) / tt / aa);  // rounding may exceed 1
-    // Limits: |H - estimate|^2 <= (alpha^(-1 / (nu - 1)) - 1) (1 - coherence) S_aa / S_TT
+    // Limits: |H - estimate|^2 <= (alpha^(-1 / (nu - 1)) - 1) (1 - coherence) S_aa S_TT / (S_TT - N)^2
     const double quantile = std::pow(significance, -1.0 / (freedom - 1.0 + 1e-9)) - 1.0;
-    const double radius = std::sqrt(quantile * (1.0 - point.coherence) * aa / tt);
+    const double radius = std::sqrt(quantile * (1.0 - point.coherence) * aa * tt) / s_tt;
     point.gain = {std::abs(gain), std::max(0.0, std::abs(gain) - radius), std::abs(gain) + radius};
     const double phase = std::arg(gain) * kDegPerRad;
     const double half_width =
@@ -149,7 +161,7 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
         point.refusal = fmt::format("fewer than {} cycles", text::fixed(kFewestCycles, 0));
         point.needed = fmt::format(
             "a record of {} h", text::fixed(std::ceil(kFewestCycles * point.period_s / 3600.0), 0));
-    } else if (noise * bins > kNoiseShare * tt) {
+    } else if (is_noise) {
         point.refusal = "no excitation: the temperature shows the thermometer's noise";
         point.needed = fmt::format("a swing of {} degC", text::fixed(least_swing_degc, 4));
     } else if (radius >= std::abs(gain)) {
@@ -164,9 +176,10 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
 
 }  // namespace
 
-ThermometerSpectrum thermometer_spectrum(std::span<const double> temperature_degc, double step_s) {
+ThermometerSpectrum thermometer_spectrum(std::span<const double> temperature_degc,
+                                         std::span<const double> acceleration_mgal, double step_s) {
     constexpr std::size_t kTapers = 7;
-    const TaperedSpectra spectrum = tapered_spectra(temperature_degc, temperature_degc, step_s);
+    const TaperedSpectra spectrum = tapered_spectra(temperature_degc, acceleration_mgal, step_s);
     ThermometerSpectrum result;
     result.noise = thermometer_noise(spectrum);
     result.power.resize(spectrum.size());
@@ -181,7 +194,7 @@ std::vector<ResponsePoint> response_by_spectrum(std::span<const double> temperat
                                                 std::span<const double> acceleration_mgal,
                                                 double step_s, const ResponseOptions& options) {
     const TaperedSpectra spectrum = tapered_spectra(temperature_degc, acceleration_mgal, step_s);
-    const double noise = thermometer_noise(spectrum);
+    const double noise = options.noise_degc2 ? *options.noise_degc2 : thermometer_noise(spectrum);
     const double record_s = static_cast<double>(temperature_degc.size()) * step_s;
     std::vector<ResponsePoint> points;
     const std::vector<Band> bands = bands_of(spectrum, step_s, options.cycle_s);

@@ -56,7 +56,7 @@ public:
         numbers_.resize(count_);
         std::iota(numbers_.begin(), numbers_.end(), 0.0);
         ramp_ = transformed(numbers_);
-        set_trust();
+        set_trust(acceleration);
         noise_ = Eigen::VectorXd::Ones(frequencies_);
         for (Index k = 0; k < frequencies_; ++k) noise_(k) = 1.0 / static_cast<double>(k + 1);
     }
@@ -142,6 +142,8 @@ public:
         return linear_algebra::Cholesky(linear_algebra::normal_matrix(jacobian)).inverse();
     }
 
+    [[nodiscard]] double thermometer_noise() const { return thermometer_noise_; }
+
     /// Sets the noise from the residuals.
     void update_noise(const Lags& u, const Eigen::VectorXd& beta) {
         const Eigen::VectorXd rest = readings() - design(u) * beta;
@@ -163,10 +165,12 @@ private:
     /// 14 degrees of freedom from seven tapers, exceeds this once in ten thousand frequencies.
     /// Source: R. J. Carroll et al., Measurement Error in Nonlinear Models, 2nd ed., Chapman & Hall
     /// 2006, chap. 4 (regression calibration).
-    void set_trust() {
+    void set_trust(const std::vector<double>& acceleration) {
         constexpr double kLeastPower = 3.0;
-        const ThermometerSpectrum spectrum = thermometer_spectrum(temperature_.values(), step_s_);
+        const ThermometerSpectrum spectrum =
+            thermometer_spectrum(temperature_.values(), {acceleration.begin(), count_}, step_s_);
         const Eigen::Map<const Eigen::ArrayXd> power(spectrum.power.data() + 1, frequencies_);
+        thermometer_noise_ = spectrum.noise;
         signal_share_ =
             (power < kLeastPower * spectrum.noise).select(0.0, 1.0 - spectrum.noise / power);
     }
@@ -232,7 +236,8 @@ private:
     Eigen::VectorXd ramp_;         ///< Their spectrum.
     Eigen::VectorXd readings_;
     Eigen::VectorXd noise_;
-    Eigen::VectorXd signal_share_;  ///< Weights of the temperature's frequencies, 0 to 1.
+    double thermometer_noise_ = 0.0;  ///< degC^2, as in ThermometerSpectrum.
+    Eigen::VectorXd signal_share_;    ///< Weights of the temperature's frequencies, 0 to 1.
 };
 
 /// A parameter in words.
@@ -310,8 +315,9 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
     for (double& value : fit.residual_mgal) value -= mean;
     fit.residual_rms_mgal = std::sqrt(correlation::variance_of(fit.residual_mgal));
 
-    for (ResponsePoint& point : response_by_spectrum(temperature_degc, fit.residual_mgal, step_s,
-                                                     {.cycle_s = cycle_s, .is_joint = true}))
+    for (ResponsePoint& point : response_by_spectrum(
+             temperature_degc, fit.residual_mgal, step_s,
+             {.cycle_s = cycle_s, .is_joint = true, .noise_degc2 = problem.thermometer_noise()}))
         if (point.refusal.empty()) fit.unexplained.push_back(std::move(point));
     return fit;
 }

@@ -95,7 +95,8 @@ struct TwoPathFit {
 ///
 /// Log-normal priors, median and factor: tF 43 s, 2; tS 2700 s, 2; tW 2.5 h, 1.5.
 ///
-/// - The thermometer's white noise is measured between 70 and 110 s.  Each frequency of the
+/// - The thermometer's white noise is measured between 70 and 110 s, where the acceleration does not
+///   follow the temperature.  Each frequency of the
 ///   regressors is multiplied by the share of its power that is not noise; below three times the
 ///   noise by 0.
 /// - The noise of the fit is the spectrum of the residuals, smoothed in half octaves, in four

@@ -1,5 +1,8 @@
 #include "protocol/unit/thermal_response.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
 
 namespace a351::unit {
@@ -17,6 +20,19 @@ ThermalPrior of_lag(double median_s, double factor) {
 
 // Assumed: how much units differ is not known.
 ThermalPrior within_60_percent(double mean) { return {mean, 0.6 * std::abs(mean)}; }
+
+/// Returns w_j, the lag's output at the end of a step h = step / tau for the input s^j, 0 <= s <= 1,
+/// j = 0 ... 3: w_j = 1 - j / h w_(j-1).
+std::array<double, 4> powers_after_lag(double h) {
+    std::array<double, 4> w{};
+    // Downwards from any w_j, because errors then shrink by h / j; upwards they grow by as much.
+    double value = 0.0;
+    for (int j = std::max(30, static_cast<int>(4.0 * h)); j > 0; --j) {
+        value = h / j * (1.0 - value);
+        if (j <= 4) w.at(static_cast<std::size_t>(j - 1)) = value;
+    }
+    return w;
+}
 
 }  // namespace
 
@@ -39,15 +55,23 @@ ThermalPrior record_prior(ThermalTerm term) {
 }
 
 std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {
-    const double step = 1.0 / (series.rate().value() * tau_s);
-    // Exact for straight lines between samples:
-    // y_i = k y_(i-1) + (1 - k) x_(i-1) + (1 - (1 - k) / h) (x_i - x_(i-1))
-    const double keep = std::exp(-step);
-    const double of_rise = 1.0 - (1.0 - keep) / step;
+    const double h = 1.0 / (series.rate().value() * tau_s), keep = std::exp(-h);
+    const std::array<double, 4> w = powers_after_lag(h);
     const std::vector<double>& x = series.values();
     std::vector<double> y = x;
-    for (std::size_t i = 1; i < x.size(); ++i)
-        y[i] = keep * y[i - 1] + (1.0 - keep) * x[i - 1] + of_rise * (x[i] - x[i - 1]);
+    for (std::size_t i = 1; i < x.size(); ++i) {
+        // y_i = k y_(i-1) + w0 x_(i-1) + w1 a + w2 b + w3 c, where the temperature in the step is
+        // x_(i-1) + a s + b s^2 + c s^3
+        const double from = x[i - 1], to = x[i];
+        double a = to - from, b = 0.0, c = 0.0;
+        if (i > 1 && i + 1 < x.size()) {  // Lagrange's cubic through four samples
+            const double before = x[i - 2], after = x[i + 1];
+            b = 0.5 * (before + to) - from;
+            c = (after - before) / 6.0 + 0.5 * (from - to);
+            a -= b + c;
+        }
+        y[i] = keep * y[i - 1] + w[0] * from + w[1] * a + w[2] * b + w[3] * c;
+    }
     return y;
 }
 

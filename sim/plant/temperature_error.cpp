@@ -4,23 +4,33 @@
 
 namespace a351::sim::plant {
 
+TemperatureError::Lag::Lag(double tau_s, double step_s, double degc)
+    : keep_(std::exp(-step_s / tau_s)),
+      of_rise_(1.0 - (1.0 - keep_) * tau_s / step_s),
+      degc_(degc) {}
+
+double TemperatureError::Lag::next(double from_degc, double to_degc) noexcept {
+    degc_ = keep_ * degc_ + (1.0 - keep_) * from_degc + of_rise_ * (to_degc - from_degc);
+    return degc_;
+}
+
 TemperatureError::TemperatureError(const TemperatureErrorParameters& parameters, DegC body,
                                    double step_s)
     : p_(parameters),
-      crystal_gain_(1.0 - std::exp(-step_s / p_.crystal_tau_s)),
-      clock_gain_(1.0 - std::exp(-step_s / p_.clock_tau_s)),
-      crystal_degc_(body.value()),
-      clock_degc_(body.value()) {}
+      body_degc_(body.value()),
+      crystal_(p_.crystal_tau_s, step_s, body.value()),
+      clock_(p_.clock_tau_s, step_s, body.value()) {}
 
 MilliGal TemperatureError::next(DegC body, double since_power_on_s) noexcept {
     const double body_degc = body.value();
-    crystal_degc_ += crystal_gain_ * (body_degc - crystal_degc_);
-    clock_degc_ += clock_gain_ * (body_degc - clock_degc_);
+    const double crystal_degc = crystal_.next(body_degc_, body_degc);
+    const double clock_degc = clock_.next(body_degc_, body_degc);
+    body_degc_ = body_degc;
     const double above_degc = body_degc - p_.reference_degc;
     terms_.static_mgal = p_.crystal_static_mgal_per_degc * above_degc +
                          p_.crystal_quadratic_mgal_per_degc2 * above_degc * above_degc;
-    terms_.dynamic_mgal = p_.crystal_dynamic_mgal_per_degc * (crystal_degc_ - body_degc);
-    terms_.clock_mgal = p_.clock_mgal_per_degc * (clock_degc_ - p_.reference_degc);
+    terms_.dynamic_mgal = p_.crystal_dynamic_mgal_per_degc * (crystal_degc - body_degc);
+    terms_.clock_mgal = p_.clock_mgal_per_degc * (clock_degc - p_.reference_degc);
     terms_.warm_up_mgal =
         p_.warm_up_mgal * std::exp(-since_power_on_s / (3600.0 * p_.warm_up_tau_h));
     return MilliGal(terms_.static_mgal + terms_.dynamic_mgal + terms_.clock_mgal +

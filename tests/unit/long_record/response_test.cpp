@@ -72,6 +72,36 @@ TEST_CASE("the limits by spectrum and by modes cover the plant's response",
     CHECK(by_modes.covered >= 0.85 * by_modes.claimed);
 }
 
+TEST_CASE("the thermometer's noise does not lower the gain", "[long_record][response]") {
+    // The acceleration follows exactly, so that the limits are as narrow as the noise allows.  At
+    // 900 s the noise has a tenth of the power.
+    int held = 0, claimed = 0;
+    double sum = 0.0;
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        std::mt19937_64 random(seed);
+        std::normal_distribution<double> normal;
+        std::vector<double> temperature, acceleration;
+        double now = 0.0, before = 0.0;
+        for (int i = 0; i < 2160; ++i) {  // a wide resonance near 900 s
+            const double next = 1.75 * now - 0.85 * before + 0.0003 * normal(random);
+            before = now;
+            now = next;
+            temperature.push_back(42.5 + now + 0.0015 * normal(random));
+            acceleration.push_back(250.0 * now);
+        }
+        for (const ResponsePoint& point : response_by_spectrum(temperature, acceleration, 20.0)) {
+            if (!point.refusal.empty()) continue;
+            ++claimed;
+            sum += point.gain.value / 250.0;
+            held += point.gain.low <= 250.0 && 250.0 <= point.gain.high ? 1 : 0;
+        }
+    }
+    CAPTURE(claimed, held, sum / claimed);
+    CHECK(claimed >= 40);
+    CHECK(held >= 0.92 * claimed);
+    CHECK(std::abs(sum / claimed - 1.0) < 0.01);
+}
+
 TEST_CASE("noise without a response is refused, and so are periods with too few cycles",
           "[long_record][response]") {
     std::mt19937_64 random(1);

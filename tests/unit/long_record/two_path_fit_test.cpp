@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <utility>
 #include "tests/support/catch.hpp"
 
 #include "tests/support/two_path_truth.hpp"
@@ -89,6 +90,35 @@ TEST_CASE("the thermometer's noise gives no information on the static slope",
     const TwoPathFit fit = fitted(quiet, 101);
     CAPTURE(fit.static_slope, noisy.static_slope);
     CHECK(noisy.static_slope_error > 0.9 * fit.static_slope_error);
+}
+
+TEST_CASE("true fluctuations at 85 s are not taken for the thermometer's noise",
+          "[long_record][two_paths]") {
+    const unit::ThermalEffect unit{-12.0, -20.0, 11.3};
+    int held = 0;
+    constexpr int kRecords = 20;
+    for (unsigned record = 1; record <= kRecords; ++record) {
+        std::mt19937_64 random(record);
+        std::normal_distribution<double> normal;
+        // Resonances near 900 s and near 85 s: x_i = a x_(i-1) - b x_(i-2) + noise
+        double cycle = 0.0, before_cycle = 0.0, fast = 0.0, before_fast = 0.0;
+        std::vector<double> truth, shown;
+        for (int i = 0; i < 4320; ++i) {
+            before_cycle =
+                std::exchange(cycle, 1.92 * cycle - 0.94 * before_cycle + 0.0003 * normal(random));
+            before_fast =
+                std::exchange(fast, 0.16 * fast - 0.9 * before_fast + 0.0015 * normal(random));
+            truth.push_back(42.5 + cycle + fast);
+            shown.push_back(truth.back() + 0.0015 * normal(random));
+        }
+        std::vector<double> acceleration = unit.of({{}, Hertz(1.0 / kRecordStep_s), truth}, 42.5);
+        for (double& value : acceleration) value += 0.4 * normal(random);
+        const TwoPathFit fit = fit_two_paths(shown, acceleration, kRecordStep_s, 900.0);
+        const FittedParameter& rate = fit[TwoPathTerm::fast];
+        UNSCOPED_INFO(rate.value << " +- " << rate.standard_error);
+        held += std::abs(rate.value - unit.fast) <= k95 * rate.standard_error ? 1 : 0;
+    }
+    CHECK(held >= 17);
 }
 
 TEST_CASE("a thermometer that shows its noise alone determines no path",
