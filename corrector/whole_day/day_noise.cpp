@@ -1,17 +1,60 @@
 #include "corrector/whole_day/day_noise.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace a351::corrector::whole_day {
+namespace {
+
+using Eigen::Index;
+constexpr auto kProcesses = static_cast<Index>(kFlickerPeriods_s.size());
+
+/// Returns the decrease of correlation of the processes over a time, exp(-2 pi dt / period).
+Eigen::Array<double, kProcesses, 1> decrease(double lag_s) {
+    const Eigen::Map<const Eigen::Array<double, kProcesses, 1>> periods_s(kFlickerPeriods_s.data());
+    return (-2.0 * std::numbers::pi * std::abs(lag_s) / periods_s).exp();
+}
+
+/// The mean of each process of variance 1 over a bin.
+struct BinMean {
+    /// Covariance with an instant outside the bin, divided by decrease() over the time from the
+    /// bin's middle: sinh(y) / y, y = pi length / period.
+    Eigen::Array<double, kProcesses, 1> factor;
+    Eigen::Array<double, kProcesses, 1> variance;  ///< (2 y - 1 + exp(-2 y)) / (2 y^2)
+};
+
+BinMean mean_over(const reading::DayBin& bin) {
+    // The length is that of the samples used.  Bins with missing samples may be longer, but so two
+    // bins never overlap.
+    double step_s = seconds_between(bin.times.front(), bin.times.back());
+    for (std::size_t i = 1; i < bin.times.size(); ++i)
+        step_s = std::min(step_s, seconds_between(bin.times[i - 1], bin.times[i]));
+    const double length_s = step_s * static_cast<double>(bin.times.size());
+    BinMean mean;
+    for (Index k = 0; k < kProcesses; ++k) {
+        const double y =
+            std::numbers::pi * length_s / kFlickerPeriods_s.at(static_cast<std::size_t>(k));
+        mean.factor(k) = y > 0.0 ? std::sinh(y) / y : 1.0;
+        mean.variance(k) = y > 0.0 ? (2.0 * y + std::expm1(-2.0 * y)) / (2.0 * y * y) : 1.0;
+    }
+    return mean;
+}
+
+/// Returns the variance of the white noise of a bin.
+double white_variance(const reading::DayBin& bin, const DayNoise& noise) {
+    return noise.white_mgal * noise.white_mgal * static_cast<double>(reading::kBinSamples) /
+           static_cast<double>(bin.times.size());
+}
+
+}  // namespace
 
 double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
               Eigen::MatrixXd& columns) {
-    constexpr auto kFlicker = static_cast<Eigen::Index>(kFlickerPeriods_s.size());
-    constexpr Eigen::Index kStates = kFlicker + 1;  // the last state is placement
+    constexpr Index kStates = kProcesses + 1;  // the last state is placement
     using State = Eigen::Matrix<double, kStates, 1>;
     const double flicker_part =
-        noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kFlicker);
+        noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kProcesses);
     const double placement = noise.placement_mgal * noise.placement_mgal;
 
     Eigen::Matrix<double, kStates, kStates> covariance =
@@ -22,27 +65,27 @@ double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
     for (std::size_t i = 0; i < bins.size(); ++i) {
         State keep = State::Ones();
         if (i > 0) {
-            const double lag_s = seconds_between(bins[i - 1].time, bins[i].time);
-            for (Eigen::Index k = 0; k < kFlicker; ++k)
-                keep(k) = std::exp(-2.0 * std::numbers::pi * std::abs(lag_s) /
-                                   kFlickerPeriods_s.at(static_cast<std::size_t>(k)));
+            keep.head<kProcesses>() = decrease(seconds_between(bins[i - 1].time, bins[i].time));
         }
-        if (i == 0 || bins[i].set_up != bins[i - 1].set_up) keep(kFlicker) = 0.0;
+        if (i == 0 || bins[i].set_up != bins[i - 1].set_up) keep(kProcesses) = 0.0;
         // Prediction: x = K x, P = K P K + Q.  A new set-up has a new placement.
         state = keep.asDiagonal() * state;
         covariance = keep.asDiagonal() * covariance * keep.asDiagonal();
-        for (Eigen::Index k = 0; k < kFlicker; ++k)
+        for (Index k = 0; k < kProcesses; ++k)
             covariance(k, k) += flicker_part * (1.0 - keep(k) * keep(k));
-        if (keep(kFlicker) == 0.0) covariance(kFlicker, kFlicker) = placement;
+        if (keep(kProcesses) == 0.0) covariance(kProcesses, kProcesses) = placement;
 
-        // Measurement: the reading is the sum of all states and white noise.
-        const State gain = covariance.rowwise().sum();
-        const double white = noise.white_mgal * noise.white_mgal *
-                             static_cast<double>(reading::kBinSamples) /
-                             static_cast<double>(bins[i].times.size());
-        const double variance = gain.sum() + white;
-        const auto row = static_cast<Eigen::Index>(i);
-        const Eigen::RowVectorXd innovation = columns.row(row) - state.colwise().sum();
+        // Measurement: h times the states, and noise.  A mean varies less than h^2, so the noise may
+        // have a negative variance; that of the reading is positive.
+        const BinMean mean = mean_over(bins[i]);
+        State h = State::Ones();
+        h.head<kProcesses>() = mean.factor;
+        const State gain = covariance * h;
+        const double variance = gain.dot(h) +
+                                flicker_part * (mean.variance - mean.factor.square()).sum() +
+                                white_variance(bins[i], noise);
+        const auto row = static_cast<Index>(i);
+        const Eigen::RowVectorXd innovation = columns.row(row) - h.transpose() * state;
         state += gain / variance * innovation;
         covariance -= gain * gain.transpose() / variance;
         // Innovations divided by their standard deviation are white.
@@ -53,20 +96,19 @@ double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
 }
 
 Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const DayNoise& noise) {
+    std::vector<BinMean> means;
+    for (const reading::DayBin& bin : bins) means.push_back(mean_over(bin));
+    const double flicker_part =
+        noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kProcesses);
     Eigen::MatrixXd covariance(std::ssize(bins), std::ssize(bins));
     for (std::size_t i = 0; i < bins.size(); ++i)
         for (std::size_t k = 0; k <= i; ++k) {
-            double correlation = 0.0;
-            for (const double period_s : kFlickerPeriods_s)
-                correlation +=
-                    std::exp(-2.0 * std::numbers::pi *
-                             std::abs(seconds_between(bins[k].time, bins[i].time)) / period_s) /
-                    static_cast<double>(kFlickerPeriods_s.size());
-            double sum = std::pow(noise.flicker_mgal, 2) * correlation;
+            double sum =
+                i == k ? flicker_part * means[i].variance.sum() + white_variance(bins[i], noise)
+                       : flicker_part * (means[i].factor * means[k].factor *
+                                         decrease(seconds_between(bins[k].time, bins[i].time)))
+                                            .sum();
             if (bins[i].set_up == bins[k].set_up) sum += std::pow(noise.placement_mgal, 2);
-            if (i == k)
-                sum += std::pow(noise.white_mgal, 2) * static_cast<double>(reading::kBinSamples) /
-                       static_cast<double>(bins[i].times.size());
             covariance(static_cast<Index>(i), static_cast<Index>(k)) = sum;
             covariance(static_cast<Index>(k), static_cast<Index>(i)) = sum;
         }

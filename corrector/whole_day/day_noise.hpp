@@ -25,8 +25,8 @@ namespace a351::corrector::whole_day {
 /// Only further set-ups reduce placement.
 struct DayNoise {
     double placement_mgal = 0.0;  ///< Placement: one error per set-up.
-    double flicker_mgal = 0.0;    ///< Flicker: 1/f noise over the day.
-    double white_mgal = 0.0;      ///< White noise of a complete bin (kBinSamples samples).
+    double flicker_mgal = 0.0;  ///< Flicker: 1/f noise over the day, of the instantaneous reading.
+    double white_mgal = 0.0;    ///< White noise of a complete bin (kBinSamples samples).
 };
 
 /// Corner periods, s, of the first-order (Ornstein-Uhlenbeck) processes of equal variance whose sum
@@ -39,16 +39,22 @@ inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,
 /// Whitens columns: multiplies them by a root of the inverse covariance of the noise, so that the
 /// noise of the rows becomes independent and of variance 1.
 ///
-/// The covariance of bins i and j is flicker^2 rho(t_i - t_j), plus placement^2 within a set-up,
-/// plus white^2 kBinSamples / samples on the diagonal.  A Kalman filter runs over every column; its
-/// time is proportional to bins x columns.
+/// Bins are means, so the covariance of bins i and j is
+///
+///     flicker^2 / 7 sum_k m_ik m_jk exp(-2 pi |t_i - t_j| / P_k),   m_ik = sinh(y_ik) / y_ik
+///     flicker^2 / 7 sum_k (2 y_ik - 1 + exp(-2 y_ik)) / (2 y_ik^2)   on the diagonal
+///
+/// with y_ik = pi length_i / P_k, plus placement^2 within a set-up, plus white^2 kBinSamples /
+/// samples on the diagonal.  A Kalman filter runs over every column; its time is proportional to
+/// bins x columns.
 ///
 /// The order of the bins matters, because the filter goes from each bin to the next.  If set-ups
 /// are not in order of time, the correlation of the flicker is wrong.  A set-up whose bins are not
 /// together gets a placement for each part.  This is not checked.
 ///
 /// Accuracy: agrees with the dense factorisation within 1e-9 of the norm, the determinant's
-/// logarithm within 1e-12 of its value (day_noise_test.cpp).
+/// logarithm within 1e-12 of its value; means of simulated flicker have this covariance
+/// (day_noise_test.cpp).
 /// @param bins     (n) in order of set-up and time, each with at least one sample.
 /// @param noise    standard deviations, >= 0; white > 0, or flicker > 0 and no two bins at one
 ///                 time.

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include "tests/support/catch.hpp"
 
 #include "tests/unit/whole_day/made_up_day.hpp"
@@ -13,7 +14,10 @@ using namespace a351::corrector::whole_day;
 
 TEST_CASE("the filter whitens like the dense covariance", "[day]") {
     std::vector<DayBin> bins = MadeUpDay{}.record().bins;
-    for (std::size_t i = 0; i < bins.size(); i += 3) bins[i].times.resize(9);
+    for (std::size_t i = 0; i < bins.size(); i += 3) {
+        bins[i].times.resize(9);
+        bins[i].time = bins[i].times[4];
+    }
     const DayNoise noise{1.1, 0.8, 0.3};
     const Eigen::MatrixXd columns =
         Eigen::MatrixXd::Random(static_cast<Eigen::Index>(bins.size()), 4);
@@ -25,6 +29,44 @@ TEST_CASE("the filter whitens like the dense covariance", "[day]") {
     CHECK((white.transpose() * white - expected).norm() < 1e-9 * expected.norm());
     CHECK(log_determinant ==
           Approx(2.0 * dense.matrixLLT().diagonal().array().log().sum()).epsilon(1e-12));
+}
+
+TEST_CASE("means of simulated flicker have the covariance of the bins", "[day]") {
+    // Two bins that follow each other, the second of a third of the length, and one 500 s later.
+    constexpr std::array<int, 3> kFirst{0, 25, 275}, kSamples{25, 8, 25};
+    std::vector<DayBin> bins(3);
+    for (std::size_t b = 0; b < bins.size(); ++b) {
+        bins[b].set_up = b;
+        for (int i = 0; i < kSamples.at(b); ++i)
+            bins[b].times.push_back(UtcTime{} + from_seconds(2.0 * (kFirst.at(b) + i)));
+        bins[b].time = UtcTime{} + from_seconds(2.0 * kFirst.at(b) + kSamples.at(b) - 1.0);
+    }
+    const Eigen::MatrixXd expected = noise_covariance(bins, {0.0, 1.0, 0.0});
+
+    // The processes are stepped by 0.25 s.
+    constexpr double kStep_s = 0.25;
+    constexpr int kDays = 4000, kSteps = 8 * 300;
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (int day = 0; day < kDays; ++day) {
+        Eigen::Vector3d means = Eigen::Vector3d::Zero();
+        for (const double period_s : kFlickerPeriods_s) {
+            const double keep = std::exp(-2.0 * std::numbers::pi * kStep_s / period_s);
+            double value = normal(random);
+            for (int i = 0; i < kSteps; ++i) {
+                value = keep * value + std::sqrt(1.0 - keep * keep) * normal(random);
+                for (std::size_t b = 0; b < 3; ++b)
+                    if (i / 8 >= kFirst.at(b) && i / 8 < kFirst.at(b) + kSamples.at(b))
+                        means(static_cast<Eigen::Index>(b)) +=
+                            value / std::sqrt(7.0) / (8.0 * kSamples.at(b));
+            }
+        }
+        sum += means * means.transpose() / kDays;
+    }
+    INFO("simulated\n" << sum << "\nexpected\n" << expected);
+    CHECK((sum - expected).cwiseAbs().maxCoeff() < 0.06);  // three standard errors
+    CHECK(expected(0, 0) < 0.8);                           // a point sample would have 1
 }
 
 TEST_CASE("flicker is 1/f between its first and last period", "[day]") {
