@@ -148,8 +148,10 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     auto occupations = replay.finished();
     if (!from && !to) keep_last_day(occupations, list, events);
     for (const events::Occupation& occupation : occupations) {
-        for (const events::Occupation::SetUp& set_up : occupation.set_ups)
+        for (const events::Occupation::SetUp& set_up : occupation.set_ups) {
             list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end});
+            list.windows.back().key = occupation.key;
+        }
         if (!occupation.is_stopped) list.windows.back().notes.emplace_back("no-stop");
     }
     sort_by_start(list.windows);

@@ -38,6 +38,7 @@ struct OccupationWindow {
     std::optional<MilliGal> given_tide = {};  ///< Effect of the tide on gravity.
     bool is_excluded = false;                 ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
+    std::string key = {};                     ///< Key of the stay in the event log, if any.
 };
 
 /// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`.  Exceptions

@@ -119,6 +119,7 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     SurveyRow row;
     row.site = window.site;
     row.occupation = window.number;
+    row.key = window.key;
     row.start = value.interval_start;
     row.end = value.interval_end;
     row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;

@@ -28,6 +28,7 @@ namespace a351::corrector::reading {
 struct SurveyRow {
     std::string site;              ///< Name in the table of sites.
     int occupation = 1;            ///< Number of the stay at this site, from 1.
+    std::string key;               ///< Key of the stay in the event log; empty if not from there.
     UtcTime time;                  ///< Middle of the averaging interval.
     std::optional<UtcTime> start;  ///< Start of the averaging interval, if known; `end` alike.
     std::optional<UtcTime> end;

@@ -36,6 +36,7 @@ Column<model::CorrectedRow> of_model(std::string_view key, Value Part::*member, 
 Columns columns_of_records() {
     using R = const reading::RecordSummary&;
     return {
+        {"key", [](const model::CorrectedRow& row) { return row.row.key; }},
         of_record("series_mean_mgal", [](R r) { return cell(r.series_mean); }),
         of_record("series_minus_curve_mgal",
                   [](R r) { return cell(r.series_mean - r.curve_mean); }),

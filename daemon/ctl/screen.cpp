@@ -252,16 +252,19 @@ std::string site_table(const json& answer) {
 }
 
 std::string occupation_table(const json& answer) {
-    std::vector<std::vector<std::string>> rows = {{"site", "stay", "start", "end", "mgal", "note"}};
-    for (const auto& one : at(answer, "occupations")) {
-        std::string note = text_of(one, "note");
+    std::vector<std::vector<std::string>> rows = {
+        {"key", "site", "stay", "start", "end", "mgal", "note"}};
+    const auto add = [&](const json& one, const std::string& number, std::string note) {
         std::string value = number_of(one, "reading/value_mgal", "{:.2f}");
         for (const auto& set_up : at(one, "set_ups")) {
-            rows.push_back({text_of(one, "site"), text_of(one, "number"), text_of(set_up, "start"),
-                            text_of(set_up, "end"), value, note});
+            rows.push_back({text_of(one, "key"), text_of(one, "site"), number,
+                            text_of(set_up, "start"), text_of(set_up, "end"), value, note});
             note = value = "";
         }
-    }
+    };
+    for (const auto& one : at(answer, "occupations"))
+        add(one, text_of(one, "number"), text_of(one, "note"));
+    for (const auto& one : at(answer, "discarded")) add(one, "-", "discarded");
     return table(rows);
 }
 

@@ -24,16 +24,20 @@ constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/stop",
                                             "/api/occupation/setup",
                                             "/api/occupation/discard",
+                                            "/api/occupation/restore",
+                                            "/api/occupation/resume",
                                             "/api/occupation/rename",
+                                            "/api/occupation/retime",
                                             "/api/note",
                                             "/api/target"};
 
 /// The body of a POST: a JSON object whose values are texts.  A key that is absent, null or ""
 /// counts as not given.
 struct Order {
-    std::string site;
-    survey::Remark remark;  ///< Keys operator and note.
-    std::optional<UtcTime> at;
+    std::string key;        ///< Key of a stay.
+    std::string site;       ///< To rename: the correct one; else that of the stay.
+    survey::Remark remark;  ///< Keys operator, note and reason.
+    std::optional<UtcTime> at, from, to;
 };
 
 /// Reads the body of a POST.
@@ -49,10 +53,14 @@ Order parse_order(std::string_view body, const std::vector<std::string>& allowed
         if (value.is_null()) continue;
         if (!value.is_string()) throw InputError("body: key " + key + ": not a text");
         const auto text = value.get<std::string>();
+        if (key == "key") order.key = text;
         if (key == "site") order.site = text;
         if (key == "operator") order.remark.operator_name = text;
         if (key == "note") order.remark.note = text;
-        if (key == "at" && !text.empty()) order.at = parse_instant("body", key, text);
+        if (key == "reason") order.remark.reason = text;
+        for (const auto& [name, instant] :
+             {std::pair{"at", &order.at}, {"from", &order.from}, {"to", &order.to}})
+            if (key == name && !text.empty()) *instant = parse_instant("body", key, text);
     }
     return order;
 }
@@ -196,7 +204,9 @@ Response Api::occupations_so_far() const {
         list.back()["reading"] =
             to_json(survey::reading_of(one.set_ups, sources_.live, sources_.occupations.target()));
     }
-    return ok({{"occupations", list}});
+    json discarded = json::array();
+    for (const auto& one : sources_.occupations.discarded()) discarded.push_back(to_json(one));
+    return ok({{"occupations", list}, {"discarded", discarded}});
 }
 
 Response Api::events_since(std::string_view query) {
@@ -232,20 +242,34 @@ Response Api::change(std::string_view path, const std::string& body) {
         outcome = occupations.stop(order.remark, order.at);
     } else if (path == "/api/occupation/setup") {
         outcome = occupations.setup(parse_order(body, {"at"}).at);
-    } else if (path == "/api/occupation/discard") {
-        (void)parse_order(body, {});
-        outcome = occupations.discard();
-    } else if (path == "/api/occupation/rename") {
-        const auto order = parse_order(body, {"site", "operator", "note", "at"});
-        if (order.site.empty()) throw InputError("body: key site is missing");
-        if (order.at) throw InputError("body: key at: not allowed, because a rename has no time");
-        outcome = occupations.rename(order.site, order.remark);
     } else if (path == "/api/target") {
         outcome = occupations.set_target(parse_target(body));
+    } else if (path == "/api/note") {
+        const auto order = parse_order(body, {"key", "site", "note"});
+        outcome = occupations.note({order.key, order.site}, order.remark.note);
     } else {
-        outcome = occupations.note(parse_order(body, {"note"}).remark.note);
+        outcome = change_stay(path.substr(path.rfind('/') + 1), body);
     }
     return answer_of(outcome, occupations.running());
+}
+
+/// Carries out discard, restore, resume, rename or retime, which name their stay.
+survey::Outcome Api::change_stay(std::string_view change, const std::string& body) {
+    auto& occupations = sources_.occupations;
+    std::vector<std::string> allowed{"key", "site", "reason", "operator", "note"};
+    if (change == "retime") allowed.insert(allowed.end(), {"from", "to"});
+    const auto order = parse_order(body, allowed);
+    if (order.key.empty())
+        throw InputError("body: key key is missing: the stay, as GET /api/occupations has it");
+    if (change == "rename") {
+        if (order.site.empty()) throw InputError("body: key site is missing");
+        return occupations.rename({order.key, ""}, order.site, order.remark);
+    }
+    const survey::Named stay{order.key, order.site};
+    if (change == "discard") return occupations.discard(stay, order.remark);
+    if (change == "restore") return occupations.restore(stay, order.remark);
+    if (change == "resume") return occupations.resume(stay, order.remark);
+    return occupations.retime(stay, order.from, order.to, order.remark);
 }
 
 }  // namespace a351::daemon::page

@@ -5,8 +5,8 @@
 /// GET  / and the other files of the page
 /// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/token
 /// GET  /api/history?channel=NAME&from=UTC&to=UTC&points=N /metrics
-/// POST /api/occupation/start|stop|setup|discard|rename /api/note /api/target, with a JSON object
-///      as body
+/// POST /api/occupation/start|stop|setup|discard|restore|resume|rename|retime /api/note /api/target,
+///      with a JSON object as body; a change of a stay names it by its key
 ///
 /// An answer under /api is JSON; a refusal is {"error": one line}: 400 malformed, 403 and 421
 /// security, 404 and 405 unknown path or method, 409 not allowed now, 500 not on disk or an
@@ -70,6 +70,7 @@ private:
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);
+    [[nodiscard]] survey::Outcome change_stay(std::string_view change, const std::string& body);
     [[nodiscard]] Response sites_around() const;
     [[nodiscard]] Response occupations_so_far() const;
     [[nodiscard]] Response events_since(std::string_view query);

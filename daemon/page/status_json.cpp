@@ -162,7 +162,8 @@ json to_json(const status::Status& status, const survey::Occupations& occupation
 }
 
 json to_json(const events::RunningOccupation& running, UtcTime now) {
-    return {{"site", running.site},
+    return {{"key", running.key},
+            {"site", running.site},
             {"number", running.number},
             {"operator", running.operator_name},
             {"note", running.note},
@@ -178,11 +179,8 @@ json to_json(const events::Occupation& occupation) {
     json set_ups = json::array();
     for (const auto& one : occupation.set_ups)
         set_ups.push_back({{"start", to_rfc3339(one.start, 3)}, {"end", to_rfc3339(one.end, 3)}});
-    return {{"site", occupation.site},
-            {"number", occupation.number},
-            {"note", occupation.note},
-            {"used", nullptr},
-            {"set_ups", set_ups}};
+    return {{"key", occupation.key},   {"site", occupation.site}, {"number", occupation.number},
+            {"note", occupation.note}, {"used", nullptr},         {"set_ups", set_ups}};
 }
 
 json to_json(const survey::SiteDistance& one) {

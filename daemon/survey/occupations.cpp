@@ -5,27 +5,15 @@
 #include <system_error>
 #include <utility>
 
+#include "daemon/survey/event_texts.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
 
 namespace a351::daemon::survey {
 namespace {
 
-std::string shown(UtcTime time) { return to_rfc3339(time, 1); }
-
-Outcome refused(std::string message) { return {Outcome::Kind::refused, std::move(message)}; }
-
 events::Event event_at(std::string type, const Instant& instant) {
     return {std::move(type), instant.utc, instant.session, instant.index, {}};
-}
-
-void add(events::Event& event, const std::string& key, std::string_view text) {
-    if (!text.empty()) event.details[key] = text;
-}
-
-void add(events::Event& event, const Remark& remark) {
-    add(event, "operator", remark.operator_name);
-    add(event, "note", remark.note);
 }
 
 std::string detail(const events::Event& event, const std::string& key) {
@@ -40,11 +28,6 @@ std::optional<MilliGal> target_of(const events::Event& event) {
     const auto value = text::parse_number(detail(event, kTargetKey));
     if (!value || !is_target(MilliGal(*value))) return std::nullopt;
     return MilliGal(*value);
-}
-
-/// Returns the name of a running or finished occupation.
-std::string named(const auto& occupation) {
-    return fmt::format("{} (stay {})", occupation.site, occupation.number);
 }
 
 }  // namespace
@@ -106,6 +89,7 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
         }
     }
     auto event = event_at("start", *placed.instant);
+    add(event, "key", replay_.key_for(event.utc));
     add(event, "site", site);
     add(event, remark);
     auto outcome =
@@ -146,44 +130,6 @@ Outcome Occupations::setup(std::optional<UtcTime> at) {
     add(event, "site", running()->site);
     return commit(std::move(event), fmt::format("further set-up at {} from {}", named(*running()),
                                                 shown(placed.instant->utc)));
-}
-
-Outcome Occupations::discard() {
-    auto event = about_now("discard");
-    if (running()) {
-        add(event, "site", running()->site);
-        return commit(std::move(event),
-                      fmt::format("discarded {}, which was running", named(*running())));
-    }
-    const auto last = replay_.last_finished();
-    if (!last) return refused("there is no occupation to discard");
-    add(event, "site", last->site);
-    return commit(std::move(event), fmt::format("discarded {}, started {}", named(*last),
-                                                shown(last->set_ups.front().start)));
-}
-
-Outcome Occupations::rename(std::string_view site, const Remark& remark) {
-    if (auto trouble = trouble_with_site(site)) return refused(*std::move(trouble));
-    auto event = about_now("rename");
-    add(event, "site", site);
-    add(event, remark);
-    const auto last = replay_.last_finished();
-    if (!running() && (!last || last->site == site)) {
-        return refused(
-            fmt::format("there is no occupation to rename, or {} is already its name", site));
-    }
-    return commit(
-        std::move(event),
-        fmt::format("renamed {} to {}", running() ? named(*running()) : named(*last), site));
-}
-
-Outcome Occupations::note(std::string_view text) {
-    if (text.empty()) return refused("the note is empty");
-    auto event = about_now("note");
-    if (event.utc == UtcTime{}) return refused("no sample is available yet; see the status");
-    add(event, "note", text);
-    std::string said = "noted at " + shown(event.utc);
-    return commit(std::move(event), std::move(said));
 }
 
 Outcome Occupations::set_target(MilliGal target) {

@@ -24,11 +24,22 @@ struct Outcome {
     std::string message;  ///< One line for the operator.
 };
 
-/// Optional texts of a start or stop; empty if not given.
+/// Optional texts of a change; empty if not given.
 struct Remark {
-    std::string operator_name;
-    std::string note;
+    std::string operator_name{};
+    std::string note{};
+    std::string reason{};  ///< Why a stay is changed.
 };
+
+/// A stay that is to be changed.
+struct Named {
+    std::string key{};   ///< As events::Occupation::key.
+    std::string site{};  ///< Site under which the operator saw it; empty: not checked.
+};
+
+/// Longest time after a stop in which the stay can be resumed.  Reason: later the box was probably
+/// moved.
+inline constexpr Nanoseconds kLongestResume = std::chrono::minutes(10);
 
 struct OccupationOptions {
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay.
@@ -44,7 +55,8 @@ struct OccupationOptions {
 /// - a start while an occupation is running;
 /// - a stop or set-up without a running occupation, or not after its start;
 /// - an overlap with a finished occupation;
-/// - a site that is not in the list (any name is allowed if the list is empty).
+/// - a site that is not in the list (any name is allowed if the list is empty);
+/// - a change of a stay whose key names none, or whose site is another than the operator saw.
 /// The answer points out a possible mistake (a repeated site, a short stay).
 class Occupations {
 public:
@@ -57,11 +69,21 @@ public:
     /// Begins a further set-up of the running occupation: the sensor was lifted and set down again.
     Outcome setup(std::optional<UtcTime> at);
 
-    /// Discards or renames the running occupation, or else the one stopped last.
-    Outcome discard();
-    Outcome rename(std::string_view site, const Remark& remark);
+    // Changes of any stay (occupation_changes.cpp).  Its data are kept in any case.
+    /// Discards a stay; a running one ends.
+    Outcome discard(const Named& stay, const Remark& remark);
+    /// Cancels a discard, unless the stay overlaps another one by now.
+    Outcome restore(const Named& stay, const Remark& remark);
+    /// Continues the last stay as if it had not been stopped, up to kLongestResume later.
+    Outcome resume(const Named& stay, const Remark& remark);
+    /// @param site  the correct site.
+    Outcome rename(const Named& stay, std::string_view site, const Remark& remark);
+    /// Moves the start (`from`), the end (`to`) or both.  Set-ups outside are left out.
+    Outcome retime(const Named& stay, std::optional<UtcTime> from, std::optional<UtcTime> to,
+                   const Remark& remark);
 
-    Outcome note(std::string_view text);
+    /// Writes a note to a stay; without a key to the running one, or else to the log alone.
+    Outcome note(const Named& stay, std::string_view text);
 
     /// Sets the standard error at which a reading is good enough, from now on: 0.01 to 1000 mGal.
     Outcome set_target(MilliGal target);
@@ -75,6 +97,8 @@ public:
 
     /// Returns the finished occupations, in order of time.
     [[nodiscard]] std::vector<events::Occupation> list() const { return replay_.finished(); }
+    /// Returns the discarded occupations, in order of time.
+    [[nodiscard]] std::vector<events::Occupation> discarded() const { return replay_.discarded(); }
     [[nodiscard]] const std::optional<events::RunningOccupation>& running() const noexcept {
         return replay_.running();
     }
@@ -85,6 +109,19 @@ private:
         std::string trouble;
     };
 
+    /// A stay as it is now.
+    struct Found {
+        enum class State { running, finished, discarded };
+        State state = State::finished;
+        std::string site, text;  ///< Site; site, number and times.
+        UtcTime start, end;      ///< Of a running stay the end is the last sample.
+    };
+
+    [[nodiscard]] std::optional<Found> found(const Named& stay, std::string& trouble);
+    [[nodiscard]] std::string trouble_with_overlap(const std::string& key, UtcTime start,
+                                                   UtcTime end) const;
+    [[nodiscard]] events::Event change_of(std::string type, const Named& stay,
+                                          const Remark& remark);
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
     [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);
     [[nodiscard]] std::optional<std::string> trouble_with_site(std::string_view site) const;

@@ -8,6 +8,8 @@ namespace a351::events {
 
 namespace {
 
+constexpr const char* kKey = "key";
+
 UtcTime start_of(const Occupation& occupation) { return occupation.set_ups.front().start; }
 
 std::string detail(const Event& event, const std::string& key) {
@@ -22,6 +24,23 @@ void add_note(std::string& notes, const Event& event) {
     notes += note;
 }
 
+/// Returns the set-ups between these limits, without those of no duration.
+std::vector<Occupation::SetUp> set_ups_of(const std::vector<UtcTime>& starts, UtcTime end) {
+    std::vector<Occupation::SetUp> set_ups;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const UtcTime next = i + 1 < starts.size() ? starts[i + 1] : end;
+        if (starts[i] != next) set_ups.push_back({starts[i], next});
+    }
+    return set_ups;
+}
+
+/// Returns an instant as YYYYMMDDTHHMMSSZ.
+std::string key_text(UtcTime start) {
+    std::string text = to_rfc3339(start, 0);  // YYYY-MM-DDTHH:MM:SSZ
+    std::erase_if(text, [](char c) { return c == '-' || c == ':'; });
+    return text;
+}
+
 }  // namespace
 
 void OccupationReplay::take(const Event& event) {
@@ -32,67 +51,140 @@ void OccupationReplay::take(const Event& event) {
 void OccupationReplay::apply(const Event& event) {
     if (event.type == "start") start(event);
     if (event.type == "rename") rename(event);
-    if (event.type == "discard") discard();
-    if (running_) {
-        if (event.type == "setup") running_->set_ups.push_back(event.utc);
-        if (event.type == "note" || event.type == "stop") add_note(running_->note, event);
-        if (event.type == "stop") end_running(event.utc, true);
+    if (event.type == "discard") discard(event);
+    if (event.type == "resume") resume(event);
+    if (event.type == "retime") retime(event);
+    if (event.type == "restore" && event.details.contains(kKey))
+        if (Ended* const ended = ended_of(event)) ended->is_discarded = false;
+    if (event.type == "note") {
+        RunningOccupation* const stay = event.details.contains(kKey) ? stay_of(event)
+                                        : running_                   ? &*running_
+                                                                     : nullptr;
+        if (stay) add_note(stay->note, event);
+    }
+    if (!running_) return;
+    if (event.type == "setup") running_->set_ups.push_back(event.utc);
+    if (event.type == "stop") {
+        add_note(running_->note, event);
+        end_running(event.utc, true);
+    }
+}
+
+std::string OccupationReplay::key_for(UtcTime start) const {
+    while (true) {
+        if (std::string key = key_text(start); !keys_.contains(key)) return key;
+        start += std::chrono::seconds(1);
     }
 }
 
 void OccupationReplay::start(const Event& event) {
     if (running_) end_running(event.utc, false);
+    std::string key = detail(event, kKey);
+    if (key.empty() || keys_.contains(key)) key = key_for(event.utc);
+    keys_.insert(key);
     running_ = RunningOccupation{
-        detail(event, "site"),     1, event.utc, {event.utc}, event.session, event.index,
-        detail(event, "operator"), ""};
+        key,         detail(event, "site"),     1, event.utc, {event.utc}, event.session,
+        event.index, detail(event, "operator"), ""};
     add_note(running_->note, event);
 }
 
 void OccupationReplay::end_running(UtcTime end, bool is_stopped) {
-    Occupation ended{running_->site, 1, {}, running_->note, is_stopped};
-    std::vector<UtcTime>& limits = running_->set_ups;
-    limits.push_back(end);
-    for (std::size_t i = 1; i < limits.size(); ++i)
-        if (limits[i] != limits[i - 1]) ended.set_ups.push_back({limits[i - 1], limits[i]});
-    if (!ended.set_ups.empty()) ended_.push_back(std::move(ended));
+    Ended ended{*std::move(running_), end, is_stopped};
     running_.reset();
+    if (!set_ups_of(ended.stay.set_ups, end).empty()) ended_.push_back(std::move(ended));
+}
+
+/// Returns the ended stay that the event's key names; without a key, the last one that was not
+/// discarded.
+OccupationReplay::Ended* OccupationReplay::ended_of(const Event& event) {
+    const std::string key = detail(event, kKey);
+    const auto found = std::find_if(ended_.rbegin(), ended_.rend(), [&](const Ended& one) {
+        return key.empty() ? !one.is_discarded : one.stay.key == key;
+    });
+    return found == ended_.rend() ? nullptr : &*found;
+}
+
+/// Returns the stay that the event's key names; without a key, the running or else the last one.
+RunningOccupation* OccupationReplay::stay_of(const Event& event) {
+    const std::string key = detail(event, kKey);
+    if (running_ && (key.empty() || key == running_->key)) return &*running_;
+    Ended* const ended = ended_of(event);
+    return ended ? &ended->stay : nullptr;
 }
 
 void OccupationReplay::rename(const Event& event) {
-    if (running_) {
-        running_->site = detail(event, "site");
-        add_note(running_->note, event);
-    } else if (!ended_.empty()) {
-        ended_.back().site = detail(event, "site");
-        add_note(ended_.back().note, event);
+    RunningOccupation* const stay = stay_of(event);
+    if (!stay) return;
+    stay->site = detail(event, "site");
+    add_note(stay->note, event);
+}
+
+void OccupationReplay::discard(const Event& event) {
+    const std::string key = detail(event, kKey);
+    if (running_ && (key.empty() || key == running_->key)) {
+        const std::size_t before = ended_.size();
+        end_running(event.utc, true);
+        if (ended_.size() > before) ended_.back().is_discarded = true;
+    } else if (Ended* const ended = ended_of(event)) {
+        ended->is_discarded = true;
     }
 }
 
-void OccupationReplay::discard() {
-    if (running_)
-        running_.reset();
-    else if (!ended_.empty())
-        ended_.pop_back();
+void OccupationReplay::resume(const Event& event) {
+    if (running_ || !event.details.contains(kKey)) return;
+    Ended* const ended = ended_of(event);
+    if (!ended || ended->is_discarded) return;
+    running_ = std::move(ended->stay);
+    ended_.erase(ended_.begin() + (ended - ended_.data()));
+}
+
+void OccupationReplay::retime(const Event& event) {
+    if (!event.details.contains(kKey)) return;
+    RunningOccupation* const stay = stay_of(event);
+    if (!stay) return;
+    std::vector<UtcTime>& starts = stay->set_ups;
+    if (const auto from = parse_rfc3339(detail(event, "from"))) {
+        starts.erase(starts.begin());
+        std::erase_if(starts, [&](UtcTime start) { return start <= *from; });
+        starts.insert(starts.begin(), *from);
+        stay->start = *from;
+        stay->session.reset();
+        stay->index.reset();
+    }
+    const auto to = parse_rfc3339(detail(event, "to"));
+    if (Ended* const ended = to ? ended_of(event) : nullptr) {
+        ended->end = *to;
+        starts.erase(std::find_if(starts.begin() + 1, starts.end(),
+                                  [&](UtcTime start) { return start >= *to; }),
+                     starts.end());
+    }
 }
 
 void OccupationReplay::renumber() {
-    std::vector<Occupation*> by_start;
-    for (Occupation& occupation : ended_) by_start.push_back(&occupation);
-    std::ranges::stable_sort(by_start, {}, [](const Occupation* one) { return start_of(*one); });
+    std::vector<RunningOccupation*> by_start;
+    for (Ended& one : ended_)
+        if (!one.is_discarded) by_start.push_back(&one.stay);
+    std::ranges::stable_sort(by_start, {}, [](const RunningOccupation* one) { return one->start; });
     std::map<std::string, int> stays;
-    for (Occupation* const occupation : by_start) occupation->number = ++stays[occupation->site];
+    for (RunningOccupation* const stay : by_start) stay->number = ++stays[stay->site];
     if (running_) running_->number = 1 + stays[running_->site];
 }
 
-std::vector<Occupation> OccupationReplay::finished() const {
-    std::vector<Occupation> occupations = ended_;
+std::vector<Occupation> OccupationReplay::stays(bool are_discarded) const {
+    std::vector<Occupation> occupations;
+    for (const Ended& one : ended_) {
+        auto set_ups = set_ups_of(one.stay.set_ups, one.end);
+        if (one.is_discarded != are_discarded || set_ups.empty()) continue;
+        occupations.push_back({one.stay.key, one.stay.site, one.stay.number, std::move(set_ups),
+                               one.stay.note, one.is_stopped});
+    }
     std::ranges::stable_sort(occupations, {}, start_of);
     return occupations;
 }
 
-std::optional<Occupation> OccupationReplay::last_finished() const {
-    return ended_.empty() ? std::nullopt : std::optional(ended_.back());
-}
+std::vector<Occupation> OccupationReplay::finished() const { return stays(false); }
+
+std::vector<Occupation> OccupationReplay::discarded() const { return stays(true); }
 
 std::vector<Occupation> survey_day(std::vector<Occupation> occupations, UtcTime later) {
     auto first = occupations.end();

@@ -13,7 +13,9 @@
 /// Nothing here reads a file or a clock.  Equal events give equal occupations.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,9 @@ namespace a351::events {
 /// The replay never gives an occupation without set-ups.  Two stays can overlap, and an end can be
 /// before its start, in a log that the daemon did not make.
 struct Occupation {
+    /// Key of the stay: its start as YYYYMMDDTHHMMSSZ when it was entered; if another stay has it,
+    /// the next free second.  It never changes and is never given again.
+    std::string key;
     /// One placement of the sensor.
     struct SetUp {
         UtcTime start;  ///< Time of the start of the stay, or of the event `setup`.
@@ -44,6 +49,7 @@ struct Occupation {
 ///
 /// Times and texts are those of the events so far.
 struct RunningOccupation {
+    std::string key;   ///< As Occupation::key.
     std::string site;  ///< Name of the benchmark, after renames.
     /// Number of this stay at the site, one more than the finished stays there.  If one of these is
     /// later, the stay gets a smaller number when it ends.
@@ -51,8 +57,9 @@ struct RunningOccupation {
     UtcTime start;  ///< Start of the stay.
     /// Start of each set-up; the first is `start`.  A set-up without duration is still included.
     std::vector<UtcTime> set_ups;
-    std::optional<journal::SessionId> session;  ///< Session of the first sample.
-    std::optional<std::int64_t> index;          ///< Index of the first sample.
+    /// Session and index of the first sample; absent if the start was moved.
+    std::optional<journal::SessionId> session;
+    std::optional<std::int64_t> index;
     std::string operator_name;  ///< Detail `operator` of the start; empty if not given.
     std::string note;           ///< Notes so far, joined by "; ".
 };
@@ -61,12 +68,17 @@ struct RunningOccupation {
 ///
 /// - `start` begins an occupation.  If one runs, this ends it.
 /// - `setup` begins a further set-up of the running one, `stop` ends it.
-/// - `discard` and `rename` apply to the running occupation, or else to the last one that ended and
-///   was not discarded.
-/// - Notes of start, stop and rename, and `note` while one runs, are joined by "; ".
+/// - `discard`, `restore`, `resume`, `rename`, `retime` and `note` apply to the stay that their
+///   detail `key` names; with a key that names none they change nothing.
+/// - Without a key, `discard` and `rename` apply to the running occupation, or else to the last one
+///   that ended and was not discarded; `note` to the running one; the others change nothing.
+/// - `discard` of the running occupation ends it, too.  `restore` cancels a discard.
+/// - `resume` cancels the end of a stay if none runs.
+/// - `retime` moves the start (`from`), the end (`to`) or both; set-ups outside are left out.
+/// - Notes of start, stop, rename and `note` are joined by "; ".
 /// - A set-up without duration is left out, and so is an occupation without set-ups.
-/// - A second `discard` cancels the last occupation that is left.
-/// - `setup`, `stop` and `note` change nothing if no occupation runs.  Other types change nothing.
+/// - `setup` and `stop` change nothing if no occupation runs.  Other types change nothing.
+///
 /// An occupation that ends before it starts, which the daemon does not log, is kept as it was
 /// logged.
 ///
@@ -90,9 +102,10 @@ public:
     /// Returns the occupations that ended and were not discarded, in order of time: by the start of
     /// their first set-up.  Stays with equal starts are in the order in which they ended.
     [[nodiscard]] std::vector<Occupation> finished() const;
-    /// Returns the occupation to which `discard` and `rename` apply if none runs.  It is the one
-    /// that ended last in the log, which need not be the latest in time; absent if there is none.
-    [[nodiscard]] std::optional<Occupation> last_finished() const;
+    /// Returns the occupations that were discarded, in the same order.
+    [[nodiscard]] std::vector<Occupation> discarded() const;
+    /// Returns the key that a stay with this start gets.
+    [[nodiscard]] std::string key_for(UtcTime start) const;
     /// Returns the occupation that still runs after the last event; absent if none runs.  The
     /// reference is to a member, which the next take() changes.
     [[nodiscard]] const std::optional<RunningOccupation>& running() const noexcept {
@@ -100,15 +113,28 @@ public:
     }
 
 private:
+    /// A stay that ended, with what `resume` needs.
+    struct Ended {
+        RunningOccupation stay;
+        UtcTime end;
+        bool is_stopped = true, is_discarded = false;
+    };
+
     void apply(const Event& event);
     void start(const Event& event);
     void end_running(UtcTime end, bool is_stopped);
     void rename(const Event& event);
-    void discard();
+    void discard(const Event& event);
+    void resume(const Event& event);
+    void retime(const Event& event);
     void renumber();
+    [[nodiscard]] Ended* ended_of(const Event& event);
+    [[nodiscard]] RunningOccupation* stay_of(const Event& event);
+    [[nodiscard]] std::vector<Occupation> stays(bool are_discarded) const;
 
     std::optional<RunningOccupation> running_;
-    std::vector<Occupation> ended_;  ///< In the order in which they ended; numbered.
+    std::vector<Ended> ended_;                 ///< In the order in which they ended; numbered.
+    std::set<std::string, std::less<>> keys_;  ///< All keys ever given.
 };
 
 /// Returns the finished occupations of a log.  A running one is not included.

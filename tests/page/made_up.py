@@ -36,14 +36,14 @@ def reading(standard_error_mgal=1.31, needed_s=250.0, is_good_enough=False):
 
 def occupation(site="No.5", **changes):
     start = rfc3339(time.time() - 400)
-    return {"site": site, "number": 1, "operator": "T. Sato", "note": "on the pillar", "start": start, "set_up": start,
+    return {"key": "20260301T013000Z", "site": site, "number": 1, "operator": "T. Sato", "note": "on the pillar", "start": start, "set_up": start,
             "set_up_count": 1, "session": "00", "index": 1, "running_s": 400.0, "reading": reading(),
             "whole": reading(0.7), "propose_set_up": False, "warnings": [], "half_time_s": 20.0, **changes}
 
 
 def finished(site, number=1, hours_ago=1.0, **changes):
     begin = time.time() - 3600 * hours_ago
-    return {"site": site, "number": number, "note": "", "used": None,
+    return {"key": f"20260301T00{number:02}00Z", "site": site, "number": number, "note": "", "used": None,
             "set_ups": [{"start": rfc3339(begin), "end": rfc3339(begin + 660)}], "reading": reading(0.42), **changes}
 
 

@@ -58,8 +58,8 @@ with Browser(allowed_errors=["status of 403"]) as page:
     time.sleep(0.3)
     page.open(daemon.port)
     page.wait_for_text("start-site", "No.5, 3.3 km")
-    order = ["start-site", "start-operator", "start-note", "start", "target"]
-    demand(f"Tab moves through the form first: {order}", tab_round(page, 5) == order)
+    order = ["start-site", "start-operator", "start-note", "start", "start-at", "target"]
+    demand(f"Tab moves through the form first: {order}", tab_round(page, 6) == order)
     page.press(Keys.ENTER)
     demand("Enter in the target field sets the target", last_post(daemon, page, "/api/target") == {"target_mgal": 1.0})
     for text in ("0", "x", "-1"):
@@ -80,9 +80,9 @@ with Browser(allowed_errors=["status of 403"]) as page:
     page.wait_for_text("run-site", "No.5")
     page.driver.refresh()
     page.wait_for_text("run-site", "No.5")
-    order = ["stop", "setup", "discard", "BUTTON", "target"]
-    demand(f"Tab moves through the actions of a running occupation: {order}", tab_round(page, 5) == order)
-    page.press_with_shift(*[Keys.TAB] * 4)
+    order = ["stop", "setup", "run-discard", "run-rename", "run-times", "target"]
+    demand(f"Tab moves through the actions of a running occupation: {order}", tab_round(page, 6) == order)
+    page.press_with_shift(*[Keys.TAB] * 5)
     page.press(Keys.ENTER)
     demand("Enter on Stop stops the occupation", last_post(daemon, page, "/api/occupation/stop") == {})
     page.press(Keys.TAB, Keys.SPACE)
@@ -90,26 +90,43 @@ with Browser(allowed_errors=["status of 403"]) as page:
 
     count = len(daemon.posts)
     page.press(Keys.TAB, Keys.ENTER)
-    page.wait_for_text("confirm-text", "Discard the running occupation at No.5, 6 min")
+    page.wait_for_text("discard-text", "Discard the running occupation at No.5, 6 min")
     page.demand_readable("the question")
     page.shot("discard-1366")
     page.press(Keys.ENTER)
     time.sleep(0.3)
     demand("Enter on the question keeps the occupation, because the first button is the harmless one",
-           len(daemon.posts) == count and page.text("confirm-text") == "")
+           len(daemon.posts) == count and page.text("discard-text") == "")
     page.press(Keys.ENTER)
-    page.wait_for_text("confirm-text", "Discard the running")
+    page.wait_for_text("discard-text", "Discard the running")
     page.press(Keys.ESCAPE)
-    page.wait_for("Escape keeps the occupation", lambda: page.text("confirm-text") == "")
+    page.wait_for("Escape keeps the occupation", lambda: page.text("discard-text") == "")
     page.press(Keys.ENTER, Keys.TAB, Keys.ENTER)
-    demand("the second button discards the occupation", last_post(daemon, page, "/api/occupation/discard") == {})
+    running = {"key": "20260301T013000Z", "operator": "T. Sato"}
+    demand("the second button discards the occupation that the question named",
+           last_post(daemon, page, "/api/occupation/discard") == {**running, "site": "No.5"})
 
     page.press(Keys.TAB, Keys.ENTER)
-    page.wait_for_text("rename-text", "Choose the correct site for the occupation named No.5")
+    page.wait_for_text("rename-text", "Choose the correct site for No.5 (stay 1), running since")
     page.demand_readable("the new name")
     page.shot("rename-1366")
-    page.press("No.7", Keys.TAB, Keys.TAB, Keys.ENTER)
-    demand("the correct site is sent", last_post(daemon, page, "/api/occupation/rename") == {"site": "No.7"})
+    page.press("No.7", Keys.TAB, "wrong button", Keys.TAB, Keys.TAB, Keys.ENTER)
+    demand("key, correct site and reason are sent", last_post(daemon, page, "/api/occupation/rename")
+           == {**running, "site": "No.7", "reason": "wrong button"})
+
+    page.press(Keys.TAB, Keys.ENTER)
+    page.wait_for_text("times-text", "Correct the times of No.5 (stay 1), running since")
+    page.demand_readable("the new times")
+    page.press("noon", Keys.ENTER)
+    page.wait_for_text("answer", "noon")
+    demand("a text that is no time is not sent", daemon.posts[-1][0] == "/api/occupation/rename")
+    page.press(Keys.ENTER, Keys.DELETE)
+    page.run("document.getElementById('times-from').value = ''")
+    page.press(earlier := daemon.status["occupation"]["start"][11:17] + "00", Keys.ENTER)
+    order = last_post(daemon, page, "/api/occupation/retime")
+    demand(f"the start is sent with its date: {order}",
+           order == {**running, "site": "No.5", "from": daemon.status["occupation"]["start"][:17] + "00.000Z"}
+           and earlier in order["from"])
 
     page.find("#note").send_keys("rain began", Keys.ENTER)
     demand("Enter in the note field sends the note", last_post(daemon, page, "/api/note") == {"note": "rain began"})

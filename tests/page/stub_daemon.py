@@ -76,7 +76,7 @@ class StubDaemon:
     def __init__(self):
         self.status = first_status()
         self.sites = []
-        self.occupations = []
+        self.occupations, self.discarded = [], []
         self.posts = []
         self.history_gap = None  # (begin, end) in Unix seconds of a gap in the history.
         self.peak_s = None  # Unix time of a peak of 2 mg in the history.
@@ -164,7 +164,7 @@ class StubDaemon:
         if path == "/api/sites":
             return self.reply(request, {"sites": self.sites})
         if path == "/api/occupations":
-            return self.reply(request, {"occupations": self.occupations})
+            return self.reply(request, {"occupations": self.occupations, "discarded": self.discarded})
         if path == "/api/history":
             return self.reply(request, self.history(dict(part.split("=") for part in query.split("&"))))
         name = "index.html" if path == "/" else path[1:]

@@ -98,6 +98,10 @@ class Session:
                      check=False)
         return json.loads(result.stdout) if result.stdout else {}
 
+    def ctl(self, *arguments):
+        """Runs a351ctl, which must succeed, and returns what it prints."""
+        return run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{self.port}", *arguments).stdout
+
     def wait_for_frames(self, count):
         wait_for(f"{count} frames", lambda: self.status().get("counters", {}).get("frames", 0) >= count)
 

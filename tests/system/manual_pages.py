@@ -10,7 +10,8 @@ from programs import BIN, TOP, Scratch, demand, run
 PAGES = {
     "a351d": ("daemon/a351d.1", []),
     "a351ctl": ("daemon/ctl/a351ctl.1",
-                ["status", "watch", "start", "stop", "setup", "discard", "rename", "note", "target", "sites", "list"]),
+                ["status", "watch", "start", "stop", "setup", "discard", "restore", "resume", "rename", "retime", "note", "target",
+                 "sites", "list"]),
     "a351-sim": ("sim/a351-sim.1", ["device", "replay", "survey", "plan"]),
 }
 OPTION = r"(?<![\w-])--[a-z][a-z0-9-]*"

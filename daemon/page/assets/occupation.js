@@ -4,8 +4,10 @@ import { get, post } from "./api.js";
 import { by_id, make, set_items, set_text, show } from "./dom.js";
 import { duration, number, time_of_day, visible } from "./format.js";
 import { recalled, remember } from "./memory.js";
+import { nearest_instant, StayDialogs } from "./stay_dialogs.js";
 
 const kDay_ms = 24 * 3600 * 1000;
+const kResume_ms = 10 * 60 * 1000; // As kLongestResume of the daemon.
 
 function distance_text(metres) {
     if (metres === null || metres === undefined) return "";
@@ -23,11 +25,16 @@ export class OccupationPanel {
     constructor() {
         this.sites = [];
         this.list = [];
+        this.discarded = [];
+        this.resume_button = null; // Button of the stay that can be resumed.
+        this.resume_until_ms = 0;
         this.running = null;
         this.last_key = null; // Key of the occupation for which the lists were last read.
         this.target_mgal = null;
         this.now_ms = 0;
         by_id("start-operator").value = recalled("operator");
+        this.dialogs = new StayDialogs((path, body) => this.change(path, body), (text) => this.refuse(text),
+            () => this.chosen("rename"));
         this.listen();
     }
 
@@ -39,21 +46,13 @@ export class OccupationPanel {
         on_submit("start-form", () => this.start());
         on_submit("target-form", () => this.set_target());
         on_submit("note-form", () => this.write_note());
-        on_submit("rename-form", () => this.rename());
         by_id("start-site").addEventListener("change", () => this.warn_of_repeat());
         by_id("start-name").addEventListener("input", () => this.warn_of_repeat());
         by_id("stop").addEventListener("click", () => this.order("/api/occupation/stop", {}));
         by_id("setup").addEventListener("click", () => this.order("/api/occupation/setup", {}));
-        for (const id of ["discard", "discard-last"]) by_id(id).addEventListener("click", () => this.ask_discard());
-        by_id("confirm-no").addEventListener("click", () => by_id("confirm").close());
-        by_id("confirm-yes").addEventListener("click", () => {
-            by_id("confirm").close();
-            this.order("/api/occupation/discard", {});
-        });
-        for (const button of document.querySelectorAll("button.rename")) {
-            button.addEventListener("click", () => this.ask_rename());
+        for (const kind of ["discard", "rename", "times"]) {
+            by_id(`run-${kind}`).addEventListener("click", () => this.dialogs.open(kind, this.running));
         }
-        by_id("rename-no").addEventListener("click", () => by_id("rename").close());
     }
 
     /** Makes the lists be read again: the daemon may have been restarted with other sites. */
@@ -76,6 +75,18 @@ export class OccupationPanel {
         }
     }
 
+    /** Sends a change of a stay, with the operator's name. */
+    change(path, body) {
+        const operator = by_id("start-operator").value;
+        return this.order(path, { ...body, ...(operator && { operator }) });
+    }
+
+    /** Shows why an order was not sent. */
+    refuse(text) {
+        by_id("answer").classList.add("error");
+        set_text("answer", `Not done: ${text}`);
+    }
+
     chosen(kind) {
         return this.sites.length ? by_id(`${kind}-site`).value : by_id(`${kind}-name`).value;
     }
@@ -85,17 +96,22 @@ export class OccupationPanel {
         if (!site) return;
         const operator = by_id("start-operator").value;
         remember("operator", operator);
-        if (await this.order("/api/occupation/start", { site, operator, note: by_id("start-note").value })) {
-            by_id("start-site").value = by_id("start-name").value = by_id("start-note").value = "";
+        const order = { site, operator, note: by_id("start-note").value };
+        if (by_id("start-at").value) {
+            // The latest such instant: half a day before now is the middle of the last 24 hours.
+            const instant_ms = nearest_instant(by_id("start-at").value, this.now_ms - kDay_ms / 2);
+            if (instant_ms === null) return this.refuse("started at: allowed: HH:MM or HH:MM:SS, in UTC");
+            order.at = new Date(instant_ms).toISOString();
+        }
+        if (await this.order("/api/occupation/start", order)) {
+            for (const id of ["start-site", "start-name", "start-note", "start-at"]) by_id(id).value = "";
         }
     }
 
     async set_target() {
         const target_mgal = Number(by_id("target").value.replace(",", "."));
         if (!(target_mgal > 0)) {
-            by_id("answer").classList.add("error");
-            set_text("answer", "Not done: the target must be a number of mGal above 0");
-            return;
+            return this.refuse("the target must be a number of mGal above 0");
         }
         await this.order("/api/target", { target_mgal });
     }
@@ -105,40 +121,13 @@ export class OccupationPanel {
         if (note && await this.order("/api/note", { note })) by_id("note").value = "";
     }
 
-    /** Returns the occupation that discard and rename change: the running one, else the last. */
-    meant() {
-        return this.running ?? this.list.at(-1);
-    }
-
-    ask_discard() {
-        const one = this.meant();
-        if (!one) return;
-        set_text("confirm-text", this.running
-            ? `Discard the running occupation at ${visible(one.site)}, ${duration(one.running_s)} old?`
-            : `Discard the last occupation, at ${visible(one.site)}, ${time_of_day(one.set_ups[0].start)} UTC?`);
-        by_id("confirm").showModal();
-    }
-
-    ask_rename() {
-        const one = this.meant();
-        if (!one) return;
-        set_text("rename-text", `Choose the correct site for the occupation named ${visible(one.site)}:`);
-        by_id("rename").showModal();
-    }
-
-    async rename() {
-        const site = this.chosen("rename");
-        if (!site) return;
-        by_id("rename").close();
-        await this.order("/api/occupation/rename", { site });
-    }
-
     /** Reads sites and occupations; called again after each change. */
     async read_lists() {
         try {
             const [sites, list] = await Promise.all([get("/api/sites"), get("/api/occupations")]);
             this.sites = sites.sites;
             this.list = list.occupations;
+            this.discarded = list.discarded ?? [];
         } catch {
             this.forget_lists(); // They are read again with the next status.
             return;
@@ -176,27 +165,65 @@ export class OccupationPanel {
         }
     }
 
+    of_today(list) {
+        return list.filter((one) => Date.parse(one.set_ups[0].start) > this.now_ms - kDay_ms);
+    }
+
     today() {
-        return this.list.filter((one) => Date.parse(one.set_ups[0].start) > this.now_ms - kDay_ms);
+        return this.of_today(this.list);
     }
 
     show_day() {
-        const today = this.today().reverse(); // The newest first.
-        by_id("day-rows").replaceChildren(...today.map((one) => {
-            const row = document.createElement("tr");
-            const seconds = one.set_ups.reduce((sum, s) => sum + (Date.parse(s.end) - Date.parse(s.start)) / 1000, 0);
-            const remark = [one.set_ups.length > 1 && `${one.set_ups.length} set-ups`, visible(one.note)];
-            row.append(make("td", `${visible(one.site)} (${one.number})`, "foreign"),
-                make("td", time_of_day(one.set_ups[0].start)), make("td", duration(seconds)),
-                make("td", reading_text(one.reading)), make("td", remark.filter(Boolean).join("; "), "foreign"));
-            return row;
-        }));
-        show("day-empty", today.length === 0);
-        this.show_last_buttons();
+        this.resume_button = null;
+        const row_of = (one, is_discarded) => ({ start: one.set_ups[0].start, row: this.row(one, is_discarded) });
+        const rows = [...this.today().map((one) => row_of(one, false)),
+            ...this.of_today(this.discarded).map((one) => row_of(one, true))];
+        rows.sort((one, other) => (one.start < other.start ? 1 : -1)); // The newest first.
+        by_id("day-rows").replaceChildren(...rows.map((one) => one.row));
+        show("day-empty", rows.length === 0);
+        this.show_resume();
     }
 
-    show_last_buttons() {
-        show("last-buttons", !this.running && this.list.length > 0);
+    /** Returns the row of a stay that ended, with the buttons that change it. */
+    row(one, is_discarded) {
+        const row = document.createElement("tr");
+        const seconds = one.set_ups.reduce((sum, s) => sum + (Date.parse(s.end) - Date.parse(s.start)) / 1000, 0);
+        const remark = [is_discarded && "discarded", one.set_ups.length > 1 && `${one.set_ups.length} set-ups`,
+            visible(one.note)];
+        const stay = { key: one.key, site: one.site, number: one.number, start: one.set_ups[0].start,
+            end: one.set_ups.at(-1).end };
+        const buttons = document.createElement("td");
+        const add = (text, class_name, act) => {
+            const button = make("button", text, class_name);
+            button.type = "button";
+            button.addEventListener("click", act);
+            buttons.append(button);
+            return button;
+        };
+        const send = (change) => this.change(`/api/occupation/${change}`, { key: stay.key, site: stay.site });
+        if (is_discarded) {
+            row.className = "discarded";
+            add("Restore", "restore", () => send("restore"));
+        } else {
+            for (const [kind, text] of [["rename", "Rename"], ["times", "Times"], ["discard", "Discard"]]) {
+                add(text, kind, () => this.dialogs.open(kind, stay));
+            }
+            if (one === this.list.at(-1)) {
+                this.resume_button = add("Resume", "resume", () => send("resume"));
+                this.resume_until_ms = Date.parse(stay.end) + kResume_ms;
+            }
+        }
+        row.append(make("td", is_discarded ? visible(one.site) : `${visible(one.site)} (${one.number})`, "foreign"),
+            make("td", time_of_day(stay.start)), make("td", duration(seconds)),
+            make("td", is_discarded ? "–" : reading_text(one.reading)),
+            make("td", remark.filter(Boolean).join("; "), "foreign"), buttons);
+        return row;
+    }
+
+    show_resume() {
+        if (this.resume_button) {
+            this.resume_button.hidden = this.running !== null || this.now_ms > this.resume_until_ms;
+        }
     }
 
     /** Shows the panel.  @param status  the complete status of the daemon. */
@@ -210,7 +237,7 @@ export class OccupationPanel {
         }
         show("start-form", !this.running);
         show("running", this.running !== null);
-        this.show_last_buttons();
+        this.show_resume();
         const target = by_id("target");
         if (status.target_mgal !== this.target_mgal && document.activeElement !== target) {
             this.target_mgal = status.target_mgal;

@@ -16,7 +16,9 @@ TEST_CASE("an occupation is started, set up again, renamed and stopped by POST",
     CHECK(is(started, "/occupation/operator", R"("M. Ito")"));
     page.ask(post("/api/occupation/setup", R"({"at":"2026-03-14T17:20:00+09:00"})"));
     CHECK(page.occupations.running()->set_ups.back() == minute(20));
-    page.ask(post("/api/occupation/rename", R"({"site":"No.1"})"));
+    CHECK(is(page.ask(get("/api/status")), "/occupation/key", R"("20260314T081000Z")"));
+    const std::string key = R"("key":"20260314T081000Z")";
+    page.ask(post("/api/occupation/rename", "{" + key + R"(,"site":"No.1"})"));
     page.ask(post("/api/note", R"({"note":"a lorry passed"})"));
     page.ask(post("/api/occupation/stop", R"({"site":"No.0"})"), 409);
     const auto stopped = page.ask(post("/api/occupation/stop", R"({"site":"","at":null})"));
@@ -25,9 +27,17 @@ TEST_CASE("an occupation is started, set up again, renamed and stopped by POST",
     REQUIRE(list.size() == 1);
     CHECK(is(list, "/0/site", R"("No.1")"));
     CHECK(list[0]["set_ups"].size() == 2);
-    page.ask(post("/api/occupation/discard"));
-    CHECK(is(page.ask(get("/api/occupations")), "/occupations", "[]"));
-    CHECK(page.recorder.log.size() == 6);
+    page.ask(post("/api/occupation/retime", "{" + key + R"(,"to":"2026-03-14T08:40:00Z"})"));
+    page.ask(post("/api/note", "{" + key + R"(,"note":"calm"})"));
+    page.ask(post("/api/occupation/discard", "{" + key + R"(,"site":"No.0"})"), 409);
+    page.ask(post("/api/occupation/discard", "{" + key + R"(,"site":"No.1","reason":"wind"})"));
+    const auto discarded = page.ask(get("/api/occupations"));
+    CHECK(is(discarded, "/occupations", "[]"));
+    CHECK(is(discarded, "/discarded/0/key", R"("20260314T081000Z")"));
+    CHECK(is(discarded, "/discarded/0/note", R"("windy; a lorry passed; calm")"));
+    page.ask(post("/api/occupation/restore", "{" + key + "}"));
+    page.ask(post("/api/occupation/resume", "{" + key + "}"), 409);  // stopped 20 min ago
+    CHECK(page.recorder.log.size() == 9);
 }
 
 TEST_CASE("a request that breaks a rule is answered 409 with the reason", "[daemon][page]") {
@@ -61,10 +71,12 @@ TEST_CASE("a malformed body is refused with an error that names the key", "[daem
     CHECK(trouble(start, R"({"site":"No.0","At":""})").find("key At is unknown") !=
           std::string::npos);
     CHECK(trouble(start, R"({"site":"No.0","at":"noon"})").find("at = noon") != std::string::npos);
-    CHECK(trouble("/api/occupation/discard", R"({"site":"No.0"})").find("none") !=
-          std::string::npos);
-    CHECK(trouble("/api/occupation/rename", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})")
-              .find("key at") != std::string::npos);
+    for (const char* change : {"discard", "restore", "resume", "rename", "retime"}) {
+        const std::string path = std::string("/api/occupation/") + change;
+        CHECK(trouble(path, R"({"site":"No.0"})").find("key key is missing") != std::string::npos);
+        CHECK(trouble(path, R"({"key":"x","site":"No.0","at":"2026-03-14T08:10:00Z"})")
+                  .find("key at") != std::string::npos);
+    }
     for (const char* body : {"", "[]", "{}", R"({"target_mgal":5,"at":null})"})
         CHECK(trouble("/api/target", body) == "body: allowed: one key, target_mgal");
     CHECK(trouble("/api/target", R"({"target_mgal":"5"})") ==
@@ -85,9 +97,10 @@ TEST_CASE("a target is set by POST and refused outside the allowed range", "[dae
 TEST_CASE("GET changes nothing, POST reads nothing, and unknown paths are answered 404",
           "[daemon][page]") {
     Page page;
-    const std::string changes[] = {"/api/occupation/start",  "/api/occupation/stop",
-                                   "/api/occupation/setup",  "/api/occupation/discard",
-                                   "/api/occupation/rename", "/api/note"};
+    const std::string changes[] = {
+        "/api/occupation/start",   "/api/occupation/stop",    "/api/occupation/setup",
+        "/api/occupation/discard", "/api/occupation/restore", "/api/occupation/resume",
+        "/api/occupation/rename",  "/api/occupation/retime",  "/api/note"};
     for (const auto& path : changes) {
         const auto response = page.api.answer(get(path));
         CHECK(response.status == 405);

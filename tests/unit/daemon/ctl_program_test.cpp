@@ -95,13 +95,24 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
     CHECK(has(again, "a351ctl: No.0 (stay 1) has been running"));
     CHECK(daemon.ctl("setup --at 2026-03-14T08:20:00Z").exit == 0);
     CHECK(daemon.ctl("note 'a lorry passed'").exit == 0);
-    CHECK(daemon.ctl("rename No.1").exit == 0);
+    CHECK(has(daemon.ctl("rename No.1"), "No.0, stay 1 (20260314T081000Z), running since"));
     CHECK(has(daemon.ctl("status"), "No.1, stay 1, since 2026-03-14T08:10:00.000Z"));
     CHECK(daemon.ctl("stop --at 2026-03-14T08:30:00Z").exit == 0);
     CHECK(daemon.ctl("stop").exit == 1);
     CHECK(has(daemon.ctl("list"), "2026-03-14T08:30:00.000Z"));
-    CHECK(daemon.ctl("discard").exit == 0);
-    CHECK_FALSE(has(daemon.ctl("list"), "No.1"));
+    CHECK(daemon.ctl("retime 20260314T081000Z --from 2026-03-14T08:11:00Z").exit == 0);
+    CHECK(daemon.ctl("rename 20260314T081000Z No.0 --reason 'wrong name'").exit == 0);
+    const auto discarded = daemon.ctl("discard");
+    CHECK(discarded.exit == 0);
+    CHECK(has(discarded, "discard: No.0, stay 1 (20260314T081000Z), 2026-03-14T08:11:00.000Z"));
+    CHECK(has(daemon.ctl("list"), "discarded"));
+    CHECK(has(daemon.ctl("discard"), "there is no stay to discard"));
+    CHECK(daemon.ctl("restore 20260314T081000Z").exit == 0);
+    CHECK(has(daemon.ctl("note --stay 20260314T081000Z calm"), "for No.0 (stay 1)"));
+    CHECK(daemon.ctl("resume").exit == 1);  // stopped half an hour ago
+    CHECK(nlohmann::json::parse(daemon.ctl("list --json").text)["occupations"].size() == 1);
+    CHECK(daemon.ctl("start No.1 --at -10min").exit == 0);
+    CHECK(has(daemon.ctl("status"), "since 2026-03-14T08:50:00"));
     CHECK(has(daemon.ctl("sites"), "979948.000"));
 
     for (const char* wrong : {"", "start", "stop --at noon", "fly", "note", "--clock fast stop",

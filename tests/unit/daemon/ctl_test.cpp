@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
 
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/screen.hpp"
+#include "daemon/ctl/when.hpp"
 #include "daemon/page/server.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/daemon/fake_recorder.hpp"
@@ -75,4 +77,32 @@ TEST_CASE("the URL of a daemon is http, a host and an optional port", "[daemon][
         CAPTURE(odd);
         CHECK_THROWS_AS(parse_url(odd), InputError);
     }
+}
+
+TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago", "[daemon][ctl]") {
+    const char* const zone = std::getenv("TZ");
+    const std::string before = zone == nullptr ? "" : zone;
+    setenv("TZ", "JST-9", 1);
+    tzset();
+    const UtcTime now = *parse_rfc3339("2026-03-14T00:30:00Z");  // 09:30 in Japan
+    const auto read = [&](const char* text) {
+        const auto instant = parse_when(text, now);
+        return instant ? to_rfc3339(*instant) : "none";
+    };
+    CHECK(read("2026-03-14T08:10:00+09:00") == "2026-03-13T23:10:00Z");
+    CHECK(read("08:45") == "2026-03-13T23:45:00Z");
+    CHECK(read("09:30:00") == "2026-03-14T00:30:00Z");
+    CHECK(read("09:30:01") == "2026-03-13T00:30:01Z");  // of the day before
+    CHECK(read("23:59") == "2026-03-13T14:59:00Z");
+    CHECK(read("-12min") == "2026-03-14T00:18:00Z");
+    CHECK(read("-30s") == "2026-03-14T00:29:30Z");
+    CHECK(read("-1.5h") == "2026-03-13T23:00:00Z");
+    for (const char* wrong : {"", "8:45", "24:00", "08:60", "08:45:60", "08-45", "08:45:", "-12",
+                              "12min", "--2min", "-min", "-1e9h", "-nanmin", "noon"}) {
+        CAPTURE(wrong);
+        CHECK(read(wrong) == "none");
+    }
+    setenv("TZ", before.c_str(), 1);
+    if (before.empty()) unsetenv("TZ");
+    tzset();
 }

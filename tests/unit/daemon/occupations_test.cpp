@@ -16,6 +16,13 @@ bool mentions(const Outcome& outcome, const std::string& text) {
     return outcome.message.find(text) != std::string::npos;
 }
 
+/// Names the stay that was entered for this minute.
+Named of(int start_min) {
+    std::string key = to_rfc3339(minute(start_min));
+    std::erase_if(key, [](char c) { return c == '-' || c == ':'; });
+    return {key, ""};
+}
+
 }  // namespace
 
 TEST_CASE("a change is committed with its sample before it is answered", "[daemon][occupations]") {
@@ -28,8 +35,10 @@ TEST_CASE("a change is committed with its sample before it is answered", "[daemo
     CHECK(event.utc == minute(10));
     CHECK(event.session == recorder.session);
     CHECK(event.index == 600);
-    CHECK(event.details == std::map<std::string, std::string>{
-                               {"site", "No.1"}, {"operator", "M. Ito"}, {"note", "windy"}});
+    CHECK(event.details == std::map<std::string, std::string>{{"key", "20260314T081000Z"},
+                                                              {"site", "No.1"},
+                                                              {"operator", "M. Ito"},
+                                                              {"note", "windy"}});
     CHECK(occupations.stop({}, std::nullopt).kind == Kind::done);
     CHECK(recorder.log.back().type == "stop");
     CHECK(recorder.log.back().utc == *recorder.last);
@@ -70,20 +79,25 @@ TEST_CASE("replaying the log at any point leads to the same state", "[daemon][oc
     check_replay();
     whole.setup(minute(5));
     check_replay();
-    whole.note("a lorry passed");
+    whole.note({}, "a lorry passed");
     check_replay();
-    whole.rename("No.1", {});
+    whole.rename(of(1), "No.1", {});
     check_replay();
     whole.stop({}, minute(12));
     check_replay();
     whole.start("No.1", {}, minute(20));
     check_replay();
-    whole.discard();
+    whole.discard(of(20), {});
     check_replay();
-    whole.discard();
+    whole.retime(of(1), minute(2), minute(13), {});
     check_replay();
-    CHECK(recorder.log.size() == 8);
-    CHECK(whole.list().empty());
+    whole.discard(of(1), {});
+    check_replay();
+    whole.restore(of(20), {});
+    check_replay();
+    CHECK(recorder.log.size() == 10);
+    REQUIRE(whole.list().size() == 1);
+    CHECK(whole.list().front().key == of(20).key);
 }
 
 TEST_CASE("stays at a site are counted without the discarded ones", "[daemon][occupations]") {
@@ -94,7 +108,7 @@ TEST_CASE("stays at a site are counted without the discarded ones", "[daemon][oc
     occupations.stop({}, minute(2));
     occupations.start("No.0", {}, minute(3));
     CHECK(occupations.running()->number == 2);
-    occupations.discard();
+    occupations.discard(of(3), {});
     occupations.start("No.0", {}, minute(5));
     CHECK(occupations.running()->number == 2);
     occupations.stop({}, minute(6));
@@ -105,26 +119,92 @@ TEST_CASE("stays at a site are counted without the discarded ones", "[daemon][oc
     CHECK(list[1].set_ups.back().end == minute(6));
 }
 
-TEST_CASE("discard and rename apply to the running occupation, or else to the last one",
-          "[daemon][occupations]") {
+TEST_CASE("a change applies to the stay that its key names", "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
-    CHECK(occupations.discard().kind == Kind::refused);
-    CHECK(occupations.rename("No.1", {}).kind == Kind::refused);
-    occupations.start("No.0", {}, minute(1));
-    occupations.stop({}, minute(2));
-    CHECK(mentions(occupations.rename("No.1", {}), "No.0 (stay 1) to No.1"));
+    CHECK(mentions(occupations.discard(of(1), {}), "no stay has the key 20260314T080100Z"));
+    occupations.start("No.0", {}, minute(10));
+    occupations.stop({}, minute(20));
+    occupations.start("No.1", {}, minute(1));  // entered later, for an earlier time
+    occupations.stop({}, minute(5));
+    CHECK(mentions(occupations.rename(of(10), "No.1", {}), "renamed No.0 (stay 1), "));
+    CHECK(occupations.list()[1].site == "No.1");
+    CHECK(mentions(occupations.rename(of(10), "No.1", {}), "is at No.1 already"));
+    occupations.start("No.0", {}, minute(30));
+    CHECK(mentions(occupations.discard(of(1), {"", "", "wind"}), "discarded No.1 (stay 1), "));
+    CHECK(recorder.log.back().details.at("reason") == "wind");
+    CHECK(occupations.running()->key == of(30).key);
     REQUIRE(occupations.list().size() == 1);
-    CHECK(occupations.list().front().site == "No.1");
-    occupations.start("No.0", {}, minute(3));
-    CHECK(occupations.rename("No.1", {}).kind == Kind::done);
-    CHECK(occupations.running()->site == "No.1");
-    CHECK(occupations.running()->number == 2);
-    CHECK(mentions(occupations.discard(), "No.1 (stay 2), which was running"));
-    CHECK(occupations.list().size() == 1);
-    CHECK(mentions(occupations.discard(), "No.1 (stay 1)"));
-    CHECK(occupations.list().empty());
-    CHECK(occupations.discard().kind == Kind::refused);
+    CHECK(occupations.list().front().key == of(10).key);
+    CHECK(occupations.discarded().front().key == of(1).key);
+    CHECK(mentions(occupations.discard(of(1), {}), "is discarded already"));
+    CHECK(mentions(occupations.note(of(10), "lorry"), "for No.1 (stay 1), "));
+    CHECK(occupations.list().front().note == "lorry");
+    CHECK(mentions(occupations.restore(of(10), {}), "is not discarded"));
+    CHECK(occupations.restore(of(1), {}).kind == Kind::done);
+    CHECK(occupations.list().size() == 2);
+    CHECK(mentions(occupations.discard(of(30), {}), "discarded No.0 (stay 1), running since"));
+    CHECK_FALSE(occupations.running());
+    CHECK(occupations.discarded().front().key == of(30).key);
+}
+
+TEST_CASE("a change is refused if the operator saw another site", "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    occupations.start("No.0", {}, minute(10));
+    occupations.stop({}, minute(20));
+    Named stale{of(10).key, "No.1"};
+    const auto events = recorder.log.size();
+    for (const auto& outcome :
+         {occupations.discard(stale, {}), occupations.restore(stale, {}),
+          occupations.resume(stale, {}), occupations.retime(stale, minute(11), {}, {}),
+          occupations.note(stale, "x")}) {
+        CHECK(outcome.kind == Kind::refused);
+        CHECK(mentions(outcome, "is at No.0, not at No.1"));
+    }
+    CHECK(recorder.log.size() == events);
+    stale.site = "No.0";
+    CHECK(occupations.discard(stale, {}).kind == Kind::done);
+}
+
+TEST_CASE("a stay is restored or moved only where no other stay is", "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    occupations.start("No.0", {}, minute(10));
+    occupations.stop({}, minute(20));
+    occupations.discard(of(10), {});
+    occupations.start("No.1", {}, minute(15));
+    CHECK(mentions(occupations.restore(of(10), {}), "it would overlap No.1 (stay 1), running"));
+    occupations.stop({}, minute(25));
+    CHECK(mentions(occupations.restore(of(10), {}), "it would overlap No.1 (stay 1), 2026"));
+    CHECK(mentions(occupations.retime(of(10), minute(9), {}, {}), "restore it first"));
+    CHECK(occupations.retime(of(15), minute(20), minute(24), {}).kind == Kind::done);
+    CHECK(occupations.restore(of(10), {}).kind == Kind::done);
+    CHECK(mentions(occupations.retime(of(15), minute(19), {}, {}), "would overlap No.0"));
+    CHECK(mentions(occupations.retime(of(15), minute(24), {}, {}), "is not before the end"));
+    CHECK(mentions(occupations.retime(of(15), {}, minute(61), {}), "later than the last sample"));
+    CHECK(occupations.retime(of(15), {}, {}, {}).kind == Kind::refused);
+    const auto moved = occupations.list().back();
+    CHECK(moved.set_ups.front().start == minute(20));
+    CHECK(moved.set_ups.back().end == minute(24));
+    CHECK(moved.key == of(15).key);
+}
+
+TEST_CASE("the last stay is resumed within ten minutes of its stop", "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    occupations.start("No.0", {}, minute(10));
+    occupations.stop({}, minute(20));
+    CHECK(mentions(occupations.resume(of(10), {}), "was stopped 40.0 min ago"));
+    occupations.start("No.1", {}, minute(45));
+    occupations.stop({}, minute(50));
+    CHECK(occupations.resume(of(45), {}).kind == Kind::done);  // exactly ten minutes
+    CHECK(occupations.running()->start == minute(45));
+    CHECK(mentions(occupations.resume(of(10), {}), "No.1 (stay 1) has been running"));
+    CHECK(mentions(occupations.retime(of(45), {}, minute(55), {}), "it has no end yet"));
+    CHECK(occupations.retime(of(45), minute(46), {}, {}).kind == Kind::done);
+    occupations.discard(of(45), {});
+    CHECK(mentions(occupations.resume(of(45), {}), "restore it first"));
 }
 
 TEST_CASE("a time outside the remembered record is refused", "[daemon][occupations]") {
@@ -147,7 +227,7 @@ TEST_CASE("a missing site is refused, and an unknown one too if there is a list 
     Occupations unlisted(recorder, {}, {});
     CHECK(unlisted.start("", {}, minute(1)).kind == Kind::refused);
     CHECK(unlisted.start("No.7", {}, minute(1)).kind == Kind::done);
-    CHECK(unlisted.rename("", {}).kind == Kind::refused);
+    CHECK(unlisted.rename(of(1), "", {}).kind == Kind::refused);
 }
 
 TEST_CASE("a second start is refused with the name and start of the running occupation",
@@ -200,11 +280,11 @@ TEST_CASE("notes and renames are possible while the sensor is unplugged", "[daem
     occupations.start("No.0", {}, minute(1));
     occupations.stop({}, minute(2));
     recorder.last.reset();
-    CHECK(occupations.note("reading taken in the lee of the wall").kind == Kind::done);
+    CHECK(occupations.note({}, "reading taken in the lee of the wall").kind == Kind::done);
     CHECK(recorder.log.back().utc == minute(2));
     CHECK_FALSE(recorder.log.back().index);
-    CHECK(occupations.rename("No.1", {}).kind == Kind::done);
-    CHECK(occupations.note("").kind == Kind::refused);
+    CHECK(occupations.rename(of(1), "No.1", {}).kind == Kind::done);
+    CHECK(occupations.note({}, "").kind == Kind::refused);
     Occupations empty(recorder, two_sites(), {});
-    CHECK(empty.note("nothing to hold on to").kind == Kind::refused);
+    CHECK(empty.note({}, "nothing to hold on to").kind == Kind::refused);
 }

@@ -128,14 +128,91 @@ TEST_CASE("a running occupation has its number, set-ups, operator and notes so f
     CHECK(replay.running()->number == 1);
 }
 
-TEST_CASE("discard and rename apply to the occupation that ended last, not to the latest one",
+TEST_CASE("without a key, discard and rename apply to the occupation that ended last",
           "[record][occupations]") {
-    const OccupationReplay replay({start("10:00", "A"), stop("10:10"),
-                                   // Entered afterwards, with an earlier time.
-                                   start("09:00", "B"), stop("09:10")});
-    CHECK(replay.last_finished()->site == "B");
-    CHECK(replay.finished().back().site == "A");
-    CHECK_FALSE(OccupationReplay().last_finished());
+    std::vector events{start("10:00", "A"), stop("10:10"),
+                       // Entered afterwards, with an earlier time.
+                       start("09:00", "B"), stop("09:10"),
+                       event_of("rename", "10:20", {{"site", "C"}})};
+    CHECK(shown(events) == Lines{"C#1 09:00-09:10", "A#1 10:00-10:10"});
+    events.push_back(event_of("discard", "10:21"));
+    CHECK(shown(events) == Lines{"A#1 10:00-10:10"});
+}
+
+TEST_CASE("a stay has its start as key, which is never given twice", "[record][occupations]") {
+    OccupationReplay replay({start("09:00", "A"), stop("09:10"), event_of("discard", "09:11"),
+                             start("09:00", "A"), stop("09:10")});
+    CHECK(replay.finished()[0].key == "20260301T090001Z");
+    CHECK(replay.discarded()[0].key == "20260301T090000Z");
+    CHECK(replay.key_for(at("2026-03-01T09:00:00.7Z")) == "20260301T090002Z");
+    // Neither a rename nor a new time changes it.
+    replay.take(event_of("rename", "09:20", {{"key", "20260301T090001Z"}, {"site", "B"}}));
+    replay.take(event_of("retime", "09:20",
+                         {{"key", "20260301T090001Z"}, {"from", "2026-03-01T08:50:00Z"}}));
+    CHECK(replay.finished()[0].key == "20260301T090001Z");
+    CHECK(replay.finished()[0].site == "B");
+    auto given = start("10:00", "C");
+    given.details["key"] = "20260301T095959Z";
+    replay.take(given);
+    CHECK(replay.running()->key == "20260301T095959Z");
+    replay.take(given);  // the key is taken, so that of the start is given
+    CHECK(replay.running()->key == "20260301T100000Z");
+}
+
+TEST_CASE("a change applies to the stay that its key names, and to no other",
+          "[record][occupations]") {
+    const std::map<std::string, std::string> of_a{{"key", "20260301T090000Z"}};
+    const auto with = [](std::map<std::string, std::string> details, const std::string& key,
+                         const std::string& value) {
+        details[key] = value;
+        return details;
+    };
+    std::vector events{start("09:00", "A"), event_of("setup", "09:05"),
+                       stop("09:10"),       start("10:00", "B"),
+                       stop("10:10"),       start("11:00", "C")};
+    const auto then = [&](const char* type, const std::map<std::string, std::string>& details) {
+        events.push_back(event_of(type, "11:05", details));
+        return shown(events);
+    };
+    CHECK(then("discard", of_a) == Lines{"B#1 10:00-10:10"});
+    CHECK(then("restore", of_a) == Lines{"A#1 09:00-09:05 09:05-09:10", "B#1 10:00-10:10"});
+    CHECK(then("rename", with(of_a, "site", "B")) ==
+          Lines{"B#1 09:00-09:05 09:05-09:10", "B#2 10:00-10:10"});
+    CHECK(then("retime", with(of_a, "to", "2026-03-01T09:20:00Z")) ==
+          Lines{"B#1 09:00-09:05 09:05-09:20", "B#2 10:00-10:10"});
+    CHECK(then("retime", with(of_a, "from", "2026-03-01T09:07:00Z")) ==
+          Lines{"B#1 09:07-09:20", "B#2 10:00-10:10"});
+    CHECK(then("note", with(of_a, "note", "lorry")).size() == 2);
+    CHECK(occupations_of(events)[0].note == "lorry");
+    const Lines before = shown(events);
+    for (const char* type : {"discard", "restore", "resume", "rename", "retime", "note"}) {
+        CAPTURE(type);
+        CHECK(then(type, {{"key", "20260301T080000Z"}, {"site", "X"}, {"note", "x"}}) == before);
+    }
+    CHECK(then("resume", of_a) == before);  // another stay runs
+}
+
+TEST_CASE("a stay is resumed as if it had not been stopped", "[record][occupations]") {
+    std::vector events{start("09:00", "A"), event_of("setup", "09:05"), stop("09:10"),
+                       event_of("resume", "09:12", {{"key", "20260301T090000Z"}})};
+    CHECK(OccupationReplay(events).running()->key == "20260301T090000Z");
+    CHECK(shown(events).empty());
+    events.push_back(stop("09:20"));
+    CHECK(shown(events) == Lines{"A#1 09:00-09:05 09:05-09:20"});
+    // A discarded running stay has ended; it can be restored and resumed.
+    events.insert(events.end(), {start("10:00", "B"), event_of("discard", "10:05"),
+                                 event_of("restore", "10:06", {{"key", "20260301T100000Z"}})});
+    CHECK(shown(events).back() == "B#1 10:00-10:05");
+}
+
+TEST_CASE("the start of a running stay is moved, its end is not", "[record][occupations]") {
+    OccupationReplay replay({start("09:00", "A"), event_of("setup", "09:05")});
+    replay.take(event_of("retime", "09:10",
+                         {{"key", "20260301T090000Z"},
+                          {"from", "2026-03-01T08:55:00Z"},
+                          {"to", "2026-03-01T09:07:00Z"}}));
+    CHECK(replay.running()->set_ups ==
+          std::vector{at("2026-03-01T08:55:00Z"), at("2026-03-01T09:05:00Z")});
 }
 
 TEST_CASE("an occupation without a stop is reported as running", "[record][occupations]") {

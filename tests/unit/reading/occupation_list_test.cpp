@@ -97,6 +97,7 @@ TEST_CASE("the last day of a log of several days is taken, or the requested time
     REQUIRE(last.windows.size() == 2);
     CHECK(last.windows[0].start == at("2020-01-02T08:00:00Z"));
     CHECK(last.windows[0].number == 3);
+    CHECK(last.windows[0].key == "20200102T080000Z");
     REQUIRE(last.warnings.size() == 1);
     CHECK(last.warnings[0] ==
           events.string() +

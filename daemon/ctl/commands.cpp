@@ -1,0 +1,174 @@
+#include "daemon/ctl/commands.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "daemon/ctl/client.hpp"
+#include "daemon/ctl/meant_stay.hpp"
+#include "daemon/ctl/screen.hpp"
+#include "daemon/ctl/when.hpp"
+
+namespace a351::daemon::ctl {
+
+void complain(const std::string& text) {
+    std::fprintf(stderr, "a351ctl: %s\n", printable(text).c_str());
+}
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kRefreshMs = 1000;
+
+volatile std::sig_atomic_t g_stop = 0;
+
+void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+json parsed(const Reply& reply) {
+    auto body = json::parse(reply.body, nullptr, false);
+    if (!body.is_object()) throw NoDaemon("the program at this address is not a351d; check --url");
+    return body;
+}
+
+/// Returns the body of a good answer; otherwise prints the error and returns std::nullopt.
+std::optional<json> accepted(const Reply& reply) {
+    auto body = parsed(reply);
+    if (reply.status == 200) return body;
+    const auto error = body.find("error");
+    complain(error != body.end() && error->is_string()
+                 ? error->get<std::string>()
+                 : fmt::format("the daemon answered with status {}", reply.status));
+    return std::nullopt;
+}
+
+int show_status(const Client& client, const Arguments& arguments) {
+    const auto reply = client.get("/api/status");
+    const auto status = accepted(reply);
+    if (!status) return kNoDaemon;
+    print(arguments.json ? reply.body : status_screen(*status, isatty(STDOUT_FILENO) != 0));
+    return plugin_status(*status);
+}
+
+/// Shows the screen once a second; on a terminal each screen overwrites the last one.
+int watch(const Client& client) {
+    struct sigaction action {};
+    action.sa_handler = [](int) { g_stop = 1; };
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+
+    const bool is_terminal = isatty(STDOUT_FILENO) != 0;
+    if (is_terminal) print("\x1b[2J");
+    while (!g_stop) {
+        std::string screen;
+        try {
+            const auto reply = client.get("/api/status");
+            screen = reply.status == 200 ? status_screen(parsed(reply), is_terminal)
+                                         : printable(reply.body);
+        } catch (const NoDaemon& error) {
+            screen = std::string(error.what()) + "\n";
+        }
+        if (is_terminal) {
+            std::string cleared = "\x1b[H";
+            for (const char c : screen) cleared += c == '\n' ? "\x1b[K\n" : std::string(1, c);
+            print(cleared + "\x1b[J");
+        } else {
+            print(screen + "\n");
+        }
+        std::fflush(stdout);
+        if (!g_stop) poll(nullptr, 0, kRefreshMs);  // A signal ends the wait, unlike sleep_for.
+    }
+    return kDone;
+}
+
+int change(const Client& client, const Arguments& arguments, const std::string& path,
+           const json& body) {
+    std::string token = arguments.token;
+    if (token.empty()) {
+        const auto answer = accepted(client.get("/api/token"));
+        if (!answer) return kRefused;
+        token = answer->value("token", "");
+    }
+    const auto answer = accepted(client.post(path, body.dump(), token));
+    if (!answer) return kRefused;
+    print(printable(answer->value("message", "done")) + "\n");
+    return kDone;
+}
+
+/// Makes the body of a request from the texts that were given.
+json order(const Client& client, const Arguments& arguments) {
+    json body = json::object();
+    const auto add = [&](const char* key, const std::string& text) {
+        if (!text.empty()) body[key] = text;
+    };
+    add("key", arguments.stay);
+    add("site", arguments.site);
+    add("operator", arguments.operator_name);
+    add("note", arguments.note);
+    add("reason", arguments.reason);
+    // Only the daemon knows its time: the host's differs if the daemon runs on simulated time.
+    std::optional<UtcTime> now;
+    for (const auto& [key, text] :
+         {std::pair{"at", &arguments.at}, {"from", &arguments.from}, {"to", &arguments.to}}) {
+        if (text->empty()) continue;
+        if (!now) now = parse_rfc3339(parsed(client.get("/api/status")).value("now", ""));
+        const auto instant = now ? parse_when(*text, *now) : parse_rfc3339(*text);
+        body[key] = instant ? to_rfc3339(*instant, 9) : *text;
+    }
+    return body;
+}
+
+/// Changes the stay that was named; without a name the running or last one, which is printed first.
+int change_stay(const Client& client, Arguments arguments, const std::string& command) {
+    json body = order(client, arguments);
+    if (arguments.stay.empty()) {
+        const auto status = accepted(client.get("/api/status"));
+        const auto list = accepted(client.get("/api/occupations"));
+        if (!status || !list) return kRefused;
+        const auto stay = meant_stay(*status, *list);
+        if (!stay) {
+            complain("there is no stay to " + command);
+            return kRefused;
+        }
+        print(fmt::format("{}: {}\n", command, printable(stay->text)));
+        std::fflush(stdout);
+        body["key"] = stay->key;
+        // The daemon refuses if the stay got another site in the meantime.
+        if (command != "rename") body["site"] = stay->site;
+    }
+    return change(client, arguments, "/api/occupation/" + command, body);
+}
+
+int show(const Client& client, const Arguments& arguments, const std::string& path,
+         std::string (*table)(const json&)) {
+    const auto reply = client.get(path);
+    const auto answer = accepted(reply);
+    if (!answer) return kRefused;
+    print(arguments.json ? reply.body : table(*answer));
+    return kDone;
+}
+
+}  // namespace
+
+int run_command(const std::string& command, const Arguments& arguments) {
+    const Client client(parse_url(arguments.url));
+    if (command == "status") return show_status(client, arguments);
+    if (command == "watch") return watch(client);
+    if (command == "sites") return show(client, arguments, "/api/sites", site_table);
+    if (command == "list") return show(client, arguments, "/api/occupations", occupation_table);
+    if (command == "target")
+        return change(client, arguments, "/api/target",
+                      json{{"target_mgal", arguments.target_mgal}});
+    if (command == "note") return change(client, arguments, "/api/note", order(client, arguments));
+    if (command == "start" || command == "stop" || command == "setup")
+        return change(client, arguments, "/api/occupation/" + command, order(client, arguments));
+    return change_stay(client, arguments, command);
+}
+
+}  // namespace a351::daemon::ctl

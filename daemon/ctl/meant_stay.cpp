@@ -1,0 +1,28 @@
+#include "daemon/ctl/meant_stay.hpp"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+namespace a351::daemon::ctl {
+
+std::optional<MeantStay> meant_stay(const nlohmann::json& status,
+                                    const nlohmann::json& occupations) {
+    const auto made = [](const nlohmann::json& stay, const std::string& times) {
+        const auto key = stay.at("key").get<std::string>(),
+                   site = stay.at("site").get<std::string>();
+        return MeantStay{
+            key, site,
+            fmt::format("{}, stay {} ({}), {}", site, stay.at("number").get<int>(), key, times)};
+    };
+    const nlohmann::json& running = status.at("occupation");
+    if (!running.is_null())
+        return made(running, "running since " + running.at("start").get<std::string>());
+    const nlohmann::json& finished = occupations.at("occupations");
+    if (finished.empty()) return std::nullopt;
+    const nlohmann::json& set_ups = finished.back().at("set_ups");
+    return made(finished.back(), set_ups.front().at("start").get<std::string>() + " to " +
+                                     set_ups.back().at("end").get<std::string>());
+}
+
+}  // namespace a351::daemon::ctl

@@ -1,0 +1,63 @@
+#include "daemon/ctl/when.hpp"
+
+#include <array>
+#include <ctime>
+#include <string>
+#include <utility>
+
+#include "protocol/text/csv_reader.hpp"
+
+namespace a351::daemon::ctl {
+namespace {
+
+/// Reads -12min, -30s, -1.5h.
+std::optional<UtcTime> parse_ago(std::string_view text, UtcTime now) {
+    constexpr std::array<std::pair<std::string_view, double>, 3> kUnits_s{
+        {{"min", 60.0}, {"s", 1.0}, {"h", 3600.0}}};
+    for (const auto& [unit, seconds] : kUnits_s) {
+        if (!text.starts_with('-') || !text.ends_with(unit)) continue;
+        const auto count = text::parse_number(text.substr(1, text.size() - 1 - unit.size()));
+        if (count && *count >= 0.0 && *count <= 1e5) return now - from_seconds(*count * seconds);
+    }
+    return std::nullopt;
+}
+
+/// Reads HH:MM or HH:MM:SS.
+std::optional<UtcTime> parse_local(std::string_view text, UtcTime now) {
+    const auto two = [&](std::size_t place, int largest) -> std::optional<int> {
+        const char tens = text[place], ones = text[place + 1];
+        if (tens < '0' || tens > '9' || ones < '0' || ones > '9') return std::nullopt;
+        const int value = 10 * (tens - '0') + ones - '0';
+        return value <= largest ? std::optional(value) : std::nullopt;
+    };
+    const bool has_seconds = text.size() == 8;
+    if ((text.size() != 5 && !has_seconds) || text[2] != ':') return std::nullopt;
+    if (has_seconds && text[5] != ':') return std::nullopt;
+    const auto hour = two(0, 23), minute = two(3, 59),
+               second = has_seconds ? two(6, 59) : std::optional(0);
+    if (!hour || !minute || !second) return std::nullopt;
+    const std::time_t today =
+        std::chrono::floor<std::chrono::seconds>(now).time_since_epoch().count();
+    std::optional<UtcTime> found;
+    for (int days_ago = 0; days_ago <= 1 && (!found || *found > now); ++days_ago) {
+        std::tm local{};
+        localtime_r(&today, &local);
+        local.tm_mday -= days_ago;
+        local.tm_hour = *hour;
+        local.tm_min = *minute;
+        local.tm_sec = *second;
+        local.tm_isdst = -1;
+        found = UtcTime(std::chrono::seconds(std::mktime(&local)));
+    }
+    return found;
+}
+
+}  // namespace
+
+std::optional<UtcTime> parse_when(std::string_view text, UtcTime now) {
+    if (const auto instant = parse_rfc3339(text)) return instant;
+    if (const auto instant = parse_ago(text, now)) return instant;
+    return parse_local(text, now);
+}
+
+}  // namespace a351::daemon::ctl

@@ -1,0 +1,35 @@
+#pragma once
+/// @file
+/// Texts of the events that the operator's requests become.
+
+#include <fmt/core.h>
+
+#include <string>
+#include <string_view>
+
+#include "daemon/survey/occupations.hpp"
+
+namespace a351::daemon::survey {
+
+/// Returns an instant as an operator reads it.
+inline std::string shown(UtcTime time) { return to_rfc3339(time, 1); }
+
+inline Outcome refused(std::string message) { return {Outcome::Kind::refused, std::move(message)}; }
+
+/// Adds a detail unless it is empty.
+inline void add(events::Event& event, const std::string& key, std::string_view text) {
+    if (!text.empty()) event.details[key] = text;
+}
+
+inline void add(events::Event& event, const Remark& remark) {
+    add(event, "operator", remark.operator_name);
+    add(event, "note", remark.note);
+    add(event, "reason", remark.reason);
+}
+
+/// Returns the name of a running or finished occupation.
+std::string named(const auto& occupation) {
+    return fmt::format("{} (stay {})", occupation.site, occupation.number);
+}
+
+}  // namespace a351::daemon::survey
