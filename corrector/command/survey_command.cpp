@@ -112,6 +112,7 @@ model::SurveyCorrection corrected(const job::SurveyFile& survey, reading::Occupa
         model::SurveyCorrection result = model::correct_with_calibration(
             read.rows, job::with_sites_of(read, survey.survey), read.day ? &*read.day : nullptr);
         model::add_left_out(result, read.left_out);
+        result.findings = read.findings;
         return result;
     } catch (const InputError& error) {
         std::string message = fmt::format("{}: {}", survey.path.string(), error.what());

@@ -28,6 +28,7 @@
 
 #include "corrector/model/model_fit.hpp"
 #include "corrector/model/network.hpp"
+#include "corrector/reading/finding.hpp"
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/whole_day/day_model.hpp"
 #include "corrector/whole_day/goodness_of_fit.hpp"
@@ -245,7 +246,8 @@ struct Fit {
     std::vector<CorrectedRow> rows;
     /// Occupations that have no row, or that cannot be corrected.
     std::vector<reading::LeftOut> left_out;
-    std::vector<StationValue> stations;  ///< In order of their first row.
+    std::vector<reading::Finding> findings;  ///< What is wrong with the day; empty for a table.
+    std::vector<StationValue> stations;      ///< In order of their first row.
     /// Differences of all pairs of stations, in the order of the stations; none for `paper` and
     /// `robust`.  A station with flagged rows only is in none.
     std::vector<StationDifference> differences;

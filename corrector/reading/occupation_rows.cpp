@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+#include "corrector/reading/moved_stay.hpp"
 #include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/on_all_cores.hpp"
 #include "corrector/reading/vertical_axis.hpp"
@@ -101,12 +102,26 @@ std::optional<DayTemperature> temperature_of_day(const SurveySamples& samples,
                                             place_on_grid(segments, channels.temperature, *grid)));
 }
 
+/// Returns the number of a set-up in its stay, from 1; std::nullopt if the stay has one set-up.
+std::optional<int> set_up_number(const std::vector<OccupationWindow>& windows, std::size_t i) {
+    int number = 1, count = 0;
+    for (std::size_t k = 0; k < windows.size(); ++k) {
+        if (windows[k].site != windows[i].site || windows[k].number != windows[i].number) continue;
+        ++count;
+        if (k < i) ++number;
+    }
+    return count > 1 ? std::optional(number) : std::nullopt;
+}
+
 std::pair<OccupationList, std::vector<Amendment>> read_occupations(
     const SurveySource& source, const std::vector<text::Site>& sites) {
     const bool is_logged = source.occupations.empty();
     const auto origin = is_logged ? source.root / "events" : source.occupations;
     OccupationList list = is_logged ? read_logged_occupations(origin, source.from, source.to)
                                     : read_occupation_table(origin, sites, source.from, source.to);
+    for (std::size_t i = 0; i < list.windows.size(); ++i)
+        list.windows[i].listed = {list.windows[i].site, list.windows[i].number,
+                                  set_up_number(list.windows, i)};
     std::vector<Amendment> amendments;
     if (!source.amendments.empty()) amendments = amend(list.windows, source.amendments, sites);
     return {drop_invalid_occupations(std::move(list), sites, origin), std::move(amendments)};
@@ -160,14 +175,21 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     std::vector<std::optional<RepresentativeValue>> values(list.windows.size());
     std::vector<std::string> troubles(list.windows.size());
     std::vector<std::vector<DayBin>> bins(list.windows.size());
+    std::vector<std::optional<MovedStay>> moved(list.windows.size());
     const auto average = [&](std::size_t i) {
-        const OccupationWindow& window = stays.list.windows[i];
-        const auto record = cut_occupation(samples, channels, window.start, window.end);
+        const OccupationWindow& given = stays.list.windows[i];
+        auto record = cut_occupation(samples, channels, given.start, given.end);
         if (!record) {
             troubles[i] = "no samples";
             return;
         }
-        const DecimatedAxes axes = decimate_axes(*record);
+        DecimatedAxes axes = decimate_axes(*record);
+        moved[i] = moved_stay(given, *record, axes);
+        const OccupationWindow& window = moved[i] ? moved[i]->still : given;
+        if (moved[i]) {
+            record = cut_occupation(samples, channels, window.start, window.end).value();
+            axes = decimate_axes(*record);
+        }
         auto& value = values[i];
         value = representative_value(*record, axes, source.averaging);
         if (!value) {
@@ -192,6 +214,10 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     add_damage(result.warnings, samples.temperature);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const OccupationWindow& window = list.windows[i];
+        if (moved[i]) {
+            result.warnings.push_back(moved[i]->finding.text);
+            result.findings.push_back(std::move(moved[i]->finding));
+        }
         if (!rows[i]) {
             leave_out(result.left_out, result.warnings, window, troubles[i]);
             continue;

@@ -20,6 +20,7 @@
 
 #include "corrector/reading/amendments.hpp"
 #include "corrector/reading/day_record.hpp"
+#include "corrector/reading/finding.hpp"
 #include "corrector/reading/occupation_list.hpp"
 #include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/on_all_cores.hpp"
@@ -72,6 +73,7 @@ struct OccupationRows {
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;      ///< Occupations without a value, by start.
     std::vector<std::string> warnings;  ///< Doubts and omissions, with reasons.
+    std::vector<Finding> findings;      ///< Moved boxes, in order of time; also in the warnings.
     std::vector<Amendment> amendments;
     std::vector<text::Site> sites;
     std::vector<text::InputFile> inputs;  ///< All files that were read.

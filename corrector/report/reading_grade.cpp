@@ -35,7 +35,7 @@ struct NoteText {
     std::string_view text;
 };
 /// The flags of representative_value.hpp and of amendments, in words.
-constexpr std::array<NoteText, 11> kNoteTexts{{
+constexpr std::array<NoteText, 13> kNoteTexts{{
     {"fallback", Grade::care,
      "the trend has too few extrema for the usual interval (fallback): look at the record"},
     {"disturbed_start", Grade::trust, "averaged only after a disturbance at its start"},
@@ -43,7 +43,9 @@ constexpr std::array<NoteText, 11> kNoteTexts{{
     {"pulse", Grade::care, "a knock split the record; its longest part was used"},
     {"gap", Grade::care, "samples are missing"},
     {"no-stop", Grade::care,
-     "not stopped: it lasts until the next start and includes the drive there"},
+     "not stopped: it lasts until the next start, or until the box was moved"},
+    {"moved", Grade::care, "the box was moved during the stay: the part before or after was used"},
+    {"shaken", Grade::repeat, "the box was never at rest"},
     {"unsettled", Grade::care, "the weights of the smoother did not settle"},
     {"excluded", Grade::repeat, "excluded by an amendment"},
     {"included", Grade::trust, "included by an amendment"},

@@ -129,6 +129,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
     json["network"] = network_json(result);
     json["goodness_of_fit"] = fit_tests_json(result);
     json["calibration"] = model::calibration_json(result);
+    json["findings"] = reading::findings_json(result.findings);
     json["remarks"] = result.remarks;
     json["models"] = json_array(score_columns(result), score_rows(result));
     json["stations"] = json_array(station_columns(), result.stations);

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "protocol/core/input_error.hpp"
@@ -186,6 +187,19 @@ TomlTable parse_toml(std::string_view text, std::filesystem::path origin) {
 
 TomlTable read_toml(const std::filesystem::path& file) {
     return parse_toml(read_text_file(file), file);
+}
+
+std::string toml_string(const std::string& text) {
+    // The escapes of JSON are valid in TOML, but DEL must be escaped too.
+    std::string result;
+    for (const char c :
+         nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
+        if (c == '\x7f')
+            result += "\\u007F";
+        else
+            result += c;
+    }
+    return result;
 }
 
 }  // namespace a351::text

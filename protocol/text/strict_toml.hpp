@@ -128,4 +128,8 @@ private:
 /// @throws InputError  the text is not TOML (with the parser's line and reason).
 [[nodiscard]] TomlTable parse_toml(std::string_view text, std::filesystem::path origin);
 
+/// Returns the text as a TOML string, with its quotes.  Bytes that are not UTF-8 become U+FFFD;
+/// parse_toml() gives back any other text (strict_toml_test.cpp).
+[[nodiscard]] std::string toml_string(const std::string& text);
+
 }  // namespace a351::text

@@ -1,25 +1,11 @@
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
-
 #include "protocol/text/csv.hpp"
+#include "protocol/text/strict_toml.hpp"
 #include "protocol/unit/calibration.hpp"
 
 namespace a351::unit {
 namespace {
-
-/// Returns a TOML string: the escapes of JSON are valid in TOML, but DEL must be escaped too.
-std::string quoted(const std::string& text) {
-    std::string result;
-    for (const char c :
-         nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
-        if (c == '\x7f')
-            result += "\\u007F";
-        else
-            result += c;
-    }
-    return result;
-}
 
 std::string time_line(std::string_view key, UtcTime time) {
     constexpr int kNanosecondDecimals = 9;
@@ -51,8 +37,8 @@ std::string table(std::string_view name, const Names& names,
 std::string to_toml(const Calibration& calibration) {
     std::string text =
         "# Calibration of one unit; format: calibration-format.md of a351.\nformat = 1\n";
-    text += "serial_number = " + quoted(calibration.serial_number) + '\n';
-    text += "program = " + quoted(calibration.program) + '\n';
+    text += "serial_number = " + text::toml_string(calibration.serial_number) + '\n';
+    text += "program = " + text::toml_string(calibration.program) + '\n';
     text += time_line("valid_from_utc", calibration.valid_from);
     if (calibration.valid_to) text += time_line("valid_to_utc", *calibration.valid_to);
     if (calibration.axis_bias) text += table("axis_bias", kAxisBiasNames, *calibration.axis_bias);
@@ -62,8 +48,8 @@ std::string to_toml(const Calibration& calibration) {
                 number_line("after_power_on_h", calibration.warm_up->after_power_on_h);
     }
     for (const CalibrationData& data : calibration.data)
-        text += fmt::format("\n[[data]]\nname = {}\nsha256 = {}\n", quoted(data.name),
-                            quoted(data.sha256));
+        text += fmt::format("\n[[data]]\nname = {}\nsha256 = {}\n", text::toml_string(data.name),
+                            text::toml_string(data.sha256));
     return text;
 }
 

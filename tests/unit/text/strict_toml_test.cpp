@@ -54,3 +54,12 @@ TEST_CASE("an error in a TOML file names file, line, key, value and what is allo
     CHECK_THROWS_WITH(parse_toml("a = \n", "c.toml"), StartsWith("c.toml:1: not TOML: "));
     CHECK_THROWS_AS(read_toml("/nowhere/c.toml"), InputError);
 }
+
+TEST_CASE("a text written as a TOML string is read back", "[text][toml]") {
+    for (const std::string text :
+         {"No.5", "a \"b\" \\ c", "tab\tline\nbell\x07 del\x7f", "\xc3\xa9 \xe5\xb1\xb1"}) {
+        CAPTURE(text);
+        auto root = parse_toml("key = " + toml_string(text) + "\n", "made up");
+        CHECK(root.string_or("key", "") == text);
+    }
+}

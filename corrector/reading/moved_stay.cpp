@@ -1,0 +1,109 @@
+#include "corrector/reading/moved_stay.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "protocol/signal/moved_box.hpp"
+#include "protocol/text/strict_toml.hpp"
+
+namespace a351::corrector::reading {
+namespace {
+
+using Axis = TimeSeries<StandardGravity>;
+
+/// Returns half peak to peak of the raw samples around decimated sample k, g; NaN without samples.
+double shake_of(const Axis& axis, std::size_t k) {
+    const std::size_t first =
+        k * kDecimationRatio - std::min(k * kDecimationRatio, kDecimationRatio / 2);
+    const std::size_t behind = std::min(axis.size(), k * kDecimationRatio + kDecimationRatio / 2);
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t i = first; i < behind; ++i) {  // NaN changes neither
+        least = std::min(least, axis.values()[i]);
+        most = std::max(most, axis.values()[i]);
+    }
+    return least <= most ? 0.5 * (most - least) : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<signal::MotionSample> motion_of(const OccupationRecord& record,
+                                            const DecimatedAxes& axes) {
+    std::vector<signal::MotionSample> samples;
+    for (std::size_t k = 0; k < axes.x.size(); ++k) {
+        signal::MotionSample sample;
+        sample.time = axes.x.time_of(static_cast<double>(k));
+        sample.axes = {to_milligal(StandardGravity(axes.x.values()[k])),
+                       to_milligal(StandardGravity(axes.y.values()[k])),
+                       to_milligal(StandardGravity(axes.z.values()[k]))};
+        double shake = std::numeric_limits<double>::quiet_NaN();
+        for (const Axis* axis : {&record.x, &record.y, &record.z})
+            shake = std::fmax(shake, shake_of(*axis, k));
+        sample.shake = to_milligal(StandardGravity(shake));
+        samples.push_back(sample);
+    }
+    return samples;
+}
+
+/// Returns the head of an amendment of a set-up, up to its times.
+std::string amendment_of(std::string_view kind, const OccupationWindow& window) {
+    return fmt::format(
+        "[[{}]]\nsite = {}\noccupation = {}\n{}", kind, text::toml_string(window.listed.site),
+        window.listed.number,
+        window.listed.set_up ? fmt::format("set_up = {}\n", *window.listed.set_up) : "");
+}
+
+std::string in_minutes(Nanoseconds time) {
+    return fmt::format("{:.1f} min", std::chrono::duration<double, std::ratio<60>>(time).count());
+}
+
+}  // namespace
+
+std::optional<MovedStay> moved_stay(const OccupationWindow& window, const OccupationRecord& record,
+                                    const DecimatedAxes& axes) {
+    for (const char* const seen : {"retimed", "excluded", "included"})
+        if (std::ranges::count(window.notes, seen) > 0) return std::nullopt;
+    const auto samples = motion_of(record, axes);
+    const signal::StillPart part =
+        signal::choose_still_part(samples, signal::find_box_moves(samples));
+    if (part == signal::StillPart{0, samples.size()}) return std::nullopt;
+    MovedStay moved{window, {}};
+    OccupationWindow& still = moved.still;
+    if (part.first == part.behind) {
+        still.notes.emplace_back("shaken");
+        moved.finding = {"bad_reading",
+                         window.site,
+                         window.number,
+                         window.key,
+                         window.start,
+                         fmt::format("{} ({}): the box was never at rest: repeat the reading",
+                                     window.site, window.number),
+                         amendment_of("exclude", window) + "reason = \"never at rest\"\n"};
+        return moved;
+    }
+    still.notes.emplace_back("moved");
+    if (part.first > 0) still.start = samples[part.first].time;
+    if (part.behind < samples.size()) still.end = samples[part.behind].time;
+
+    Finding& finding = moved.finding;
+    finding = {"moved_box", window.site, window.number, window.key, still.end, "", ""};
+    std::string what;
+    if (still.start != window.start) {
+        finding.time = still.start;
+        what = fmt::format("moved until {}, {} after its start; the stay begins there",
+                           to_rfc3339(still.start), in_minutes(still.start - window.start));
+    }
+    if (still.end != window.end) {
+        finding.time = still.end;
+        what += fmt::format("{}moved at {}, {} before its end was entered; the stay ends there",
+                            what.empty() ? "" : "; ", to_rfc3339(still.end),
+                            in_minutes(window.end - still.end));
+    }
+    finding.text = fmt::format("{} ({}): box {}", window.site, window.number, what);
+    finding.amendment =
+        amendment_of("retime", window) +
+        fmt::format("start_utc = \"{}\"\nend_utc = \"{}\"\nreason = \"box moved\"\n",
+                    to_rfc3339(still.start, 3), to_rfc3339(still.end, 3));
+    return moved;
+}
+
+}  // namespace a351::corrector::reading

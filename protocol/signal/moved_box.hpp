@@ -1,0 +1,69 @@
+#pragma once
+/// @file
+/// Finds out when the box was moved while a stay was recorded: carried to the next benchmark,
+/// lifted and set down, kicked, or not yet set down.
+///
+///     const std::vector<BoxMove> moves = find_box_moves(samples);
+///     const StillPart part = choose_still_part(samples, moves);   // where the box stood
+///
+/// At rest the level of the box does not change.  A shock or a lorry alone is not a move.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "protocol/core/units.hpp"
+#include "protocol/core/utc_time.hpp"
+
+namespace a351::signal {
+
+/// A decimated sample and how much the box shook around it.
+struct MotionSample {
+    UtcTime time;
+    std::array<MilliGal, 3> axes;  ///< Decimated axes; NaN if missing.
+    MilliGal shake;  ///< Half peak to peak of the worst axis, raw samples; may be NaN.
+};
+
+/// A move of the box.
+struct BoxMove {
+    std::size_t before = 0;  ///< Last sample at rest before it.
+    std::size_t after = 0;   ///< First sample at rest after it.
+    double tilt_deg = 0.0;   ///< Change of the level, deg.
+    MilliGal norm;           ///< Change of the mean of the norm.
+};
+
+/// Returns the moves, in order of time.
+///
+/// Compared are the means of the axes over ten samples at rest on either side of each instant.
+/// The box has moved if
+/// - its level changes by more than 0.02 deg, or
+/// - between both it was handled (shaken above 2 Gal for 5 s) and its level changes by more than
+///   0.005 deg or the norm by more than 10 mGal.
+///
+/// A sample is at rest if no sample within 10 s, the reach of the decimation, is shaken above 2 Gal.
+/// @param samples  one in 2 s, in order of time.
+/// @return none with fewer than 20 samples at rest.
+/// Accuracy: moved_box_test.cpp, and corrector/methods.md for simulated days.
+[[nodiscard]] std::vector<BoxMove> find_box_moves(std::span<const MotionSample> samples);
+
+/// The part of a stay in which the box stood: samples [first, behind).
+struct StillPart {
+    std::size_t first = 0, behind = 0;
+    bool operator==(const StillPart&) const = default;
+};
+
+/// Returns the part between two moves that is the stay: the first with three minutes at rest, or
+/// else that with the most time at rest.  Reason: a stop is forgotten more often than a start is
+/// pressed too early, and then only seconds before the box is set down.
+///
+/// If the box was handled in the ten minutes before the move that ends the part, it ends there,
+/// because the way to a car may be quiet.
+/// A minute or more of shaking at either end is left out: there the box was carried or driven.
+/// @param moves  find_box_moves() of the samples.
+/// @return all samples if there is neither; none if the box was never at rest
+///         and was shaken for a minute or more.
+[[nodiscard]] StillPart choose_still_part(std::span<const MotionSample> samples,
+                                          const std::vector<BoxMove>& moves);
+
+}  // namespace a351::signal
