@@ -95,9 +95,8 @@ double thermometer_noise(const TaperedSpectra& spectrum) {
         count += 1.0;
     }
     // N = (S_TT - |S_aT|^2 / S_aa) n / (n - 1)
-    const double followed = std::norm(at) / aa;
-    if (!(followed <= tt) || count < 2.0) return count > 0.0 ? tt / count : 0.0;
-    return (tt - followed) / (count - 1.0);
+    if (!(aa > 0.0) || count < 2.0) return count > 0.0 ? tt / count : 0.0;
+    return std::max(0.0, tt - std::norm(at) / aa) / (count - 1.0);
 }
 
 ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, double noise,

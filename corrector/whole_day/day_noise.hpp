@@ -55,7 +55,8 @@ inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,
 /// Accuracy: agrees with the dense factorisation within 1e-9 of the norm, the determinant's
 /// logarithm within 1e-12 of its value; means of simulated flicker have this covariance
 /// (day_noise_test.cpp).
-/// @param bins     (n) in order of set-up and time, each with at least one sample.
+/// @param bins     (n) in order of set-up and time, each with at least one sample; they must not
+///                 overlap, or the covariance is not that of means.
 /// @param noise    standard deviations, >= 0; white > 0, or flicker > 0 and no two bins at one
 ///                 time.
 /// @param columns  (n, c) finite, changed in place; one row per bin.  Each column is whitened

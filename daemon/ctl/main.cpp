@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -138,6 +139,9 @@ int main(int argc, char** argv) {
         return usage_status();
     } catch (const NoDaemon& error) {
         complain(error.what());
+        return kNoDaemon;
+    } catch (const nlohmann::json::exception&) {
+        complain("the program at this address is not a351d; check --url");
         return kNoDaemon;
     } catch (const std::exception& error) {
         complain(error.what());

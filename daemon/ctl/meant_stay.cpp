@@ -19,8 +19,9 @@ std::optional<MeantStay> meant_stay(const nlohmann::json& status,
     if (!running.is_null())
         return made(running, "running since " + running.at("start").get<std::string>());
     const nlohmann::json& finished = occupations.at("occupations");
-    if (finished.empty()) return std::nullopt;
+    if (!finished.is_array() || finished.empty()) return std::nullopt;
     const nlohmann::json& set_ups = finished.back().at("set_ups");
+    if (!set_ups.is_array() || set_ups.empty()) return std::nullopt;
     return made(finished.back(), set_ups.front().at("start").get<std::string>() + " to " +
                                      set_ups.back().at("end").get<std::string>());
 }

@@ -22,6 +22,9 @@ std::optional<UtcTime> parse_ago(std::string_view text, UtcTime now) {
     return std::nullopt;
 }
 
+/// A watch that is fast must not turn into the day before.
+constexpr std::chrono::hours kAhead(1);
+
 /// Reads HH:MM or HH:MM:SS.
 std::optional<UtcTime> parse_local(std::string_view text, UtcTime now) {
     const auto two = [&](std::size_t place, int largest) -> std::optional<int> {
@@ -39,7 +42,7 @@ std::optional<UtcTime> parse_local(std::string_view text, UtcTime now) {
     const std::time_t today =
         std::chrono::floor<std::chrono::seconds>(now).time_since_epoch().count();
     std::optional<UtcTime> found;
-    for (int days_ago = 0; days_ago <= 1 && (!found || *found > now); ++days_ago) {
+    for (int days_ago = 0; days_ago <= 1 && (!found || *found > now + kAhead); ++days_ago) {
         std::tm local{};
         localtime_r(&today, &local);
         local.tm_mday -= days_ago;

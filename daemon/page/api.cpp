@@ -43,7 +43,7 @@ struct Order {
 /// Reads the body of a POST.
 /// @param allowed  keys that may be given; others are refused.
 /// @throws InputError  not a JSON object, a key that is not allowed, a value that is not a text, or
-///                     an `at` that is not RFC 3339; names the key.
+///                     a time that is not RFC 3339; names the key.
 Order parse_order(std::string_view body, const std::vector<std::string>& allowed) {
     const auto parsed = json::parse(body, nullptr, false);
     if (!parsed.is_object()) throw InputError("body: not a JSON object");

@@ -94,6 +94,7 @@ Outcome Occupations::resume(const Named& stay, const Remark& remark) {
                                    shown(running()->start)));
     if (one->state == Found::State::discarded)
         return refused(one->text + " is discarded: restore it first");
+    if (!recorder_.latest()) return refused("no sample is available yet; see the status");
     events::Event event = change_of("resume", stay, remark);
     if (const Nanoseconds since = event.utc - one->end; since > kLongestResume)
         return refused(
@@ -129,7 +130,9 @@ Outcome Occupations::retime(const Named& stay, std::optional<UtcTime> from,
     if (is_running && to)
         return refused(one->text + ": it has no end yet; stop it at the right time instead");
     const UtcTime start = from.value_or(one->start), end = to.value_or(one->end);
-    if (const auto latest = recorder_.latest(); latest && std::max(start, end) > latest->utc)
+    const auto latest = recorder_.latest();
+    if (!latest) return refused("no sample is available yet; see the status");
+    if (std::max(start, end) > latest->utc)
         return refused(fmt::format("{} is later than the last sample, {}",
                                    shown(std::max(start, end)), shown(latest->utc)));
     if (start >= end)

@@ -54,10 +54,10 @@ void OccupationReplay::apply(const Event& event) {
     if (event.type == "discard") discard(event);
     if (event.type == "resume") resume(event);
     if (event.type == "retime") retime(event);
-    if (event.type == "restore" && event.details.contains(kKey))
+    if (event.type == "restore" && !detail(event, kKey).empty())
         if (Ended* const ended = ended_of(event)) ended->is_discarded = false;
     if (event.type == "note") {
-        RunningOccupation* const stay = event.details.contains(kKey) ? stay_of(event)
+        RunningOccupation* const stay = !detail(event, kKey).empty() ? stay_of(event)
                                         : running_                   ? &*running_
                                                                      : nullptr;
         if (stay) add_note(stay->note, event);
@@ -131,7 +131,7 @@ void OccupationReplay::discard(const Event& event) {
 }
 
 void OccupationReplay::resume(const Event& event) {
-    if (running_ || !event.details.contains(kKey)) return;
+    if (running_ || detail(event, kKey).empty()) return;
     Ended* const ended = ended_of(event);
     if (!ended || ended->is_discarded) return;
     running_ = std::move(ended->stay);
@@ -139,7 +139,7 @@ void OccupationReplay::resume(const Event& event) {
 }
 
 void OccupationReplay::retime(const Event& event) {
-    if (!event.details.contains(kKey)) return;
+    if (detail(event, kKey).empty()) return;
     RunningOccupation* const stay = stay_of(event);
     if (!stay) return;
     std::vector<UtcTime>& starts = stay->set_ups;
@@ -154,6 +154,7 @@ void OccupationReplay::retime(const Event& event) {
     const auto to = parse_rfc3339(detail(event, "to"));
     if (Ended* const ended = to ? ended_of(event) : nullptr) {
         ended->end = *to;
+        ended->is_stopped = true;
         starts.erase(std::find_if(starts.begin() + 1, starts.end(),
                                   [&](UtcTime start) { return start >= *to; }),
                      starts.end());
@@ -163,7 +164,8 @@ void OccupationReplay::retime(const Event& event) {
 void OccupationReplay::renumber() {
     std::vector<RunningOccupation*> by_start;
     for (Ended& one : ended_)
-        if (!one.is_discarded) by_start.push_back(&one.stay);
+        if (!one.is_discarded && !set_ups_of(one.stay.set_ups, one.end).empty())
+            by_start.push_back(&one.stay);
     std::ranges::stable_sort(by_start, {}, [](const RunningOccupation* one) { return one->start; });
     std::map<std::string, int> stays;
     for (RunningOccupation* const stay : by_start) stay->number = ++stays[stay->site];

@@ -24,12 +24,17 @@ ThermalPrior within_60_percent(double mean) { return {mean, 0.6 * std::abs(mean)
 /// Returns w_j, the lag's output at the end of a step h = step / tau for the input s^j, 0 <= s <= 1,
 /// j = 0 ... 3: w_j = 1 - j / h w_(j-1).
 std::array<double, 4> powers_after_lag(double h) {
-    std::array<double, 4> w{};
-    // Downwards from any w_j, because errors then shrink by h / j; upwards they grow by as much.
+    std::array<double, 4> w{-std::expm1(-h)};
+    if (h > 4.0) {  // upwards, errors shrink by j / h
+        for (std::size_t j = 1; j < w.size(); ++j)
+            w[j] = 1.0 - static_cast<double>(j) / h * w[j - 1];
+        return w;
+    }
+    // Downwards from any w_30, errors shrink by h / j.
     double value = 0.0;
-    for (int j = std::max(30, static_cast<int>(4.0 * h)); j > 0; --j) {
-        value = h / j * (1.0 - value);
-        if (j <= 4) w.at(static_cast<std::size_t>(j - 1)) = value;
+    for (std::size_t j = 30; j > 0; --j) {
+        value = h / static_cast<double>(j) * (1.0 - value);
+        if (j <= w.size()) w[j - 1] = value;
     }
     return w;
 }

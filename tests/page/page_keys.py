@@ -7,6 +7,8 @@ from made_up import finished, occupation, sites
 from programs import demand
 from stub_daemon import StubDaemon
 
+STAY = {"key": "20260301T013000Z", "site": "No.5"}  # The running one.
+
 OUTLINE = """
 const style = getComputedStyle(document.activeElement);
 return [document.activeElement.id || document.activeElement.value || document.activeElement.tagName,
@@ -35,7 +37,7 @@ def renew_token(stub, browser):
     browser.find("#note").send_keys("first", Keys.ENTER)
     last_post(stub, browser, "/api/note")
     demand("after a restart of the daemon an order is repeated with the new token, without asking",
-           [body for _, body in stub.posts[-2:]] == [{"note": "first"}] * 2 and browser.text("token-form") == "")
+           [body for _, body in stub.posts[-2:]] == [{**STAY, "note": "first"}] * 2 and browser.text("token-form") == "")
     stub.token, stub.tells_token = "of-the-configuration", False
     browser.find("#note").send_keys("second", Keys.ENTER)
     browser.wait_for_text("answer", "Not done: the token (header X-A351-Token) is missing or wrong")
@@ -129,7 +131,7 @@ with Browser(allowed_errors=["status of 403"]) as page:
            and earlier in order["from"])
 
     page.find("#note").send_keys("rain began", Keys.ENTER)
-    demand("Enter in the note field sends the note", last_post(daemon, page, "/api/note") == {"note": "rain began"})
+    demand("Enter in the note field sends the note", last_post(daemon, page, "/api/note") == {**STAY, "note": "rain began"})
     page.wait_for("the note field is empty after sending", lambda: page.find("#note").get_attribute("value") == "")
 
     page.find("#signal-span input[value='60']").send_keys(Keys.ARROW_RIGHT)

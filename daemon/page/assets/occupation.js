@@ -98,8 +98,8 @@ export class OccupationPanel {
         remember("operator", operator);
         const order = { site, operator, note: by_id("start-note").value };
         if (by_id("start-at").value) {
-            // The latest such instant: half a day before now is the middle of the last 24 hours.
-            const instant_ms = nearest_instant(by_id("start-at").value, this.now_ms - kDay_ms / 2);
+            // The latest such instant up to an hour ahead, which the daemon refuses: a watch may be fast.
+            const instant_ms = nearest_instant(by_id("start-at").value, this.now_ms - 11 / 24 * kDay_ms);
             if (instant_ms === null) return this.refuse("started at: allowed: HH:MM or HH:MM:SS, in UTC");
             order.at = new Date(instant_ms).toISOString();
         }
@@ -118,7 +118,8 @@ export class OccupationPanel {
 
     async write_note() {
         const note = by_id("note").value;
-        if (note && await this.order("/api/note", { note })) by_id("note").value = "";
+        const stay = this.running ? { key: this.running.key, site: this.running.site } : {};
+        if (note && await this.order("/api/note", { ...stay, note })) by_id("note").value = "";
     }
 
     /** Reads sites and occupations; called again after each change. */

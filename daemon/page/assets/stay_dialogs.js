@@ -36,8 +36,7 @@ export class StayDialogs {
         this.stay = null;
         const on_submit = (kind, act) => by_id(`${kind}-form`).addEventListener("submit", (event) => {
             event.preventDefault();
-            by_id(kind).close();
-            act();
+            if (act()) by_id(kind).close();
         });
         on_submit("discard", () => this.send("discard", { site: this.stay.site }, "discard-reason"));
         on_submit("rename", () => this.rename());
@@ -51,6 +50,7 @@ export class StayDialogs {
     open(kind, stay) {
         this.stay = stay;
         by_id(`${kind}-reason`).value = "";
+        if (kind === "rename") by_id("rename-site").value = by_id("rename-name").value = "";
         if (kind === "discard") {
             set_text("discard-text", stay.end ? `Discard ${described(stay)}?`
                 : `Discard the running occupation at ${visible(stay.site)}, ${duration(stay.running_s)} old?`);
@@ -69,14 +69,15 @@ export class StayDialogs {
         const reason = by_id(reason_id).value;
         this.order(`/api/occupation/${change}`,
             { key: this.stay.key, ...body, ...(reason && { reason }) });
+        return true;
     }
 
     rename() {
         const site = this.new_site();
-        if (site) this.send("rename", { site }, "rename-reason");
+        return site && this.send("rename", { site }, "rename-reason");
     }
 
-    /** Sends the times that were changed. */
+    /** Sends the times that were changed.  @return true if there are any. */
     retime() {
         const body = { site: this.stay.site };
         for (const [key, old] of [["from", this.stay.start], ["to", this.stay.end]]) {
@@ -84,12 +85,11 @@ export class StayDialogs {
             if (!old || text === time_of_day(old)) continue;
             const instant_ms = nearest_instant(text, Date.parse(old));
             if (instant_ms === null) {
-                this.refuse(`${text} is no time of day; allowed: HH:MM or HH:MM:SS, in UTC`);
-                return;
+                return this.refuse(`${text} is no time of day; allowed: HH:MM or HH:MM:SS, in UTC`);
             }
             body[key] = new Date(instant_ms).toISOString();
         }
-        if (body.from || body.to) this.send("retime", body, "times-reason");
-        else this.refuse("the times are as before");
+        if (body.from || body.to) return this.send("retime", body, "times-reason");
+        return this.refuse("the times are as before");
     }
 }

@@ -30,7 +30,8 @@ TEST_CASE("a ramp after a first-order lag agrees with the exact solution", "[uni
 }
 
 TEST_CASE("a sine of twelve samples has its exact response to a lag", "[unit]") {
-    const double step_s = 20.0, period_s = 240.0, tau_s = GENERATE(5.0, 43.0, 2700.0);
+    const double step_s = 20.0, period_s = 240.0,
+                 tau_s = GENERATE(0.01, 0.5, 4.9, 5.1, 43.0, 2700.0);
     CAPTURE(tau_s);
     constexpr std::size_t kPeriod = 12, kSettled = 500 * kPeriod;
     const double w = 2.0 * std::numbers::pi / period_s;
