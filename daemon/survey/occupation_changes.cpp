@@ -56,9 +56,11 @@ std::string Occupations::trouble_with_overlap(const std::string& key, UtcTime st
     return {};
 }
 
+/// Makes the event of a change with these key and site.
 events::Event Occupations::change_of(std::string type, const Named& stay, const Remark& remark) {
     events::Event event = about_now(std::move(type));
     add(event, "key", stay.key);
+    add(event, "site", stay.site);
     add(event, remark);
     return event;
 }
@@ -68,8 +70,7 @@ Outcome Occupations::discard(const Named& stay, const Remark& remark) {
     const auto one = found(stay, trouble);
     if (!one) return refused(trouble);
     if (one->state == Found::State::discarded) return refused(one->text + " is discarded already");
-    events::Event event = change_of("discard", stay, remark);
-    add(event, "site", one->site);
+    events::Event event = change_of("discard", {stay.key, one->site}, remark);
     return commit(std::move(event), "discarded " + one->text);
 }
 
@@ -80,8 +81,7 @@ Outcome Occupations::restore(const Named& stay, const Remark& remark) {
     if (one->state != Found::State::discarded) return refused(one->text + " is not discarded");
     if (trouble = trouble_with_overlap(stay.key, one->start, one->end); !trouble.empty())
         return refused(one->text + " cannot be restored: " + trouble);
-    events::Event event = change_of("restore", stay, remark);
-    add(event, "site", one->site);
+    events::Event event = change_of("restore", {stay.key, one->site}, remark);
     return commit(std::move(event), "restored " + one->text);
 }
 
@@ -95,7 +95,7 @@ Outcome Occupations::resume(const Named& stay, const Remark& remark) {
     if (one->state == Found::State::discarded)
         return refused(one->text + " is discarded: restore it first");
     if (!recorder_.latest()) return refused("no sample is available yet; see the status");
-    events::Event event = change_of("resume", stay, remark);
+    events::Event event = change_of("resume", {stay.key, one->site}, remark);
     if (const Nanoseconds since = event.utc - one->end; since > kLongestResume)
         return refused(
             fmt::format("{} was stopped {:.1f} min ago; a stay is resumed at most {:.0f} "
@@ -103,7 +103,6 @@ Outcome Occupations::resume(const Named& stay, const Remark& remark) {
                         one->text, Minutes(since).count(), Minutes(kLongestResume).count()));
     if (trouble = trouble_with_overlap(stay.key, one->start, UtcTime::max()); !trouble.empty())
         return refused(one->text + " cannot be resumed: " + trouble);
-    add(event, "site", one->site);
     return commit(std::move(event), "resumed " + one->text);
 }
 
@@ -113,8 +112,7 @@ Outcome Occupations::rename(const Named& stay, std::string_view site, const Rema
     const auto one = found(stay, trouble);
     if (!one) return refused(trouble);
     if (one->site == site) return refused(fmt::format("{} is at {} already", one->text, site));
-    events::Event event = change_of("rename", stay, remark);
-    add(event, "site", site);
+    events::Event event = change_of("rename", {stay.key, std::string(site)}, remark);
     return commit(std::move(event), fmt::format("renamed {} to {}", one->text, site));
 }
 
@@ -140,8 +138,7 @@ Outcome Occupations::retime(const Named& stay, std::optional<UtcTime> from,
             fmt::format("the start {} is not before the end {}", shown(start), shown(end)));
     trouble = trouble_with_overlap(stay.key, start, is_running ? UtcTime::max() : end);
     if (!trouble.empty()) return refused(one->text + " cannot have these times: " + trouble);
-    events::Event event = change_of("retime", stay, remark);
-    add(event, "site", one->site);
+    events::Event event = change_of("retime", {stay.key, one->site}, remark);
     if (from) add(event, "from", to_rfc3339(*from, 9));
     if (to) add(event, "to", to_rfc3339(*to, 9));
     return commit(std::move(event), fmt::format("{} is now from {}{}", one->text, shown(start),
@@ -157,7 +154,7 @@ Outcome Occupations::note(const Named& stay, std::string_view text) {
         if (!one) return refused(trouble);
         said = " for " + one->text;
     }
-    events::Event event = change_of("note", stay, {});
+    events::Event event = change_of("note", {stay.key, ""}, {});
     if (event.utc == UtcTime{}) return refused("no sample is available yet; see the status");
     add(event, "note", text);
     said = "noted at " + shown(event.utc) + said;

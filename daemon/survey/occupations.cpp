@@ -63,7 +63,9 @@ Occupations::Placed Occupations::place_in_running(std::optional<UtcTime> at) {
 std::optional<std::string> Occupations::trouble_with_site(std::string_view site) const {
     if (site.empty()) return "no site is given";
     if (sites_.empty() || text::find_site(sites_, site)) return std::nullopt;
-    return fmt::format("site {} is not one of the {} sites in the list", site, sites_.size());
+    const text::Site* const similar = text::similar_site(sites_, site);
+    return fmt::format("site {} is not one of the {} sites in the list{}", site, sites_.size(),
+                       similar ? fmt::format("; did you mean {}?", similar->name) : "");
 }
 
 /// Makes an event that needs no sample, because it must be possible with the sensor unplugged.

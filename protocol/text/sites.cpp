@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <boost/locale/utf.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -44,6 +45,29 @@ std::vector<double> filled_column(const CsvTable& table, std::string_view column
     return values;
 }
 
+bool is_utf8(std::string_view text) {
+    using boost::locale::utf::code_point;
+    for (const char* at = text.data(); at != text.data() + text.size();) {
+        const code_point point =
+            boost::locale::utf::utf_traits<char>::decode(at, text.data() + text.size());
+        if (point == boost::locale::utf::illegal || point == boost::locale::utf::incomplete)
+            return false;
+    }
+    return true;
+}
+
+/// Returns a name in lower case without blanks and punctuation.
+std::string bare(std::string_view name) {
+    std::string text;
+    for (const char c : name) {
+        const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        const bool is_ascii = c >= 0;
+        if (!is_ascii || is_letter || (c >= '0' && c <= '9'))
+            text += is_letter ? static_cast<char>(c | 0x20) : c;
+    }
+    return text;
+}
+
 }  // namespace
 
 std::vector<Site> read_sites(const std::filesystem::path& file) {
@@ -60,6 +84,8 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         const std::string& name = table.cell(row, "site");
         if (name.empty()) table.refuse(row, "site", "empty", "a name");
+        if (!is_utf8(name))
+            table.refuse(row, "site", "not UTF-8", "UTF-8; in a spreadsheet: save as CSV UTF-8");
         if (find_site(sites, name) != nullptr)
             table.refuse(row, "site", "appears twice", "each site once");
         Site site{name,
@@ -85,6 +111,18 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
 const Site* find_site(const std::vector<Site>& sites, std::string_view name) {
     const auto found = std::ranges::find(sites, name, &Site::name);
     return found == sites.end() ? nullptr : &*found;
+}
+
+const Site* similar_site(const std::vector<Site>& sites, std::string_view name) {
+    const Site* similar = nullptr;
+    const std::string wanted = bare(name);
+    if (wanted.empty()) return nullptr;
+    for (const Site& site : sites) {
+        if (bare(site.name) != wanted) continue;
+        if (similar != nullptr) return nullptr;
+        similar = &site;
+    }
+    return similar;
 }
 
 }  // namespace a351::text

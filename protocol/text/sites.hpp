@@ -46,11 +46,15 @@ struct Site {
 /// @return the sites in the order of the file.  A header without rows gives an empty list, and its
 ///         columns are not checked.
 /// @throws InputError  a column is missing, a number is not one or out of range, a coordinate is
-///                     empty for every site, a site has no name or appears twice.
+///                     empty for every site, a site has no name, appears twice or is not UTF-8.
 [[nodiscard]] std::vector<Site> read_sites(const std::filesystem::path& file);
 
 /// Returns the site of that name, or null.  The pointer is into `sites` and valid as long as the
 /// list does not change.  The names are compared in turn, exactly.
 [[nodiscard]] const Site* find_site(const std::vector<Site>& sites, std::string_view name);
+
+/// Returns the only site whose name differs from a mistyped one in case, blanks or punctuation of
+/// ASCII; null if there is none or more than one.  no.6 and NO 6 are like No.6.
+[[nodiscard]] const Site* similar_site(const std::vector<Site>& sites, std::string_view name);
 
 }  // namespace a351::text

@@ -223,6 +223,7 @@ TEST_CASE("a missing site is refused, and an unknown one too if there is a list 
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
     CHECK(mentions(occupations.start("No.7", {}, minute(1)), "No.7 is not one of the 2"));
+    CHECK(mentions(occupations.start("no 1", {}, minute(1)), "did you mean No.1?"));
     CHECK(occupations.start("", {}, minute(1)).kind == Kind::refused);
     Occupations unlisted(recorder, {}, {});
     CHECK(unlisted.start("", {}, minute(1)).kind == Kind::refused);

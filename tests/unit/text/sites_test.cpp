@@ -83,3 +83,23 @@ TEST_CASE("a bad sites file is refused with its line", "[text][sites]") {
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,9.799\n")),
                       ContainsSubstring(":2: gravity_mgal = 9.799: out of range"));
 }
+
+TEST_CASE("a site whose name is not UTF-8 is refused with the remedy", "[text][sites]") {
+    // "yama" in Shift_JIS, cut and overlong UTF-8, a surrogate
+    for (const std::string name : {"\x8E\x52", "\xE5\xB1", "\xC0\xAF", "\xED\xA0\x80"})
+        CHECK_THROWS_WITH(read_sites(written(kHeader + name + ",140,36,0,\n")),
+                          ContainsSubstring(":2: site = ") && ContainsSubstring("CSV UTF-8"));
+    CHECK(read_sites(written(kHeader + "\xE5\xB1\xB1,140,36,0,\n")).size() == 1);
+}
+
+TEST_CASE("a mistyped name is recognised if only one site is like it", "[text][sites]") {
+    std::vector<Site> sites(4);
+    sites[0].name = "No.6";
+    sites[1].name = "No.60";
+    sites[2].name = "BM-A";
+    sites[3].name = "bm a";
+    for (const char* name : {"no.6", "NO 6", "no6", "No.6."})
+        CHECK(similar_site(sites, name) == &sites[0]);
+    for (const char* name : {"No.7", "", "...", "bma", "No"})
+        CHECK(similar_site(sites, name) == nullptr);
+}
