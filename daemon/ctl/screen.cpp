@@ -253,12 +253,12 @@ std::string site_table(const json& answer) {
 
 std::string occupation_table(const json& answer) {
     std::vector<std::vector<std::string>> rows = {
-        {"key", "site", "stay", "start", "end", "mgal", "note"}};
+        {"site", "stay", "start", "end", "mgal", "key", "note"}};
     const auto add = [&](const json& one, const std::string& number, std::string note) {
         std::string value = number_of(one, "reading/value_mgal", "{:.2f}");
         for (const auto& set_up : at(one, "set_ups")) {
-            rows.push_back({text_of(one, "key"), text_of(one, "site"), number,
-                            text_of(set_up, "start"), text_of(set_up, "end"), value, note});
+            rows.push_back({text_of(one, "site"), number, text_of(set_up, "start"),
+                            text_of(set_up, "end"), value, text_of(one, "key"), note});
             note = value = "";
         }
     };

@@ -54,11 +54,10 @@ Level mean_of(std::span<const MotionSample> samples, std::span<const std::size_t
     return mean;
 }
 
-/// Returns true if the box was handled between two samples.
-bool is_handled(std::span<const MotionSample> samples, std::size_t from, std::size_t to) {
-    std::size_t shaken = 0;
-    for (std::size_t i = from; i < to; ++i) shaken += is_shaken(samples[i]) ? 1U : 0U;
-    return shaken >= kHandled;
+/// Returns the number of shaken samples in [from, to).
+std::size_t shaken_in(std::span<const MotionSample> samples, std::size_t from, std::size_t to) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(samples.subspan(from, to - from), is_shaken));
 }
 
 }  // namespace
@@ -82,7 +81,7 @@ std::vector<BoxMove> find_box_moves(std::span<const MotionSample> samples) {
         const double tilt_deg = std::sqrt(square) / kMilliGalPerStandardGravity / kRadPerDeg;
         const double norm_mgal = after.norm_mgal - before.norm_mgal;
         double change = tilt_deg / kMoved_deg;
-        if (is_handled(samples, places[k - 1], places[k]))
+        if (shaken_in(samples, places[k - 1], places[k]) >= kHandled)
             change = std::max({change, tilt_deg / kHandledAndMoved_deg,
                                std::abs(norm_mgal) / kHandledAndMoved_mgal});
         if (best_change > 0.0 && k >= best + kCompared) {
@@ -117,9 +116,7 @@ StillPart choose_still_part(std::span<const MotionSample> samples,
         if (still >= static_cast<std::ptrdiff_t>(kLeastStay)) break;
     }
     const auto is_carried = [&](std::size_t from, std::size_t to) {
-        std::size_t shaken = 0;
-        for (std::size_t i = from; i < to; ++i) shaken += is_shaken(samples[i]) ? 1U : 0U;
-        return shaken >= kCarried;
+        return shaken_in(samples, from, to) >= kCarried;
     };
     if (most == 0)
         return is_carried(0, samples.size()) ? StillPart{} : StillPart{0, samples.size()};
