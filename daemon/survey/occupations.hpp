@@ -51,7 +51,8 @@ struct OccupationOptions {
 /// has the same state.  Not thread-safe: one thread (that of the page) owns it.
 ///
 /// `at` is a time in the recorded past, by default that of the last sample.  Refused are:
-/// - a time after the last sample or before the data that the recorder keeps in memory;
+/// - a time after the last sample, and for start, stop and set-up one before the data that the
+///   recorder keeps in memory;
 /// - a start while an occupation is running;
 /// - a stop or set-up without a running occupation, or not after its start;
 /// - an overlap with a finished occupation;
