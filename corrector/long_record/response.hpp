@@ -66,9 +66,11 @@ struct ResponseOptions {
 /// many as resolve half the band.  H = S_aT / (S_TT - N), coherence = |S_aT|^2 / (S_TT S_aa).  The
 /// limits are a circle about H:
 ///
-///     |H - estimate|^2 <= (significance^(-1 / (nu - 1)) - 1) (1 - coherence) S_aa S_TT / (S_TT - N)^2
+///     |H - estimate|^2 <= (significance^(-1 / (nu - 1)) - 1) (1 - coherence)
+///                         S_aa S_TT / (S_TT - N)^2
 ///
-/// N is the thermometer's noise (ThermometerSpectrum), without which a gain would be too low.  nu is the number of resolutions that the temperature's power fills in the band, minus one, at
+/// N is the thermometer's noise (ThermometerSpectrum), without which a gain would be too low.
+/// nu is the number of resolutions that the temperature's power fills in the band, minus one, at
 /// least 2: a spectral line counts as little more than the tapers.
 ///
 /// A point is refused if the record has fewer than 6 cycles, if more than a fifth of the

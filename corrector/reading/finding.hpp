@@ -8,7 +8,7 @@
 
 namespace a351::corrector::reading {
 
-/// What is wrong with a day, for people and for programs.
+/// A mistake or a fault that was found in a day.
 struct Finding {
     std::string kind;    ///< moved_box, bad_reading.
     std::string site;    ///< Site of the stay.

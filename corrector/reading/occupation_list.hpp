@@ -45,7 +45,7 @@ struct OccupationWindow {
     bool is_excluded = false;                 ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
     std::string key = {};                     ///< Key of the stay in the event log, if any.
-    Listed listed = {};                       ///< As in the list before all amendments.
+    Listed listed = {};                       ///< Names before all amendments.
 };
 
 /// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`.  Exceptions

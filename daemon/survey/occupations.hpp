@@ -33,7 +33,7 @@ struct Remark {
 
 /// A stay that is to be changed.
 struct Named {
-    std::string key{};   ///< As events::Occupation::key.
+    std::string key{};   ///< Key of the stay, see events::Occupation::key.
     std::string site{};  ///< Site under which the operator saw it; empty: not checked.
 };
 
@@ -115,7 +115,7 @@ private:
         enum class State { running, finished, discarded };
         State state = State::finished;
         std::string site, text;  ///< Site; site, number and times.
-        UtcTime start, end;      ///< Of a running stay the end is the last sample.
+        UtcTime start, end;      ///< A stay that still runs ends at the last sample.
     };
 
     [[nodiscard]] std::optional<Found> found(const Named& stay, std::string& trouble);

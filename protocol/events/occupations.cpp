@@ -34,6 +34,21 @@ std::vector<Occupation::SetUp> set_ups_of(const std::vector<UtcTime>& starts, Ut
     return set_ups;
 }
 
+/// Returns the starts of the set-ups of a stay that begins at `from` and ends at `end`.
+std::vector<UtcTime> starts_within(const std::vector<UtcTime>& logged, UtcTime from, UtcTime end) {
+    std::vector<UtcTime> starts{from};
+    for (std::size_t i = 1; i < logged.size(); ++i)
+        if (logged[i] > from && logged[i] < end) starts.push_back(logged[i]);
+    return starts;
+}
+
+void move_start(RunningOccupation& stay, std::vector<UtcTime> starts) {
+    stay.start = starts.front();
+    stay.set_ups = std::move(starts);
+    stay.session.reset();
+    stay.index.reset();
+}
+
 /// Returns an instant as YYYYMMDDTHHMMSSZ.
 std::string key_text(UtcTime start) {
     std::string text = to_rfc3339(start, 0);  // YYYY-MM-DDTHH:MM:SSZ
@@ -134,37 +149,37 @@ void OccupationReplay::resume(const Event& event) {
     if (running_ || detail(event, kKey).empty()) return;
     Ended* const ended = ended_of(event);
     if (!ended || ended->is_discarded) return;
+    std::vector<UtcTime> starts = starts_of(*ended);
+    const bool is_moved = ended->from.has_value();
     running_ = std::move(ended->stay);
+    if (is_moved) move_start(*running_, std::move(starts));
     ended_.erase(ended_.begin() + (ended - ended_.data()));
 }
 
 void OccupationReplay::retime(const Event& event) {
     if (detail(event, kKey).empty()) return;
-    RunningOccupation* const stay = stay_of(event);
-    if (!stay) return;
-    std::vector<UtcTime>& starts = stay->set_ups;
-    if (const auto from = parse_rfc3339(detail(event, "from"))) {
-        starts.erase(starts.begin());
-        std::erase_if(starts, [&](UtcTime start) { return start <= *from; });
-        starts.insert(starts.begin(), *from);
-        stay->start = *from;
-        stay->session.reset();
-        stay->index.reset();
+    const auto from = parse_rfc3339(detail(event, "from")), to = parse_rfc3339(detail(event, "to"));
+    if (running_ && running_->key == detail(event, kKey)) {
+        if (from) move_start(*running_, starts_within(running_->set_ups, *from, UtcTime::max()));
+    } else if (Ended* const ended = ended_of(event)) {
+        ended->is_stopped = ended->is_stopped || to;
+        ended->end = to.value_or(ended->end);
+        ended->from = from.value_or(ended->from.value_or(ended->stay.start));
+        ended->stay.start = *ended->from;
     }
-    const auto to = parse_rfc3339(detail(event, "to"));
-    if (Ended* const ended = to ? ended_of(event) : nullptr) {
-        ended->end = *to;
-        ended->is_stopped = true;
-        starts.erase(std::find_if(starts.begin() + 1, starts.end(),
-                                  [&](UtcTime start) { return start >= *to; }),
-                     starts.end());
-    }
+}
+
+/// Returns the starts of the set-ups.  All that were logged are kept, so that a stay can be made
+/// longer again.
+std::vector<UtcTime> OccupationReplay::starts_of(const Ended& ended) {
+    const std::vector<UtcTime>& logged = ended.stay.set_ups;
+    return ended.from ? starts_within(logged, *ended.from, ended.end) : logged;
 }
 
 void OccupationReplay::renumber() {
     std::vector<RunningOccupation*> by_start;
     for (Ended& one : ended_)
-        if (!one.is_discarded && !set_ups_of(one.stay.set_ups, one.end).empty())
+        if (!one.is_discarded && !set_ups_of(starts_of(one), one.end).empty())
             by_start.push_back(&one.stay);
     std::ranges::stable_sort(by_start, {}, [](const RunningOccupation* one) { return one->start; });
     std::map<std::string, int> stays;
@@ -175,7 +190,7 @@ void OccupationReplay::renumber() {
 std::vector<Occupation> OccupationReplay::stays(bool are_discarded) const {
     std::vector<Occupation> occupations;
     for (const Ended& one : ended_) {
-        auto set_ups = set_ups_of(one.stay.set_ups, one.end);
+        auto set_ups = set_ups_of(starts_of(one), one.end);
         if (one.is_discarded != are_discarded || set_ups.empty()) continue;
         occupations.push_back({one.stay.key, one.stay.site, one.stay.number, std::move(set_ups),
                                one.stay.note, one.is_stopped});

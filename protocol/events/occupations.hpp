@@ -49,7 +49,7 @@ struct Occupation {
 ///
 /// Times and texts are those of the events so far.
 struct RunningOccupation {
-    std::string key;   ///< As Occupation::key.
+    std::string key;   ///< Key of the stay, see Occupation::key.
     std::string site;  ///< Name of the benchmark, after renames.
     /// Number of this stay at the site, one more than the finished stays there.  If one of these is
     /// later, the stay gets a smaller number when it ends.
@@ -74,7 +74,8 @@ struct RunningOccupation {
 ///   that ended and was not discarded; `note` to the running one; the others change nothing.
 /// - `discard` of the running occupation ends it, too.  `restore` cancels a discard.
 /// - `resume` cancels the end of a stay if none runs.
-/// - `retime` moves the start (`from`), the end (`to`) or both; set-ups outside are left out.
+/// - `retime` moves the start (`from`), the end (`to`) or both; set-ups outside are left out, and of
+///   a stay that ended they come back with a later `retime`.
 /// - Notes of start, stop, rename and `note` are joined by "; ".
 /// - A set-up without duration is left out, and so is an occupation without set-ups.
 /// - `setup` and `stop` change nothing if no occupation runs.  Other types change nothing.
@@ -118,6 +119,7 @@ private:
         RunningOccupation stay;
         UtcTime end;
         bool is_stopped = true, is_discarded = false;
+        std::optional<UtcTime> from{};  ///< Start by `retime`; set by every `retime`.
     };
 
     void apply(const Event& event);
@@ -130,6 +132,7 @@ private:
     void renumber();
     [[nodiscard]] Ended* ended_of(const Event& event);
     [[nodiscard]] RunningOccupation* stay_of(const Event& event);
+    [[nodiscard]] static std::vector<UtcTime> starts_of(const Ended& ended);
     [[nodiscard]] std::vector<Occupation> stays(bool are_discarded) const;
 
     std::optional<RunningOccupation> running_;

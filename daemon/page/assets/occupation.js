@@ -7,7 +7,7 @@ import { recalled, remember } from "./memory.js";
 import { nearest_instant, StayDialogs } from "./stay_dialogs.js";
 
 const kDay_ms = 24 * 3600 * 1000;
-const kResume_ms = 10 * 60 * 1000; // As kLongestResume of the daemon.
+const kResume_ms = 10 * 60 * 1000; // The daemon's limit (kLongestResume) is the same.
 
 function distance_text(metres) {
     if (metres === null || metres === undefined) return "";

@@ -182,6 +182,8 @@ TEST_CASE("a change applies to the stay that its key names, and to no other",
           Lines{"B#1 09:00-09:05 09:05-09:20", "B#2 10:00-10:10"});
     CHECK(then("retime", with(of_a, "from", "2026-03-01T09:07:00Z")) ==
           Lines{"B#1 09:07-09:20", "B#2 10:00-10:10"});
+    CHECK(then("retime", with(of_a, "from", "2026-03-01T08:55:00Z")) ==
+          Lines{"B#1 08:55-09:05 09:05-09:20", "B#2 10:00-10:10"});
     CHECK(then("note", with(of_a, "note", "lorry")).size() == 2);
     CHECK(occupations_of(events)[0].note == "lorry");
     const Lines before = shown(events);

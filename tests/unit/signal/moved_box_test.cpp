@@ -21,7 +21,7 @@ public:
     void rest(double seconds) { add(seconds, 60.0, 10.0); }
     /// Adds shaking, as half peak to peak of the raw samples, and what the filter lets through.
     void shake(double seconds, double peak_mgal) { add(seconds, peak_mgal, 0.01 * peak_mgal); }
-    /// Sets the box down anew: level changes by this angle in a direction that is drawn.
+    /// Turns the box by this angle, in a random direction.
     void turn(double deg) {
         const double direction = 6.283 * std::uniform_real_distribution<double>()(random_);
         x_mgal_ += deg * kDeg_mgal * std::cos(direction);
