@@ -22,6 +22,8 @@ class App;
 
 namespace a351::corrector::command {
 
+/// `amend`: what the findings of a survey propose, appended to its amendments file.
+void add_amend_command(CLI::App& program);
 /// `calibrate`: what is to be known of a unit before a survey, measured.  Writes a calibration file
 /// for `survey --calibration` and `record --apply`.
 void add_calibrate_command(CLI::App& program);

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
                      "a351-correct");
     program.set_version_flag("--version", "a351-correct " A351_VERSION);
     program.require_subcommand(1);
+    command::add_amend_command(program);
     command::add_calibrate_command(program);
     command::add_decimate_command(program);
     command::add_emd_command(program);

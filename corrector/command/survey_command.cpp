@@ -12,9 +12,9 @@
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
+#include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_file.hpp"
 #include "corrector/job/survey_readings.hpp"
-#include "corrector/model/calibration_use.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/trend_comparison.hpp"
 #include "corrector/report/joint_page.hpp"
@@ -86,7 +86,7 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
     settings["seed"] = survey.seed;
     settings["from_utc"] = survey.from ? to_rfc3339(*survey.from) : "";
     settings["to_utc"] = survey.to ? to_rfc3339(*survey.to) : "";
-    settings["amendments"] = reading::amendments_json(read.amendments);
+    settings["amendments"] = reading::amendments_json(read.amendments.list);
     settings["warnings"] = read.warnings;
     return settings;
 }
@@ -106,28 +106,13 @@ std::string folder_name(std::string name) {
     return name;
 }
 
-/// @throws InputError  as correct_survey(); names the survey file and every occupation left out.
-model::SurveyCorrection corrected(const job::SurveyFile& survey, reading::OccupationRows& read) {
-    try {
-        model::SurveyCorrection result = model::correct_with_calibration(
-            read.rows, job::with_sites_of(read, survey.survey), read.day ? &*read.day : nullptr);
-        model::add_left_out(result, read.left_out);
-        result.findings = read.findings;
-        return result;
-    } catch (const InputError& error) {
-        std::string message = fmt::format("{}: {}", survey.path.string(), error.what());
-        for (const std::string& warning : read.warnings) message += "; " + warning;
-        throw InputError(message);
-    }
-}
-
 Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& picture_formats) {
     ProgressBar bar(survey.name);
     reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
     Day day;
     day.name = survey.name;
-    day.result = corrected(survey, read);
-    day.amendments = reading::amendments_text(read.amendments);
+    day.result = job::correct_survey_day(survey, read);
+    day.amendments = reading::amendments_text(read.amendments.list);
     const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
     day.files = result::result_files(day.result, settings, read.inputs, read.sites);
     report::Report report = report::make_report(
@@ -176,8 +161,8 @@ void correct_days(const SurveyCommandOptions& options) {
     for (const Day& day : days) {
         text::write_together(is_joint ? out / folder_name(day.name) : out, day.files);
         std::cout << "survey " << day.name << '\n'
-                  << result::survey_text(day.result) << day.amendments
-                  << model::trend_comparison_text(day.result) << '\n';
+                  << reading::findings_text(day.result.findings) << result::survey_text(day.result)
+                  << day.amendments << model::trend_comparison_text(day.result) << '\n';
         results.push_back(day.result);
     }
     if (is_joint) {

@@ -6,6 +6,7 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
+#include "corrector/mistake/survey_findings.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/report/report.hpp"
@@ -47,7 +48,8 @@ void correct_table(TableOptions options) {
                   model::kGreatestSd_mgal);
     number_option("--reading-sd", options.survey.priors.reading_sd_mgal, model::kLeastSd_mgal,
                   model::kGreatestSd_mgal);
-    const model::SurveyCorrection result = model::correct_survey(rows, options.survey);
+    model::SurveyCorrection result = model::correct_survey(rows, options.survey);
+    result.findings = mistake::find_mistakes(result, {rows, sites, nullptr});
 
     nlohmann::ordered_json settings;
     settings["command"] = "table";
@@ -77,7 +79,8 @@ void correct_table(TableOptions options) {
     text::write_together(options.out, files);
     warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : warnings) std::cerr << "a351-correct: " << warning << '\n';
-    std::cout << result::survey_text(result) << "written to " << options.out << '\n';
+    std::cout << reading::findings_text(result.findings) << result::survey_text(result)
+              << "written to " << options.out << '\n';
 }
 
 }  // namespace

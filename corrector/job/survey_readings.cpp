@@ -53,6 +53,7 @@ reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Pro
 }
 
 model::SurveyOptions with_sites_of(reading::OccupationRows& read, model::SurveyOptions options) {
+    options.steps = read.amendments.steps;
     const auto is_absent = [&read](const std::string& site) {
         return std::ranges::find(read.rows, site, &reading::SurveyRow::site) == read.rows.end();
     };

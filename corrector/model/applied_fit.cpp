@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "corrector/model/outlier_tests.hpp"
+#include "corrector/model/paper_correction.hpp"
 
 namespace a351::corrector::model {
 
@@ -19,11 +20,47 @@ std::variant<AppliedFit, Refusal> apply_model(const LinearModel& model,
     if (!fit)
         return Refusal{fmt::format("{} rows with a reference do not determine it", used.size()),
                        fmt::format("at least {} rows between which temperature, rate and time vary "
-                                   "independently",
-                                   model.parameter_count())};
+                                   "independently{}",
+                                   model.parameter_count() + problem.options.steps.size(),
+                                   problem.options.steps.empty() ? "" : ", some after each step")};
     const auto s_mgal = fit->residual_scale();
     return AppliedFit{std::move(*fit), model_columns(model, problem.rows, problem.origin()),
                       s_mgal};
+}
+
+std::optional<residual::Residuals> linear_residuals(const LinearModel& model,
+                                                    const ChosenSurvey& survey,
+                                                    const ChosenSurvey& quiet) {
+    const std::vector<reading::SurveyRow>& rows = survey.problem.rows;
+    const TimeOrigin origin = survey.problem.origin();
+    const Priors& priors = survey.problem.options.priors;
+    const std::vector<reading::SurveyRow> used = chosen_rows(rows, survey.choice.in_use);
+    const auto without = fit_model(model, chosen_rows(quiet.problem.rows, quiet.choice.in_use),
+                                   quiet.problem.origin(), priors);
+    if (!without || !fit_model(model, used, origin, priors)) return std::nullopt;
+    const auto s_mgal = without->residual_scale();
+    if (!s_mgal || !(*s_mgal > 0.0)) return std::nullopt;
+    const Eigen::MatrixXd columns = model_columns(model, used, origin);
+    const SlopePriors slopes = slope_priors(model, priors, origin.steps.size());
+    const auto prior_count = static_cast<Eigen::Index>((slopes.weights.array() > 0.0).count());
+    // Rows of the readings, then rows of the priors; their constant is 0.
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(columns.rows() + prior_count, columns.cols() + 1);
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(a.rows());
+    a.col(0).head(columns.rows()).setOnes();
+    a.topRightCorner(columns.rows(), columns.cols()) = columns;
+    const std::vector<double> differences = differences_mgal(used);
+    std::ranges::copy(differences, y.begin());
+    for (Eigen::Index k = 0, row = columns.rows(); k < slopes.weights.size(); ++k) {
+        if (!(slopes.weights(k) > 0.0)) continue;
+        a(row, k + 1) = slopes.weights(k);
+        y(row++) = slopes.weights(k) * slopes.values(k);
+    }
+    std::vector<std::size_t> readings;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (survey.choice.in_use[i]) readings.push_back(i);
+    readings.resize(static_cast<std::size_t>(a.rows()), rows.size());
+    return residual::residuals_of(a / *s_mgal, y / *s_mgal, readings,
+                                  Eigen::VectorXd::Constant(a.rows(), 1.0 / *s_mgal), rows.size());
 }
 
 void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t row,
@@ -36,6 +73,7 @@ void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t r
 
 void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied) {
     const LinearFit& fit = applied.fit;
+    const auto steps = static_cast<std::size_t>(fit.coefficients.size()) - model.parameter_count();
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
         const Eigen::VectorXd x = applied.regressors_of(i);
@@ -48,7 +86,11 @@ void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& appli
             out.temperature_correction = -(MilliGal(fit.coefficients(0)) + effect(k++));
         if (model.has_rate) out.rate_correction = -effect(k++);
         if (model.has_time) out.drift_correction = -effect(k++);
-        if (model.has_axes) out.tilt_correction = -(effect(k) + effect(k + 1));
+        if (model.has_axes) {
+            out.tilt_correction = -(effect(k) + effect(k + 1));
+            k += 2;
+        }
+        while (k < x.size()) out.drift_correction = out.drift_correction - effect(k++);
         out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;
         set_uncertainty(out, applied, i, applied.s_mgal);
@@ -56,7 +98,7 @@ void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& appli
             out.studentised_residual =
                 studentised_residual(out.residual->value(), out.leverage.value(), out.is_used, fit);
     }
-    const std::vector<std::string> names = coefficient_names(model);
+    const std::vector<std::string> names = coefficient_names(model, steps);
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(k);
         result.coefficients.push_back({names[k], fit.coefficients(at), std::nullopt});

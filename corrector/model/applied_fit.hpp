@@ -53,6 +53,12 @@ struct AppliedFit {
                                                             const RowChoice& choice,
                                                             const Priors& priors);
 
+/// Returns the residuals of a linear model, see Model::residuals: readings and priors, in standard
+/// deviations of a reading, that of the quiet survey.
+[[nodiscard]] std::optional<residual::Residuals> linear_residuals(const LinearModel& model,
+                                                                  const ChosenSurvey& survey,
+                                                                  const ChosenSurvey& quiet);
+
 /// Sets leverage and u_corrected = s sqrt(1 + leverage), that of a station that is not in the fit.
 ///
 /// Both are set for rows in the fit too.  For these u_corrected is larger than the error in sample.

@@ -150,15 +150,21 @@ void report_prior_use(Fit& result, const unit::Calibration& calibration,
     result.calibration = use;
 }
 
+std::vector<reading::SurveyRow> without_known_tilt(
+    std::vector<reading::SurveyRow> rows, const std::optional<unit::Calibration>& calibration) {
+    if (calibration)
+        for (reading::SurveyRow& row : rows)
+            row.acceleration = row.acceleration - tilt_effect(row, calibration->axis_bias);
+    return rows;
+}
+
 SurveyCorrection correct_with_calibration(const std::vector<reading::SurveyRow>& rows,
                                           const SurveyOptions& options,
                                           const reading::DayRecord* day) {
     if (!options.calibration) return correct_survey(rows, options, day);
     const unit::Calibration& calibration = *options.calibration;
-    std::vector<reading::SurveyRow> freed = rows;
-    for (reading::SurveyRow& row : freed)
-        row.acceleration = row.acceleration - tilt_effect(row, calibration.axis_bias);
-    SurveyCorrection result = correct_survey(freed, options, day);
+    SurveyCorrection result =
+        correct_survey(without_known_tilt(rows, options.calibration), options, day);
     if (result.as<WholeDayPart>() != nullptr) return result;
 
     CalibrationUse use;

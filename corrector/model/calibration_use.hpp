@@ -75,6 +75,12 @@ void report_prior_use(Fit& result, const unit::Calibration& calibration,
                       const whole_day::DayFit& fit, const whole_day::DayFit& without,
                       const std::optional<double>& without_loso_mgal);
 
+/// Returns the rows with bx x + by y of the calibration subtracted from the readings; the rows as they
+/// are without a calibration or without its axis biases.
+/// @throws InputError  there are axis biases and a row has no means of the axes.
+[[nodiscard]] std::vector<reading::SurveyRow> without_known_tilt(
+    std::vector<reading::SurveyRow> rows, const std::optional<unit::Calibration>& calibration);
+
 /// Corrects a survey with the calibration of the options, if there is one.
 ///
 /// The whole-day model takes the calibration as prior.  For all other models bx x + by y is

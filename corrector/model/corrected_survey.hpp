@@ -44,6 +44,8 @@ struct SurveyOptions {
     std::string base;            ///< Station of the drift step; empty: that of the first row.
     /// Stations whose reference is held; empty: all that have one.
     std::vector<std::string> datum;
+    /// Instants after which all readings have an unknown offset, ascending; `paper` ignores them.
+    std::vector<UtcTime> steps;
     /// True: flagged rows are not in the fit.  Excluded rows never are.
     bool use_flags = true;
     NetworkOptions network;  ///< Options of `network`.
@@ -89,7 +91,7 @@ struct CorrectedRow {
     std::optional<MilliGal> difference;  ///< acceleration - reference - tide.
     MilliGal temperature_correction;
     MilliGal rate_correction;
-    MilliGal drift_correction;
+    MilliGal drift_correction;  ///< Steps included.
     /// Present in every row or in none: `day`, `t-rate-drift-axes`, or with a calibration.
     std::optional<MilliGal> tilt_correction;
     MilliGal corrected;                ///< acceleration - tide + all corrections.

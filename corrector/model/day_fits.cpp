@@ -13,26 +13,6 @@
 namespace a351::corrector::model {
 namespace {
 
-/// Returns the stations of a fit.  Held is the reference of rows in use, except those of
-/// `left_out`.
-std::vector<whole_day::DayStation> stations_of(const std::vector<reading::SurveyRow>& rows,
-                                               const RowChoice& choice,
-                                               const std::string& left_out) {
-    std::vector<whole_day::DayStation> stations;
-    std::map<std::string, std::size_t> numbers;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const reading::SurveyRow& row = rows[i];
-        const std::string name =
-            choice.accepted[i] ? "station " + row.site : fmt::format("row {}", i);
-        whole_day::DayStation station{row.tide, std::nullopt,
-                                      numbers.emplace(name, numbers.size()).first->second,
-                                      row.u_reference.value_or(MilliGal(0.0))};
-        if (choice.in_use[i] && row.site != left_out) station.gravity = row.reference;
-        stations.push_back(station);
-    }
-    return stations;
-}
-
 /// Returns the effective degrees of freedom of a station's uncertainty (Welch and Satterthwaite).
 std::optional<double> degrees_of_freedom(const whole_day::GravityEstimate& gravity,
                                          const whole_day::DayFit& fit) {
@@ -88,6 +68,27 @@ void enlarge(std::optional<MilliGal>& u, double factor) {
 
 }  // namespace
 
+std::vector<whole_day::DayStation> stations_of(const SurveyProblem& problem,
+                                               const RowChoice& choice,
+                                               const std::string& left_out) {
+    const std::vector<reading::SurveyRow>& rows = problem.rows;
+    std::vector<whole_day::DayStation> stations;
+    std::map<std::string, std::size_t> numbers;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const reading::SurveyRow& row = rows[i];
+        const std::string name =
+            choice.accepted[i] ? "station " + row.site : fmt::format("row {}", i);
+        whole_day::DayStation station{row.tide, std::nullopt,
+                                      numbers.emplace(name, numbers.size()).first->second,
+                                      row.u_reference.value_or(MilliGal(0.0))};
+        if (choice.in_use[i] && row.site != left_out) station.gravity = row.reference;
+        station.steps = static_cast<std::size_t>(std::ranges::count_if(
+            problem.options.steps, [&row](UtcTime step) { return row.time > step; }));
+        stations.push_back(station);
+    }
+    return stations;
+}
+
 const Fitted* DayFits::without(const std::string& site) const {
     const auto found = std::ranges::find(left_out, site);
     return found == left_out.end() ? nullptr : others.data() + (found - left_out.begin());
@@ -102,7 +103,7 @@ DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choi
     const std::vector<reading::SurveyRow>& rows = problem.rows;
     const reading::DayRecord& day = *problem.day;
     DayFits fits;
-    fits.all.stations = stations_of(rows, choice, "");
+    fits.all.stations = stations_of(problem, choice);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::string& site = rows[i].site;
         if (choice.in_use[i] && std::ranges::find(fits.left_out, site) == fits.left_out.end())
@@ -111,7 +112,7 @@ DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choi
     if (fits.left_out.size() < 2)
         fits.left_out.clear();  // without the only one, no station would be held
     for (const std::string& site : fits.left_out)
-        fits.others.push_back({stations_of(rows, choice, site), {}});
+        fits.others.push_back({stations_of(problem, choice, site), {}});
     fits.all.fit = whole_day::fit_day(day, fits.all.stations, nullptr, priors).value();
     reading::on_all_cores(fits.others.size(), [&](std::size_t k) {
         Fitted& other = fits.others[k];

@@ -40,10 +40,18 @@ struct DayFits {
     [[nodiscard]] const Fitted* with_unknown(std::size_t row, const std::string& site) const;
 };
 
+/// Returns the stations of a fit, one per row.  Held is the reference of rows in use, except those of
+/// the station `left_out`.
+///
+/// Every station has a number in the order of its first row, and so has every row that is not
+/// accepted.
+[[nodiscard]] std::vector<whole_day::DayStation> stations_of(const SurveyProblem& problem,
+                                                             const RowChoice& choice,
+                                                             const std::string& left_out = "");
+
 /// Fits a day whose rows day_refusal() accepts.
 ///
-/// Held are the references of the rows in use.  Every station has a number in the order of its first
-/// row, and so has every row that is not accepted; the numbers of all fits are the same.
+/// Held are the references of the rows in use.  The numbers of the stations are the same in all fits.
 [[nodiscard]] DayFits fit_with_and_without(const SurveyProblem& problem, const RowChoice& choice,
                                            const whole_day::DayPriors& priors);
 

@@ -141,7 +141,7 @@ FitResult fit(const LinearModel& terms, const SurveyProblem& problem, const RowC
     result.own = LinearPart{loo_interval(result, problem.options.seed)};
     result.stations = average_stations(result, choice.accepted, linear, result.score.s_mgal);
     set_left_out_stations(result, terms, problem, choice);
-    doubt_by_linear_fit(result.rows, terms, priors);
+    doubt_by_linear_fit(result.rows, terms, problem.origin(), priors);
     return result;
 }
 
@@ -151,7 +151,7 @@ std::vector<Model> linear_models() {
     std::vector<Model> list;
     const auto add = [&list](const LinearModel& terms, bool is_always_scored) {
         list.push_back({terms.name, is_always_scored, std::bind_front(fit, terms),
-                        std::bind_front(score, terms)});
+                        std::bind_front(score, terms), std::bind_front(linear_residuals, terms)});
     };
     for (const LinearModel& terms : kLinearModels) add(terms, true);
     for (const LinearModel& terms : kModelsOnRequest) add(terms, false);

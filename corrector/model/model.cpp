@@ -39,4 +39,14 @@ std::vector<CorrectedRow> uncorrected(const SurveyProblem& problem, const RowCho
     return rows;
 }
 
+RowChoice choose_rows(const std::vector<reading::SurveyRow>& rows,
+                      const std::vector<std::string>& datum, bool use_flags) {
+    RowChoice choice;
+    for (const reading::SurveyRow& row : rows) {
+        choice.accepted.push_back(!row.is_excluded && !(use_flags && row.is_flagged));
+        choice.in_use.push_back(choice.accepted.back() && row.is_datum(datum));
+    }
+    return choice;
+}
+
 }  // namespace a351::corrector::model

@@ -25,6 +25,7 @@
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/model/refusal.hpp"
 #include "corrector/reading/day_record.hpp"
+#include "corrector/residual/residuals.hpp"
 
 namespace a351::corrector::model {
 
@@ -36,11 +37,11 @@ struct SurveyProblem {
     const SurveyOptions& options;                 ///< `base` is filled in.
     const reading::DayRecord* day;  ///< Record of the rows; null: there are only averages.
 
-    /// Returns the instant at which t = 0.
+    /// Returns the instant at which t = 0, with the steps of the options.
     ///
     /// It is that of the first row, in use or not.  The same rows in use therefore have the same
     /// coefficients, whichever rows are flagged.
-    [[nodiscard]] UtcTime origin() const { return rows.front().time; }
+    [[nodiscard]] TimeOrigin origin() const { return {rows.front().time, options.steps}; }
 };
 
 /// The rows of one fit.
@@ -51,6 +52,18 @@ struct RowChoice {
     std::vector<bool> in_use;    ///< (n) True: accepted, with a reference of the datum.
 
     [[nodiscard]] bool operator==(const RowChoice&) const = default;
+};
+
+/// Returns the rows of a fit.
+/// @param datum      stations whose reference is held; empty: all.
+/// @param use_flags  true: flagged rows are not accepted.
+[[nodiscard]] RowChoice choose_rows(const std::vector<reading::SurveyRow>& rows,
+                                    const std::vector<std::string>& datum, bool use_flags);
+
+/// A survey and the rows of its fit.
+struct ChosenSurvey {
+    SurveyProblem problem;
+    const RowChoice& choice;
 };
 
 /// A fit, or the reason why the rows do not allow one.
@@ -74,6 +87,17 @@ struct Model {
     /// them.  The cost is up to one fit without each station and one without each row.
     /// @throws InputError  as fit().
     std::function<std::optional<Score>(const SurveyProblem&, const RowChoice&)> score;
+
+    /// Returns the residuals of all rows, at the noise of a quiet survey; rows outside the fit have
+    /// no effect on them.
+    ///
+    /// The quiet survey has the same rows, without those or with other unknowns, so that a mistake
+    /// does not enlarge the noise with which it is compared.
+    /// @return nullopt if the model does not fit one of both surveys; the function is empty for a
+    ///         model that is no least-squares fit.
+    std::function<std::optional<residual::Residuals>(const ChosenSurvey& survey,
+                                                     const ChosenSurvey& quiet)>
+        residuals = {};
 };
 
 /// Returns all models, in the order of model_names().

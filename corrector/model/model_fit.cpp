@@ -25,7 +25,7 @@ using ModelOf = std::function<const LinearModel*(const std::vector<reading::Surv
 /// Returns the error (mGal) of each row, predicted without the rows of its station.  `model_of`
 /// chooses the model for the remaining rows.
 std::optional<std::vector<double>> station_left_out_mgal(
-    const ModelOf& model_of, const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+    const ModelOf& model_of, const std::vector<reading::SurveyRow>& rows, const TimeOrigin& origin,
     const Priors& priors) {
     std::vector<double> errors(rows.size());
     for (const std::string& station : station_names(rows)) {
@@ -49,7 +49,7 @@ std::optional<std::vector<double>> station_left_out_mgal(
 /// Returns the rms of the errors of station_left_out_mgal().
 std::optional<double> left_out_stations_mgal(const ModelOf& model_of,
                                              const std::vector<reading::SurveyRow>& rows,
-                                             UtcTime origin, const Priors& priors) {
+                                             const TimeOrigin& origin, const Priors& priors) {
     const auto errors = station_left_out_mgal(model_of, rows, origin, priors);
     if (!errors) return std::nullopt;
     double sum = 0.0;
@@ -110,9 +110,10 @@ const LinearModel* find_linear_model(std::string_view name) {
 }
 
 Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
-                              UtcTime origin) {
-    Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()),
-                            static_cast<Eigen::Index>(model.parameter_count()) - 1);
+                              const TimeOrigin& origin) {
+    Eigen::MatrixXd columns(
+        static_cast<Eigen::Index>(rows.size()),
+        static_cast<Eigen::Index>(model.parameter_count()) - 1 + std::ssize(origin.steps));
     for (Eigen::Index i = 0; i < columns.rows(); ++i) {
         const reading::SurveyRow& row = rows[static_cast<std::size_t>(i)];
         Eigen::Index k = 0;
@@ -121,28 +122,30 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<readin
         if (model.has_rate) columns(i, k++) = row.rate_degc_per_h;
         if (model.has_time)
             columns(i, k++) =
-                seconds_between(origin, row.time) / kSecondsPerHour - kReferenceTime_h;
+                seconds_between(origin.time, row.time) / kSecondsPerHour - kReferenceTime_h;
         if (model.has_axes) {
             const reading::RecordSummary& axes =
                 row.axes_for(fmt::format("model = {}", model.name));
             columns(i, k++) = axes.x.mean.value();
-            columns(i, k) = axes.y.mean.value();
+            columns(i, k++) = axes.y.mean.value();
         }
+        for (const UtcTime step : origin.steps) columns(i, k++) = row.time > step ? 1.0 : 0.0;
     }
     return columns;
 }
 
-std::vector<std::string> coefficient_names(const LinearModel& model) {
+std::vector<std::string> coefficient_names(const LinearModel& model, std::size_t steps) {
     std::vector<std::string> names{"constant_mgal"};
     if (model.has_temperature) names.emplace_back("temperature_mgal_per_degc");
     if (model.has_rate) names.emplace_back("rate_mgal_per_degc_per_h");
     if (model.has_time) names.emplace_back("time_mgal_per_h");
     if (model.has_axes) names.insert(names.end(), {"x_mgal_per_g", "y_mgal_per_g"});
+    for (std::size_t k = 1; k <= steps; ++k) names.push_back(fmt::format("step_{}_mgal", k));
     return names;
 }
 
-SlopePriors slope_priors(const LinearModel& model, const Priors& priors) {
-    const std::vector<std::string> names = coefficient_names(model);
+SlopePriors slope_priors(const LinearModel& model, const Priors& priors, std::size_t steps) {
+    const std::vector<std::string> names = coefficient_names(model, steps);
     const auto slope_count = static_cast<Eigen::Index>(names.size()) - 1;
     SlopePriors slopes{Eigen::VectorXd::Zero(slope_count), Eigen::VectorXd::Zero(slope_count)};
     for (Eigen::Index k = 0; k < slope_count; ++k) {
@@ -155,19 +158,19 @@ SlopePriors slope_priors(const LinearModel& model, const Priors& priors) {
 }
 
 std::optional<LinearFit> fit_model(const LinearModel& model,
-                                   const std::vector<reading::SurveyRow>& rows, UtcTime origin,
-                                   const Priors& priors) {
+                                   const std::vector<reading::SurveyRow>& rows,
+                                   const TimeOrigin& origin, const Priors& priors) {
     if (rows.empty()) return std::nullopt;
     return fit_linear(model_columns(model, rows, origin), as_vector(differences_mgal(rows)),
-                      slope_priors(model, priors));
+                      slope_priors(model, priors, origin.steps.size()));
 }
 
 Score score_linear_model(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
-                         UtcTime origin, const Priors& priors) {
+                         const TimeOrigin& origin, const Priors& priors) {
     Score score;
     score.model = model.name;
     score.row_count = rows.size();
-    score.parameter_count = model.parameter_count();
+    score.parameter_count = model.parameter_count() + origin.steps.size();
     const auto fit = fit_model(model, rows, origin, priors);
     if (!fit) return score;
 
@@ -222,7 +225,8 @@ Score score_paper_model(const std::vector<reading::SurveyRow>& rows,
 
 std::optional<std::vector<double>> left_out_errors_mgal(const LinearModel& model,
                                                         const std::vector<reading::SurveyRow>& rows,
-                                                        UtcTime origin, const Priors& priors) {
+                                                        const TimeOrigin& origin,
+                                                        const Priors& priors) {
     return station_left_out_mgal([&model](const auto&) { return &model; }, rows, origin, priors);
 }
 
@@ -272,8 +276,9 @@ std::optional<Interval> bootstrap_mean_interval(const std::vector<double>& value
     return Interval{means[kTail], means[means.size() - 1 - kTail]};
 }
 
-std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows, UtcTime origin,
-                                   std::string_view base, const Priors& priors) {
+std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows,
+                                   const TimeOrigin& origin, std::string_view base,
+                                   const Priors& priors) {
     std::vector<Score> scores;
     for (const LinearModel& model : kLinearModels) {
         if (!takes_part(model, rows, base)) continue;
@@ -295,8 +300,9 @@ std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows, 
     return Choice{chosen->model, limit};
 }
 
-std::optional<double> choice_loso_mgal(const std::vector<reading::SurveyRow>& rows, UtcTime origin,
-                                       std::string_view base, const Priors& priors) {
+std::optional<double> choice_loso_mgal(const std::vector<reading::SurveyRow>& rows,
+                                       const TimeOrigin& origin, std::string_view base,
+                                       const Priors& priors) {
     const ModelOf chosen =
         [&](const std::vector<reading::SurveyRow>& others) -> const LinearModel* {
         const auto choice = choose_model(others, origin, base, priors);

@@ -42,6 +42,18 @@ inline constexpr DegC kReferenceTemperature{42.6};
 /// t0, h after the origin, which is the first row of a survey.  Reason: middle of a survey day.
 inline constexpr double kReferenceTime_h = 5.0;
 
+/// Where the times of a survey count from, and where its readings step.
+///
+/// A step is an unknown offset of all readings after an instant, for example after a knock.
+struct TimeOrigin {
+    UtcTime time;                ///< Instant at which t = 0.
+    std::vector<UtcTime> steps;  ///< Ascending.
+
+    /// A survey without steps.
+    TimeOrigin(UtcTime at) : time(at) {}  // NOLINT(google-explicit-constructor)
+    TimeOrigin(UtcTime at, std::vector<UtcTime> steps_at) : time(at), steps(std::move(steps_at)) {}
+};
+
 /// A linear model: its name and its terms besides the constant.
 struct LinearModel {
     std::string_view name;         ///< Name in options and tables.
@@ -92,7 +104,8 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 [[nodiscard]] const LinearModel* find_linear_model(std::string_view name);
 
 /// Returns the regressors of a model (n, p - 1): those of T - T0 (degC), R (degC/h), t - t0 (h), x
-/// (g) and y (g) that it has, in this order; one row per survey row.
+/// (g) and y (g) that it has, in this order; then for each step 1 after it and 0 before.  One row per
+/// survey row.
 ///
 /// The columns are those of fit_linear().  A coefficient times its column is an effect in mGal,
 /// which is subtracted from the reading.
@@ -101,16 +114,20 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 /// @throws InputError  if the model has axes and a row has no means of them.
 [[nodiscard]] Eigen::MatrixXd model_columns(const LinearModel& model,
                                             const std::vector<reading::SurveyRow>& rows,
-                                            UtcTime origin);
+                                            const TimeOrigin& origin);
 
 /// Returns the names of the coefficients with their units (p): the constant, then one per column.
 ///
 /// They are the names of result.json, and those of kPriorNames where a prior is possible.
-[[nodiscard]] std::vector<std::string> coefficient_names(const LinearModel& model);
+/// @param steps  number of steps; their names are step_1_mgal and so on.
+[[nodiscard]] std::vector<std::string> coefficient_names(const LinearModel& model,
+                                                         std::size_t steps = 0);
 
 /// Returns the priors on the slopes of a model, in the order of its columns (p - 1).  A weight is
-/// reading_sd / sd; 0 for a slope without prior.  Priors of terms that the model lacks are ignored.
-[[nodiscard]] SlopePriors slope_priors(const LinearModel& model, const Priors& priors);
+/// reading_sd / sd; 0 for a slope without prior, and for steps.  Priors of terms that the model lacks
+/// are ignored.
+[[nodiscard]] SlopePriors slope_priors(const LinearModel& model, const Priors& priors,
+                                       std::size_t steps = 0);
 
 /// Fits a model to D (mGal) by fit_linear().
 ///
@@ -123,7 +140,8 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 /// @throws InputError  as model_columns().
 [[nodiscard]] std::optional<LinearFit> fit_model(const LinearModel& model,
                                                  const std::vector<reading::SurveyRow>& rows,
-                                                 UtcTime origin, const Priors& priors = {});
+                                                 const TimeOrigin& origin,
+                                                 const Priors& priors = {});
 
 /// Root mean square errors of a model, mGal.  A score is absent if it is not defined for so few
 /// rows, or for this model.
@@ -133,7 +151,7 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 struct Score {
     std::string model;                ///< Name of the model.
     std::size_t row_count = 0;        ///< Number of rows n.
-    std::size_t parameter_count = 0;  ///< Number of coefficients p.
+    std::size_t parameter_count = 0;  ///< Number of coefficients p, steps included.
     /// Degrees of freedom of the residuals: n + rows of priors and datum - p.  `paper`, `robust`
     /// and `day` have n - p, at least 0.
     std::size_t dof = 0;
@@ -164,8 +182,8 @@ struct Score {
 /// @return only row_count and parameter_count are set if the fit is not determined.
 /// @throws InputError  as model_columns().
 [[nodiscard]] Score score_linear_model(const LinearModel& model,
-                                       const std::vector<reading::SurveyRow>& rows, UtcTime origin,
-                                       const Priors& priors = {});
+                                       const std::vector<reading::SurveyRow>& rows,
+                                       const TimeOrigin& origin, const Priors& priors = {});
 
 /// Returns the scores of the publication's correction (paper_correction.hpp).
 ///
@@ -229,7 +247,7 @@ inline constexpr int kBootstrapDraws = 1000;
 /// @param rows, origin, priors  as score_linear_model().
 /// @return (n); std::nullopt if one of the fits is not determined.
 [[nodiscard]] std::optional<std::vector<double>> left_out_errors_mgal(
-    const LinearModel& model, const std::vector<reading::SurveyRow>& rows, UtcTime origin,
+    const LinearModel& model, const std::vector<reading::SurveyRow>& rows, const TimeOrigin& origin,
     const Priors& priors = {});
 
 /// The model that was chosen, and the limit that it had to meet.
@@ -256,7 +274,7 @@ inline constexpr std::size_t kFewestChoiceDof = 5;
 /// @param priors  priors on the slopes.
 /// @return std::nullopt if no model has a LOSO and kFewestChoiceDof more rows than coefficients.
 [[nodiscard]] std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows,
-                                                 UtcTime origin, std::string_view base,
+                                                 const TimeOrigin& origin, std::string_view base,
                                                  const Priors& priors = {});
 
 /// Returns the LOSO (mGal) of choosing and fitting together: the choice is repeated without each
@@ -266,7 +284,8 @@ inline constexpr std::size_t kFewestChoiceDof = 5;
 /// station.
 /// @param rows, origin, base, priors  as choose_model().
 [[nodiscard]] std::optional<double> choice_loso_mgal(const std::vector<reading::SurveyRow>& rows,
-                                                     UtcTime origin, std::string_view base,
+                                                     const TimeOrigin& origin,
+                                                     std::string_view base,
                                                      const Priors& priors = {});
 
 }  // namespace a351::corrector::model

@@ -237,7 +237,7 @@ NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,
                  "a datum in every group, or its rows taken out of use"}};
     NetworkAdjustment network;
     network.stations = readings.stations;
-    set_terms(network, rows, in_use, priors, options.drift_degree);
+    set_terms(network, rows, in_use, priors, options);
     const NetworkSystem system = build_system(network, rows, in_use, readings, priors, options);
     const std::vector<std::size_t> open = undetermined_unknowns(system.a);
     if (!open.empty()) return {{}, refusal_of(network, readings, open)};

@@ -59,6 +59,8 @@ struct NetworkOptions {
     /// networks, and a hundredth of what this sensor can achieve.  It must be above 0; this is not checked.
     double datum_sd_mgal = 0.01;
     int drift_degree = 1;  ///< Degree of the drift, 0 to 2; column k is (t - t0)^k, t in h.
+    /// Instants after which the readings of the same loop have an unknown offset, ascending.
+    std::vector<UtcTime> steps;
 };
 
 /// A row of the system: a reading, a datum or a prior.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "corrector/model/model.hpp"
+#include "corrector/model/network_system.hpp"
 #include "corrector/model/row_doubts.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -54,6 +55,7 @@ void set_rows(Fit& result, const NetworkAdjustment& network, const std::vector<b
             const std::string& name = network.terms[k];
             (name.starts_with("constant")      ? constant
              : name.starts_with("time")        ? drift
+             : name.starts_with("step")        ? drift
              : name.starts_with("temperature") ? temperature
                                                : rate) += effect;
         }
@@ -198,7 +200,9 @@ void set_station_errors(Fit& result, const NetworkAdjustment& network) {
 
 NetworkResult adjust(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use,
                      const SurveyOptions& options) {
-    return adjust_network(rows, in_use, options.datum, options.priors, options.network);
+    NetworkOptions network = options.network;
+    network.steps = options.steps;
+    return adjust_network(rows, in_use, options.datum, options.priors, network);
 }
 
 FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
@@ -246,8 +250,35 @@ Score score_network(const SurveyProblem& problem, const RowChoice& choice) {
     return none;
 }
 
+std::optional<residual::Residuals> network_residuals(const ChosenSurvey& survey,
+                                                     const ChosenSurvey& quiet) {
+    const auto adjusted = [](const ChosenSurvey& of) {
+        return adjust(of.problem.rows, of.choice.accepted, of.problem.options).adjustment;
+    };
+    auto network = adjusted(survey);
+    const auto without = adjusted(quiet);
+    if (!network || !without || !without->s0() || !(*without->s0() > 0.0)) return std::nullopt;
+    const SurveyOptions& options = survey.problem.options;
+    const std::vector<reading::SurveyRow>& rows = survey.problem.rows;
+    network->reading_count = network->datum_count = 0;
+    network->rows.clear();
+    const NetworkSystem system =
+        build_system(*network, rows, survey.choice.accepted,
+                     find_stations(rows, survey.choice.accepted, options.datum), options.priors,
+                     options.network);
+    std::vector<std::size_t> readings;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (survey.choice.accepted[i]) readings.push_back(i);
+    readings.resize(network->rows.size(), rows.size());
+    Eigen::VectorXd weights(system.y.size());
+    for (Eigen::Index i = 0; i < weights.size(); ++i)
+        weights(i) = 1.0 / (*without->s0() * network->rows[static_cast<std::size_t>(i)].sd);
+    return residual::residuals_of(weights.asDiagonal() * system.a, weights.asDiagonal() * system.y,
+                                  readings, weights, rows.size());
+}
+
 }  // namespace
 
-Model network_model() { return {kNetwork, false, fit_network, score_network}; }
+Model network_model() { return {kNetwork, false, fit_network, score_network, network_residuals}; }
 
 }  // namespace a351::corrector::model

@@ -42,6 +42,26 @@ bool temperature_varies(const std::vector<reading::SurveyRow>& rows,
     return false;
 }
 
+/// Returns the column of a step: 1 for the rows of its loop after it.  It is 0 if the loop has no
+/// reading in use before or after it.
+Eigen::VectorXd step_column(const std::vector<reading::SurveyRow>& rows,
+                            const std::vector<bool>& in_use, const Loops& loops, UtcTime step) {
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(std::ssize(rows));
+    const auto after = static_cast<std::size_t>(
+        std::ranges::find_if(rows, [&](const auto& row) { return row.time > step; }) -
+        rows.begin());
+    if (after == 0 || after == rows.size() || loops.of[after] != loops.of[after - 1]) return column;
+    const auto loop = loops.of[after];
+    bool is_seen_before = false, is_seen_after = false;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (loops.of[i] != loop) continue;
+        if (i >= after) column(static_cast<Eigen::Index>(i)) = 1.0;
+        if (in_use[i]) (i < after ? is_seen_before : is_seen_after) = true;
+    }
+    if (!is_seen_before || !is_seen_after) column.setZero();
+    return column;
+}
+
 /// Appends a row to the system and returns its line of `a`, filled with 0.
 Eigen::MatrixXd::RowXpr add_row(NetworkSystem& system, NetworkAdjustment& network,
                                 std::string label, double sd, double value) {
@@ -57,7 +77,9 @@ Eigen::MatrixXd::RowXpr add_row(NetworkSystem& system, NetworkAdjustment& networ
 }  // namespace
 
 void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows,
-               const std::vector<bool>& in_use, const Priors& priors, int drift_degree) {
+               const std::vector<bool>& in_use, const Priors& priors,
+               const NetworkOptions& options) {
+    const int drift_degree = options.drift_degree;
     const Loops loops = find_loops(rows, in_use);
     for (std::size_t loop = 0; loop < loops.count; ++loop) {
         // From the second loop on, the names have the number of the loop.
@@ -76,6 +98,13 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
             "the temperature does not vary between the readings: its coefficient cannot be "
             "separated from the constant and is left out");
     if (has_rate) network.terms.emplace_back("rate_mgal_per_degc_per_h");
+    std::vector<Eigen::VectorXd> steps;
+    for (std::size_t k = 0; k < options.steps.size(); ++k) {
+        Eigen::VectorXd column = step_column(rows, in_use, loops, options.steps[k]);
+        if (column.isZero()) continue;
+        network.terms.push_back(fmt::format("step_{}_mgal", k + 1));
+        steps.push_back(std::move(column));
+    }
 
     const auto degree = static_cast<Eigen::Index>(drift_degree);
     network.term_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
@@ -96,6 +125,9 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
         if (has_temperature) line(k++) = (rows[i].temperature - kReferenceTemperature).value();
         if (has_rate) line(k) = rows[i].rate_degc_per_h;
     }
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        network.term_columns.col(network.term_columns.cols() - std::ssize(steps) +
+                                 static_cast<Eigen::Index>(k)) = steps[k];
 }
 
 NetworkReadings find_stations(const std::vector<reading::SurveyRow>& rows,
@@ -111,9 +143,8 @@ NetworkReadings find_stations(const std::vector<reading::SurveyRow>& rows,
         station_of.push_back(static_cast<std::size_t>(at - stations.begin()));
         loop_of.push_back(loops.of[i].value());
         if (at != stations.end()) continue;
-        const bool is_listed = datum.empty() || std::ranges::find(datum, site) != datum.end();
         stations.push_back(site);
-        is_held.push_back(rows[i].reference && is_listed);
+        is_held.push_back(rows[i].is_datum(datum));
         references.push_back(rows[i].reference.value_or(MilliGal(0.0)));
         u_references.push_back(rows[i].u_reference);
     }

@@ -7,7 +7,7 @@
 ///     const NetworkReadings readings = find_stations(rows, in_use, datum);
 ///     NetworkAdjustment network;
 ///     network.stations = readings.stations;
-///     set_terms(network, rows, in_use, priors, drift_degree);
+///     set_terms(network, rows, in_use, priors, options);
 ///     const NetworkSystem system = build_system(network, rows, in_use, readings, priors, options);
 ///
 /// Unknowns are the stations in the order of `stations`, then the terms.  All functions must get
@@ -49,11 +49,12 @@ struct NetworkReadings {
 /// has no prior is left out, with a remark.  The rate takes part only with a prior.
 ///
 /// The terms are, for each loop: constant, time, time^2, up to the degree; then temperature and
-/// rate, which all loops have in common.  Rows of a loop without a reading in use have zeros.
-/// @param rows, in_use, priors  as adjust_network().
-/// @param drift_degree          0 to 2.
+/// rate, which all loops have in common; then each step that has readings in use of one loop before
+/// and after it.  Rows of a loop without a reading in use have zeros.
+/// @param rows, in_use, priors, options  as adjust_network().
 void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows,
-               const std::vector<bool>& in_use, const Priors& priors, int drift_degree);
+               const std::vector<bool>& in_use, const Priors& priors,
+               const NetworkOptions& options);
 
 /// The unweighted system A x = y.  Labels and standard deviations of its rows:
 /// NetworkAdjustment::rows.  A row is weighted by 1 / sd^2.

@@ -191,8 +191,9 @@ double covariance_scale(const RobustFit& robust) {
 /// keeps for it.
 template <class IsOther>
 std::optional<double> left_out_mgal(const LinearModel& model,
-                                    const std::vector<reading::SurveyRow>& rows, UtcTime origin,
-                                    const Priors& priors, const IsOther& is_other) {
+                                    const std::vector<reading::SurveyRow>& rows,
+                                    const TimeOrigin& origin, const Priors& priors,
+                                    const IsOther& is_other) {
     const Eigen::MatrixXd columns = model_columns(model, rows, origin);
     const std::vector<double> differences = differences_mgal(rows);
     std::vector<std::optional<double>> errors(rows.size());
@@ -259,20 +260,21 @@ std::optional<RobustFit> fit_robust(const Eigen::Ref<const Eigen::MatrixXd>& col
 
 std::optional<RobustFit> fit_robust_model(const LinearModel& model,
                                           const std::vector<reading::SurveyRow>& rows,
-                                          UtcTime origin, const Priors& priors) {
+                                          const TimeOrigin& origin, const Priors& priors) {
     if (rows.empty()) return std::nullopt;
     const std::vector<double> differences = differences_mgal(rows);
     const Eigen::Map<const Eigen::VectorXd> y(differences.data(),
                                               static_cast<Eigen::Index>(differences.size()));
-    return fit_robust(model_columns(model, rows, origin), y, slope_priors(model, priors));
+    return fit_robust(model_columns(model, rows, origin), y,
+                      slope_priors(model, priors, origin.steps.size()));
 }
 
 Score score_robust_model(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
-                         UtcTime origin, const Priors& priors) {
+                         const TimeOrigin& origin, const Priors& priors) {
     Score score;
     score.model = "robust";
     score.row_count = rows.size();
-    score.parameter_count = model.parameter_count();
+    score.parameter_count = model.parameter_count() + origin.steps.size();
     const auto robust = fit_robust_model(model, rows, origin, priors);
     if (!robust) return score;
     score.dof = score.row_count - score.parameter_count;

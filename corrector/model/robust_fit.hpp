@@ -73,7 +73,8 @@ struct RobustFit {
 /// @throws InputError  as model_columns().
 [[nodiscard]] std::optional<RobustFit> fit_robust_model(const LinearModel& model,
                                                         const std::vector<reading::SurveyRow>& rows,
-                                                        UtcTime origin, const Priors& priors);
+                                                        const TimeOrigin& origin,
+                                                        const Priors& priors);
 
 /// Returns the scores of the robust fit, under the name `robust`.  LOO and LOSO repeat the whole
 /// fit without each row or station; they are absent if one of these fits is not determined.  There
@@ -84,7 +85,7 @@ struct RobustFit {
 /// Cost: n fits and one for each station.
 /// @param model, rows, origin, priors  as fit_robust_model().
 [[nodiscard]] Score score_robust_model(const LinearModel& model,
-                                       const std::vector<reading::SurveyRow>& rows, UtcTime origin,
-                                       const Priors& priors);
+                                       const std::vector<reading::SurveyRow>& rows,
+                                       const TimeOrigin& origin, const Priors& priors);
 
 }  // namespace a351::corrector::model

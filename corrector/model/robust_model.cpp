@@ -50,12 +50,17 @@ FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice)
         if (row.is_used) row.own = RobustRow{robust->weights(at++)};
     }
     result.stations = average_stations(result, choice.accepted, fit, result.score.s_mgal);
-    doubt_by_linear_fit(result.rows, terms, priors);
+    doubt_by_linear_fit(result.rows, terms, problem.origin(), priors);
     return result;
+}
+
+std::optional<residual::Residuals> robust_residuals(const ChosenSurvey& survey,
+                                                    const ChosenSurvey& quiet) {
+    return linear_residuals(terms_of(survey.problem), survey, quiet);
 }
 
 }  // namespace
 
-Model robust_model() { return {"robust", false, fit_robust_rows, score_robust}; }
+Model robust_model() { return {"robust", false, fit_robust_rows, score_robust, robust_residuals}; }
 
 }  // namespace a351::corrector::model

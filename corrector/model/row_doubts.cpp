@@ -13,8 +13,8 @@ namespace {
 
 std::optional<StudentisedRows> refit_linear(const LinearModel& model,
                                             const std::vector<reading::SurveyRow>& rows,
-                                            const Priors& priors, const std::vector<bool>& in_use) {
-    const UtcTime origin = rows.front().time;
+                                            const TimeOrigin& origin, const Priors& priors,
+                                            const std::vector<bool>& in_use) {
     const auto fit = fit_model(model, chosen_rows(rows, in_use), origin, priors);
     if (!fit) return std::nullopt;
     StudentisedRows result;
@@ -71,10 +71,10 @@ void doubt_in_turn(std::vector<CorrectedRow>& rows, const Refit& refit) {
 }
 
 void doubt_by_linear_fit(std::vector<CorrectedRow>& rows, const LinearModel& model,
-                         const Priors& priors) {
+                         const TimeOrigin& origin, const Priors& priors) {
     doubt_in_turn(rows,
                   [&](const std::vector<reading::SurveyRow>& all, const std::vector<bool>& in_use) {
-                      return refit_linear(model, all, priors, in_use);
+                      return refit_linear(model, all, origin, priors, in_use);
                   });
 }
 

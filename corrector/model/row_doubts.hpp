@@ -48,11 +48,11 @@ void doubt_in_turn(std::vector<CorrectedRow>& rows, const Refit& refit);
 /// Calls doubt_in_turn() with the least-squares fit of a linear model.
 ///
 /// Rows without a reference are not tested.
-/// @param rows    (n), at least one, all rows of the survey: times count from the first.
+/// @param rows    (n), at least one, all rows of the survey.
 /// @param model   model of the fit.
-/// @param priors  priors on its slopes, as in the fit.
+/// @param origin, priors  as in the fit.
 void doubt_by_linear_fit(std::vector<CorrectedRow>& rows, const LinearModel& model,
-                         const Priors& priors);
+                         const TimeOrigin& origin, const Priors& priors);
 
 /// Sets doubt_statistical where the studentised residual of the prediction without the row's
 /// station is above studentised_limit() with the degrees of freedom of the station.  Here one bad row

@@ -25,18 +25,6 @@ void require_row_of(const std::vector<reading::SurveyRow>& rows, const std::stri
                                      text::joined(known)));
 }
 
-RowChoice choose_rows(const std::vector<reading::SurveyRow>& rows,
-                      const std::vector<std::string>& datum, bool use_flags) {
-    RowChoice choice;
-    for (const reading::SurveyRow& row : rows) {
-        const bool is_datum =
-            row.reference && (datum.empty() || std::ranges::find(datum, row.site) != datum.end());
-        choice.accepted.push_back(!row.is_excluded && !(use_flags && row.is_flagged));
-        choice.in_use.push_back(choice.accepted.back() && is_datum);
-    }
-    return choice;
-}
-
 /// A model, its fit, and how it was chosen.
 struct Chosen {
     const Model* model = nullptr;

@@ -10,6 +10,7 @@
 #include "corrector/model/row_doubts.hpp"
 #include "corrector/whole_day/day_model.hpp"
 #include "corrector/whole_day/goodness_of_fit.hpp"
+#include "corrector/whole_day/set_up_residuals.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::model {
@@ -46,6 +47,9 @@ std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit) {
     for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
         list.push_back({std::string(whole_day::kDayTermNames.at(k)), fit.coefficients.at(k).value,
                         fit.coefficients.at(k).standard_error});
+    for (std::size_t k = 0; k < fit.steps_mgal.size(); ++k)
+        list.push_back({fmt::format("step_{}_mgal", k + 1), fit.steps_mgal[k].value,
+                        fit.steps_mgal[k].standard_error});
     list.push_back({"fast_lag_s", fit.fast_lag_s, fit.fast_lag_s * fit.lag_log_errors[0]});
     list.push_back({"slow_lag_s", fit.slow_lag_s, fit.slow_lag_s * fit.lag_log_errors[1]});
     const auto add_noise = [&](std::size_t place, std::string name, double mgal) {
@@ -257,6 +261,18 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     return result;
 }
 
+std::optional<residual::Residuals> residuals_of_day(const ChosenSurvey& survey,
+                                                    const ChosenSurvey& quiet) {
+    if (refusal_of(survey.problem, survey.choice) || refusal_of(quiet.problem, quiet.choice))
+        return std::nullopt;
+    const reading::DayRecord& day = *survey.problem.day;
+    const whole_day::DayPriors priors = day_priors_of(survey.problem.options.calibration);
+    const auto fit =
+        whole_day::fit_day(day, stations_of(quiet.problem, quiet.choice), nullptr, priors);
+    return whole_day::set_up_residuals(day, stations_of(survey.problem, survey.choice), *fit,
+                                       priors);
+}
+
 }  // namespace
 
 std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& rows,
@@ -277,6 +293,6 @@ std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& ro
     return std::nullopt;
 }
 
-Model whole_day_model() { return {kWholeDay, false, fit_whole_day, score_day}; }
+Model whole_day_model() { return {kWholeDay, false, fit_whole_day, score_day, residuals_of_day}; }
 
 }  // namespace a351::corrector::model

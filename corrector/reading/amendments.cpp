@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -37,7 +38,7 @@ std::string list_of(const Windows& windows, std::string (*name)(const Occupation
 /// Carries out single amendments on the list of occupations.
 class Amender {
 public:
-    Amender(Windows& windows, const std::vector<text::Site>& sites)
+    Amender(Windows& windows, std::vector<text::Site>& sites)
         : before_(windows), windows_(windows), sites_(sites), changed_(windows.size()) {}
 
     Amendment mark(text::TomlTable& table, const std::string& kind) {
@@ -76,14 +77,10 @@ public:
     Amendment rename(text::TomlTable& table) {
         Amendment amendment = read(table, "rename");
         const std::string to = required_string(table, "to", "the name of the site");
-        if (text::find_site(sites_, to) == nullptr) {
-            std::vector<std::string> names;
-            for (const text::Site& site : sites_) names.push_back(site.name);
-            table.refuse("to", "no such site", text::joined(names));
-        }
+        require_site(table, "to", to);
         if (to == amendment.site) table.refuse("to", "already its name", "another site");
         const auto matches = matching(table, amendment, "name");
-        const int number = free_number(to, amendment.occupation);
+        const int number = free_number(to, *amendment.occupation);
         for (const std::size_t i : matches) {
             windows_[i].site = to;
             windows_[i].number = number;
@@ -93,20 +90,97 @@ public:
         return amendment;
     }
 
+    Amendment set_up(text::TomlTable& table) {
+        Amendment amendment = read(table, "set_up");
+        const UtcTime time = required_instant(table);
+        std::string allowed;
+        for (const std::size_t i : matching(table, amendment, "")) {
+            const OccupationWindow& window = windows_[i];
+            allowed += fmt::format("{}{} to {}", allowed.empty() ? "between " : " or ",
+                                   to_rfc3339(window.start), to_rfc3339(window.end));
+            if (time <= window.start || time >= window.end) continue;
+            divisions_.emplace_back(i, time);
+            amendment.change = "at " + to_rfc3339(time);
+        }
+        if (amendment.change.empty()) table.refuse("time_utc", "not within the stay", allowed);
+        return amendment;
+    }
+
+    /// Divides the windows of set_up().  Call it last: the numbers of the windows change.
+    void divide() {
+        std::ranges::sort(divisions_, std::greater());
+        for (const auto& [i, time] : divisions_) {
+            windows_[i].notes.emplace_back("divided");
+            OccupationWindow after = windows_[i];
+            after.start = time;
+            windows_[i].end = time;
+            windows_.insert(windows_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                            std::move(after));
+        }
+    }
+
+    Amendment reference(text::TomlTable& table, std::vector<std::string>& refused) {
+        Amendment amendment{.kind = "reference"};
+        amendment.site = required_string(table, "site", "the name of a site");
+        require_site(table, "site", amendment.site);
+        amendment.reason = required_string(table, "reason", kReason);
+        const bool is_used = table.boolean_or("use", true);
+        const auto gravity =
+            table.number("gravity_mgal", text::kLeastGravity_mgal, text::kGreatestGravity_mgal);
+        if (is_used != gravity.has_value())
+            table.refuse(gravity ? "use" : "gravity_mgal", gravity ? "contradiction" : "missing",
+                         "either gravity_mgal or use = false");
+        if (!references_.insert(amendment.site).second)
+            table.refuse("site", "contradicts another amendment of its reference", "one");
+        table.require_all_read();
+        if (gravity) {
+            const auto site = std::ranges::find(sites_, amendment.site, &text::Site::name);
+            site->gravity = MilliGal(*gravity);
+            amendment.change = fmt::format("to {} mGal", text::fixed(*gravity, 3));
+        } else {
+            refused.push_back(amendment.site);
+            amendment.change = "not used";
+        }
+        return amendment;
+    }
+
+    static Amendment step(text::TomlTable& table, std::vector<UtcTime>& steps) {
+        Amendment amendment{.kind = "step"};
+        steps.push_back(required_instant(table));
+        amendment.change = "at " + to_rfc3339(steps.back());
+        amendment.reason = required_string(table, "reason", kReason);
+        table.require_all_read();
+        return amendment;
+    }
+
 private:
+    static constexpr const char* kReason = "the reason, in words";
+
+    static UtcTime required_instant(text::TomlTable& table) {
+        const auto time = table.instant("time_utc");
+        if (!time) table.refuse("time_utc", "missing", "an instant");
+        return *time;
+    }
+
+    void require_site(text::TomlTable& table, std::string_view key, const std::string& name) const {
+        if (text::find_site(sites_, name) != nullptr) return;
+        std::vector<std::string> names;
+        for (const text::Site& site : sites_) names.push_back(site.name);
+        table.refuse(key, "no such site", text::joined(names));
+    }
+
     static Amendment read(text::TomlTable& table, const std::string& kind) {
-        Amendment amendment;
-        amendment.kind = kind;
+        Amendment amendment{.kind = kind};
         amendment.site = required_string(table, "site", "the site of an occupation");
         amendment.occupation = required_count(table, "occupation");
-        if (kind != "rename" && table.has("set_up"))
+        if (kind != "rename" && kind != "set_up" && table.has("set_up"))
             amendment.set_up = required_count(table, "set_up");
-        amendment.reason = required_string(table, "reason", "the reason, in words");
+        amendment.reason = required_string(table, "reason", kReason);
         return amendment;
     }
 
     /// Returns the indices of the windows that an amendment names.
-    /// @param what  the property to change; a second change of it is a contradiction.
+    /// @param what  the property to change; a second change of it is a contradiction, unless empty.
     std::vector<std::size_t> matching(text::TomlTable& table, const Amendment& amendment,
                                       const std::string& what) {
         table.require_all_read();
@@ -136,7 +210,7 @@ private:
             stay = {stay[at]};
         }
         for (const std::size_t i : stay) {
-            if (changed_[i].insert(what).second) continue;
+            if (what.empty() || changed_[i].insert(what).second) continue;
             table.refuse("occupation", "contradicts another amendment of its " + what, "one");
         }
         return stay;
@@ -157,25 +231,35 @@ private:
 
     const Windows before_;
     Windows& windows_;
-    const std::vector<text::Site>& sites_;
+    std::vector<text::Site>& sites_;
     std::vector<std::set<std::string>> changed_;  ///< Changed properties of each window.
+    std::set<std::string> references_;            ///< Sites whose reference is amended.
+    std::vector<std::pair<std::size_t, UtcTime>> divisions_;  ///< Window and instant.
 };
 
 }  // namespace
 
-std::vector<Amendment> amend(Windows& windows, const std::filesystem::path& file,
-                             const std::vector<text::Site>& sites) {
+Amendments amend(Windows& windows, const std::filesystem::path& file,
+                 std::vector<text::Site>& sites) {
     text::TomlTable document = text::read_toml(file);
     Amender amender(windows, sites);
-    std::vector<Amendment> amendments;
+    Amendments amendments;
     for (const std::string kind : {"exclude", "include"}) {
         for (text::TomlTable& table : document.tables(kind))
-            amendments.push_back(amender.mark(table, kind));
+            amendments.list.push_back(amender.mark(table, kind));
     }
     for (text::TomlTable& table : document.tables("retime"))
-        amendments.push_back(amender.retime(table));
+        amendments.list.push_back(amender.retime(table));
     for (text::TomlTable& table : document.tables("rename"))
-        amendments.push_back(amender.rename(table));
+        amendments.list.push_back(amender.rename(table));
+    for (text::TomlTable& table : document.tables("set_up"))
+        amendments.list.push_back(amender.set_up(table));
+    for (text::TomlTable& table : document.tables("step"))
+        amendments.list.push_back(amender.step(table, amendments.steps));
+    for (text::TomlTable& table : document.tables("reference"))
+        amendments.list.push_back(amender.reference(table, amendments.refused_references));
+    amender.divide();
+    std::ranges::sort(amendments.steps);
     document.require_all_read();
     return amendments;
 }
@@ -183,8 +267,9 @@ std::vector<Amendment> amend(Windows& windows, const std::filesystem::path& file
 std::string amendments_text(const std::vector<Amendment>& amendments) {
     std::string text;
     for (const Amendment& amendment : amendments) {
-        text += fmt::format("amended: {} {} ({})", amendment.kind, amendment.site,
-                            amendment.occupation);
+        text += "amended: " + amendment.kind;
+        if (!amendment.site.empty()) text += ' ' + amendment.site;
+        if (amendment.occupation) text += fmt::format(" ({})", *amendment.occupation);
         if (amendment.set_up) text += fmt::format(", set-up {}", *amendment.set_up);
         if (!amendment.change.empty()) text += ' ' + amendment.change;
         text += ": " + amendment.reason + '\n';
@@ -197,8 +282,10 @@ nlohmann::ordered_json amendments_json(const std::vector<Amendment>& amendments)
     for (const Amendment& amendment : amendments) {
         nlohmann::ordered_json& json = list.emplace_back();
         json["kind"] = amendment.kind;
-        json["site"] = amendment.site;
-        json["occupation"] = amendment.occupation;
+        json["site"] = nullptr;
+        if (!amendment.site.empty()) json["site"] = amendment.site;
+        json["occupation"] = nullptr;
+        if (amendment.occupation) json["occupation"] = *amendment.occupation;
         json["set_up"] = nullptr;
         if (amendment.set_up) json["set_up"] = *amendment.set_up;
         json["change"] = amendment.change;

@@ -1,26 +1,52 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "corrector/reading/survey_row.hpp"
 #include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector::reading {
 
 /// A mistake or a fault that was found in a day.
+///
+/// - moved_box: the box was moved while a stay ran.
+/// - other_name: the reading is that of other_site.
+/// - reference: the reference is off by size_mgal, positive if it is too high.
+/// - step: from `time` on all readings are off by size_mgal, positive if they are too high.
+/// - bad_reading: the reading is off by size_mgal, positive if it is too high; or it has no size.
+/// - misfit: the model does not fit.
+/// - unusable_day: the day is not usable as it stands.
+/// - not_visited: benchmarks of the list have no reading.
 struct Finding {
-    std::string kind;    ///< moved_box, bad_reading.
-    std::string site;    ///< Site of the stay.
-    int occupation = 1;  ///< Number of the stay at this site.
-    std::string key;     ///< Key of the stay in the event log; may be empty.
-    UtcTime time;        ///< When it happened.
-    std::string text;    ///< One sentence.
-    /// Amendment that carries out the proposal, TOML.
-    std::string amendment;
+    std::string kind = {};               ///< One of those above.
+    std::string code = {};               ///< Which sentence the text is.
+    std::string site = {};               ///< Site; empty if it concerns the whole day.
+    std::optional<int> occupation = {};  ///< Number of the stay at this site.
+    std::string key = {};                ///< Key of the stay in the event log; may be empty.
+    std::optional<UtcTime> time = {};    ///< When it happened.
+    std::optional<double> size_mgal = {}, u_mgal = {};
+    std::string other_site = {};
+    std::string text = {};       ///< One sentence.
+    std::string amendment = {};  ///< Amendment that carries out the proposal, TOML; may be empty.
+    bool is_headline = false;    ///< So certain that it belongs to the first line.
 };
 
-/// Returns an array with one object per finding, for result.json.
+/// Sets the stay of a finding.
+void set_stay(Finding& finding, const std::string& site, int occupation, const std::string& key,
+              UtcTime time);
+
+/// Returns the first lines of an amendment: [[KIND]], site, occupation and, if the stay has several,
+/// set_up.
+[[nodiscard]] std::string amendment_head(std::string_view kind, const ListedSetUp& listed);
+
+/// Returns an array with one object per finding, for result.json.  What does not apply is null.
 [[nodiscard]] nlohmann::ordered_json findings_json(const std::vector<Finding>& findings);
+
+/// Returns the findings as numbered lines for the terminal; empty if there are none.
+[[nodiscard]] std::string findings_text(const std::vector<Finding>& findings);
 
 }  // namespace a351::corrector::reading

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "protocol/signal/moved_box.hpp"
-#include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -44,14 +43,6 @@ std::vector<signal::MotionSample> motion_of(const OccupationRecord& record,
     return samples;
 }
 
-/// Returns the head of an amendment of a set-up, up to its times.
-std::string amendment_of(std::string_view kind, const OccupationWindow& window) {
-    return fmt::format(
-        "[[{}]]\nsite = {}\noccupation = {}\n{}", kind, text::toml_string(window.listed.site),
-        window.listed.number,
-        window.listed.set_up ? fmt::format("set_up = {}\n", *window.listed.set_up) : "");
-}
-
 std::string in_minutes(Nanoseconds time) {
     return fmt::format("{:.1f} min", std::chrono::duration<double, std::ratio<60>>(time).count());
 }
@@ -70,14 +61,14 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     OccupationWindow& still = moved.still;
     if (part.first == part.behind) {
         still.notes.emplace_back("shaken");
-        moved.finding = {"bad_reading",
-                         window.site,
-                         window.number,
-                         window.key,
-                         window.start,
-                         fmt::format("{} ({}): the box was never at rest: repeat the reading",
-                                     window.site, window.number),
-                         amendment_of("exclude", window) + "reason = \"never at rest\"\n"};
+        moved.finding = {
+            .kind = "bad_reading",
+            .code = "never_at_rest",
+            .text = fmt::format("{} ({}): the box was never at rest: repeat the reading",
+                                window.site, window.number),
+            .amendment = amendment_head("exclude", window.listed) + "reason = \"never at rest\"\n",
+            .is_headline = true};
+        set_stay(moved.finding, window.site, window.number, window.key, window.start);
         return moved;
     }
     still.notes.emplace_back("moved");
@@ -85,22 +76,25 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     if (part.behind < samples.size()) still.end = samples[part.behind].time;
 
     Finding& finding = moved.finding;
-    finding = {"moved_box", window.site, window.number, window.key, still.end, "", ""};
+    finding = {.kind = "moved_box", .code = "moved_at_end", .is_headline = true};
+    set_stay(finding, window.site, window.number, window.key, still.end);
     std::string what;
     if (still.start != window.start) {
         finding.time = still.start;
+        finding.code = "moved_at_start";
         what = fmt::format("moved until {}, {} after its start; the stay begins there",
                            to_rfc3339(still.start), in_minutes(still.start - window.start));
     }
     if (still.end != window.end) {
         finding.time = still.end;
+        finding.code = what.empty() ? "moved_at_end" : "moved_at_both_ends";
         what += fmt::format("{}moved at {}, {} before its end was entered; the stay ends there",
                             what.empty() ? "" : "; ", to_rfc3339(still.end),
                             in_minutes(window.end - still.end));
     }
     finding.text = fmt::format("{} ({}): box {}", window.site, window.number, what);
     finding.amendment =
-        amendment_of("retime", window) +
+        amendment_head("retime", window.listed) +
         fmt::format("start_utc = \"{}\"\nend_utc = \"{}\"\nreason = \"box moved\"\n",
                     to_rfc3339(still.start, 3), to_rfc3339(still.end, 3));
     return moved;

@@ -28,12 +28,6 @@ namespace a351::corrector::reading {
 /// Invariant after drop_invalid_occupations(): the site is known, start < end, and no two windows
 /// overlap.
 struct OccupationWindow {
-    /// Names by which an amendment finds a set-up.
-    struct Listed {
-        std::string site;
-        int number = 1;
-        std::optional<int> set_up;  ///< From 1; absent if the stay has one set-up.
-    };
     std::string site;
     int number = 1;  ///< Number of the stay at this site; all set-ups of one stay share it.
     /// First instant of the set-up.
@@ -45,7 +39,7 @@ struct OccupationWindow {
     bool is_excluded = false;                 ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
     std::string key = {};                     ///< Key of the stay in the event log, if any.
-    Listed listed = {};                       ///< Names before all amendments.
+    ListedSetUp listed = {};                  ///< Names before all amendments.
 };
 
 /// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`.  Exceptions

@@ -113,8 +113,8 @@ std::optional<int> set_up_number(const std::vector<OccupationWindow>& windows, s
     return count > 1 ? std::optional(number) : std::nullopt;
 }
 
-std::pair<OccupationList, std::vector<Amendment>> read_occupations(
-    const SurveySource& source, const std::vector<text::Site>& sites) {
+std::pair<OccupationList, Amendments> read_occupations(const SurveySource& source,
+                                                       std::vector<text::Site>& sites) {
     const bool is_logged = source.occupations.empty();
     const auto origin = is_logged ? source.root / "events" : source.occupations;
     OccupationList list = is_logged ? read_logged_occupations(origin, source.from, source.to)
@@ -122,7 +122,7 @@ std::pair<OccupationList, std::vector<Amendment>> read_occupations(
     for (std::size_t i = 0; i < list.windows.size(); ++i)
         list.windows[i].listed = {list.windows[i].site, list.windows[i].number,
                                   set_up_number(list.windows, i)};
-    std::vector<Amendment> amendments;
+    Amendments amendments;
     if (!source.amendments.empty()) amendments = amend(list.windows, source.amendments, sites);
     return {drop_invalid_occupations(std::move(list), sites, origin), std::move(amendments)};
 }
@@ -135,6 +135,7 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     row.site = window.site;
     row.occupation = window.number;
     row.key = window.key;
+    row.listed = window.listed;
     row.start = value.interval_start;
     row.end = value.interval_end;
     row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;
@@ -215,7 +216,6 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const OccupationWindow& window = list.windows[i];
         if (moved[i]) {
-            result.warnings.push_back(moved[i]->finding.text);
             result.findings.push_back(std::move(moved[i]->finding));
         }
         if (!rows[i]) {
@@ -225,6 +225,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         const text::Site& site = *text::find_site(sites, window.site);
         rows[i]->reference = site.gravity;
         rows[i]->u_reference = site.u_gravity;
+        rows[i]->is_reference_refused =
+            std::ranges::count(amendments.refused_references, site.name) > 0;
         for (DayBin& bin : bins[i]) {
             bin.set_up = result.rows.size();
             if (result.day && !result.day->temperature.is_bridged(bin.time))

@@ -55,12 +55,12 @@ struct SurveySource {
 /// Invariant of the result of read_survey_inputs(): list.windows is not empty and in order of
 /// start.
 struct SurveyStays {
-    std::vector<text::Site> sites;      ///< Table of the sites.
-    OccupationList list;                ///< Possible set-ups, amended.
-    std::vector<Amendment> amendments;  ///< Amendments carried out; empty without a file.
-    std::filesystem::path metadata;     ///< StationXML that was read.
-    station::Metadata station;          ///< Epochs in force at the first set-up.
-    SurveyChannels channels;            ///< Channels of axes and temperature.
+    std::vector<text::Site> sites;   ///< Table of the sites, with the references as amended.
+    OccupationList list;             ///< Possible set-ups, amended.
+    Amendments amendments;           ///< Amendments carried out; empty without a file.
+    std::filesystem::path metadata;  ///< StationXML that was read.
+    station::Metadata station;       ///< Epochs in force at the first set-up.
+    SurveyChannels channels;         ///< Channels of axes and temperature.
 };
 
 /// The readings of a survey.
@@ -73,9 +73,9 @@ struct OccupationRows {
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;      ///< Occupations without a value, by start.
     std::vector<std::string> warnings;  ///< Doubts and omissions, with reasons.
-    std::vector<Finding> findings;      ///< Moved boxes, in order of time; also in the warnings.
-    std::vector<Amendment> amendments;
-    std::vector<text::Site> sites;
+    std::vector<Finding> findings;      ///< Moved boxes, in order of time.
+    Amendments amendments;
+    std::vector<text::Site> sites;        ///< With the references as amended.
     std::vector<text::InputFile> inputs;  ///< All files that were read.
     std::string serial_number;            ///< Sensor; empty if not in the metadata.
 };

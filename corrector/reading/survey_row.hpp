@@ -9,6 +9,7 @@
 ///     apply_tide(rows, sites, choice);              // tide_choice.hpp
 ///     // corrected = acceleration - tide + corrections of the model
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,6 +23,13 @@
 
 namespace a351::corrector::reading {
 
+/// Names by which an amendment finds a set-up: those before all amendments.
+struct ListedSetUp {
+    std::string site;
+    int number = 1;             ///< Number of the stay at the site.
+    std::optional<int> set_up;  ///< From 1; absent if the stay has one set-up.
+};
+
 /// The averages of one occupation, or one set-up of it, over an interval without disturbance.
 /// The set-ups of one stay share `site` and `occupation` and differ in `time`.  In a
 /// default-constructed row all numbers are 0 except `occupation`.
@@ -29,6 +37,7 @@ struct SurveyRow {
     std::string site;              ///< Name in the table of sites.
     int occupation = 1;            ///< Number of the stay at this site, from 1.
     std::string key;               ///< Key of the stay in the event log; empty if not from there.
+    ListedSetUp listed;            ///< Names for amendments; no site if there can be none.
     UtcTime time;                  ///< Middle of the averaging interval.
     std::optional<UtcTime> start;  ///< Start of the averaging interval, if known; `end` alike.
     std::optional<UtcTime> end;
@@ -46,9 +55,17 @@ struct SurveyRow {
     MilliGal tide;                        ///< Effect of the tide on gravity; to be subtracted.
     std::optional<MilliGal> reference;    ///< Known gravity of the site.
     std::optional<MilliGal> u_reference;  ///< Its standard uncertainty, if given.
+    bool is_reference_refused = false;    ///< An amendment says that no fit may use the reference.
     /// Record of the row; present in all rows of a survey, absent in all rows of a table of
     /// averages.
     std::optional<RecordSummary> record;
+
+    /// Returns true if a fit may hold the reference.
+    /// @param datum  stations whose reference is held; empty: all.
+    [[nodiscard]] bool is_datum(const std::vector<std::string>& datum) const {
+        return reference && !is_reference_refused &&
+               (datum.empty() || std::ranges::find(datum, site) != datum.end());
+    }
 
     /// Returns the record, for a computation that needs the means of the axes.
     /// @param wanted_by  computation, at the beginning of the message.

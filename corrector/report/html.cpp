@@ -35,6 +35,7 @@ figcaption { font-size: .85em; color: #333; }
 .small { display: grid; grid-template-columns: 1fr 1fr; gap: 0 1em; }
 .small figure { margin: .5em 0; }
 code { font-size: .95em; }
+pre { font-size: .85em; white-space: pre-wrap; border-left: 3px solid #999; padding-left: .8em; }
 @media screen and (max-width: 40em) {
   th, td { padding: .12em .3em; }
   figure { overflow-x: auto; }

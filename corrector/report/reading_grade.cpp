@@ -35,7 +35,7 @@ struct NoteText {
     std::string_view text;
 };
 /// The flags of representative_value.hpp and of amendments, in words.
-constexpr std::array<NoteText, 13> kNoteTexts{{
+constexpr std::array<NoteText, 14> kNoteTexts{{
     {"fallback", Grade::care,
      "the trend has too few extrema for the usual interval (fallback): look at the record"},
     {"disturbed_start", Grade::trust, "averaged only after a disturbance at its start"},
@@ -51,6 +51,7 @@ constexpr std::array<NoteText, 13> kNoteTexts{{
     {"included", Grade::trust, "included by an amendment"},
     {"retimed", Grade::trust, "its times were amended"},
     {"renamed", Grade::trust, "its site was amended"},
+    {"divided", Grade::trust, "divided into set-ups by an amendment"},
 }};
 
 /// Flags of the trend and its interval.
@@ -99,6 +100,26 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
                     ratio > 0.0 ? "below" : "above",
                     is_left_out ? " when its station is left out" : "",
                     text::fixed(std::abs(ratio), 1)));
+}
+
+/// Adds the findings that concern the reading.
+void add_findings(ReadingGrade& reading, const reading::SurveyRow& row,
+                  const std::vector<reading::Finding>& findings) {
+    for (const reading::Finding& finding : findings) {
+        if (finding.site != row.site || finding.occupation != row.occupation) continue;
+        if (finding.kind == "moved_box" || finding.code == "never_at_rest") continue;  // its note
+        add(reading, finding.kind == "bad_reading" ? Grade::repeat : Grade::care, finding.text);
+    }
+}
+
+/// Adds a reason if the samples alone say that the reading is worse than its uncertainty.
+void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
+    if (!row.row.record || !row.row.record->standard_error || !row.u_corrected) return;
+    const MilliGal error = *row.row.record->standard_error;
+    if (error <= *row.u_corrected) return;
+    add(reading, Grade::repeat,
+        fmt::format("the scatter of its samples alone gives {} mGal, more than its u of {} mGal",
+                    text::fixed(error.value(), 1), text::fixed(row.u_corrected->value(), 1)));
 }
 
 void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {
@@ -168,6 +189,8 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
         }
         add_temperature(reading, row, corrects_rate);
         add_residual(reading, row, is_day);
+        add_findings(reading, row.row, result.findings);
+        add_samples(reading, row);
         if (!is_day) add_trends(reading, row.row);
         for (const std::string& note : row.row.notes) add_note(reading, note, is_day);
     }

@@ -42,6 +42,8 @@ struct ReadingGrade {
 ///
 /// - Residual: `care` above 2 u_corrected, `repeat` above 3.  A row without residual or u is not
 ///   tested.  For `day` it is the error of the prediction without the row's station.
+/// - Findings of the stay: `repeat` for a bad reading, else `care`.
+/// - Standard error of the samples above u_corrected: `repeat`.
 /// - Two readings of a station: both get `care` if they differ by more than 2 sqrt(2) s (`day`:
 ///   placement).  Readings that have `repeat` for another reason are not compared.
 /// - Trends that differ by more than 0.5 mGal, and unknown notes: `care`.  For `day` differences

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "corrector/figure/escaping.hpp"
 #include "corrector/figure/reading_name.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/report/html.hpp"
@@ -82,6 +83,29 @@ std::string accuracy_table(const model::SurveyCorrection& result) {
     return html_table("lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
 }
 
+/// Returns what is wrong with the day, with the amendments to paste; empty if nothing is.
+std::string findings_html(const std::vector<reading::Finding>& findings) {
+    if (findings.empty()) return {};
+    std::string items, amendments;
+    for (const reading::Finding& finding : findings) {
+        const std::string text = figure::html_text(finding.text);
+        items += finding.is_headline ? fmt::format("<li><b>{}</b></li>\n", text)
+                                     : fmt::format("<li>{}</li>\n", text);
+        amendments += finding.amendment;
+    }
+    std::string html = fmt::format("<h2>Found in this day</h2>\n<ol>\n{}</ol>\n", items);
+    if (!amendments.empty())
+        html += html_paragraph(
+                    "To carry out the proposals: a351-correct amend SURVEY.toml --all, or paste "
+                    "into the amendments file what is right:") +
+                fmt::format("<pre>{}</pre>\n", figure::html_text(amendments));
+    return html;
+}
+
+bool is_unusable(const model::SurveyCorrection& result) {
+    return std::ranges::count(result.findings, "unusable_day", &reading::Finding::kind) > 0;
+}
+
 std::string counted(std::size_t count, const std::string& what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
@@ -127,7 +151,8 @@ std::vector<std::string> actions(const model::SurveyCorrection& result,
         add(fmt::format("Repeat, without a value ({})", reason), names);
     add("Repeat, the station has no other reading to trust", urgent);
     add("Repeat if there is time, the station has another reading to trust", optional);
-    if (list.empty()) list.emplace_back("No reading needs to be repeated.");
+    if (list.empty() && std::ranges::none_of(result.findings, &reading::Finding::is_headline))
+        list.emplace_back("No reading needs to be repeated.");
     add("Use with care", care);
     add("Trust", trusted);
     return list;
@@ -206,10 +231,13 @@ std::string summary_html(const model::SurveyCorrection& result,
             fmt::format("Warnings about the input: {}, see the last section.", warnings.size()));
     }
     limits.insert(limits.end(), missing.begin(), missing.end());
-    return fmt::format("{}<h2>What to do</h2>\n{}{}<h2>Accuracy</h2>\n{}{}{}{}",
-                       html_paragraph(headline(result)), html_list(actions(result, grades)),
-                       reading_table(result, grades), accuracy_table(result),
-                       html_paragraph(scatter_sentence(result.score)),
+    return fmt::format("{}{}<h2>What to do</h2>\n{}{}<h2>Accuracy</h2>\n{}{}{}{}",
+                       html_paragraph(headline(result)), findings_html(result.findings),
+                       html_list(actions(result, grades)), reading_table(result, grades),
+                       accuracy_table(result),
+                       html_paragraph(is_unusable(result) ? "No figure of this day is to be quoted "
+                                                            "before its mistakes are put right."
+                                                          : scatter_sentence(result.score)),
                        limits.empty() ? "" : "<h2>Limits</h2>\n", html_list(limits));
 }
 

@@ -18,7 +18,8 @@ namespace a351::corrector::report {
 ///
 /// Order: occupations without a value, by reason; readings to repeat at stations without a reading
 /// to trust; other readings to repeat; those to use with care; those to trust.  An action without
-/// readings is left out.  If nothing is to be repeated, the first sentence says so.
+/// readings is left out.  If nothing is to be repeated and no finding is a headline, the first
+/// sentence says so.
 /// @param grades  from grade_readings() of this result.
 /// @return sentences in plain text; they name each reading once.
 [[nodiscard]] std::vector<std::string> actions(const model::SurveyCorrection& result,
@@ -43,7 +44,7 @@ namespace a351::corrector::report {
 /// the leave-one-station-out error, if the model has one.
 [[nodiscard]] std::string scatter_sentence(const model::Score& score);
 
-/// Returns the HTML of the page: headline, actions, readings with reasons, accuracy, limits.
+/// Returns the HTML of the page: headline, findings with amendments to paste, actions, readings with reasons, accuracy, limits.
 ///
 /// The readings are graded here.  A reading without a reason is not in the table.  For `day` the
 /// table has the error of the prediction without the reading's station, else the residual.

@@ -150,6 +150,9 @@ std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const reading:
             const auto term = static_cast<Index>(k);
             mean.effect_mgal.at(k) += weight * coefficients(term) * x(row, term);
         }
+        for (Index k = problem.steps_begin(); k < problem.states_begin(); ++k)
+            mean.effect_mgal.at(static_cast<std::size_t>(DayTerm::drift)) +=
+                weight * coefficients(k) * x(row, k);
         // States behind gaps are in turn of the fast and of the slow lag.
         for (Index k = problem.states_begin(); k < problem.estimated(); ++k) {
             const DayTerm term =
@@ -235,6 +238,8 @@ std::optional<DayFit> fit_day(const reading::DayRecord& record,
         const auto term = static_cast<Index>(k);
         fit.coefficients.at(k) = {estimates.values(term), estimates.standard_errors(term)};
     }
+    for (Index k = problem.steps_begin(); k < problem.states_begin(); ++k)
+        fit.steps_mgal.push_back({estimates.values(k), estimates.standard_errors(k)});
     fit.set_ups = means_of_set_ups(problem, record, stations.size(), u, estimates.values);
     for (std::size_t s = 0; s < stations.size(); ++s) {
         DaySetUp& set_up = fit.set_ups[s];

@@ -4,7 +4,8 @@
 /// reading.
 ///
 ///     reading = g + tide + c + rA (T - T0) + rF (T - lag(T, tF)) / tF + rS (lag(T, tS) - T0)
-///               + d (t - t0) + w exp(-t / 2.5 h) + bx x + by y + placement + flicker + white
+///               + d (t - t0) + w exp(-t / 2.5 h) + bx x + by y + steps + placement + flicker
+///               + white
 ///
 /// Readings are in mGal, T in degC, rF in mGal/(degC/h), t in h, lags tF and tS in s, x and y in g.
 /// A reading is the mean of a bin, and so are T, lag(T, tau), x and y.
@@ -14,6 +15,7 @@
 /// - rA, rF, rS, lag(T, tau): the unit's thermal response (protocol/unit/thermal_response.hpp), in
 ///   equilibrium at the start of the record.
 /// - w: warm-up after power-on, which the thermometer does not see.
+/// - steps: an unknown offset from each step on (DayStation::steps).
 /// - bx, by: biases of the horizontal axes, which a tilt turns into the norm.
 /// - placement, flicker, white: noise (day_noise.hpp).
 ///
@@ -130,6 +132,8 @@ struct DayStation {
     /// one of them has a reference.
     std::size_t number = 0;
     MilliGal u_gravity{};  ///< Standard uncertainty of the reference; 0: it is exact.
+    /// Number of steps before the set-up: its reading has the offsets of all of them.
+    std::size_t steps = 0;
 };
 
 /// An estimated value.
@@ -164,7 +168,8 @@ struct GravityEstimate : Estimate {
 
 /// One set-up.  Effects are means over its bins, mGal, with the sign that they have in the reading.
 ///
-/// A bin counts by its number of samples.  A correction is minus an effect.
+/// A bin counts by its number of samples.  A correction is minus an effect.  The effect of the drift
+/// contains the steps.
 struct DaySetUp {
     MilliGal reading;                             ///< Mean reading, the full value.
     DegC temperature;                             ///< Mean temperature.
@@ -191,6 +196,7 @@ struct DayFit {
     std::array<double, 2> lag_log_errors{};        ///< Standard errors of ln tF and ln tS.
     std::array<Estimate, kDayTerms> coefficients;  ///< Errors include those of the lags.
     std::vector<GravityEstimate> gravity_mgal;     ///< Gravity of the stations, by their numbers.
+    std::vector<Estimate> steps_mgal;              ///< Offsets of the steps, in order of time.
     /// Standard errors of the logarithms of placement, flicker and white, from the curvature of the
     /// likelihood; absent if it has no maximum there.
     std::optional<std::array<double, 3>> noise_log_errors;
@@ -214,7 +220,7 @@ struct DayFit {
 ///
 /// Usual priors, mean and standard deviation:
 /// - rA -12, 7.2 mGal/degC; rS -20, 12 mGal/degC; rF 11.3, 6.8 mGal/(degC/h)
-/// - d 0, 1 mGal/h; w 0, 36 mGal; c and unknowns free (0, 1e4 mGal)
+/// - d 0, 1 mGal/h; w 0, 36 mGal; c, unknowns and steps free (0, 1e4 mGal)
 ///
 /// Log-normal priors, median and factor: lags 43 s and 2700 s, 1.5; placement and flicker 1.2 mGal,
 /// 2; white the scatter of the bins, 2; common standard deviation of bx and by, whose mean is 0,

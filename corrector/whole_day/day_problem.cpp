@@ -86,6 +86,9 @@ void DayProblem::set_gravities() {
         places_.push_back(deviation > 0.0 ? kTerms + std::ssize(estimated) : -1);
         if (deviation > 0.0) estimated.push_back(deviation);
     }
+    for (const DayStation& station : stations_)
+        step_count_ = std::max(step_count_, static_cast<Index>(station.steps));
+    estimated.insert(estimated.end(), static_cast<std::size_t>(step_count_), kFreeGravity_mgal);
     gravity_sd_mgal_ = Eigen::Map<const Eigen::VectorXd>(estimated.data(), std::ssize(estimated));
 }
 
@@ -132,6 +135,9 @@ void DayProblem::set_fixed_columns() {
         column(DayTerm::y)(i) = bin.y.value();
         const Index place = place_of(stations_[bin.set_up].number);
         if (place >= 0) fixed_(i, place) = 1.0;
+        fixed_.row(i)
+            .segment(steps_begin(), static_cast<Index>(stations_[bin.set_up].steps))
+            .setOnes();
     }
 }
 

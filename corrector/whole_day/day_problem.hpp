@@ -51,7 +51,7 @@ struct LogNormalPrior {
 enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite, kBiasSize };
 
 /// Readings and columns of fit_day() for n bins.  The estimated quantities are the terms, then the
-/// gravities, then for each gap of the temperature the effects of the fast and of the slow lag's
+/// gravities, then the steps, then for each gap of the temperature the effects of the fast and of the slow lag's
 /// state, mGal where the gap ends (lag_states.hpp).  A reference that is held with an uncertainty is
 /// one of the gravities, with that prior; an exact one is none.
 ///
@@ -72,6 +72,8 @@ public:
     [[nodiscard]] Eigen::Index estimated() const { return states_begin() + states_sd_mgal_.size(); }
     /// Returns the place of the first state behind a gap.
     [[nodiscard]] Eigen::Index states_begin() const { return kTerms + gravity_sd_mgal_.size(); }
+    /// Returns the place of the first step, in front of the states.
+    [[nodiscard]] Eigen::Index steps_begin() const { return states_begin() - step_count_; }
     /// Returns the place of a station's gravity among the estimated quantities; -1 if a reference
     /// without uncertainty is held.
     /// @param number  as DayStation::number.
@@ -120,7 +122,8 @@ public:
     [[nodiscard]] double cost(const Point& u) const;
 
     /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
-    /// the terms, then 1 for the bins of each gravity, then what remains of each state.
+    /// the terms, then 1 for the bins of each gravity and for those after each step, then what remains of
+    /// each state.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
@@ -164,9 +167,11 @@ private:
     const DayPriors& priors_;
     std::vector<bool> is_held_;         ///< One per number: one of its set-ups has a reference.
     std::vector<Eigen::Index> places_;  ///< place_of() each number.
-    Eigen::VectorXd gravity_sd_mgal_;   ///< Prior deviations of the gravities that are estimated.
-    std::vector<LagStates> states_;     ///< One per gap whose effect matters.
-    Eigen::VectorXd states_sd_mgal_;    ///< Prior deviations of the effects, fast and slow per gap.
+    /// Prior deviations of the gravities that are estimated, then of the steps.
+    Eigen::VectorXd gravity_sd_mgal_;
+    Eigen::Index step_count_ = 0;
+    std::vector<LagStates> states_;   ///< One per gap whose effect matters.
+    Eigen::VectorXd states_sd_mgal_;  ///< Prior deviations of the effects, fast and slow per gap.
     BinMeans means_;
     LogNormalPrior white_mgal_;
     std::vector<double> base_mgal_;

@@ -94,8 +94,8 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
                   Metres(altitudes[row]),
                   std::nullopt,
                   is_placed[row]};
-        // Gravity on the Earth's surface: 976 400 (Huascaran) to 983 400 mGal (Arctic Ocean).
-        if (const auto gravity = table.number_if_given(row, "gravity_mgal", 976000.0, 984000.0))
+        if (const auto gravity = table.number_if_given(row, "gravity_mgal", kLeastGravity_mgal,
+                                                       kGreatestGravity_mgal))
             site.gravity = MilliGal(*gravity);
         constexpr double kLeastReliable_mgal = 100.0;  // worse than any map of gravity anomalies
         if (const auto u =

@@ -18,6 +18,10 @@
 
 namespace a351::text {
 
+/// Limits of a reference, mGal.  Gravity on the Earth's surface is 976 400 (Huascaran) to 983 400
+/// mGal (Arctic Ocean).
+inline constexpr double kLeastGravity_mgal = 976000.0, kGreatestGravity_mgal = 984000.0;
+
 /// Benchmark, a row of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal, and if
 /// known u_gravity_mgal.
 struct Site {

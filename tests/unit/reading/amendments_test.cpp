@@ -28,7 +28,8 @@ std::vector<OccupationWindow> list() {
 
 std::vector<Amendment> amended(std::vector<OccupationWindow>& windows, const std::string& toml) {
     const test::TemporaryDirectory folder;
-    return amend(windows, folder.write("amendments.toml", toml), kSites);
+    std::vector<text::Site> sites = kSites;
+    return amend(windows, folder.write("amendments.toml", toml), sites).list;
 }
 
 }  // namespace
@@ -86,11 +87,46 @@ TEST_CASE("amendments refer to the original list, so that two names can be excha
     CHECK(windows[2].number == 3);
 }
 
+TEST_CASE("set-ups, steps and references are amended", "[survey][amendments]") {
+    const test::TemporaryDirectory folder;
+    auto windows = list();
+    auto sites = kSites;
+    const Amendments amendments = amend(
+        windows,
+        folder.write(
+            "amendments.toml",
+            "[[set_up]]\nsite='A'\noccupation=1\ntime_utc='2020-01-01T00:10:00Z'\nreason='r'\n"
+            "[[set_up]]\nsite='A'\noccupation=1\ntime_utc='2020-01-01T00:09:00Z'\nreason='r'\n"
+            "[[step]]\ntime_utc='2020-01-01T02:30:00Z'\nreason='fell'\n"
+            "[[step]]\ntime_utc='2020-01-01T00:30:00Z'\nreason='knock'\n"
+            "[[reference]]\nsite='A'\nuse=false\nreason='rebuilt'\n"
+            "[[reference]]\nsite='B'\ngravity_mgal=979950.5\nreason='measured'\n"),
+        sites);
+    REQUIRE(windows.size() == 7);
+    CHECK(windows[1].end == at("00:09:00"));
+    CHECK(windows[2].start == at("00:09:00"));
+    CHECK(windows[2].end == at("00:10:00"));
+    CHECK(windows[3].start == at("00:10:00"));
+    CHECK(windows[3].end == at("00:13:00"));
+    CHECK(windows[3].number == 1);
+    CHECK(amendments.steps == std::vector{at("00:30:00"), at("02:30:00")});
+    CHECK(amendments.refused_references == std::vector<std::string>{"A"});
+    CHECK(sites[1].gravity == MilliGal(979950.5));
+    CHECK(amendments_text(amendments.list) ==
+          "amended: set_up A (1) at 2020-01-01T00:10:00Z: r\n"
+          "amended: set_up A (1) at 2020-01-01T00:09:00Z: r\n"
+          "amended: step at 2020-01-01T02:30:00Z: fell\n"
+          "amended: step at 2020-01-01T00:30:00Z: knock\n"
+          "amended: reference A not used: rebuilt\n"
+          "amended: reference B to 979950.500 mGal: measured\n");
+}
+
 TEST_CASE("a bad amendment is refused with line, key and value", "[survey][amendments]") {
     const std::string one = "site='A'\noccupation=2\nreason='r'\n";
     const auto [toml, message] = GENERATE_COPY(table<std::string, std::string>({
         {"[[exclude]]\n" + one + "why='r'\n", "amendments.toml:5: exclude.why = 'r': unknown key"},
-        {"[[remove]]\n" + one, "unknown key; allowed: exclude, include, rename, retime"},
+        {"[[remove]]\n" + one,
+         "unknown key; allowed: exclude, include, reference, rename, retime, set_up, step"},
         {"[[exclude]]\nsite='A'\noccupation=2\n",
          "exclude.reason: missing; allowed: the reason, in words"},
         {"[[exclude]]\nsite='A'\nreason='r'\n", "exclude.occupation: missing"},
@@ -110,6 +146,22 @@ TEST_CASE("a bad amendment is refused with line, key and value", "[survey][amend
          "the end is not after the start"},
         {"[[retime]]\nsite='A'\noccupation=1\nreason='r'\nend_utc='2020-01-01T02:00:00Z'\n",
          "retime.set_up: missing; allowed: 1 to 2"},
+        {"[[set_up]]\n" + one + "time_utc='2020-01-01T02:12:00Z'\n",
+         "not within the stay; allowed: between 2020-01-01T02:00:00Z to 2020-01-01T02:12:00Z"},
+        {"[[set_up]]\n" + one, "set_up.time_utc: missing; allowed: an instant"},
+        {"[[step]]\ntime_utc='2020-01-01T02:12:00Z'\n", "step.reason: missing"},
+        {"[[step]]\nsite='A'\ntime_utc='2020-01-01T02:12:00Z'\nreason='r'\n",
+         "step.site = 'A': unknown key"},
+        {"[[reference]]\nsite='C'\nuse=false\nreason='r'\n",
+         "reference.site = 'C': no such site; allowed: A, B"},
+        {"[[reference]]\nsite='A'\nreason='r'\n",
+         "reference.gravity_mgal: missing; allowed: either gravity_mgal or use = false"},
+        {"[[reference]]\nsite='A'\nuse=false\ngravity_mgal=979900\nreason='r'\n",
+         "reference.use = false: contradiction"},
+        {"[[reference]]\nsite='A'\ngravity_mgal=9.799\nreason='r'\n", "a number from 976000 to 984000"},
+        {"[[reference]]\nsite='A'\nuse=false\nreason='r'\n"
+         "[[reference]]\nsite='A'\ngravity_mgal=979900\nreason='r'\n",
+         "contradicts another amendment of its reference"},
     }));
     CAPTURE(toml);
     auto windows = list();

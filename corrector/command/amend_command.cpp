@@ -1,0 +1,89 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "corrector/command/commands.hpp"
+#include "corrector/command/options.hpp"
+#include "corrector/command/progress_bar.hpp"
+#include "corrector/job/survey_amendments.hpp"
+#include "corrector/job/survey_day.hpp"
+#include "corrector/job/survey_readings.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector::command {
+namespace {
+
+struct AmendOptions {
+    std::filesystem::path survey, out;
+    std::vector<int> findings;
+    bool is_all = false;
+};
+
+std::vector<reading::Finding> findings_of(const job::SurveyFile& survey) {
+    ProgressBar bar(survey.name);
+    reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
+    return job::correct_survey_day(survey, read).findings;
+}
+
+/// Returns the findings that are to be carried out.
+std::vector<reading::Finding> chosen_findings(const std::vector<reading::Finding>& findings,
+                                              const AmendOptions& options) {
+    std::vector<reading::Finding> chosen;
+    if (options.is_all) chosen = findings;
+    for (const int number : options.findings) {
+        if (number < 1 || number > static_cast<int>(findings.size()))
+            throw InputError(fmt::format("--finding = {}: no such finding; allowed: 1 to {}",
+                                         number, findings.size()));
+        chosen.push_back(findings[static_cast<std::size_t>(number - 1)]);
+        if (chosen.back().amendment.empty())
+            throw InputError(
+                fmt::format("--finding = {}: it has no amendment; allowed: one that has", number));
+    }
+    std::erase_if(chosen,
+                  [](const reading::Finding& finding) { return finding.amendment.empty(); });
+    return chosen;
+}
+
+void amend_survey(const AmendOptions& options) {
+    const job::SurveyFile survey = job::read_survey_file(options.survey);
+    const std::vector<reading::Finding> findings = findings_of(survey);
+    if (!options.is_all && options.findings.empty()) {
+        for (std::size_t k = 0; k < findings.size(); ++k)
+            std::cout << fmt::format("# {}. {}\n{}", k + 1, findings[k].text,
+                                     findings[k].amendment);
+        if (findings.empty()) std::cout << "# nothing was found\n";
+        return;
+    }
+    const std::vector<reading::Finding> chosen = chosen_findings(findings, options);
+    if (chosen.empty()) {
+        std::cout << "nothing to amend\n";
+        return;
+    }
+    const std::filesystem::path file = job::add_amendments(survey, chosen, options.out);
+    for (const reading::Finding& finding : chosen) std::cout << finding.text << '\n';
+    std::cout << fmt::format("{} amendment{} written to {}; correct the survey again\n",
+                             chosen.size(), chosen.size() == 1 ? "" : "s", file.string());
+}
+
+}  // namespace
+
+void add_amend_command(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "amend", "Writes what the findings of a survey propose to its amendments file.");
+    const auto options = std::make_shared<AmendOptions>();
+    add_required(command, "FILE", "", options->survey, "Survey file (TOML)");
+    auto* const all = command.add_flag("--all", options->is_all, "Carry out all proposals");
+    add_option(command, "--finding", "N", options->findings,
+               "Carry out this one, by its number in the list; may be given several times. Without "
+               "it and without --all the proposals are only printed")
+        ->excludes(all);
+    add_option(command, "--out", "FILE", options->out,
+               "Amendments file (default: the one of the survey file, else NAME-amendments.toml "
+               "beside it)");
+    command.callback([options] { amend_survey(*options); });
+}
+
+}  // namespace a351::corrector::command

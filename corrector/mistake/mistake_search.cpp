@@ -1,0 +1,336 @@
+#include "corrector/mistake/mistake_search.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+namespace a351::corrector::mistake {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Range of the size of a mistake, mGal.  Reason: benchmarks of a survey lie within tens of mGal, and
+/// so do slips in a table.
+constexpr double kSizeRange_mgal = 100.0;
+/// Least degrees of freedom of the scatter.  Reason: with fewer, everything is explained.
+constexpr double kFewestDof = 4.0;
+/// Simulated surveys: first enough to see that nothing is found, then to know a small probability.
+constexpr int kFewDraws = 500, kManyDraws = 20000;
+
+/// A mistake to be tested, and its effect on the residuals.
+struct Suspect {
+    Mistake mistake;
+    /// The effect itself for a known size; else of length 1.
+    Eigen::VectorXd effect, scatter;
+    double length = 0.0;
+
+    [[nodiscard]] bool has_size() const { return mistake.kind == MistakeKind::swap; }
+};
+
+enum class Class : std::size_t { reading, swap, step };
+constexpr std::size_t kClasses = 3;
+
+std::size_t class_of(MistakeKind kind) {
+    if (kind == MistakeKind::swap) return static_cast<std::size_t>(Class::swap);
+    return static_cast<std::size_t>(kind == MistakeKind::step ? Class::step : Class::reading);
+}
+
+Eigen::VectorXd effect_of(const Mistake& mistake, std::size_t count) {
+    Eigen::VectorXd effect = Eigen::VectorXd::Zero(static_cast<Index>(count));
+    const double size = mistake.kind == MistakeKind::swap ? mistake.size_mgal : 1.0;
+    for (const std::size_t i : mistake.readings) effect(static_cast<Index>(i)) = size;
+    for (const std::size_t i : mistake.others) effect(static_cast<Index>(i)) = -size;
+    return effect;
+}
+
+/// The stays of a survey: readings of one site and occupation.
+struct Stay {
+    std::string site;
+    std::vector<std::size_t> readings;
+    std::optional<double> reference_mgal;
+};
+
+std::vector<Stay> stays_of(const std::vector<SearchedReading>& readings) {
+    std::vector<Stay> stays;
+    std::map<std::pair<std::string, int>, std::size_t> places;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        const SearchedReading& reading = readings[i];
+        if (!reading.is_accepted) continue;
+        const auto [place, is_new] =
+            places.emplace(std::pair(reading.site, reading.occupation), stays.size());
+        if (is_new) stays.push_back({reading.site, {}, reading.reference_mgal});
+        stays[place->second].readings.push_back(i);
+    }
+    return stays;
+}
+
+/// Returns all mistakes that there may be, without sizes.
+std::vector<Mistake> possible_mistakes(const std::vector<SearchedReading>& readings) {
+    std::vector<Mistake> list;
+    const auto add = [&list](MistakeKind kind, std::vector<std::size_t> numbers) {
+        Mistake& mistake = list.emplace_back();
+        mistake.kind = kind;
+        mistake.readings = std::move(numbers);
+    };
+    const std::vector<Stay> stays = stays_of(readings);
+    std::map<std::string, std::vector<std::size_t>> stations;
+    std::map<std::string, std::size_t> stay_counts;
+    for (const Stay& stay : stays) {
+        auto& of_station = stations[stay.site];
+        of_station.insert(of_station.end(), stay.readings.begin(), stay.readings.end());
+        ++stay_counts[stay.site];
+        if (stay.readings.size() > 1)
+            for (const std::size_t i : stay.readings) add(MistakeKind::set_up, {i});
+    }
+    for (const Stay& stay : stays)
+        if (stay_counts[stay.site] > 1) add(MistakeKind::stay, stay.readings);
+    for (const auto& [site, numbers] : stations) add(MistakeKind::station, numbers);
+    for (std::size_t a = 0; a < stays.size(); ++a)
+        for (std::size_t b = a + 1; b < stays.size(); ++b) {
+            if (!stays[a].reference_mgal || !stays[b].reference_mgal) continue;
+            // Readings of b under the name of a are too high by the difference.
+            add(MistakeKind::swap, stays[a].readings);
+            list.back().others = stays[b].readings;
+            list.back().size_mgal = *stays[b].reference_mgal - *stays[a].reference_mgal;
+        }
+    // A step with one stay before or after it is the same as this stay being off.
+    if (stays.size() < 4) return list;
+    const std::size_t first = stays[2].readings.front(),
+                      last = stays[stays.size() - 2].readings.front();
+    for (std::size_t i = first; i <= last; ++i) {
+        if (!readings[i].is_accepted) continue;
+        std::vector<std::size_t> after(readings.size() - i);
+        std::iota(after.begin(), after.end(), i);
+        add(MistakeKind::step, std::move(after));
+    }
+    return list;
+}
+
+/// Returns true for a swap of a stay that is known to be off: the other stay alone is then no sign.
+bool is_half_known(const Mistake& mistake, const std::vector<Mistake>& known) {
+    if (mistake.kind != MistakeKind::swap) return false;
+    return std::ranges::any_of(known, [&](const Mistake& one) {
+        if (one.kind == MistakeKind::step) return false;
+        const auto is_known = [&](std::size_t i) {
+            return std::ranges::count(one.readings, i) + std::ranges::count(one.others, i) > 0;
+        };
+        return std::ranges::any_of(mistake.readings, is_known) ||
+               std::ranges::any_of(mistake.others, is_known);
+    });
+}
+
+/// Returns those of which the residuals contain something.
+std::vector<Suspect> suspects_of(const residual::Residuals& residuals,
+                                 const std::vector<SearchedReading>& readings,
+                                 const std::vector<Mistake>& known) {
+    std::vector<Suspect> suspects;
+    for (Mistake& mistake : possible_mistakes(readings)) {
+        if (is_half_known(mistake, known)) continue;
+        const Eigen::VectorXd effect = effect_of(mistake, readings.size());
+        Suspect suspect;
+        if (mistake.kind == MistakeKind::swap) {
+            suspect.effect = residuals.projected(effect);
+            suspect.length = suspect.effect.norm();
+            suspect.scatter = residuals.to_scatter * suspect.effect;
+        } else {
+            residual::Direction direction = residuals.direction(effect);
+            suspect.effect = std::move(direction.unit);
+            suspect.scatter = std::move(direction.scatter);
+            suspect.length = direction.length;
+        }
+        suspect.mistake = std::move(mistake);
+        if (suspect.length > 0.0) suspects.push_back(std::move(suspect));
+    }
+    return suspects;
+}
+
+/// Returns the share of the scatter that a mistake explains, 0 to 1.
+double share_of(const Suspect& suspect, const Eigen::VectorXd& values,
+                const Eigen::VectorXd& scatter, double square) {
+    const double t = suspect.effect.dot(values);
+    const double part = suspect.has_size() ? 1.0 : t;
+    const double gain = part * (2.0 * t - part * suspect.effect.squaredNorm());
+    if (!(gain > 0.0)) return 0.0;
+    const double rest = square - 2.0 * part * suspect.scatter.dot(scatter) +
+                        part * part * suspect.scatter.squaredNorm();
+    return gain / (gain + rest);
+}
+
+using Shares = std::array<double, kClasses>;
+
+/// The residuals of a survey with everything that may explain them.
+class Trial {
+public:
+    Trial(residual::Residuals residuals, const std::vector<SearchedReading>& readings,
+          const std::vector<Mistake>& known)
+        : residuals_(std::move(residuals)), suspects_(suspects_of(residuals_, readings, known)) {
+        for (const Suspect& suspect : suspects_) ++counts_.at(class_of(suspect.mistake.kind));
+    }
+
+    [[nodiscard]] bool is_possible() const {
+        return !suspects_.empty() && residuals_.dof() >= kFewestDof;
+    }
+
+    /// Returns the mistake that explains most, by -dof / 2 ln(1 - share) less what an unknown size
+    /// and the number of its class cost; with its size.
+    [[nodiscard]] Mistake best() const {
+        const Eigen::VectorXd scatter = residuals_.to_scatter * residuals_.values;
+        const double dof = residuals_.dof();
+        const Suspect* best = nullptr;
+        double most = -HUGE_VAL;
+        for (const Suspect& suspect : suspects_) {
+            const double share =
+                share_of(suspect, residuals_.values, scatter, scatter.squaredNorm());
+            double score = -0.5 * dof * std::log1p(-share) -
+                           std::log(counts_.at(class_of(suspect.mistake.kind)));
+            if (!suspect.has_size())
+                score -=
+                    std::log(kSizeRange_mgal * suspect.length / std::sqrt(2.0 * std::numbers::pi));
+            if (score > most) {
+                most = score;
+                best = &suspect;
+            }
+        }
+        return measured(*best);
+    }
+
+    /// Sets the size of a mistake and its probability.
+    void measure(Mistake& mistake) const {
+        const auto found = std::ranges::find_if(suspects_, [&](const Suspect& suspect) {
+            return suspect.mistake.kind == mistake.kind &&
+                   suspect.mistake.readings == mistake.readings &&
+                   suspect.mistake.others == mistake.others;
+        });
+        if (found == suspects_.end()) {
+            mistake.p = 1.0;
+            return;
+        }
+        mistake = measured(*found);
+        const Eigen::VectorXd scatter = residuals_.to_scatter * residuals_.values;
+        const double share = share_of(*found, residuals_.values, scatter, scatter.squaredNorm());
+        mistake.p = probability(class_of(mistake.kind), share);
+    }
+
+private:
+    [[nodiscard]] Mistake measured(const Suspect& suspect) const {
+        Mistake mistake = suspect.mistake;
+        if (suspect.has_size()) return mistake;
+        mistake.size_mgal = suspect.effect.dot(residuals_.values) / suspect.length;
+        mistake.u_mgal = 1.0 / suspect.length;
+        return mistake;
+    }
+
+    [[nodiscard]] Shares largest(const Eigen::VectorXd& values) const {
+        const Eigen::VectorXd scatter = residuals_.to_scatter * values;
+        const double square = scatter.squaredNorm();
+        Shares most{};
+        for (const Suspect& suspect : suspects_) {
+            double& of_class = most.at(class_of(suspect.mistake.kind));
+            of_class = std::max(of_class, share_of(suspect, values, scatter, square));
+        }
+        return most;
+    }
+
+    /// Returns the probability of such a share in a class, if there is no mistake.
+    [[nodiscard]] double probability(std::size_t of_class, double share) const {
+        std::mt19937_64 generator(1);  // fixed seed: the same day gives the same probability
+        int larger = 0, draws = 0;
+        const auto draw_until = [&](int count) {
+            for (; draws < count; ++draws)
+                if (largest(residuals_.simulated(generator)).at(of_class) >= share) ++larger;
+            return (1.0 + larger) / (1.0 + draws);
+        };
+        const double p = draw_until(kFewDraws);
+        return p > 5.0 * kMistakeAlpha ? p : draw_until(kManyDraws);
+    }
+
+    residual::Residuals residuals_;
+    std::vector<Suspect> suspects_;
+    std::array<double, kClasses> counts_{};
+};
+
+bool is_same(const Mistake& a, const Mistake& b) {
+    return a.kind == b.kind && a.readings == b.readings && a.others == b.others;
+}
+
+/// Returns the mistake that explains most of what the known ones leave, with its probability.
+std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings,
+                                    const ResidualsOf& residuals_of,
+                                    const std::vector<Mistake>& known) {
+    constexpr int kMostRounds = 3;
+    std::vector<Mistake> quiet = known;
+    std::optional<Mistake> best;
+    for (int round = 0; round <= kMostRounds; ++round) {
+        auto residuals = residuals_of(known, quiet);
+        if (!residuals) return best;
+        const Trial trial(std::move(*residuals), readings, known);
+        if (!trial.is_possible()) return std::nullopt;
+        Mistake found = trial.best();
+        const bool is_settled = best && is_same(*best, found);
+        best = std::move(found);
+        if (is_settled || round == kMostRounds) {
+            trial.measure(*best);
+            return best;
+        }
+        // With the noise of the survey in which it is put right, it is seen more clearly.
+        quiet = known;
+        quiet.push_back(*best);
+    }
+    return best;
+}
+
+std::vector<Mistake> without(std::vector<Mistake> mistakes, std::size_t k) {
+    mistakes.erase(mistakes.begin() + static_cast<std::ptrdiff_t>(k));
+    return mistakes;
+}
+
+/// Replaces each mistake by the one that explains most of what the others leave: an early one may
+/// have been taken for two that were not known yet.
+void refine(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
+            const ResidualsOf& residuals_of) {
+    for (std::size_t k = 0; k < mistakes.size(); ++k) {
+        const std::vector<Mistake> others = without(mistakes, k);
+        auto residuals = residuals_of(others, mistakes);
+        if (!residuals) continue;
+        const Trial trial(std::move(*residuals), readings, others);
+        if (!trial.is_possible()) continue;
+        Mistake best = trial.best();
+        trial.measure(best);
+        if (best.p <= kMistakeAlpha) mistakes[k] = std::move(best);
+    }
+}
+
+}  // namespace
+
+std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
+                                     const ResidualsOf& residuals_of) {
+    std::vector<Mistake> mistakes;
+    const auto accepted =
+        static_cast<std::size_t>(std::ranges::count(readings, true, &SearchedReading::is_accepted));
+    while (mistakes.size() < accepted / 3) {
+        auto found = next_mistake(readings, residuals_of, mistakes);
+        if (!found || found->p > kMistakeAlpha) break;
+        mistakes.push_back(std::move(*found));
+        if (mistakes.size() > 1) refine(mistakes, readings, residuals_of);
+    }
+    if (mistakes.size() < 2) return mistakes;
+    std::vector<Mistake> kept;
+    for (std::size_t k = 0; k < mistakes.size(); ++k) {
+        const std::vector<Mistake> others = without(mistakes, k);
+        auto residuals = residuals_of(others, mistakes);
+        if (!residuals) continue;
+        Mistake mistake = mistakes[k];
+        Trial(std::move(*residuals), readings, others).measure(mistake);
+        const auto is_known = [&](const Mistake& one) { return is_same(one, mistake); };
+        if (mistake.p <= kMistakeAlpha && std::ranges::none_of(kept, is_known))
+            kept.push_back(std::move(mistake));
+    }
+    return kept;
+}
+
+}  // namespace a351::corrector::mistake

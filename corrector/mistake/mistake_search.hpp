@@ -1,0 +1,77 @@
+#pragma once
+/// @file
+/// Search for mistakes of the field in the residuals of a survey: readings that are off, references
+/// that are wrong, names that were swapped, steps of the instrument.
+///
+///     std::vector<SearchedReading> readings = ...;         // in order of time
+///     const auto mistakes = search_mistakes(readings, [&](const auto& known, const auto& quiet) {
+///         return residuals_of_survey(known, quiet);         // of the survey without `known`
+///     });
+///
+/// The search takes one mistake after another, each time the one that explains most.  It compares
+/// them by the scatter that is left, with a penalty for an unknown size.  A mistake is kept if such a
+/// share of the scatter is explained in fewer than kMistakeAlpha of simulated surveys without one.
+///
+/// Method, false alarms and power: corrector/methods.md, "Search for mistakes".
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corrector/residual/residuals.hpp"
+
+namespace a351::corrector::mistake {
+
+/// Kinds of mistakes.
+///
+/// - set_up: one set-up of a stay is off.
+/// - stay: all set-ups of a stay are off, and the station has another stay.
+/// - station: all readings of a station are off: its reference, its name, or its only stay.
+/// - swap: two stays have each other's name.
+/// - step: all readings from one on are off.
+enum class MistakeKind { set_up, stay, station, swap, step };
+
+/// A mistake that was found.
+struct Mistake {
+    MistakeKind kind = MistakeKind::stay;
+    /// Numbers of the readings that are off; for a step all from it on.
+    std::vector<std::size_t> readings;
+    std::vector<std::size_t> others;  ///< Swap: readings of the other stay.
+    /// Reading minus what the others expect, mGal: positive if the readings are too high.  Swap: the
+    /// difference of both references.
+    double size_mgal = 0.0;
+    double u_mgal = 0.0;  ///< Standard uncertainty; 0 for a swap.
+    /// Probability that a survey without a mistake shows one as clear as this, of any kind.
+    double p = 1.0;
+};
+
+/// A reading of the survey, as the search sees it.
+struct SearchedReading {
+    std::string site;
+    int occupation = 1;
+    /// Reference that the fit holds, mGal; absent: the station is unknown.
+    std::optional<double> reference_mgal;
+    bool is_accepted = true;  ///< False: it is outside the fit, and no mistake.
+};
+
+/// Returns the residuals of the survey with the mistakes `known` put right, at the noise of the
+/// survey with those of `quiet` put right; std::nullopt if there is none.
+using ResidualsOf = std::function<std::optional<residual::Residuals>(
+    const std::vector<Mistake>& known, const std::vector<Mistake>& quiet)>;
+
+/// Probability that a mistake of one class is found where there is none.  There are three classes:
+/// readings, swaps, steps.
+inline constexpr double kMistakeAlpha = 0.015;
+
+/// Returns the mistakes that were found, in the order in which they were.
+///
+/// It ends when nothing more is found, or when a third of the readings is off.  A mistake that is no
+/// longer visible when the others are put right is dropped.  The simulations have a fixed seed.
+/// @param readings     in order of time.
+/// @param residuals_of called once or twice for each mistake, and once at the end for each.
+[[nodiscard]] std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
+                                                   const ResidualsOf& residuals_of);
+
+}  // namespace a351::corrector::mistake

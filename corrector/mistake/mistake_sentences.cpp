@@ -1,0 +1,271 @@
+#include "corrector/mistake/mistake_sentences.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/model/outlier_tests.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/strict_toml.hpp"
+
+namespace a351::corrector::mistake {
+namespace {
+
+using reading::Finding;
+using reading::SurveyRow;
+
+/// Greatest p of a headline.  Reason: one clean day in a thousand may be told something false in its
+/// first line, and three classes of mistakes are searched.
+constexpr double kHeadlineP = 0.001 / 3.0;
+/// Greatest distance from a reference at which a reading is said to be of that site, in standard
+/// uncertainties.  Reason: one right name in a hundred is missed.
+constexpr double kNameReach = 2.5;
+/// A site that has readings of its own is so much less likely to be the right one.
+constexpr double kVisitedOdds = 4.0;
+/// Turns mistakes into sentences with proposals.
+class Teller {
+public:
+    Teller(const std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites)
+        : rows_(rows), sites_(sites) {}
+
+    [[nodiscard]] std::vector<Finding> told(const Mistake& mistake) const {
+        if (mistake.kind == MistakeKind::step) return {step(mistake)};
+        if (mistake.kind == MistakeKind::swap)
+            return {swapped(mistake, mistake.readings, mistake.others, mistake.size_mgal),
+                    swapped(mistake, mistake.others, mistake.readings, -mistake.size_mgal)};
+        if (mistake.kind == MistakeKind::set_up) return {bad_set_up(mistake)};
+        const bool is_one_stay = std::ranges::all_of(mistake.readings, [&](std::size_t i) {
+            return rows_[i].occupation == rows_[mistake.readings.front()].occupation;
+        });
+        // At an end of the day a step is as likely as a name.
+        const bool is_name_likely =
+            is_one_stay && (mistake.kind == MistakeKind::station || !step_beside(mistake));
+        const auto others = is_name_likely ? read_sites(mistake) : std::vector<Candidate>();
+        Finding finding = !others.empty()                        ? other_name(mistake, others)
+                          : mistake.kind == MistakeKind::station ? reference(mistake)
+                                                                 : bad_stay(mistake);
+        add_temperature(finding, mistake);
+        add_step(finding, mistake);
+        return {std::move(finding)};
+    }
+
+private:
+    [[nodiscard]] const SurveyRow& first(const Mistake& mistake) const {
+        return rows_[mistake.readings.front()];
+    }
+
+    [[nodiscard]] Finding finding_of(const Mistake& mistake, std::string kind, std::string code,
+                                     const SurveyRow& row) const {
+        Finding finding{.kind = std::move(kind), .code = std::move(code)};
+        set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
+        finding.size_mgal = mistake.size_mgal;
+        finding.u_mgal = mistake.u_mgal;
+        finding.is_headline = mistake.p <= kHeadlineP;
+        return finding;
+    }
+
+    /// Returns "12.3 +- 1.5 mGal too high".
+    static std::string off_by(double size_mgal, double u_mgal) {
+        return fmt::format("{} +- {} mGal too {}", text::fixed(std::abs(size_mgal), 1),
+                           text::fixed(u_mgal, 1), size_mgal > 0.0 ? "high" : "low");
+    }
+
+    static std::string name_of(const SurveyRow& row) {
+        return fmt::format("{} ({})", row.site, row.occupation);
+    }
+
+    /// Returns an amendment of the stay of a row; empty if there can be none.
+    static std::string amendment(std::string_view kind, const SurveyRow& row, bool has_set_up,
+                                 const std::string& rest) {
+        if (row.listed.site.empty()) return {};
+        reading::ListedSetUp listed = row.listed;
+        if (!has_set_up) listed.set_up.reset();
+        return reading::amendment_head(kind, listed) + rest;
+    }
+
+    static std::string rename(const SurveyRow& row, const std::string& to,
+                              const std::string& reason) {
+        return amendment("rename", row, false,
+                         fmt::format("to = {}\nreason = {}\n", text::toml_string(to),
+                                     text::toml_string(reason)));
+    }
+
+    /// A site that a reading may be of.
+    struct Candidate {
+        const text::Site* site = nullptr;
+        double distance_mgal = 0.0;
+        double cost = 0.0;  ///< -2 ln(likelihood)
+    };
+
+    /// Returns the sites that a reading off by the size of the mistake may be of, the likeliest
+    /// first.
+    [[nodiscard]] std::vector<Candidate> read_sites(const Mistake& mistake) const {
+        std::vector<Candidate> candidates;
+        const SurveyRow& row = first(mistake);
+        if (!row.reference) return candidates;
+        const MilliGal read = *row.reference + MilliGal(mistake.size_mgal);
+        for (const text::Site& site : sites_) {
+            if (!site.gravity || site.name == row.site) continue;
+            const double u =
+                std::hypot(mistake.u_mgal, site.u_gravity.value_or(MilliGal(0.0)).value());
+            const double distance_mgal = std::abs((read - *site.gravity).value());
+            if (distance_mgal > kNameReach * u) continue;
+            double cost = std::pow(distance_mgal / u, 2);
+            if (std::ranges::find(rows_, site.name, &SurveyRow::site) != rows_.end())
+                cost += 2.0 * std::log(kVisitedOdds);
+            candidates.push_back({&site, distance_mgal, cost});
+        }
+        std::ranges::stable_sort(candidates, {}, &Candidate::cost);
+        return candidates;
+    }
+
+    /// Says that the temperature of the only or first reading was not steady, which may be the cause.
+    void add_temperature(Finding& finding, const Mistake& mistake) const {
+        std::string doubt = model::temperature_doubt(first(mistake));
+        if (doubt.empty()) return;
+        if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
+        finding.text += fmt::format("; its temperature was not steady ({})", doubt);
+    }
+
+    /// Says that a stay at an end of the day may be good, and the instrument have stepped next to it.
+    void add_step(Finding& finding, const Mistake& mistake) const {
+        const auto after = step_beside(mistake);
+        if (!after) return;
+        finding.code += "_or_step";
+        finding.text += fmt::format("; or the instrument stepped between {} and {}",
+                                    name_of(rows_[*after - 1]), name_of(rows_[*after]));
+    }
+
+    /// Returns the first reading after a step that would look like this mistake, if there is one.
+    [[nodiscard]] std::optional<std::size_t> step_beside(const Mistake& mistake) const {
+        const std::size_t from = mistake.readings.front(), to = mistake.readings.back();
+        if (to - from + 1 != mistake.readings.size()) return std::nullopt;
+        const bool is_first = from == 0, is_last = to + 1 == rows_.size();
+        if (is_first == is_last) return std::nullopt;
+        return is_first ? to + 1 : from;
+    }
+
+    [[nodiscard]] Finding step(const Mistake& mistake) const {
+        const std::size_t after = mistake.readings.front();
+        Finding finding{.kind = "step", .code = "step"};
+        finding.time = time_before(rows_, after);
+        finding.size_mgal = mistake.size_mgal;
+        finding.u_mgal = mistake.u_mgal;
+        finding.is_headline = mistake.p <= kHeadlineP;
+        finding.text = fmt::format(
+            "between {} and {} the instrument stepped: from then on the readings are {}",
+            name_of(rows_[after - 1]), name_of(rows_[after]),
+            off_by(mistake.size_mgal, mistake.u_mgal));
+        if (!rows_[after].listed.site.empty())
+            finding.amendment =
+                fmt::format("[[step]]\ntime_utc = \"{}\"\nreason = \"step of {} mGal\"\n",
+                            to_rfc3339(*finding.time, 3), text::fixed(mistake.size_mgal, 1));
+        return finding;
+    }
+
+    [[nodiscard]] Finding swapped(const Mistake& mistake, const std::vector<std::size_t>& own,
+                                  const std::vector<std::size_t>& others, double size_mgal) const {
+        const SurveyRow& row = rows_[own.front()];
+        const SurveyRow& other = rows_[others.front()];
+        Finding finding = finding_of(mistake, "other_name", "swapped", row);
+        finding.size_mgal = size_mgal;
+        finding.u_mgal.reset();
+        finding.other_site = other.site;
+        finding.text = fmt::format("{} reads like {}, and {} like {}: the names were swapped",
+                                   name_of(row), other.site, name_of(other), row.site);
+        finding.amendment = rename(row, other.site, "names swapped");
+        return finding;
+    }
+
+    [[nodiscard]] Finding other_name(const Mistake& mistake,
+                                     const std::vector<Candidate>& others) const {
+        constexpr std::size_t kMostNames = 3;
+        const SurveyRow& row = first(mistake);
+        const text::Site& other = *others.front().site;
+        Finding finding = finding_of(mistake, "other_name", "other_name", row);
+        finding.other_site = other.name;
+        std::vector<std::string> names;
+        for (const Candidate& candidate : others)
+            if (names.size() < kMostNames)
+                names.push_back(fmt::format("{} ({} mGal)", candidate.site->name,
+                                            text::fixed(candidate.distance_mgal, 1)));
+        finding.text =
+            fmt::format("{} is {}; it reads like {}", name_of(row),
+                        off_by(mistake.size_mgal, mistake.u_mgal), text::joined(names, " or "));
+        if (mistake.kind == MistakeKind::station) {
+            finding.code = "other_name_or_reference";
+            finding.text += fmt::format("; if the name is right, the reference of {} is {}",
+                                        row.site, off_by(-mistake.size_mgal, mistake.u_mgal));
+        }
+        finding.amendment = rename(row, other.name, "reads like " + other.name);
+        return finding;
+    }
+
+    [[nodiscard]] Finding reference(const Mistake& mistake) const {
+        const SurveyRow& row = first(mistake);
+        Finding finding = finding_of(mistake, "reference", "reference", row);
+        finding.size_mgal = -mistake.size_mgal;
+        finding.text = fmt::format("the reference of {} is {}", row.site,
+                                   off_by(-mistake.size_mgal, mistake.u_mgal));
+        const bool is_one_stay = std::ranges::all_of(
+            mistake.readings, [&](std::size_t i) { return rows_[i].occupation == row.occupation; });
+        if (is_one_stay) {
+            finding.code = "reference_or_reading";
+            finding.text += fmt::format(", or its only reading is bad: look at both");
+        }
+        if (!row.listed.site.empty())
+            finding.amendment =
+                fmt::format("[[reference]]\nsite = {}\nuse = false\nreason = \"off by {} mGal\"\n",
+                            text::toml_string(row.site), text::fixed(-mistake.size_mgal, 1));
+        return finding;
+    }
+
+    [[nodiscard]] Finding bad_stay(const Mistake& mistake) const {
+        const SurveyRow& row = first(mistake);
+        Finding finding = finding_of(mistake, "bad_reading", "stay_disagrees", row);
+        finding.text =
+            fmt::format("{} is {}, unlike the other readings of {}: repeat it", name_of(row),
+                        off_by(mistake.size_mgal, mistake.u_mgal), row.site);
+        finding.amendment = amendment(
+            "exclude", row, false,
+            fmt::format("reason = \"off by {} mGal\"\n", text::fixed(mistake.size_mgal, 1)));
+        return finding;
+    }
+
+    [[nodiscard]] Finding bad_set_up(const Mistake& mistake) const {
+        const std::size_t i = mistake.readings.front();
+        const SurveyRow& row = rows_[i];
+        Finding finding = finding_of(mistake, "bad_reading", "set_up_disagrees", row);
+        const auto is_same_stay = [&](const SurveyRow& other) {
+            return other.site == row.site && other.occupation == row.occupation;
+        };
+        const auto number =
+            1 + std::count_if(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i),
+                              is_same_stay);
+        finding.text = fmt::format("set-up {} of {} is {}, unlike the others: repeat it", number,
+                                   name_of(row), off_by(mistake.size_mgal, mistake.u_mgal));
+        finding.amendment = amendment(
+            "exclude", row, true,
+            fmt::format("reason = \"off by {} mGal\"\n", text::fixed(mistake.size_mgal, 1)));
+        return finding;
+    }
+
+    const std::vector<SurveyRow>& rows_;
+    const std::vector<text::Site>& sites_;
+};
+
+}  // namespace
+
+UtcTime time_before(const std::vector<SurveyRow>& rows, std::size_t after) {
+    const UtcTime end = rows[after - 1].end.value_or(rows[after - 1].time);
+    const UtcTime start = rows[after].start.value_or(rows[after].time);
+    return end + (start - end) / 2;
+}
+
+std::vector<Finding> findings_of(const Mistake& mistake, const std::vector<SurveyRow>& rows,
+                                 const std::vector<text::Site>& sites) {
+    return Teller(rows, sites).told(mistake);
+}
+
+}  // namespace a351::corrector::mistake

@@ -1,0 +1,27 @@
+#pragma once
+/// @file
+/// A mistake in words, with the amendment that puts it right.
+
+#include <vector>
+
+#include "corrector/mistake/mistake_search.hpp"
+#include "corrector/reading/finding.hpp"
+#include "corrector/reading/survey_row.hpp"
+#include "protocol/text/sites.hpp"
+
+namespace a351::corrector::mistake {
+
+/// Returns the instant between reading `after`, at least 1, and the one before it: that of a step.
+[[nodiscard]] UtcTime time_before(const std::vector<reading::SurveyRow>& rows, std::size_t after);
+
+/// Returns what is said about a mistake: one finding, or two for swapped names.
+///
+/// A stay that is off is said to be of another site if the reading is within two and a half standard
+/// uncertainties of that site's reference.  There is no amendment for rows without ListedSetUp::site.
+/// @param rows   all readings of the search.
+/// @param sites  sites whose name may be right.
+[[nodiscard]] std::vector<reading::Finding> findings_of(const Mistake& mistake,
+                                                        const std::vector<reading::SurveyRow>& rows,
+                                                        const std::vector<text::Site>& sites);
+
+}  // namespace a351::corrector::mistake

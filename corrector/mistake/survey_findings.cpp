@@ -1,0 +1,159 @@
+#include "corrector/mistake/survey_findings.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/mistake/mistake_search.hpp"
+#include "corrector/mistake/mistake_sentences.hpp"
+#include "corrector/model/calibration_use.hpp"
+#include "corrector/model/model.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::mistake {
+namespace {
+
+using reading::Finding;
+using reading::SurveyRow;
+
+/// A day is unusable if stations left out are predicted this much worse than with the mistakes put
+/// right, and at least so badly.  Reason: twice the 2.6 mGal of the publication.
+constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
+
+/// A survey with mistakes put right.
+struct Mended {
+    std::vector<SurveyRow> rows;
+    model::SurveyOptions options;
+    model::RowChoice choice;
+};
+
+Mended mended(const std::vector<SurveyRow>& rows, const model::SurveyOptions& options,
+              const std::vector<Mistake>& mistakes) {
+    Mended survey{rows, options, {}};
+    const auto take_name = [&](const std::vector<std::size_t>& from, std::size_t other) {
+        for (const std::size_t i : from) {
+            survey.rows[i].site = rows[other].site;
+            survey.rows[i].reference = rows[other].reference;
+            survey.rows[i].u_reference = rows[other].u_reference;
+        }
+    };
+    for (const Mistake& mistake : mistakes) switch (mistake.kind) {
+            case MistakeKind::set_up:
+            case MistakeKind::stay:
+                for (const std::size_t i : mistake.readings) survey.rows[i].is_excluded = true;
+                break;
+            case MistakeKind::station:
+                for (const std::size_t i : mistake.readings)
+                    survey.rows[i].is_reference_refused = true;
+                break;
+            case MistakeKind::swap:
+                take_name(mistake.readings, mistake.others.front());
+                take_name(mistake.others, mistake.readings.front());
+                break;
+            case MistakeKind::step:
+                survey.options.steps.push_back(time_before(rows, mistake.readings.front()));
+                break;
+        }
+    std::ranges::sort(survey.options.steps);
+    survey.choice = model::choose_rows(survey.rows, survey.options.datum, options.use_flags);
+    return survey;
+}
+
+std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
+                                      const model::RowChoice& choice) {
+    std::vector<SearchedReading> readings;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        SearchedReading& reading = readings.emplace_back();
+        reading.site = rows[i].site;
+        reading.occupation = rows[i].occupation;
+        reading.is_accepted = choice.accepted[i];
+        if (choice.in_use[i]) reading.reference_mgal = rows[i].reference->value();
+    }
+    return readings;
+}
+
+std::optional<Finding> misfit(const model::SurveyCorrection& result) {
+    const auto* const day = result.as<model::WholeDayPart>();
+    if (day == nullptr) return std::nullopt;
+    for (const whole_day::FitTest& test : day->fit_tests)
+        if (test.misfit == whole_day::Misfit::curvature && test.is_misfit())
+            return Finding{
+                .kind = "misfit",
+                .code = "curvature",
+                .text = fmt::format(
+                    "the model does not fit this day: the residuals follow the square of the {}",
+                    test.place == 0 ? "temperature" : "time")};
+    return std::nullopt;
+}
+
+std::optional<Finding> not_visited(const SearchedSurvey& survey) {
+    constexpr std::size_t kMostNames = 10;
+    std::vector<std::string> names;
+    for (const text::Site& site : survey.sites)
+        if (std::ranges::find(survey.rows, site.name, &SurveyRow::site) == survey.rows.end())
+            names.push_back(site.name);
+    if (names.empty()) return std::nullopt;
+    Finding finding{.kind = "not_visited", .code = "not_visited"};
+    const std::size_t more = names.size() - std::min(names.size(), kMostNames);
+    names.resize(names.size() - more);
+    finding.text = fmt::format("without a reading in this day: {}{}", text::joined(names),
+                               more == 0 ? "" : fmt::format(" and {} more", more));
+    return finding;
+}
+
+/// Says that the day is not usable, if so.
+/// @param mended_loso_mgal  error of stations left out with the mistakes put right, if there are.
+std::optional<Finding> unusable(const model::SurveyCorrection& result,
+                                const std::optional<double>& mended_loso_mgal) {
+    const auto& loso = result.score.loso_mgal;
+    if (!loso || !mended_loso_mgal || *loso < kUnusable_mgal ||
+        *loso < kUnusableRatio * *mended_loso_mgal)
+        return std::nullopt;
+    return Finding{
+        .kind = "unusable_day",
+        .code = "unusable_day",
+        .text = fmt::format("this day is not usable as it is: stations left out are predicted "
+                            "with an error of {} mGal, {} with the mistakes below put right",
+                            text::fixed(*loso, 1), text::fixed(*mended_loso_mgal, 1)),
+        .is_headline = true};
+}
+
+}  // namespace
+
+std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
+                                   const SearchedSurvey& survey) {
+    std::vector<Finding> findings = result.findings;
+    const model::Model& model = *model::find_model(result.model);
+    const std::vector<SurveyRow> rows =
+        model::without_known_tilt(survey.rows, result.options.calibration);
+    if (model.residuals) {
+        const model::RowChoice choice =
+            model::choose_rows(rows, result.options.datum, result.options.use_flags);
+        const auto residuals_of = [&](const std::vector<Mistake>& known,
+                                      const std::vector<Mistake>& quiet) {
+            const Mended with = mended(rows, result.options, known),
+                         without = mended(rows, result.options, quiet);
+            return model.residuals({{with.rows, with.options, survey.day}, with.choice},
+                                   {{without.rows, without.options, survey.day}, without.choice});
+        };
+        const std::vector<Mistake> mistakes = search_mistakes(searched(rows, choice), residuals_of);
+        for (const Mistake& mistake : mistakes)
+            for (Finding& finding : findings_of(mistake, rows, survey.sites))
+                findings.push_back(std::move(finding));
+        if (!mistakes.empty()) {
+            const Mended day = mended(rows, result.options, mistakes);
+            const auto score = model.score({day.rows, day.options, survey.day}, day.choice);
+            if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
+                findings.insert(findings.begin(), std::move(*finding));
+        }
+    }
+    std::ranges::stable_partition(findings, &Finding::is_headline);
+    // A mistake is a misfit of its own.
+    if (findings.empty())
+        if (auto finding = misfit(result)) findings.push_back(std::move(*finding));
+    if (auto finding = not_visited(survey)) findings.push_back(std::move(*finding));
+    return findings;
+}
+
+}  // namespace a351::corrector::mistake

@@ -1,0 +1,35 @@
+#pragma once
+/// @file
+/// What is wrong with a corrected survey, in sentences with proposals.
+///
+///     SurveyCorrection result = correct_with_calibration(rows, options, day);
+///     result.findings = find_mistakes(result, {rows, sites, day});
+
+#include <vector>
+
+#include "corrector/model/corrected_survey.hpp"
+#include "corrector/reading/day_record.hpp"
+#include "corrector/reading/finding.hpp"
+#include "corrector/reading/survey_row.hpp"
+#include "protocol/text/sites.hpp"
+
+namespace a351::corrector::mistake {
+
+/// The survey that was corrected.
+struct SearchedSurvey {
+    const std::vector<reading::SurveyRow>& rows;  ///< As they were corrected.
+    const std::vector<text::Site>& sites;
+    const reading::DayRecord* day;  ///< Null: there are only averages.
+};
+
+/// Searches a corrected survey for mistakes (mistake_search.hpp), with the model that was applied.
+///
+/// A reading that is off by the difference between two references of the list is said to be of the
+/// other site, if this is within two and a half standard uncertainties.  `paper` is not searched.
+/// @param result  with the findings that are known already, for example moved boxes.
+/// @return these and the new ones, the worst first: an unusable day, headlines, others, benchmarks
+///         that were not visited.
+[[nodiscard]] std::vector<reading::Finding> find_mistakes(const model::SurveyCorrection& result,
+                                                          const SearchedSurvey& survey);
+
+}  // namespace a351::corrector::mistake

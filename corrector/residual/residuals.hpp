@@ -1,0 +1,70 @@
+#pragma once
+/// @file
+/// Residuals of the readings of a survey, in a form in which any effect on them can be tested
+/// without another fit.
+///
+/// The readings are y = X b + Z c + errors.  Of the unknowns b nothing is known beforehand; for c
+/// there are priors, and the errors have a covariance.  S is the covariance of Z c + errors, and W a
+/// whitening, W S W' = 1.  If the model fits, W y without its part in the space of W X consists of
+/// independent numbers of variance 1:
+///
+///     const Direction step = residuals.direction(after);   // effect of +1 mGal on each reading
+///     const double t = step.unit.dot(residuals.values);    // normal, of variance 1
+///     t / step.length;                                     // size of the step, mGal
+///     1.0 / step.length;                                   // its standard uncertainty, mGal
+///
+/// The models make Residuals; whole_day::goodness_of_fit() and mistake::find_mistakes() test them.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace a351::corrector::residual {
+
+/// The effect of something on the residuals.
+struct Direction {
+    Eigen::VectorXd unit;     ///< (k) Of length 1; 0 if the unknown quantities explain the effect.
+    Eigen::VectorXd scatter;  ///< (k) Its part in the scatter, see Residuals::to_scatter.
+    double length = 0.0;      ///< Length of the whitened effect before; 0 as `unit`.
+};
+
+/// Residuals of n readings.
+struct Residuals {
+    Eigen::VectorXd values;     ///< (k) Whitened, without their part in the space of `unknown`.
+    Eigen::MatrixXd whitening;  ///< (k, n) Whitened effect of +1 mGal in each reading.
+    Eigen::MatrixXd unknown;    ///< (k, u) Orthonormal basis of what nobody knows.
+    /// (k, k) Turns residuals into the scatter of the readings about the most likely course, in
+    /// standard deviations of the noise alone.  What the priors expect and the readings do not need
+    /// has no part in it, so that priors may be too wide.
+    Eigen::MatrixXd to_scatter;
+
+    /// Removes what the unknown quantities explain.
+    void project(Eigen::VectorXd& whitened) const;
+
+    /// Returns the direction of an effect.
+    /// @param effect_mgal  (n) effect on each reading.
+    [[nodiscard]] Direction direction(const Eigen::VectorXd& effect_mgal) const;
+
+    /// Returns the whitened effect (k) without what the unknown quantities explain.
+    [[nodiscard]] Eigen::VectorXd projected(const Eigen::VectorXd& effect_mgal) const;
+
+    /// Returns the expected square of the scatter: its degrees of freedom.
+    [[nodiscard]] double dof() const;
+
+    /// Returns residuals (k) as they would be if the model were true.
+    [[nodiscard]] Eigen::VectorXd simulated(std::mt19937_64& generator) const;
+};
+
+/// Returns the residuals of weighted least squares.
+///
+/// The scale of the errors is that of the weights; the caller divides by another one.
+/// @param a, y      (m, p) and (m) weighted rows; those of readings, and others such as priors.
+/// @param readings  number of the reading of each row (m); n or more: the row is no reading.
+/// @param weights   (m) weight of each row: 1 / standard deviation, 1/mGal.
+/// @param n         number of readings, also of those without a row.
+[[nodiscard]] Residuals residuals_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& y,
+                                     const std::vector<std::size_t>& readings,
+                                     const Eigen::VectorXd& weights, std::size_t n);
+
+}  // namespace a351::corrector::residual

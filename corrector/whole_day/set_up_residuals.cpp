@@ -1,0 +1,59 @@
+#include "corrector/whole_day/set_up_residuals.hpp"
+
+#include <Eigen/QR>
+
+#include "corrector/whole_day/day_problem.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+
+namespace a351::corrector::whole_day {
+
+using Index = Eigen::Index;
+
+Eigen::MatrixXd averaging(const reading::DayRecord& record, std::size_t set_ups) {
+    Eigen::MatrixXd mean =
+        Eigen::MatrixXd::Zero(static_cast<Index>(set_ups), std::ssize(record.bins));
+    for (std::size_t i = 0; i < record.bins.size(); ++i)
+        mean(static_cast<Index>(record.bins[i].set_up), static_cast<Index>(i)) =
+            static_cast<double>(record.bins[i].times.size());
+    return mean.array().colwise() / mean.rowwise().sum().array();
+}
+
+residual::Residuals set_up_residuals(const reading::DayRecord& record,
+                                     const std::vector<DayStation>& stations, const DayFit& fit,
+                                     const DayPriors& priors) {
+    const DayProblem problem(record, stations, priors);
+    const Eigen::MatrixXd mean = averaging(record, stations.size());
+    const Eigen::MatrixXd scaled = mean * problem.scaled(fit.expected);
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(problem.estimated());
+    for (std::size_t k = 0; k < kDayTerms; ++k)
+        values(static_cast<Index>(k)) = fit.coefficients.at(k).value;
+    const Eigen::MatrixXd lags = mean * problem.lag_columns(fit.expected, values);
+    const Eigen::VectorXd deviations = problem.unscaling(fit.expected).diagonal();
+    const Eigen::MatrixXd noise =
+        mean * noise_covariance(record.bins, problem.noise(fit.expected)) * mean.transpose();
+    Eigen::MatrixXd covariance = noise + lags * lags.transpose();
+    std::vector<Index> unknown;
+    for (Index k = 0; k < problem.estimated(); ++k) {
+        if (deviations(k) == kFreeGravity_mgal)
+            unknown.push_back(k + 1);
+        else
+            covariance += scaled.col(k + 1) * scaled.col(k + 1).transpose();
+    }
+    const linear_algebra::Cholesky factor(std::move(covariance));
+    residual::Residuals residuals;
+    residuals.whitening.resize(mean.rows(), mean.rows());
+    for (Index k = 0; k < mean.rows(); ++k)
+        residuals.whitening.col(k) = factor.half_solve(Eigen::VectorXd::Unit(mean.rows(), k));
+    // Readings minus their most likely course are V S^-1 y; V is the covariance of the noise alone, S
+    // that with the priors.
+    residuals.to_scatter =
+        linear_algebra::Cholesky(noise).lower().transpose() * residuals.whitening.transpose();
+    const Eigen::MatrixXd columns = residuals.whitening * scaled(Eigen::all, unknown);
+    residuals.unknown = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
+                        Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+    residuals.values = residuals.whitening * scaled.col(0);
+    residuals.project(residuals.values);
+    return residuals;
+}
+
+}  // namespace a351::corrector::whole_day

@@ -1,0 +1,59 @@
+"""A tired operator's day: each mistake is said in the evening, and carrying out the proposals puts the day right."""
+
+from programs import BIN, Scratch, demand, read_json, run
+from tired_operator import MISTAKES, play
+
+MOST_WORSE = 1.5
+DAYS = ((3, "tsukuba", ("late_stop", "other_name", "step")), (1, "hot-afternoon", ("no_stop", "swapped_names", "early_start")),
+        (2, "tilted", ("wrong_reference", "early_stop")))
+
+
+def scenario_of(folder, base):
+    def scenario(slow_noise):
+        file = folder / "scenario.toml"
+        file.write_text(f'base = "{base}"\nname = "game"\n' + (f"[slow_noise]\n{slow_noise}" if slow_noise else ""))
+        return file
+    return scenario
+
+
+with Scratch() as scratch:
+    played = set()
+    for seed, base, what in DAYS:
+        folder = scratch / base
+        folder.mkdir()
+        game = play(folder, scenario_of(folder, base), seed, names=[one["name"] for one in MISTAKES if one["what"] in what])
+        played |= {mistake["what"] for mistake in game["made"]}
+        for finding in game["findings"]:
+            print("   ", finding["text"])
+        for mistake in game["made"]:
+            demand(f"{base}: {mistake['name']}{', noticed' if mistake['is_noticed'] else ''}: said, or without effect",
+                   mistake["is_said"] or game["changed"] < 2.0)
+        demand(f"{base}: left-out error {game['raw']:.2f} times that without mistakes as it is, {game['amended']:.2f} times with "
+               f"the proposals carried out, at most {MOST_WORSE}", game["amended"] <= MOST_WORSE)
+    demand(f"all mistakes of the file were played: {sorted(played)}", played == {mistake["what"] for mistake in MISTAKES})
+
+    day = scratch / "tilted" / "day"
+    survey = day / "survey.toml"
+    amendments = (day / "survey-amendments.toml").read_text()
+    demand("the survey file names the amendments", 'amendments = "survey-amendments.toml"' in survey.read_text())
+    result = read_json(scratch / "tilted" / "day" / "amended" / "result.json")
+    reasons = {one["reason"] for one in result["settings"]["amendments"]}
+    demand(f"the result lists them with their reasons: {reasons}", len(reasons) >= 1)
+
+    printed = run(BIN / "a351-correct", "amend", survey).stdout
+    demand("without an option the proposals are only printed", (day / "survey-amendments.toml").read_text() == amendments)
+    print(printed)
+    refused = run(BIN / "a351-correct", "amend", survey, "--finding", "99", check=False)
+    demand(f"a finding that does not exist is refused: {refused.stderr.strip()}",
+           refused.returncode == 2 and "--finding = 99: no such finding" in refused.stderr)
+    # The reference that is amended already is wrong again: a second amendment of it would contradict.
+    survey.write_text(survey.read_text().replace("survey-amendments", "other-amendments"))
+    (day / "other-amendments.toml").write_text("")
+    run(BIN / "a351-correct", "amend", survey, "--all")
+    (day / "other-amendments.toml").write_text("[[exclude]]\nsite = \"No.0\"\noccupation = 99\nreason = \"r\"\n")
+    before = survey.read_text()
+    refused = run(BIN / "a351-correct", "amend", survey, "--all", check=False)
+    demand(f"a contradiction is refused and no file is changed: {refused.stderr.strip()}",
+           refused.returncode == 2 and survey.read_text() == before
+           and "occupation = 99" in (day / "other-amendments.toml").read_text()
+           and not list(day.glob("*.candidate")))
