@@ -54,8 +54,12 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     for (const char* const seen : {"retimed", "excluded", "included"})
         if (std::ranges::count(window.notes, seen) > 0) return std::nullopt;
     const auto samples = motion_of(record, axes);
-    const signal::StillPart part =
-        signal::choose_still_part(samples, signal::find_box_moves(samples));
+    std::vector<signal::BoxMove> moves = signal::find_box_moves(samples);
+    if (window.not_moved_until)
+        std::erase_if(moves, [&](const signal::BoxMove& move) {
+            return samples[move.after].time <= *window.not_moved_until;
+        });
+    const signal::StillPart part = signal::choose_still_part(samples, moves);
     if (part == signal::StillPart{0, samples.size()}) return std::nullopt;
     MovedStay moved{window, {}};
     OccupationWindow& still = moved.still;

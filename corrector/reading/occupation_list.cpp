@@ -151,6 +151,7 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
         for (const events::Occupation::SetUp& set_up : occupation.set_ups) {
             list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end});
             list.windows.back().key = occupation.key;
+            list.windows.back().not_moved_until = occupation.not_moved_until;
         }
         if (!occupation.is_stopped) list.windows.back().notes.emplace_back("no-stop");
     }

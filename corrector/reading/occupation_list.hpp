@@ -39,7 +39,9 @@ struct OccupationWindow {
     bool is_excluded = false;                 ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
     std::string key = {};                     ///< Key of the stay in the event log, if any.
-    ListedSetUp listed = {};                  ///< Names before all amendments.
+    /// The operator says that the box was not moved before this instant.
+    std::optional<UtcTime> not_moved_until = {};
+    ListedSetUp listed = {};  ///< Names before all amendments.
 };
 
 /// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`.  Exceptions

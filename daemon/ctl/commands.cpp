@@ -168,7 +168,7 @@ int run_command(const std::string& command, const Arguments& arguments) {
     if (command == "note") return change(client, arguments, "/api/note", order(client, arguments));
     if (command == "start" || command == "stop" || command == "setup")
         return change(client, arguments, "/api/occupation/" + command, order(client, arguments));
-    return change_stay(client, arguments, command);
+    return change_stay(client, arguments, command == "not-moved" ? "not_moved" : command);
 }
 
 }  // namespace a351::daemon::ctl

@@ -91,6 +91,11 @@ int main(int argc, char** argv) {
     auto* restore = app.add_subcommand("restore", "Cancel the discard of a stay");
     restore->add_option("STAY", a.stay, "Key of the stay, from list")->type_name("")->required();
     add_reason(restore);
+    auto* not_moved = app.add_subcommand(
+        "not-moved",
+        "Say that the box was not moved during a stay so far, in answer to the warning");
+    not_moved->add_option("STAY", a.stay, kStay)->type_name("");
+    add_reason(not_moved);
     auto* resume = app.add_subcommand(
         "resume", "Continue the last stay, at most 10 min after it was stopped by mistake");
     resume->add_option("STAY", a.stay, kStay)->type_name("");

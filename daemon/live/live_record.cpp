@@ -148,6 +148,20 @@ verdict::RunningReading Record::reading(UtcTime from, UtcTime to, MilliGal targe
     return value.reading(target, judge_.verdict().state);
 }
 
+std::vector<signal::MotionSample> Record::motion(UtcTime from, UtcTime to) const {
+    // The shaking of a sample is that of the 2 s before it was seen, kReachSeconds after its time.
+    constexpr auto kLag =
+        static_cast<std::size_t>(verdict::kReachSeconds / verdict::kLiveStepSeconds);
+    const std::lock_guard lock(mutex_);
+    std::vector<signal::MotionSample> samples;
+    const auto first = std::ranges::lower_bound(thinned_, from, {}, &verdict::LiveSample::time);
+    for (auto one = first; one != thinned_.end() && one->time < to; ++one) {
+        const bool is_known = one - thinned_.begin() >= static_cast<std::ptrdiff_t>(kLag);
+        samples.push_back({one->time, one->axes, is_known ? (one - kLag)->shake : MilliGal(0.0)});
+    }
+    return samples;
+}
+
 std::optional<Level> Record::level_against(UtcTime from, UtcTime to) const {
     const std::lock_guard lock(mutex_);
     constexpr std::size_t kAxes = 3;

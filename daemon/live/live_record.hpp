@@ -18,6 +18,7 @@
 #include "daemon/verdict/running_value.hpp"
 #include "daemon/verdict/verdict.hpp"
 #include "protocol/journal/journal.hpp"
+#include "protocol/signal/moved_box.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon::live {
@@ -88,6 +89,10 @@ public:
     /// Returns the reading of the set-up from `from` to `to`, as far as it is in memory.  Data
     /// outside do not affect it.
     [[nodiscard]] verdict::RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;
+
+    /// Returns the motion of the box in [from, to): the 2 s series, each sample with the shaking around
+    /// it.
+    [[nodiscard]] std::vector<signal::MotionSample> motion(UtcTime from, UtcTime to) const;
 
     /// Returns the tilt of the last 2 s relative to the median of a set-up; std::nullopt if one of
     /// the two is not known.  The set-up includes the lifting of the box at its end.

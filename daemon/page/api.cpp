@@ -28,6 +28,7 @@ constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/resume",
                                             "/api/occupation/rename",
                                             "/api/occupation/retime",
+                                            "/api/occupation/not_moved",
                                             "/api/note",
                                             "/api/target"};
 
@@ -253,7 +254,7 @@ Response Api::change(std::string_view path, const std::string& body) {
     return answer_of(outcome, occupations.running());
 }
 
-/// Carries out discard, restore, resume, rename or retime, which name their stay.
+/// Carries out discard, restore, resume, rename, retime or not_moved, which name their stay.
 survey::Outcome Api::change_stay(std::string_view change, const std::string& body) {
     auto& occupations = sources_.occupations;
     std::vector<std::string> allowed{"key", "site", "reason", "operator", "note"};
@@ -269,6 +270,7 @@ survey::Outcome Api::change_stay(std::string_view change, const std::string& bod
     if (change == "discard") return occupations.discard(stay, order.remark);
     if (change == "restore") return occupations.restore(stay, order.remark);
     if (change == "resume") return occupations.resume(stay, order.remark);
+    if (change == "not_moved") return occupations.not_moved(stay, order.remark);
     return occupations.retime(stay, order.from, order.to, order.remark);
 }
 

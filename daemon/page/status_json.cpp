@@ -50,6 +50,10 @@ json occupation_of(const survey::Occupations& occupations, const survey::FieldSt
     occupation["half_time_s"] = or_null(field.half_time_s);
     occupation["propose_set_up"] = field.proposes_set_up;
     occupation["warnings"] = field.warnings;
+    occupation["moved"] = nullptr;
+    if (field.moved)
+        occupation["moved"] = {{"utc", to_rfc3339(field.moved->time, 3)},
+                               {"is_at_start", field.moved->is_at_start}};
     return occupation;
 }
 

@@ -12,6 +12,8 @@ namespace a351::daemon::survey {
 namespace {
 
 constexpr double kForgottenAfter = 3.0;  ///< Time until a reminder, in planned lengths.
+/// A move is looked for in this time before now.  Reason: the search costs a millisecond for it.
+constexpr Nanoseconds kMoveMemory = std::chrono::hours(2);
 constexpr double kEarthRadiusMetres = 6371000.0;
 
 using SetUp = events::Occupation::SetUp;
@@ -104,6 +106,9 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
     field.half_time_s = std::max(0.0, 0.5 * planned_s - running_s);
     field.proposes_set_up = set_ups.size() == 1 && *field.half_time_s == 0.0;
     field.warnings = warnings_of(*running, survey_day(occupations, now), running_s, planned_s);
+    field.moved = move_prompt(live.motion(std::max(last.start, now - kMoveMemory), now),
+                              running->not_moved_until);
+    if (field.moved) field.warnings.push_back(text_of(*field.moved));
     return field;
 }
 

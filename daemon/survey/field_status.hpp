@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/live/live_record.hpp"
+#include "daemon/survey/move_prompt.hpp"
 #include "daemon/survey/occupations.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/occupations.hpp"
@@ -27,6 +28,7 @@ struct FieldStatus {
     std::optional<double> half_time_s;               ///< Seconds until half time; 0 after it.
     bool proposes_set_up = false;  ///< Half time is past and there was only one set-up.
     std::vector<std::string> warnings;
+    std::optional<MovePrompt> moved;  ///< Question about a move of the box; also in the warnings.
 
     std::optional<live::Level> level;  ///< Tilt relative to the day's first set-up.
     std::string level_site;            ///< Site of that set-up; empty if there is none.

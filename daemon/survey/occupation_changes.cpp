@@ -145,6 +145,16 @@ Outcome Occupations::retime(const Named& stay, std::optional<UtcTime> from,
                                                 is_running ? "" : " to " + shown(end)));
 }
 
+Outcome Occupations::not_moved(const Named& stay, const Remark& remark) {
+    std::string trouble;
+    const auto one = found(stay, trouble);
+    if (!one) return refused(trouble);
+    events::Event event = change_of("not_moved", {stay.key, one->site}, remark);
+    if (event.utc == UtcTime{}) return refused("no sample is available yet; see the status");
+    std::string said = fmt::format("{}: not moved until {}", one->text, shown(event.utc));
+    return commit(std::move(event), std::move(said));
+}
+
 Outcome Occupations::note(const Named& stay, std::string_view text) {
     if (text.empty()) return refused("the note is empty");
     std::string said;

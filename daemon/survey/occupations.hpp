@@ -83,6 +83,9 @@ public:
     Outcome retime(const Named& stay, std::optional<UtcTime> from, std::optional<UtcTime> to,
                    const Remark& remark);
 
+    /// Says that the box was not moved during a stay so far.
+    Outcome not_moved(const Named& stay, const Remark& remark);
+
     /// Writes a note to a stay; without a key to the running one, or else to the log alone.
     Outcome note(const Named& stay, std::string_view text);
 

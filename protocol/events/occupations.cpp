@@ -71,6 +71,8 @@ void OccupationReplay::apply(const Event& event) {
     if (event.type == "retime") retime(event);
     if (event.type == "restore" && !detail(event, kKey).empty())
         if (Ended* const ended = ended_of(event)) ended->is_discarded = false;
+    if (event.type == "not_moved" && !detail(event, kKey).empty())
+        if (RunningOccupation* const stay = stay_of(event)) stay->not_moved_until = event.utc;
     if (event.type == "note") {
         RunningOccupation* const stay = !detail(event, kKey).empty() ? stay_of(event)
                                         : running_                   ? &*running_
@@ -193,7 +195,7 @@ std::vector<Occupation> OccupationReplay::stays(bool are_discarded) const {
         auto set_ups = set_ups_of(starts_of(one), one.end);
         if (one.is_discarded != are_discarded || set_ups.empty()) continue;
         occupations.push_back({one.stay.key, one.stay.site, one.stay.number, std::move(set_ups),
-                               one.stay.note, one.is_stopped});
+                               one.stay.note, one.is_stopped, one.stay.not_moved_until});
     }
     std::ranges::stable_sort(occupations, {}, start_of);
     return occupations;

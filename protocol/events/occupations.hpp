@@ -43,6 +43,8 @@ struct Occupation {
     std::vector<SetUp> set_ups;  ///< At least one, in the order of the events.
     std::string note;            ///< Notes joined by "; "; empty if there are none.
     bool is_stopped = true;      ///< False: it has no stop, and the next start ended it.
+    /// The operator says that the box was not moved before this instant.
+    std::optional<UtcTime> not_moved_until{};
 };
 
 /// The stay that was started and has not ended.
@@ -62,6 +64,7 @@ struct RunningOccupation {
     std::optional<std::int64_t> index;
     std::string operator_name;  ///< Detail `operator` of the start; empty if not given.
     std::string note;           ///< Notes so far, joined by "; ".
+    std::optional<UtcTime> not_moved_until{};  ///< As Occupation::not_moved_until.
 };
 
 /// Applies events one by one.
@@ -76,6 +79,7 @@ struct RunningOccupation {
 /// - `resume` cancels the end of a stay if none runs.
 /// - `retime` moves the start (`from`), the end (`to`) or both; set-ups outside are left out, and of
 ///   a stay that ended they come back with a later `retime`.
+/// - `not_moved` says that the box was not moved during the stay, up to the instant of the event.
 /// - Notes of start, stop, rename and `note` are joined by "; ".
 /// - A set-up without duration is left out, and so is an occupation without set-ups.
 /// - `setup` and `stop` change nothing if no occupation runs.  Other types change nothing.

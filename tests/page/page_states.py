@@ -83,6 +83,25 @@ def show_occupations(stub, browser):
     browser.shot("good-enough-360", is_whole=True)
     browser.resize(LAPTOP)
 
+    at = "2026-03-01T01:43:20.000Z"
+    stay = {key: occupation()[key] for key in ("key", "site")}
+    for is_at_start, answers in ((False, {"moved-stop": ("occupation/stop", {"site": stay["site"], "at": at}),
+                                          "moved-setup": ("occupation/setup", {"at": at}),
+                                          "moved-not": ("occupation/not_moved", stay)}),
+                                 (True, {"moved-stop": ("occupation/retime", {**stay, "from": at, "reason": "started too early"})})):
+        stub.status["occupation"] = occupation(moved={"utc": at, "is_at_start": is_at_start})
+        browser.wait_for_text("moved-text", "The box was moved until 01:43:20" if is_at_start else "The box was moved at 01:43:20 UTC")
+        browser.demand_readable("a moved box")
+        browser.shot(f"moved-{'early' if is_at_start else 'late'}-1366")
+        for button, (path, body) in answers.items():
+            sent = len(stub.posts)
+            browser.click(f"#{button}")
+            browser.wait_for(f"{browser.text(button)}: an order was sent", lambda: len(stub.posts) > sent)
+            demand(f"it is {path} {body}", stub.posts[-1] == (f"/api/{path}", body))
+        demand("an early start has no further set-up", browser.find("#moved-setup").is_displayed() is not is_at_start)
+    stub.status["occupation"] = occupation()
+    browser.wait_for("the question is gone", lambda: not browser.find("#run-moved").is_displayed())
+
     stub.status["occupation"] = occupation(reading=reading(None, None))
     browser.wait_for_text("run-judgement", "time needed not known yet")
     demand("no standard error is shown before it is known", browser.text("run-value") == "979861.32 mGal")

@@ -10,7 +10,7 @@ from programs import BIN, TOP, Scratch, demand, run
 PAGES = {
     "a351d": ("daemon/a351d.1", []),
     "a351ctl": ("daemon/ctl/a351ctl.1",
-                ["status", "watch", "start", "stop", "setup", "discard", "restore", "resume", "rename", "retime", "note", "target",
+                ["status", "watch", "start", "stop", "setup", "discard", "restore", "resume", "not-moved", "rename", "retime", "note", "target",
                  "sites", "list"]),
     "a351-sim": ("sim/a351-sim.1", ["device", "replay", "survey", "plan"]),
 }

@@ -50,9 +50,20 @@ export class OccupationPanel {
         by_id("start-name").addEventListener("input", () => this.warn_of_repeat());
         by_id("stop").addEventListener("click", () => this.order("/api/occupation/stop", {}));
         by_id("setup").addEventListener("click", () => this.order("/api/occupation/setup", {}));
+        by_id("moved-stop").addEventListener("click", () => this.answer_move());
+        by_id("moved-setup").addEventListener("click", () => this.order("/api/occupation/setup", { at: this.running.moved.utc }));
+        by_id("moved-not").addEventListener("click", () => this.change("/api/occupation/not_moved",
+            { key: this.running.key, site: this.running.site }));
         for (const kind of ["discard", "rename", "times"]) {
             by_id(`run-${kind}`).addEventListener("click", () => this.dialogs.open(kind, this.running));
         }
+    }
+
+    /** Ends the stay where the box was moved; after an early start begins it there. */
+    answer_move() {
+        const { key, site, moved } = this.running;
+        if (!moved.is_at_start) return this.order("/api/occupation/stop", { site, at: moved.utc });
+        return this.change("/api/occupation/retime", { key, site, from: moved.utc, reason: "started too early" });
     }
 
     /** Makes the lists be read again: the daemon may have been restarted with other sites. */
@@ -267,9 +278,23 @@ export class OccupationPanel {
         const is_proposed = Boolean(one.propose_set_up);
         show("run-propose", is_proposed);
         by_id("setup").classList.toggle("proposed", is_proposed);
+        this.show_move(one);
         const warnings = one.warnings ?? [];
         show("run-warnings", warnings.length > 0);
         set_items("run-warnings", warnings.map((text) => [`⚠ ${visible(text)}`, ""]));
+    }
+
+    /** Asks about a move of the box, with its three answers. */
+    show_move(one) {
+        const moved = one.moved ?? null;
+        show("run-moved", moved !== null);
+        if (!moved) return;
+        const time = time_of_day(moved.utc);
+        set_text("moved-text", moved.is_at_start ? `The box was moved until ${time} UTC, after the start.`
+            : `The box was moved at ${time} UTC while ${visible(one.site)} runs.`);
+        set_text("moved-stop", moved.is_at_start ? `Begin at ${time}` : `Stop at ${time}`);
+        set_text("moved-setup", `Next set-up at ${time}`);
+        show("moved-setup", !moved.is_at_start);
     }
 
     judgement(reading) {

@@ -71,7 +71,7 @@ TEST_CASE("a malformed body is refused with an error that names the key", "[daem
     CHECK(trouble(start, R"({"site":"No.0","At":""})").find("key At is unknown") !=
           std::string::npos);
     CHECK(trouble(start, R"({"site":"No.0","at":"noon"})").find("at = noon") != std::string::npos);
-    for (const char* change : {"discard", "restore", "resume", "rename", "retime"}) {
+    for (const char* change : {"discard", "restore", "resume", "rename", "retime", "not_moved"}) {
         const std::string path = std::string("/api/occupation/") + change;
         CHECK(trouble(path, R"({"site":"No.0"})").find("key key is missing") != std::string::npos);
         CHECK(trouble(path, R"({"key":"x","site":"No.0","at":"2026-03-14T08:10:00Z"})")

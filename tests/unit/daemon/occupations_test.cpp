@@ -167,6 +167,26 @@ TEST_CASE("a change is refused if the operator saw another site", "[daemon][occu
     CHECK(occupations.discard(stale, {}).kind == Kind::done);
 }
 
+TEST_CASE("the operator's answer that the box was not moved is an event of the stay",
+          "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    CHECK(occupations.not_moved(of(10), {}).kind == Kind::refused);
+    occupations.start("No.0", {}, minute(10));
+    CHECK(mentions(occupations.not_moved(of(10), {.reason = "a hand"}), "No.0 (stay 1)"));
+    CHECK(recorder.log.back().type == "not_moved");
+    CHECK(recorder.log.back().details.at("key") == of(10).key);
+    REQUIRE(occupations.running()->not_moved_until.has_value());
+    const UtcTime until = *occupations.running()->not_moved_until;
+    CHECK(until == recorder.log.back().utc);
+    occupations.stop({}, minute(20));
+    CHECK(occupations.list().front().not_moved_until == until);
+    CHECK(mentions(occupations.not_moved({of(10).key, "No.1"}, {}), "not at No.1"));
+    // A restarted daemon has the same answer.
+    const Occupations restarted(recorder, two_sites(), recorder.log);
+    CHECK(restarted.list().front().not_moved_until == until);
+}
+
 TEST_CASE("a stay is restored or moved only where no other stay is", "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
