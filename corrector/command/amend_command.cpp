@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "corrector/command/commands.hpp"
@@ -33,7 +34,7 @@ std::vector<reading::Finding> chosen_findings(const std::vector<reading::Finding
                                               const AmendOptions& options) {
     std::vector<reading::Finding> chosen;
     if (options.is_all) chosen = findings;
-    for (const int number : options.findings) {
+    for (const int number : std::set<int>(options.findings.begin(), options.findings.end())) {
         if (number < 1 || number > static_cast<int>(findings.size()))
             throw InputError(fmt::format("--finding = {}: no such finding; allowed: 1 to {}",
                                          number, findings.size()));

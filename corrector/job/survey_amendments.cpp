@@ -48,32 +48,44 @@ std::string with_amendments_key(const std::string& text, const std::string& valu
 std::filesystem::path add_amendments(const SurveyFile& survey,
                                      const std::vector<reading::Finding>& findings,
                                      std::filesystem::path file) {
-    const std::filesystem::path folder = survey.path.parent_path();
-    const auto origin = survey.amendments;
+    const auto folder_of = [](const std::filesystem::path& of) {
+        return of.parent_path().empty() ? std::filesystem::path(".") : of.parent_path();
+    };
+    const std::filesystem::path& origin = survey.amendments;
     if (file.empty())
-        file =
-            origin.empty() ? folder / (survey.path.stem().string() + "-amendments.toml") : origin;
-    std::string text = std::filesystem::exists(file) ? text::read_text_file(file) : "";
+        file = !origin.empty()
+                   ? origin
+                   : folder_of(survey.path) / (survey.path.stem().string() + "-amendments.toml");
+    if (file != origin && std::filesystem::exists(file))
+        throw InputError(
+            fmt::format("{}: exists, and {} does not name it; allowed: a new file, or "
+                        "the one of the survey",
+                        file.string(), survey.path.string()));
+    std::string text = origin.empty() ? "" : text::read_text_file(origin);
     if (!text.empty() && !text.ends_with('\n')) text += '\n';
     for (const reading::Finding& finding : findings)
         text += fmt::format("# {}\n{}", finding.text, finding.amendment);
+    std::string named_survey = text::read_text_file(survey.path);
+    if (file != origin)
+        named_survey = with_amendments_key(
+            named_survey, std::filesystem::proximate(file, folder_of(survey.path)).string());
 
     const Candidate candidate(file.string() + ".candidate");
-    text::write_together(file.parent_path().empty() ? "." : file.parent_path(),
-                         {{candidate.file().filename().string(), text}});
+    text::write_together(folder_of(file), {{candidate.file().filename().string(), text}});
     SurveyFile tried = survey;
     tried.amendments = candidate.file();
     static_cast<void>(reading::read_survey_inputs(tried));  // refuses what contradicts
 
-    std::filesystem::path named = std::filesystem::relative(file, folder.empty() ? "." : folder);
-    if (named.empty()) named = std::filesystem::absolute(file);
-    text::write_together(file.parent_path().empty() ? "." : file.parent_path(),
-                         {{file.filename().string(), text}});
-    const std::string before = text::read_text_file(survey.path);
-    const std::string after = with_amendments_key(before, named.string());
-    if (after != before)
-        text::write_together(folder.empty() ? "." : folder,
-                             {{survey.path.filename().string(), after}});
+    if (file == origin) {
+        text::write_together(folder_of(file), {{file.filename().string(), text}});
+    } else if (folder_of(file) == folder_of(survey.path)) {
+        text::write_together(folder_of(file), {{file.filename().string(), text},
+                                               {survey.path.filename().string(), named_survey}});
+    } else {
+        text::write_together(folder_of(file), {{file.filename().string(), text}});
+        text::write_together(folder_of(survey.path),
+                             {{survey.path.filename().string(), named_survey}});
+    }
     return file;
 }
 

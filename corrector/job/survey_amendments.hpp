@@ -21,13 +21,14 @@ namespace a351::corrector::job {
 /// Appends the amendments of findings to the amendments file, each with its sentence as comment, and
 /// names the file in the survey file.
 ///
-/// Both files are replaced together.  Before, the new amendments are carried out on the survey's
-/// occupations, so that one that is refused changes no file.
+/// Before any file is changed, the new amendments are carried out on the survey's occupations, so that
+/// one that is refused changes nothing.  A new file has the survey's earlier amendments too.
 /// @param findings  those with an amendment.
 /// @param file      amendments file; empty: the one of the survey, or else NAME-amendments.toml beside
 ///                  the survey file NAME.toml.
 /// @return the amendments file.
-/// @throws InputError  an amendment is refused, or the survey file has no line [survey].
+/// @throws InputError  an amendment is refused, the survey file has no line [survey], or the file
+///                     exists and is not that of the survey.
 std::filesystem::path add_amendments(const SurveyFile& survey,
                                      const std::vector<reading::Finding>& findings,
                                      std::filesystem::path file);

@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <set>
+#include <random>
 
 namespace a351::corrector::mistake {
 namespace {
@@ -19,6 +19,11 @@ using Index = Eigen::Index;
 constexpr double kSizeRange_mgal = 100.0;
 /// Least degrees of freedom of the scatter.  Reason: with fewer, everything is explained.
 constexpr double kFewestDof = 4.0;
+/// Mistakes that are put right on trial although they are not sure.  Reason: two large ones hide each
+/// other, until both are put right (the generalised test of B. Rosner, Technometrics 25, 165-172,
+/// 1983).
+constexpr std::size_t kLookAhead = 2;
+constexpr double kFewestTrialDof = 8.0;
 /// Simulated surveys: first enough to see that nothing is found, then to know a small probability.
 constexpr int kFewDraws = 500, kManyDraws = 20000;
 
@@ -163,6 +168,12 @@ double share_of(const Suspect& suspect, const Eigen::VectorXd& values,
 
 using Shares = std::array<double, kClasses>;
 
+/// A mistake and how well it explains the residuals.
+struct Scored {
+    Mistake mistake;
+    double score = 0.0;
+};
+
 /// The residuals of a survey with everything that may explain them.
 class Trial {
 public:
@@ -175,14 +186,15 @@ public:
     [[nodiscard]] bool is_possible() const {
         return !suspects_.empty() && residuals_.dof() >= kFewestDof;
     }
+    /// Returns true if so many readings are left that a mistake may be put right on trial.
+    [[nodiscard]] bool allows_trial() const { return residuals_.dof() >= kFewestTrialDof; }
 
-    /// Returns the mistake that explains most, by -dof / 2 ln(1 - share) less what an unknown size
-    /// and the number of its class cost; with its size.
-    [[nodiscard]] Mistake best() const {
+    /// Returns the mistakes that explain most, the best first, by -dof / 2 ln(1 - share) less what an
+    /// unknown size and the number of its class cost; with their sizes.
+    [[nodiscard]] std::vector<Scored> best(std::size_t count) const {
         const Eigen::VectorXd scatter = residuals_.to_scatter * residuals_.values;
         const double dof = residuals_.dof();
-        const Suspect* best = nullptr;
-        double most = -HUGE_VAL;
+        std::vector<Scored> all;
         for (const Suspect& suspect : suspects_) {
             const double share =
                 share_of(suspect, residuals_.values, scatter, scatter.squaredNorm());
@@ -191,12 +203,11 @@ public:
             if (!suspect.has_size())
                 score -=
                     std::log(kSizeRange_mgal * suspect.length / std::sqrt(2.0 * std::numbers::pi));
-            if (score > most) {
-                most = score;
-                best = &suspect;
-            }
+            all.push_back({measured(suspect), score});
         }
-        return measured(*best);
+        std::ranges::stable_sort(all, std::ranges::greater(), &Scored::score);
+        if (all.size() > count) all.resize(count);
+        return all;
     }
 
     /// Sets the size of a mistake and its probability.
@@ -254,34 +265,37 @@ private:
     std::array<double, kClasses> counts_{};
 };
 
-bool is_same(const Mistake& a, const Mistake& b) {
-    return a.kind == b.kind && a.readings == b.readings && a.others == b.others;
-}
-
 /// Returns the mistake that explains most of what the known ones leave, with its probability.
+///
+/// With the noise that it causes itself a mistake may be taken for another one; so the best few are
+/// each tried at the noise of the survey in which they are put right, where the right one is seen
+/// clearly.
 std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings,
                                     const ResidualsOf& residuals_of,
-                                    const std::vector<Mistake>& known) {
-    constexpr int kMostRounds = 3;
-    std::vector<Mistake> quiet = known;
-    std::optional<Mistake> best;
-    for (int round = 0; round <= kMostRounds; ++round) {
-        auto residuals = residuals_of(known, quiet);
-        if (!residuals) return best;
+                                    const std::vector<Mistake>& known, bool is_known_sure) {
+    constexpr std::size_t kTried = 4;
+    auto residuals = residuals_of(known, known);
+    if (!residuals) return std::nullopt;
+    const Trial noisy(std::move(*residuals), readings, known);
+    if (!noisy.is_possible() || !(is_known_sure || noisy.allows_trial())) return std::nullopt;
+    std::optional<Scored> best;
+    for (const Scored& candidate : noisy.best(kTried)) {
+        std::vector<Mistake> quiet = known;
+        quiet.push_back(candidate.mistake);
+        residuals = residuals_of(known, quiet);
+        if (!residuals) continue;
         const Trial trial(std::move(*residuals), readings, known);
-        if (!trial.is_possible()) return std::nullopt;
-        Mistake found = trial.best();
-        const bool is_settled = best && is_same(*best, found);
-        best = std::move(found);
-        if (is_settled || round == kMostRounds) {
-            trial.measure(*best);
-            return best;
-        }
-        // With the noise of the survey in which it is put right, it is seen more clearly.
-        quiet = known;
-        quiet.push_back(*best);
+        if (!trial.is_possible()) continue;
+        Scored found = trial.best(1).front();
+        if (!best || found.score > best->score) best = std::move(found);
     }
-    return best;
+    if (!best) return std::nullopt;
+    std::vector<Mistake> quiet = known;
+    quiet.push_back(best->mistake);
+    residuals = residuals_of(known, quiet);
+    if (!residuals) return std::nullopt;
+    Trial(std::move(*residuals), readings, known).measure(best->mistake);
+    return best->mistake;
 }
 
 std::vector<Mistake> without(std::vector<Mistake> mistakes, std::size_t k) {
@@ -299,9 +313,7 @@ void refine(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& 
         if (!residuals) continue;
         const Trial trial(std::move(*residuals), readings, others);
         if (!trial.is_possible()) continue;
-        Mistake best = trial.best();
-        trial.measure(best);
-        if (best.p <= kMistakeAlpha) mistakes[k] = std::move(best);
+        mistakes[k] = trial.best(1).front().mistake;
     }
 }
 
@@ -312,25 +324,34 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
     std::vector<Mistake> mistakes;
     const auto accepted =
         static_cast<std::size_t>(std::ranges::count(readings, true, &SearchedReading::is_accepted));
-    while (mistakes.size() < accepted / 3) {
-        auto found = next_mistake(readings, residuals_of, mistakes);
-        if (!found || found->p > kMistakeAlpha) break;
+    std::vector<Mistake> sure;
+    while (mistakes.size() < std::min(accepted / 3, sure.size() + 1 + kLookAhead)) {
+        const bool is_known_sure = mistakes.size() == sure.size();
+        auto found = next_mistake(readings, residuals_of, mistakes, is_known_sure);
+        if (!found) break;
+        const bool is_sure = found->p <= kMistakeAlpha;
         mistakes.push_back(std::move(*found));
         if (mistakes.size() > 1) refine(mistakes, readings, residuals_of);
+        if (is_sure) sure = mistakes;
     }
-    if (mistakes.size() < 2) return mistakes;
-    std::vector<Mistake> kept;
-    for (std::size_t k = 0; k < mistakes.size(); ++k) {
-        const std::vector<Mistake> others = without(mistakes, k);
-        auto residuals = residuals_of(others, mistakes);
-        if (!residuals) continue;
-        Mistake mistake = mistakes[k];
-        Trial(std::move(*residuals), readings, others).measure(mistake);
-        const auto is_known = [&](const Mistake& one) { return is_same(one, mistake); };
-        if (mistake.p <= kMistakeAlpha && std::ranges::none_of(kept, is_known))
-            kept.push_back(std::move(mistake));
+    mistakes = std::move(sure);
+    // What is not visible any longer is dropped, the least sure first.
+    while (!mistakes.empty()) {
+        for (std::size_t k = 0; k < mistakes.size(); ++k) {
+            const std::vector<Mistake> others = without(mistakes, k);
+            auto residuals = residuals_of(others, mistakes);
+            if (!residuals) return {};
+            Mistake mistake = mistakes[k];
+            Trial(std::move(*residuals), readings, others).measure(mistake);
+            mistakes[k].p = mistake.p;
+            mistakes[k].size_mgal = mistake.size_mgal;
+            mistakes[k].u_mgal = mistake.u_mgal;
+        }
+        const auto worst = std::ranges::max_element(mistakes, {}, &Mistake::p);
+        if (worst->p <= kMistakeAlpha) break;
+        mistakes.erase(worst);
     }
-    return kept;
+    return mistakes;
 }
 
 }  // namespace a351::corrector::mistake

@@ -43,8 +43,10 @@ struct Mistake {
     /// difference of both references.
     double size_mgal = 0.0;
     double u_mgal = 0.0;  ///< Standard uncertainty; 0 for a swap.
-    /// Probability that a survey without a mistake shows one as clear as this, of any kind.
+    /// Probability that a survey without a mistake shows one of its class as clear as this.
     double p = 1.0;
+
+    [[nodiscard]] bool operator==(const Mistake&) const = default;
 };
 
 /// A reading of the survey, as the search sees it.
@@ -63,14 +65,15 @@ using ResidualsOf = std::function<std::optional<residual::Residuals>(
 
 /// Probability that a mistake of one class is found where there is none.  There are three classes:
 /// readings, swaps, steps.
-inline constexpr double kMistakeAlpha = 0.015;
+inline constexpr double kMistakeAlpha = 0.01;
 
 /// Returns the mistakes that were found, in the order in which they were.
 ///
-/// It ends when nothing more is found, or when a third of the readings is off.  A mistake that is no
-/// longer visible when the others are put right is dropped.  The simulations have a fixed seed.
+/// It ends when nothing more is found, also not with two more put right on trial, or when there are a
+/// third as many mistakes as readings.  A mistake that is no longer visible when the others are put
+/// right is dropped.  The simulations have a fixed seed.
 /// @param readings     in order of time.
-/// @param residuals_of called once or twice for each mistake, and once at the end for each.
+/// @param residuals_of called about ten times for each mistake.
 [[nodiscard]] std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
                                                    const ResidualsOf& residuals_of);
 

@@ -26,8 +26,9 @@ constexpr double kVisitedOdds = 4.0;
 /// Turns mistakes into sentences with proposals.
 class Teller {
 public:
-    Teller(const std::vector<SurveyRow>& rows, const std::vector<text::Site>& sites)
-        : rows_(rows), sites_(sites) {}
+    Teller(const std::vector<SurveyRow>& rows, const model::RowChoice& choice,
+           const std::vector<text::Site>& sites)
+        : rows_(rows), choice_(choice), sites_(sites) {}
 
     [[nodiscard]] std::vector<Finding> told(const Mistake& mistake) const {
         if (mistake.kind == MistakeKind::step) return {step(mistake)};
@@ -103,10 +104,10 @@ private:
     [[nodiscard]] std::vector<Candidate> read_sites(const Mistake& mistake) const {
         std::vector<Candidate> candidates;
         const SurveyRow& row = first(mistake);
-        if (!row.reference) return candidates;
+        if (!choice_.in_use[mistake.readings.front()]) return candidates;  // no reference is held
         const MilliGal read = *row.reference + MilliGal(mistake.size_mgal);
         for (const text::Site& site : sites_) {
-            if (!site.gravity || site.name == row.site) continue;
+            if (!site.gravity || site.name == row.site || is_refused(site.name)) continue;
             const double u =
                 std::hypot(mistake.u_mgal, site.u_gravity.value_or(MilliGal(0.0)).value());
             const double distance_mgal = std::abs((read - *site.gravity).value());
@@ -140,10 +141,22 @@ private:
     /// Returns the first reading after a step that would look like this mistake, if there is one.
     [[nodiscard]] std::optional<std::size_t> step_beside(const Mistake& mistake) const {
         const std::size_t from = mistake.readings.front(), to = mistake.readings.back();
-        if (to - from + 1 != mistake.readings.size()) return std::nullopt;
-        const bool is_first = from == 0, is_last = to + 1 == rows_.size();
+        const auto are_accepted = [&](std::size_t first, std::size_t behind) {
+            return std::count(choice_.accepted.begin() + static_cast<std::ptrdiff_t>(first),
+                              choice_.accepted.begin() + static_cast<std::ptrdiff_t>(behind), true);
+        };
+        if (are_accepted(from, to + 1) != std::ssize(mistake.readings)) return std::nullopt;
+        const bool is_first = are_accepted(0, from) == 0,
+                   is_last = are_accepted(to + 1, rows_.size()) == 0;
         if (is_first == is_last) return std::nullopt;
         return is_first ? to + 1 : from;
+    }
+
+    /// Returns true if an amendment refuses the reference of a site.
+    [[nodiscard]] bool is_refused(const std::string& site) const {
+        return std::ranges::any_of(rows_, [&](const SurveyRow& row) {
+            return row.site == site && row.is_reference_refused;
+        });
     }
 
     [[nodiscard]] Finding step(const Mistake& mistake) const {
@@ -212,7 +225,7 @@ private:
             mistake.readings, [&](std::size_t i) { return rows_[i].occupation == row.occupation; });
         if (is_one_stay) {
             finding.code = "reference_or_reading";
-            finding.text += fmt::format(", or its only reading is bad: look at both");
+            finding.text += ", or its only stay is bad: look at both";
         }
         if (!row.listed.site.empty())
             finding.amendment =
@@ -241,8 +254,10 @@ private:
             return other.site == row.site && other.occupation == row.occupation;
         };
         const auto number =
-            1 + std::count_if(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i),
-                              is_same_stay);
+            row.listed.set_up
+                ? *row.listed.set_up
+                : 1 + std::count_if(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i),
+                                    is_same_stay);
         finding.text = fmt::format("set-up {} of {} is {}, unlike the others: repeat it", number,
                                    name_of(row), off_by(mistake.size_mgal, mistake.u_mgal));
         finding.amendment = amendment(
@@ -252,6 +267,7 @@ private:
     }
 
     const std::vector<SurveyRow>& rows_;
+    const model::RowChoice& choice_;
     const std::vector<text::Site>& sites_;
 };
 
@@ -264,8 +280,9 @@ UtcTime time_before(const std::vector<SurveyRow>& rows, std::size_t after) {
 }
 
 std::vector<Finding> findings_of(const Mistake& mistake, const std::vector<SurveyRow>& rows,
+                                 const model::RowChoice& choice,
                                  const std::vector<text::Site>& sites) {
-    return Teller(rows, sites).told(mistake);
+    return Teller(rows, choice, sites).told(mistake);
 }
 
 }  // namespace a351::corrector::mistake

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "corrector/mistake/mistake_search.hpp"
+#include "corrector/model/model.hpp"
 #include "corrector/reading/finding.hpp"
 #include "corrector/reading/survey_row.hpp"
 #include "protocol/text/sites.hpp"
@@ -18,10 +19,11 @@ namespace a351::corrector::mistake {
 ///
 /// A stay that is off is said to be of another site if the reading is within two and a half standard
 /// uncertainties of that site's reference.  There is no amendment for rows without ListedSetUp::site.
-/// @param rows   all readings of the search.
+/// @param rows, choice  all readings of the search, and those of its fit.
 /// @param sites  sites whose name may be right.
 [[nodiscard]] std::vector<reading::Finding> findings_of(const Mistake& mistake,
                                                         const std::vector<reading::SurveyRow>& rows,
+                                                        const model::RowChoice& choice,
                                                         const std::vector<text::Site>& sites);
 
 }  // namespace a351::corrector::mistake

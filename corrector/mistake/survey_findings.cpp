@@ -127,21 +127,33 @@ std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
     const model::Model& model = *model::find_model(result.model);
     const std::vector<SurveyRow> rows =
         model::without_known_tilt(survey.rows, result.options.calibration);
+    bool is_mistaken = false;
     if (model.residuals) {
         const model::RowChoice choice =
             model::choose_rows(rows, result.options.datum, result.options.use_flags);
-        const auto residuals_of = [&](const std::vector<Mistake>& known,
-                                      const std::vector<Mistake>& quiet) {
-            const Mended with = mended(rows, result.options, known),
-                         without = mended(rows, result.options, quiet);
-            return model.residuals({{with.rows, with.options, survey.day}, with.choice},
-                                   {{without.rows, without.options, survey.day}, without.choice});
+        std::optional<model::Noise> nearby, of_quiet;
+        std::vector<Mistake> last_quiet;
+        const auto residuals_of =
+            [&](const std::vector<Mistake>& known,
+                const std::vector<Mistake>& quiet) -> std::optional<residual::Residuals> {
+            if (!of_quiet || quiet != last_quiet) {
+                const Mended without = mended(rows, result.options, quiet);
+                of_quiet =
+                    model.noise({{without.rows, without.options, survey.day}, without.choice},
+                                nearby ? &*nearby : nullptr);
+                last_quiet = quiet;
+                if (!nearby) nearby = of_quiet;
+            }
+            if (!of_quiet) return std::nullopt;
+            const Mended with = mended(rows, result.options, known);
+            return model.residuals({{with.rows, with.options, survey.day}, with.choice}, *of_quiet);
         };
         const std::vector<Mistake> mistakes = search_mistakes(searched(rows, choice), residuals_of);
         for (const Mistake& mistake : mistakes)
-            for (Finding& finding : findings_of(mistake, rows, survey.sites))
+            for (Finding& finding : findings_of(mistake, rows, choice, survey.sites))
                 findings.push_back(std::move(finding));
-        if (!mistakes.empty()) {
+        is_mistaken = !mistakes.empty();
+        if (is_mistaken) {
             const Mended day = mended(rows, result.options, mistakes);
             const auto score = model.score({day.rows, day.options, survey.day}, day.choice);
             if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
@@ -149,8 +161,8 @@ std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
         }
     }
     std::ranges::stable_partition(findings, &Finding::is_headline);
-    // A mistake is a misfit of its own.
-    if (findings.empty())
+    // A mistake that was found is a misfit of its own.
+    if (!is_mistaken)
         if (auto finding = misfit(result)) findings.push_back(std::move(*finding));
     if (auto finding = not_visited(survey)) findings.push_back(std::move(*finding));
     return findings;

@@ -28,18 +28,25 @@ std::variant<AppliedFit, Refusal> apply_model(const LinearModel& model,
                       s_mgal};
 }
 
+std::optional<Noise> linear_noise(const LinearModel& model, const ChosenSurvey& survey,
+                                  const Noise* /*nearby*/) {
+    const auto fit = fit_model(model, chosen_rows(survey.problem.rows, survey.choice.in_use),
+                               survey.problem.origin(), survey.problem.options.priors);
+    if (!fit) return std::nullopt;
+    const auto s_mgal = fit->residual_scale();
+    if (!s_mgal || !(*s_mgal > 0.0)) return std::nullopt;
+    return *s_mgal;
+}
+
 std::optional<residual::Residuals> linear_residuals(const LinearModel& model,
                                                     const ChosenSurvey& survey,
-                                                    const ChosenSurvey& quiet) {
+                                                    const Noise& noise) {
     const std::vector<reading::SurveyRow>& rows = survey.problem.rows;
     const TimeOrigin origin = survey.problem.origin();
     const Priors& priors = survey.problem.options.priors;
     const std::vector<reading::SurveyRow> used = chosen_rows(rows, survey.choice.in_use);
-    const auto without = fit_model(model, chosen_rows(quiet.problem.rows, quiet.choice.in_use),
-                                   quiet.problem.origin(), priors);
-    if (!without || !fit_model(model, used, origin, priors)) return std::nullopt;
-    const auto s_mgal = without->residual_scale();
-    if (!s_mgal || !(*s_mgal > 0.0)) return std::nullopt;
+    if (!fit_model(model, used, origin, priors)) return std::nullopt;
+    const double s_mgal = std::get<double>(noise);
     const Eigen::MatrixXd columns = model_columns(model, used, origin);
     const SlopePriors slopes = slope_priors(model, priors, origin.steps.size());
     const auto prior_count = static_cast<Eigen::Index>((slopes.weights.array() > 0.0).count());
@@ -59,8 +66,8 @@ std::optional<residual::Residuals> linear_residuals(const LinearModel& model,
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (survey.choice.in_use[i]) readings.push_back(i);
     readings.resize(static_cast<std::size_t>(a.rows()), rows.size());
-    return residual::residuals_of(a / *s_mgal, y / *s_mgal, readings,
-                                  Eigen::VectorXd::Constant(a.rows(), 1.0 / *s_mgal), rows.size());
+    return residual::residuals_of(a / s_mgal, y / s_mgal, readings,
+                                  Eigen::VectorXd::Constant(a.rows(), 1.0 / s_mgal), rows.size());
 }
 
 void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t row,

@@ -53,11 +53,13 @@ struct AppliedFit {
                                                             const RowChoice& choice,
                                                             const Priors& priors);
 
-/// Returns the residuals of a linear model, see Model::residuals: readings and priors, in standard
-/// deviations of a reading, that of the quiet survey.
+/// Noise and residuals of a linear model, see Model::noise: standard deviation of a reading; readings
+/// and priors in units of it.
+[[nodiscard]] std::optional<Noise> linear_noise(const LinearModel& model,
+                                                const ChosenSurvey& survey, const Noise* nearby);
 [[nodiscard]] std::optional<residual::Residuals> linear_residuals(const LinearModel& model,
                                                                   const ChosenSurvey& survey,
-                                                                  const ChosenSurvey& quiet);
+                                                                  const Noise& noise);
 
 /// Sets leverage and u_corrected = s sqrt(1 + leverage), that of a station that is not in the fit.
 ///

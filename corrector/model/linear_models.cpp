@@ -151,7 +151,8 @@ std::vector<Model> linear_models() {
     std::vector<Model> list;
     const auto add = [&list](const LinearModel& terms, bool is_always_scored) {
         list.push_back({terms.name, is_always_scored, std::bind_front(fit, terms),
-                        std::bind_front(score, terms), std::bind_front(linear_residuals, terms)});
+                        std::bind_front(score, terms), std::bind_front(linear_noise, terms),
+                        std::bind_front(linear_residuals, terms)});
     };
     for (const LinearModel& terms : kLinearModels) add(terms, true);
     for (const LinearModel& terms : kModelsOnRequest) add(terms, false);

@@ -66,6 +66,10 @@ struct ChosenSurvey {
     const RowChoice& choice;
 };
 
+/// Noise of a survey: standard deviation of a reading, mGal (network: s0), or the fit of a day, which
+/// has noise and lags.
+using Noise = std::variant<double, whole_day::DayFit>;
+
 /// A fit, or the reason why the rows do not allow one.
 using FitResult = std::variant<Fit, Refusal>;
 
@@ -88,15 +92,17 @@ struct Model {
     /// @throws InputError  as fit().
     std::function<std::optional<Score>(const SurveyProblem&, const RowChoice&)> score;
 
-    /// Returns the residuals of all rows, at the noise of a quiet survey; rows outside the fit have
-    /// no effect on them.
-    ///
-    /// The quiet survey has the same rows, without those or with other unknowns, so that a mistake
-    /// does not enlarge the noise with which it is compared.
-    /// @return nullopt if the model does not fit one of both surveys; the function is empty for a
-    ///         model that is no least-squares fit.
+    /// Returns the noise of a survey; nullopt if the model does not fit it.  This and residuals() are
+    /// empty for `paper`; those of `robust` are of least squares with its terms.
+    /// @param nearby  noise of a similar survey as start of a search, which is then faster; or null.
+    std::function<std::optional<Noise>(const ChosenSurvey& survey, const Noise* nearby)> noise = {};
+
+    /// Returns the residuals of all rows; rows outside the fit have no effect on them.
+    /// @param noise  of the same survey, or of one in which a mistake is put right, so that it does
+    ///               not enlarge the noise with which it is compared.
+    /// @return nullopt if the model does not fit the survey.
     std::function<std::optional<residual::Residuals>(const ChosenSurvey& survey,
-                                                     const ChosenSurvey& quiet)>
+                                                     const Noise& noise)>
         residuals = {};
 };
 

@@ -250,14 +250,20 @@ Score score_network(const SurveyProblem& problem, const RowChoice& choice) {
     return none;
 }
 
+std::optional<NetworkAdjustment> adjusted(const ChosenSurvey& survey) {
+    return adjust(survey.problem.rows, survey.choice.accepted, survey.problem.options).adjustment;
+}
+
+std::optional<Noise> network_noise(const ChosenSurvey& survey, const Noise* /*nearby*/) {
+    const auto network = adjusted(survey);
+    if (!network || !network->s0() || !(*network->s0() > 0.0)) return std::nullopt;
+    return *network->s0();
+}
+
 std::optional<residual::Residuals> network_residuals(const ChosenSurvey& survey,
-                                                     const ChosenSurvey& quiet) {
-    const auto adjusted = [](const ChosenSurvey& of) {
-        return adjust(of.problem.rows, of.choice.accepted, of.problem.options).adjustment;
-    };
+                                                     const Noise& noise) {
     auto network = adjusted(survey);
-    const auto without = adjusted(quiet);
-    if (!network || !without || !without->s0() || !(*without->s0() > 0.0)) return std::nullopt;
+    if (!network) return std::nullopt;
     const SurveyOptions& options = survey.problem.options;
     const std::vector<reading::SurveyRow>& rows = survey.problem.rows;
     network->reading_count = network->datum_count = 0;
@@ -272,13 +278,16 @@ std::optional<residual::Residuals> network_residuals(const ChosenSurvey& survey,
     readings.resize(network->rows.size(), rows.size());
     Eigen::VectorXd weights(system.y.size());
     for (Eigen::Index i = 0; i < weights.size(); ++i)
-        weights(i) = 1.0 / (*without->s0() * network->rows[static_cast<std::size_t>(i)].sd);
+        weights(i) =
+            1.0 / (std::get<double>(noise) * network->rows[static_cast<std::size_t>(i)].sd);
     return residual::residuals_of(weights.asDiagonal() * system.a, weights.asDiagonal() * system.y,
                                   readings, weights, rows.size());
 }
 
 }  // namespace
 
-Model network_model() { return {kNetwork, false, fit_network, score_network, network_residuals}; }
+Model network_model() {
+    return {kNetwork, false, fit_network, score_network, network_noise, network_residuals};
+}
 
 }  // namespace a351::corrector::model

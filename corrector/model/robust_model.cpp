@@ -54,13 +54,19 @@ FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice)
     return result;
 }
 
+std::optional<Noise> robust_noise(const ChosenSurvey& survey, const Noise* nearby) {
+    return linear_noise(terms_of(survey.problem), survey, nearby);
+}
+
 std::optional<residual::Residuals> robust_residuals(const ChosenSurvey& survey,
-                                                    const ChosenSurvey& quiet) {
-    return linear_residuals(terms_of(survey.problem), survey, quiet);
+                                                    const Noise& noise) {
+    return linear_residuals(terms_of(survey.problem), survey, noise);
 }
 
 }  // namespace
 
-Model robust_model() { return {"robust", false, fit_robust_rows, score_robust, robust_residuals}; }
+Model robust_model() {
+    return {"robust", false, fit_robust_rows, score_robust, robust_noise, robust_residuals};
+}
 
 }  // namespace a351::corrector::model

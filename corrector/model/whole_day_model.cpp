@@ -261,16 +261,19 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     return result;
 }
 
+std::optional<Noise> noise_of_day(const ChosenSurvey& survey, const Noise* nearby) {
+    if (refusal_of(survey.problem, survey.choice)) return std::nullopt;
+    return whole_day::fit_day(*survey.problem.day, stations_of(survey.problem, survey.choice),
+                              nearby != nullptr ? &std::get<whole_day::DayFit>(*nearby) : nullptr,
+                              day_priors_of(survey.problem.options.calibration));
+}
+
 std::optional<residual::Residuals> residuals_of_day(const ChosenSurvey& survey,
-                                                    const ChosenSurvey& quiet) {
-    if (refusal_of(survey.problem, survey.choice) || refusal_of(quiet.problem, quiet.choice))
-        return std::nullopt;
-    const reading::DayRecord& day = *survey.problem.day;
-    const whole_day::DayPriors priors = day_priors_of(survey.problem.options.calibration);
-    const auto fit =
-        whole_day::fit_day(day, stations_of(quiet.problem, quiet.choice), nullptr, priors);
-    return whole_day::set_up_residuals(day, stations_of(survey.problem, survey.choice), *fit,
-                                       priors);
+                                                    const Noise& noise) {
+    if (refusal_of(survey.problem, survey.choice)) return std::nullopt;
+    return whole_day::set_up_residuals(
+        *survey.problem.day, stations_of(survey.problem, survey.choice),
+        std::get<whole_day::DayFit>(noise), day_priors_of(survey.problem.options.calibration));
 }
 
 }  // namespace
@@ -293,6 +296,8 @@ std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& ro
     return std::nullopt;
 }
 
-Model whole_day_model() { return {kWholeDay, false, fit_whole_day, score_day, residuals_of_day}; }
+Model whole_day_model() {
+    return {kWholeDay, false, fit_whole_day, score_day, noise_of_day, residuals_of_day};
+}
 
 }  // namespace a351::corrector::model

@@ -96,6 +96,8 @@ public:
         std::string allowed;
         for (const std::size_t i : matching(table, amendment, "")) {
             const OccupationWindow& window = windows_[i];
+            if (std::ranges::count(divisions_, std::pair(i, time)) > 0)
+                table.refuse("time_utc", "contradicts another amendment", "another instant");
             allowed += fmt::format("{}{} to {}", allowed.empty() ? "between " : " or ",
                                    to_rfc3339(window.start), to_rfc3339(window.end));
             if (time <= window.start || time >= window.end) continue;
@@ -111,6 +113,7 @@ public:
         std::ranges::sort(divisions_, std::greater());
         for (const auto& [i, time] : divisions_) {
             windows_[i].notes.emplace_back("divided");
+            windows_[i].listed = {};  // no amendment can name a part
             OccupationWindow after = windows_[i];
             after.start = time;
             windows_[i].end = time;
@@ -136,6 +139,7 @@ public:
         if (gravity) {
             const auto site = std::ranges::find(sites_, amendment.site, &text::Site::name);
             site->gravity = MilliGal(*gravity);
+            site->u_gravity.reset();  // that of the former value
             amendment.change = fmt::format("to {} mGal", text::fixed(*gravity, 3));
         } else {
             refused.push_back(amendment.site);
@@ -146,7 +150,10 @@ public:
 
     static Amendment step(text::TomlTable& table, std::vector<UtcTime>& steps) {
         Amendment amendment{.kind = "step"};
-        steps.push_back(required_instant(table));
+        const UtcTime time = required_instant(table);
+        if (std::ranges::count(steps, time) > 0)
+            table.refuse("time_utc", "contradicts another amendment", "another instant");
+        steps.push_back(time);
         amendment.change = "at " + to_rfc3339(steps.back());
         amendment.reason = required_string(table, "reason", kReason);
         table.require_all_read();

@@ -51,15 +51,10 @@ std::string in_minutes(Nanoseconds time) {
 
 std::optional<MovedStay> moved_stay(const OccupationWindow& window, const OccupationRecord& record,
                                     const DecimatedAxes& axes) {
-    for (const char* const seen : {"retimed", "excluded", "included"})
+    for (const char* const seen : {"retimed", "excluded", "included", "divided"})
         if (std::ranges::count(window.notes, seen) > 0) return std::nullopt;
     const auto samples = motion_of(record, axes);
-    std::vector<signal::BoxMove> moves = signal::find_box_moves(samples);
-    if (window.not_moved_until)
-        std::erase_if(moves, [&](const signal::BoxMove& move) {
-            return samples[move.after].time <= *window.not_moved_until;
-        });
-    const signal::StillPart part = signal::choose_still_part(samples, moves);
+    const signal::StillPart part = signal::answered_stay(samples, window.not_moved_until).part;
     if (part == signal::StillPart{0, samples.size()}) return std::nullopt;
     MovedStay moved{window, {}};
     OccupationWindow& still = moved.still;

@@ -56,12 +56,16 @@ Eigen::VectorXd Residuals::simulated(std::mt19937_64& generator) const {
     return drawn;
 }
 
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+    return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
 Residuals residuals_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& y,
                        const std::vector<std::size_t>& readings, const Eigen::VectorXd& weights,
                        std::size_t n) {
     Residuals residuals;
-    residuals.unknown = Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ() *
-                        Eigen::MatrixXd::Identity(a.rows(), a.cols());
+    residuals.unknown = orthonormal_basis(a);
     residuals.values = y;
     residuals.project(residuals.values);
     residuals.whitening = Eigen::MatrixXd::Zero(a.rows(), static_cast<Index>(n));

@@ -56,7 +56,11 @@ struct Residuals {
     [[nodiscard]] Eigen::VectorXd simulated(std::mt19937_64& generator) const;
 };
 
-/// Returns the residuals of weighted least squares.
+/// Returns an orthonormal basis of the columns' space (k, rank).
+[[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
+
+/// Returns the residuals of weighted least squares.  Rows that are no readings are part of the
+/// scatter.
 ///
 /// The scale of the errors is that of the weights; the caller divides by another one.
 /// @param a, y      (m, p) and (m) weighted rows; those of readings, and others such as priors.

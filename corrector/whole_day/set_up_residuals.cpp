@@ -1,7 +1,5 @@
 #include "corrector/whole_day/set_up_residuals.hpp"
 
-#include <Eigen/QR>
-
 #include "corrector/whole_day/day_problem.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 
@@ -48,9 +46,8 @@ residual::Residuals set_up_residuals(const reading::DayRecord& record,
     // that with the priors.
     residuals.to_scatter =
         linear_algebra::Cholesky(noise).lower().transpose() * residuals.whitening.transpose();
-    const Eigen::MatrixXd columns = residuals.whitening * scaled(Eigen::all, unknown);
-    residuals.unknown = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() *
-                        Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+    residuals.unknown =
+        residual::orthonormal_basis(residuals.whitening * scaled(Eigen::all, unknown));
     residuals.values = residuals.whitening * scaled.col(0);
     residuals.project(residuals.values);
     return residuals;

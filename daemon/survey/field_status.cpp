@@ -108,6 +108,9 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
     field.warnings = warnings_of(*running, survey_day(occupations, now), running_s, planned_s);
     field.moved = move_prompt(live.motion(std::max(last.start, now - kMoveMemory), now),
                               running->not_moved_until);
+    // The start of a long set-up is not in the part that is looked at.
+    if (field.moved && field.moved->is_at_start && now - last.start > kMoveMemory)
+        field.moved.reset();
     if (field.moved) field.warnings.push_back(text_of(*field.moved));
     return field;
 }

@@ -31,7 +31,7 @@ struct MovePrompt {
 [[nodiscard]] std::optional<MovePrompt> move_prompt(std::span<const signal::MotionSample> samples,
                                                     std::optional<UtcTime> not_moved_until);
 
-/// Returns the question in words: "box moved at 01:43:20Z: stop there, next set-up, or not moved?".
+/// Returns the question in words, with the time.
 [[nodiscard]] std::string text_of(const MovePrompt& prompt);
 
 }  // namespace a351::daemon::survey

@@ -141,4 +141,28 @@ StillPart choose_still_part(std::span<const MotionSample> samples,
     return longest;
 }
 
+AnsweredStay answered_stay(std::span<const MotionSample> samples,
+                           std::optional<UtcTime> not_moved_until) {
+    std::vector<BoxMove> moves = find_box_moves(samples);
+    if (not_moved_until)
+        std::erase_if(moves, [&](const BoxMove& move) {
+            return samples[move.after].time <= *not_moved_until;
+        });
+    StillPart part = choose_still_part(samples, moves);
+    if (!not_moved_until || samples.empty()) return {part, std::move(moves)};
+    const auto is_answered = [&](std::size_t place) {
+        return samples[std::min(place, samples.size() - 1)].time <= *not_moved_until;
+    };
+    if (part.first == part.behind) {  // shaken throughout
+        if (is_answered(samples.size())) part = {0, samples.size()};
+        return {part, std::move(moves)};
+    }
+    if (part.first > 0 && is_answered(part.first)) part.first = 0;
+    // The last handling before a move may be the one that was answered.
+    if (part.behind < samples.size() && is_answered(part.behind))
+        part.behind =
+            moves.empty() ? samples.size() : (moves.front().before + moves.front().after) / 2;
+    return {part, std::move(moves)};
+}
+
 }  // namespace a351::signal

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,5 +66,16 @@ struct StillPart {
 ///         and was shaken for a minute or more.
 [[nodiscard]] StillPart choose_still_part(std::span<const MotionSample> samples,
                                           const std::vector<BoxMove>& moves);
+
+/// The stay as it is after the operator's answer that the box was not moved before an instant.
+struct AnsweredStay {
+    StillPart part;              ///< choose_still_part(), without cuts at or before the instant.
+    std::vector<BoxMove> moves;  ///< Moves after it.
+};
+
+/// Returns the part of a stay in which the box stood.
+/// @param not_moved_until  the answer; absent: there is none.
+[[nodiscard]] AnsweredStay answered_stay(std::span<const MotionSample> samples,
+                                         std::optional<UtcTime> not_moved_until);
 
 }  // namespace a351::signal

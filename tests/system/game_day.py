@@ -1,5 +1,7 @@
 """A tired operator's day: each mistake is said in the evening, and carrying out the proposals puts the day right."""
 
+import re
+
 from programs import BIN, Scratch, demand, read_json, run
 from tired_operator import MISTAKES, play
 
@@ -46,14 +48,22 @@ with Scratch() as scratch:
     refused = run(BIN / "a351-correct", "amend", survey, "--finding", "99", check=False)
     demand(f"a finding that does not exist is refused: {refused.stderr.strip()}",
            refused.returncode == 2 and "--finding = 99: no such finding" in refused.stderr)
-    # The reference that is amended already is wrong again: a second amendment of it would contradict.
-    survey.write_text(survey.read_text().replace("survey-amendments", "other-amendments"))
-    (day / "other-amendments.toml").write_text("")
-    run(BIN / "a351-correct", "amend", survey, "--all")
-    (day / "other-amendments.toml").write_text("[[exclude]]\nsite = \"No.0\"\noccupation = 99\nreason = \"r\"\n")
-    before = survey.read_text()
+    # The stay got another wrong name: the proposal of the right one contradicts this amendment.
+    one = next(part for part in amendments.split("#") if "[[rename]]" in part)
+    contradicting = re.sub(r'to = "[^"]*"', 'to = "P.3"', "#" + one)
+    (day / "survey-amendments.toml").write_text(contradicting)
+    before = survey.read_bytes(), (day / "survey-amendments.toml").read_bytes()
     refused = run(BIN / "a351-correct", "amend", survey, "--all", check=False)
     demand(f"a contradiction is refused and no file is changed: {refused.stderr.strip()}",
-           refused.returncode == 2 and survey.read_text() == before
-           and "occupation = 99" in (day / "other-amendments.toml").read_text()
+           refused.returncode == 2 and "contradicts another amendment" in refused.stderr
+           and before == (survey.read_bytes(), (day / "survey-amendments.toml").read_bytes())
            and not list(day.glob("*.candidate")))
+    # Another file has the earlier amendments too.
+    (day / "survey-amendments.toml").write_text("# earlier\n")
+    run(BIN / "a351-correct", "amend", survey, "--all", "--out", day / "other.toml")
+    demand("with --out the earlier amendments are kept and the survey names the new file",
+           (day / "other.toml").read_text().startswith("# earlier\n") and 'amendments = "other.toml"' in survey.read_text())
+    refused = run(BIN / "a351-correct", "amend", survey, "--all", "--out", day / "survey-amendments.toml", check=False)
+    print(refused.stdout, refused.stderr)
+    demand("a file that is not that of the survey is not taken over",
+           (day / "survey-amendments.toml").read_text() == "# earlier\n")

@@ -56,6 +56,7 @@ TEST_CASE("the operator is asked within a minute of a lift or a kick, and on the
     WARN("within 60 s: " << in_time[0] << " drives, " << in_time[1] << " lifts, " << in_time[2]
                          << " kicks of " << kEach << " each; asked at all: " << asked[0] << ", "
                          << asked[1] << ", " << asked[2]);
+    CHECK(in_time[0] >= 0.95 * kEach);
     CHECK(in_time[1] >= 0.95 * kEach);
     CHECK(in_time[2] >= 0.95 * kEach);
     for (const int one : asked) CHECK(one >= 0.95 * kEach);
@@ -72,7 +73,7 @@ TEST_CASE("a lorry that shakes the box for a minute raises no question", "[surve
         asked += prompted_s(box, 30.0) >= 0.0 ? 1 : 0;
     }
     WARN("asked after " << asked << " of 200 lorries");
-    CHECK(asked <= 10);
+    CHECK(asked <= 10);  // 5 %
 }
 
 TEST_CASE("an answer ends the question, and a later move raises another", "[survey][moved_box]") {

@@ -129,13 +129,13 @@ TEST_CASE("several mistakes of one day are found together", "[mistake]") {
 }
 
 TEST_CASE("in surveys without a mistake one is found as seldom as stated", "[mistake]") {
-    constexpr int kSurveys = 300;
+    constexpr int kSurveys = 100;
     int found = 0;
     for (int seed = 1; seed <= kSurveys; ++seed)
         if (!MadeUp(static_cast<std::uint64_t>(1000 + seed)).search().empty()) ++found;
     WARN("found in " << found << " of " << kSurveys);
-    // Three classes at kMistakeAlpha; the limit is exceeded by chance once in a thousand runs.
-    CHECK(found <= 20);
+    // Three classes at kMistakeAlpha; the limit is exceeded by chance once in a thousand runs of other seeds.
+    CHECK(found <= 9);
 }
 
 TEST_CASE("a step next to an end of the day is a reading that is off", "[mistake]") {

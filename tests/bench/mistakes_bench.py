@@ -1,0 +1,56 @@
+"""How often the mistakes of operators are named, and how often something false is said of a day without one.
+
+usage: mistakes_bench.py [FIRST_SEED [CLEAN [DAYS [MOST]]]]    (A351_BIN, A351_TOOLS)
+Default 28001, 200 clean days of tsukuba, tilted, hot-afternoon and roadside in turn, and 6 days of the first three, in each of
+which at most 6 mistakes of each kind are made, one at a time (mistake_trials.cpp).  Each seed draws a unit within +-25 %.
+"""
+
+import collections
+import concurrent.futures
+import os
+import shutil
+import sys
+
+from simulated_units import simulate
+from programs import TOOLS, Scratch, run
+
+# Share of the trials in which the mistake is named.
+PROMISED = {"reference_8": 0.95, "reference_20": 0.95, "reference_50": 0.95, "swap": 0.95, "other_name": 0.95,
+            "clear_step_3": 0.95, "clear_step_5": 0.95, "clear_step_10": 0.95, "clear_step_100": 0.95}
+MOST_SAID, MOST_HEADLINES = 0.05, 0.005  # of clean days
+
+
+def trials(scratch, scenario, seed, most):
+    """Returns trials, named, otherwise, otherwise in a headline, by kind."""
+    folder = scratch / f"{scenario}-{seed}-{most}"
+    folder.mkdir()
+    day = simulate(folder, "day", scenario, seed, 0.25)
+    lines = run(TOOLS / "mistake-trials", day / "survey.toml", most).stdout.splitlines()
+    shutil.rmtree(folder)
+    return {kind: [int(number) for number in numbers] for kind, *numbers in (line.split() for line in lines)}
+
+
+first, clean, days, most = (int(sys.argv[k + 1]) if len(sys.argv) > k + 1 else default
+                            for k, default in enumerate((28001, 200, 6, 6)))
+jobs = [(("tsukuba", "tilted", "hot-afternoon", "roadside")[k % 4], first + k, 0) for k in range(clean)]
+jobs += [(("tsukuba", "hot-afternoon", "tilted")[k % 3], first + clean + k, most) for k in range(days)]
+totals = collections.defaultdict(lambda: [0, 0, 0, 0])
+with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    for counts in pool.map(lambda job: trials(scratch, *job), jobs):
+        for kind, numbers in counts.items():
+            totals[kind] = [one + other for one, other in zip(totals[kind], numbers)]
+failures = []
+for kind, (count, named, otherwise, headlines) in totals.items():
+    if not count:
+        continue
+    share = named / count
+    promised = PROMISED.get(kind)
+    said = f"named in {100.0 * share:5.1f} %, " if kind != "clean" else ""
+    print(f"{kind:15} {count:4} trials: {said}something else said in {100.0 * otherwise / count:.1f} %, in a headline in "
+          f"{100.0 * headlines / count:.1f} %")
+    if kind == "clean" and (otherwise > MOST_SAID * count or headlines > MOST_HEADLINES * count):
+        failures.append(f"false findings on {otherwise} of {count} clean days, {headlines} in a headline")
+    if promised is not None and share < promised:
+        failures.append(f"{kind}: named in {100.0 * share:.1f} %, promised {100.0 * promised:.0f} %")
+print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
+sys.exit(bool(failures))
