@@ -332,7 +332,10 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
         const bool is_sure = found->p <= kMistakeAlpha;
         mistakes.push_back(std::move(*found));
         if (mistakes.size() > 1) refine(mistakes, readings, residuals_of);
-        if (is_sure) sure = mistakes;
+        if (!is_sure) continue;
+        for (std::size_t k = 0; k < mistakes.size(); ++k)
+            mistakes[k].needed_trial = k < sure.size() ? sure[k].needed_trial : !is_known_sure;
+        sure = mistakes;
     }
     mistakes = std::move(sure);
     // What is not visible any longer is dropped, the least sure first.

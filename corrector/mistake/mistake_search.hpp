@@ -45,6 +45,8 @@ struct Mistake {
     double u_mgal = 0.0;  ///< Standard uncertainty; 0 for a swap.
     /// Probability that a survey without a mistake shows one of its class as clear as this.
     double p = 1.0;
+    /// It was sure only when another one was put right on trial; then `p` is somewhat too small.
+    bool needed_trial = false;
 
     [[nodiscard]] bool operator==(const Mistake&) const = default;
 };

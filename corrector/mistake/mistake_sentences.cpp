@@ -62,7 +62,7 @@ private:
         set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
         finding.size_mgal = mistake.size_mgal;
         finding.u_mgal = mistake.u_mgal;
-        finding.is_headline = mistake.p <= kHeadlineP;
+        finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
         return finding;
     }
 
@@ -165,7 +165,7 @@ private:
         finding.time = time_before(rows_, after);
         finding.size_mgal = mistake.size_mgal;
         finding.u_mgal = mistake.u_mgal;
-        finding.is_headline = mistake.p <= kHeadlineP;
+        finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
         finding.text = fmt::format(
             "between {} and {} the instrument stepped: from then on the readings are {}",
             name_of(rows_[after - 1]), name_of(rows_[after]),
