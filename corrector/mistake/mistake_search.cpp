@@ -27,14 +27,25 @@ constexpr double kFewestTrialDof = 8.0;
 /// Simulated surveys: first enough to see that nothing is found, then to know a small probability.
 constexpr int kFewDraws = 500, kManyDraws = 20000;
 
-/// A mistake to be tested, and its effect on the residuals.
+/// A mistake to be tested.  Its effect on the residuals is a direction, or, for a swap, `size` times the
+/// difference of the effects of both stays; so a pair needs no vector of its own.
 struct Suspect {
     Mistake mistake;
-    /// The effect itself for a known size; else of length 1.
-    Eigen::VectorXd effect, scatter;
-    double length = 0.0;
+    Index direction = 0, other = -1;  ///< Columns of Directions; -1: there is none.
+    double size = 1.0;
+    double length = 0.0;          ///< Length of the effect of 1 mGal; of a swap that of the effect.
+    double scatter_square = 0.0;  ///< Of the effect's part in the scatter.
 
-    [[nodiscard]] bool has_size() const { return mistake.kind == MistakeKind::swap; }
+    [[nodiscard]] bool has_size() const { return other >= 0; }
+    /// Returns the product of the effect with something, from its products with the directions.
+    [[nodiscard]] double product(const Eigen::VectorXd& with) const {
+        return other < 0 ? with(direction) : size * (with(direction) - with(other));
+    }
+};
+
+/// Directions of the residuals (k, m), and their parts in the scatter.
+struct Directions {
+    Eigen::MatrixXd effects, scatters;
 };
 
 enum class Class : std::size_t { reading, swap, step };
@@ -45,11 +56,10 @@ std::size_t class_of(MistakeKind kind) {
     return static_cast<std::size_t>(kind == MistakeKind::step ? Class::step : Class::reading);
 }
 
-Eigen::VectorXd effect_of(const Mistake& mistake, std::size_t count) {
+/// Returns the effect of 1 mGal in some of the readings.
+Eigen::VectorXd effect_of(const std::vector<std::size_t>& readings, std::size_t count) {
     Eigen::VectorXd effect = Eigen::VectorXd::Zero(static_cast<Index>(count));
-    const double size = mistake.kind == MistakeKind::swap ? mistake.size_mgal : 1.0;
-    for (const std::size_t i : mistake.readings) effect(static_cast<Index>(i)) = size;
-    for (const std::size_t i : mistake.others) effect(static_cast<Index>(i)) = -size;
+    for (const std::size_t i : readings) effect(static_cast<Index>(i)) = 1.0;
     return effect;
 }
 
@@ -129,40 +139,71 @@ bool is_half_known(const Mistake& mistake, const std::vector<Mistake>& known) {
     });
 }
 
-/// Returns those of which the residuals contain something.
+/// Finds those of which the residuals contain something, with their directions.
 std::vector<Suspect> suspects_of(const residual::Residuals& residuals,
                                  const std::vector<SearchedReading>& readings,
-                                 const std::vector<Mistake>& known) {
+                                 const std::vector<Mistake>& known, Directions& directions) {
+    std::vector<Eigen::VectorXd> effects;
+    std::map<std::vector<std::size_t>, Index> stays;  // column of each stay's effect
+    const auto add = [&effects](Eigen::VectorXd effect) {
+        effects.push_back(std::move(effect));
+        return std::ssize(effects) - 1;
+    };
+    const auto column_of = [&](const std::vector<std::size_t>& stay) {
+        const auto [place, is_new] = stays.emplace(stay, 0);
+        if (is_new) place->second = add(residuals.projected(effect_of(stay, readings.size())));
+        return place->second;
+    };
     std::vector<Suspect> suspects;
     for (Mistake& mistake : possible_mistakes(readings)) {
         if (is_half_known(mistake, known)) continue;
-        const Eigen::VectorXd effect = effect_of(mistake, readings.size());
         Suspect suspect;
         if (mistake.kind == MistakeKind::swap) {
-            suspect.effect = residuals.projected(effect);
-            suspect.length = suspect.effect.norm();
-            suspect.scatter = residuals.to_scatter * suspect.effect;
+            suspect.direction = column_of(mistake.readings);
+            suspect.other = column_of(mistake.others);
+            suspect.size = mistake.size_mgal;
+            suspect.length =
+                std::abs(suspect.size) * (effects[static_cast<std::size_t>(suspect.direction)] -
+                                          effects[static_cast<std::size_t>(suspect.other)])
+                                             .norm();
         } else {
-            residual::Direction direction = residuals.direction(effect);
-            suspect.effect = std::move(direction.unit);
-            suspect.scatter = std::move(direction.scatter);
+            residual::Direction direction =
+                residuals.direction(effect_of(mistake.readings, readings.size()));
             suspect.length = direction.length;
+            if (suspect.length > 0.0) suspect.direction = add(std::move(direction.unit));
         }
         suspect.mistake = std::move(mistake);
         if (suspect.length > 0.0) suspects.push_back(std::move(suspect));
     }
+    directions.effects.resize(residuals.values.size(), std::ssize(effects));
+    for (std::size_t k = 0; k < effects.size(); ++k)
+        directions.effects.col(static_cast<Index>(k)) = effects[k];
+    directions.scatters = residuals.to_scatter * directions.effects;
+    for (Suspect& suspect : suspects) {
+        const auto column = directions.scatters.col(suspect.direction);
+        suspect.scatter_square =
+            suspect.has_size() ? suspect.size * suspect.size *
+                                     (column - directions.scatters.col(suspect.other)).squaredNorm()
+                               : column.squaredNorm();
+    }
     return suspects;
 }
 
+/// Residuals of a survey, real or simulated, in the directions.
+struct Seen {
+    Eigen::VectorXd values, scatters;  ///< (m)
+    double square = 0.0;               ///< Of the whole scatter.
+};
+
 /// Returns the share of the scatter that a mistake explains, 0 to 1.
-double share_of(const Suspect& suspect, const Eigen::VectorXd& values,
-                const Eigen::VectorXd& scatter, double square) {
-    const double t = suspect.effect.dot(values);
+double share_of(const Suspect& suspect, const Seen& seen) {
+    const double t = suspect.product(seen.values);
     const double part = suspect.has_size() ? 1.0 : t;
-    const double gain = part * (2.0 * t - part * suspect.effect.squaredNorm());
+    const double length = suspect.has_size() ? suspect.length : 1.0;
+    const double gain = part * (2.0 * t - part * length * length);
     if (!(gain > 0.0)) return 0.0;
-    const double rest = square - 2.0 * part * suspect.scatter.dot(scatter) +
-                        part * part * suspect.scatter.squaredNorm();
+    const double rest = seen.square - 2.0 * part * suspect.product(seen.scatters) +
+                        part * part * suspect.scatter_square;
     return gain / (gain + rest);
 }
 
@@ -179,7 +220,8 @@ class Trial {
 public:
     Trial(residual::Residuals residuals, const std::vector<SearchedReading>& readings,
           const std::vector<Mistake>& known)
-        : residuals_(std::move(residuals)), suspects_(suspects_of(residuals_, readings, known)) {
+        : residuals_(std::move(residuals)),
+          suspects_(suspects_of(residuals_, readings, known, directions_)) {
         for (const Suspect& suspect : suspects_) ++counts_.at(class_of(suspect.mistake.kind));
     }
 
@@ -192,22 +234,24 @@ public:
     /// Returns the mistakes that explain most, the best first, by -dof / 2 ln(1 - share) less what an
     /// unknown size and the number of its class cost; with their sizes.
     [[nodiscard]] std::vector<Scored> best(std::size_t count) const {
-        const Eigen::VectorXd scatter = residuals_.to_scatter * residuals_.values;
+        const Seen seen = seen_in(residuals_.values);
         const double dof = residuals_.dof();
-        std::vector<Scored> all;
+        std::vector<std::pair<double, const Suspect*>> scores;
         for (const Suspect& suspect : suspects_) {
-            const double share =
-                share_of(suspect, residuals_.values, scatter, scatter.squaredNorm());
+            const double share = share_of(suspect, seen);
             double score = -0.5 * dof * std::log1p(-share) -
                            std::log(counts_.at(class_of(suspect.mistake.kind)));
             if (!suspect.has_size())
                 score -=
                     std::log(kSizeRange_mgal * suspect.length / std::sqrt(2.0 * std::numbers::pi));
-            all.push_back({measured(suspect), score});
+            scores.emplace_back(score, &suspect);
         }
-        std::ranges::stable_sort(all, std::ranges::greater(), &Scored::score);
-        if (all.size() > count) all.resize(count);
-        return all;
+        std::ranges::stable_sort(scores, std::ranges::greater(),
+                                 &std::pair<double, const Suspect*>::first);
+        std::vector<Scored> best;
+        for (const auto& [score, suspect] : scores)
+            if (best.size() < count) best.push_back({measured(*suspect), score});
+        return best;
     }
 
     /// Sets the size of a mistake and its probability.
@@ -222,8 +266,7 @@ public:
             return;
         }
         mistake = measured(*found);
-        const Eigen::VectorXd scatter = residuals_.to_scatter * residuals_.values;
-        const double share = share_of(*found, residuals_.values, scatter, scatter.squaredNorm());
+        const double share = share_of(*found, seen_in(residuals_.values));
         mistake.p = probability(class_of(mistake.kind), share);
     }
 
@@ -231,18 +274,24 @@ private:
     [[nodiscard]] Mistake measured(const Suspect& suspect) const {
         Mistake mistake = suspect.mistake;
         if (suspect.has_size()) return mistake;
-        mistake.size_mgal = suspect.effect.dot(residuals_.values) / suspect.length;
+        mistake.size_mgal =
+            directions_.effects.col(suspect.direction).dot(residuals_.values) / suspect.length;
         mistake.u_mgal = 1.0 / suspect.length;
         return mistake;
     }
 
-    [[nodiscard]] Shares largest(const Eigen::VectorXd& values) const {
+    [[nodiscard]] Seen seen_in(const Eigen::VectorXd& values) const {
         const Eigen::VectorXd scatter = residuals_.to_scatter * values;
-        const double square = scatter.squaredNorm();
+        return {directions_.effects.transpose() * values,
+                directions_.scatters.transpose() * scatter, scatter.squaredNorm()};
+    }
+
+    [[nodiscard]] Shares largest(const Eigen::VectorXd& values) const {
+        const Seen seen = seen_in(values);
         Shares most{};
         for (const Suspect& suspect : suspects_) {
             double& of_class = most.at(class_of(suspect.mistake.kind));
-            of_class = std::max(of_class, share_of(suspect, values, scatter, square));
+            of_class = std::max(of_class, share_of(suspect, seen));
         }
         return most;
     }
@@ -261,6 +310,7 @@ private:
     }
 
     residual::Residuals residuals_;
+    Directions directions_;
     std::vector<Suspect> suspects_;
     std::array<double, kClasses> counts_{};
 };
