@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <regex>
+#include <algorithm>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/strict_toml.hpp"
@@ -30,19 +30,53 @@ private:
     std::filesystem::path file_;
 };
 
+/// Returns the lines of a text with their ends.
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t from = 0, end = 0; from < text.size(); from = end) {
+        end = text.find('\n', from);
+        end = end == std::string::npos ? text.size() : end + 1;
+        lines.push_back(text.substr(from, end - from));
+    }
+    return lines;
+}
+
+std::string without_blanks(std::string line) {
+    std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
+    return line;
+}
+
+/// Returns a sentence as a comment of TOML: names of sites can have control characters.
+std::string comment_of(std::string sentence) {
+    std::ranges::replace_if(
+        sentence, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    return "# " + sentence + '\n';
+}
+
 }  // namespace
 
 std::string with_amendments_key(const std::string& text, const std::string& value) {
-    const std::string line = "amendments = " + text::toml_string(value);
-    static const std::regex kKey(R"((^|\n)[ \t]*amendments[ \t]*=[^\n#]*)"),
-        kTable(R"((^|\n)[ \t]*\[[ \t]*survey[ \t]*\][^\n]*)");
-    std::smatch found;
-    if (std::regex_search(text, found, kKey))
-        return fmt::format("{}{}{}{}", found.prefix().str(), found[1].str(), line,
-                           found.suffix().str());
-    if (!std::regex_search(text, found, kTable))
-        throw InputError("survey file: no line [survey]; allowed: one, or the key amendments");
-    return fmt::format("{}{}\n{}{}", found.prefix().str(), found.str(), line, found.suffix().str());
+    const std::string line = "amendments = " + text::toml_string(value) + '\n';
+    std::string changed;
+    bool is_set = false;
+    for (const std::string& old : lines_of(text)) {
+        const std::string key = without_blanks(old);
+        const bool is_key = !is_set && key.starts_with("amendments=");
+        changed += is_key ? line : old;
+        is_set = is_set || is_key;
+    }
+    if (is_set) return changed;
+    changed.clear();
+    for (const std::string& old : lines_of(text)) {
+        changed += old;
+        if (is_set || !without_blanks(old).starts_with("[survey]")) continue;
+        if (!changed.ends_with('\n')) changed += '\n';
+        changed += line;
+        is_set = true;
+    }
+    if (!is_set)
+        throw InputError("no line [survey]; allowed: one, behind which the key amendments is put");
+    return changed;
 }
 
 std::filesystem::path add_amendments(const SurveyFile& survey,
@@ -64,11 +98,15 @@ std::filesystem::path add_amendments(const SurveyFile& survey,
     std::string text = origin.empty() ? "" : text::read_text_file(origin);
     if (!text.empty() && !text.ends_with('\n')) text += '\n';
     for (const reading::Finding& finding : findings)
-        text += fmt::format("# {}\n{}", finding.text, finding.amendment);
-    std::string named_survey = text::read_text_file(survey.path);
-    if (file != origin)
-        named_survey = with_amendments_key(
-            named_survey, std::filesystem::proximate(file, folder_of(survey.path)).string());
+        text += comment_of(finding.text) + finding.amendment;
+    std::string named_survey;
+    if (file != origin) try {
+            named_survey = with_amendments_key(
+                text::read_text_file(survey.path),
+                std::filesystem::proximate(file, folder_of(survey.path)).string());
+        } catch (const InputError& error) {
+            throw InputError(survey.path.string() + ": " + error.what());
+        }
 
     const Candidate candidate(file.string() + ".candidate");
     text::write_together(folder_of(file), {{candidate.file().filename().string(), text}});

@@ -52,8 +52,34 @@ reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Pro
     return read;
 }
 
+namespace {
+
+/// Returns the steps of the amendments that divide the readings; a warning says which do not.
+std::vector<UtcTime> steps_between(reading::OccupationRows& read) {
+    std::vector<UtcTime> steps;
+    std::ptrdiff_t last = 0;  // readings before the last step
+    const auto count = std::ranges::count(read.rows, false, &reading::SurveyRow::is_excluded);
+    for (const UtcTime step : read.amendments.steps) {
+        const auto before = std::ranges::count_if(
+            read.rows, [step](const auto& row) { return !row.is_excluded && row.time <= step; });
+        if (before > last && before < count) {
+            steps.push_back(step);
+            last = before;
+            continue;
+        }
+        read.warnings.push_back(fmt::format("the step at {} is not used: no reading is {}",
+                                            to_rfc3339(step),
+                                            before == 0       ? "before it"
+                                            : before == count ? "after it"
+                                                              : "between it and the step before"));
+    }
+    return steps;
+}
+
+}  // namespace
+
 model::SurveyOptions with_sites_of(reading::OccupationRows& read, model::SurveyOptions options) {
-    options.steps = read.amendments.steps;
+    options.steps = steps_between(read);
     const auto is_absent = [&read](const std::string& site) {
         return std::ranges::find(read.rows, site, &reading::SurveyRow::site) == read.rows.end();
     };

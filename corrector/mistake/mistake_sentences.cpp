@@ -21,8 +21,10 @@ constexpr double kHeadlineP = 0.001 / 3.0;
 /// Greatest distance from a reference at which a reading is said to be of that site, in standard
 /// uncertainties.  Reason: one right name in a hundred is missed.
 constexpr double kNameReach = 2.5;
-/// A site that has readings of its own is so much less likely to be the right one.
+/// A site that has readings of its own is so much less likely to be the right one.  Reason: only the
+/// base and a few benchmarks are visited twice; the number itself is a guess.
 constexpr double kVisitedOdds = 4.0;
+
 /// Turns mistakes into sentences with proposals.
 class Teller {
 public:
@@ -32,9 +34,7 @@ public:
 
     [[nodiscard]] std::vector<Finding> told(const Mistake& mistake) const {
         if (mistake.kind == MistakeKind::step) return {step(mistake)};
-        if (mistake.kind == MistakeKind::swap)
-            return {swapped(mistake, mistake.readings, mistake.others, mistake.size_mgal),
-                    swapped(mistake, mistake.others, mistake.readings, -mistake.size_mgal)};
+        if (mistake.kind == MistakeKind::swap) return swapped_names(mistake);
         if (mistake.kind == MistakeKind::set_up) return {bad_set_up(mistake)};
         const bool is_one_stay = std::ranges::all_of(mistake.readings, [&](std::size_t i) {
             return rows_[i].occupation == rows_[mistake.readings.front()].occupation;
@@ -175,6 +175,16 @@ private:
                 fmt::format("[[step]]\ntime_utc = \"{}\"\nreason = \"step of {} mGal\"\n",
                             to_rfc3339(*finding.time, 3), text::fixed(mistake.size_mgal, 1));
         return finding;
+    }
+
+    /// Returns one finding for each stay.  The amendment of the first renames both, because half of it
+    /// would make two stays of one site.
+    [[nodiscard]] std::vector<Finding> swapped_names(const Mistake& mistake) const {
+        Finding one = swapped(mistake, mistake.readings, mistake.others, mistake.size_mgal),
+                other = swapped(mistake, mistake.others, mistake.readings, -mistake.size_mgal);
+        one.amendment += other.amendment;
+        other.amendment.clear();
+        return {std::move(one), std::move(other)};
     }
 
     [[nodiscard]] Finding swapped(const Mistake& mistake, const std::vector<std::size_t>& own,

@@ -22,15 +22,15 @@ using reading::SurveyRow;
 constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
 
 /// A survey with mistakes put right.
-struct Mended {
+struct AmendedSurvey {
     std::vector<SurveyRow> rows;
     model::SurveyOptions options;
     model::RowChoice choice;
 };
 
-Mended mended(const std::vector<SurveyRow>& rows, const model::SurveyOptions& options,
-              const std::vector<Mistake>& mistakes) {
-    Mended survey{rows, options, {}};
+AmendedSurvey amended(const std::vector<SurveyRow>& rows, const model::SurveyOptions& options,
+                      const std::vector<Mistake>& mistakes) {
+    AmendedSurvey survey{rows, options, {}};
     const auto take_name = [&](const std::vector<std::size_t>& from, std::size_t other) {
         for (const std::size_t i : from) {
             survey.rows[i].site = rows[other].site;
@@ -103,19 +103,19 @@ std::optional<Finding> not_visited(const SearchedSurvey& survey) {
 }
 
 /// Says that the day is not usable, if so.
-/// @param mended_loso_mgal  error of stations left out with the mistakes put right, if there are.
+/// @param amended_loso_mgal  error of stations left out with the mistakes put right, if there are.
 std::optional<Finding> unusable(const model::SurveyCorrection& result,
-                                const std::optional<double>& mended_loso_mgal) {
+                                const std::optional<double>& amended_loso_mgal) {
     const auto& loso = result.score.loso_mgal;
-    if (!loso || !mended_loso_mgal || *loso < kUnusable_mgal ||
-        *loso < kUnusableRatio * *mended_loso_mgal)
+    if (!loso || !amended_loso_mgal || *loso < kUnusable_mgal ||
+        *loso < kUnusableRatio * *amended_loso_mgal)
         return std::nullopt;
     return Finding{
         .kind = "unusable_day",
         .code = "unusable_day",
         .text = fmt::format("this day is not usable as it is: stations left out are predicted "
                             "with an error of {} mGal, {} with the mistakes below put right",
-                            text::fixed(*loso, 1), text::fixed(*mended_loso_mgal, 1)),
+                            text::fixed(*loso, 1), text::fixed(*amended_loso_mgal, 1)),
         .is_headline = true};
 }
 
@@ -137,7 +137,7 @@ std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
             [&](const std::vector<Mistake>& known,
                 const std::vector<Mistake>& quiet) -> std::optional<residual::Residuals> {
             if (!of_quiet || quiet != last_quiet) {
-                const Mended without = mended(rows, result.options, quiet);
+                const AmendedSurvey without = amended(rows, result.options, quiet);
                 of_quiet =
                     model.noise({{without.rows, without.options, survey.day}, without.choice},
                                 nearby ? &*nearby : nullptr);
@@ -145,7 +145,7 @@ std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
                 if (!nearby) nearby = of_quiet;
             }
             if (!of_quiet) return std::nullopt;
-            const Mended with = mended(rows, result.options, known);
+            const AmendedSurvey with = amended(rows, result.options, known);
             return model.residuals({{with.rows, with.options, survey.day}, with.choice}, *of_quiet);
         };
         const std::vector<Mistake> mistakes = search_mistakes(searched(rows, choice), residuals_of);
@@ -154,7 +154,7 @@ std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
                 findings.push_back(std::move(finding));
         is_mistaken = !mistakes.empty();
         if (is_mistaken) {
-            const Mended day = mended(rows, result.options, mistakes);
+            const AmendedSurvey day = amended(rows, result.options, mistakes);
             const auto score = model.score({day.rows, day.options, survey.day}, day.choice);
             if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
                 findings.insert(findings.begin(), std::move(*finding));

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What is wrong with a corrected survey, in sentences with proposals.
+/// Finds what is wrong with a corrected survey, and says it with a proposal for each.
 ///
 ///     SurveyCorrection result = correct_with_calibration(rows, options, day);
 ///     result.findings = find_mistakes(result, {rows, sites, day});

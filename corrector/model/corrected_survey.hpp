@@ -248,7 +248,7 @@ struct Fit {
     std::vector<CorrectedRow> rows;
     /// Occupations that have no row, or that cannot be corrected.
     std::vector<reading::LeftOut> left_out;
-    std::vector<reading::Finding> findings;  ///< Moved boxes and the like; none for a table.
+    std::vector<reading::Finding> findings;  ///< What is wrong with the survey, the worst first.
     std::vector<StationValue> stations;      ///< In order of their first row.
     /// Differences of all pairs of stations, in the order of the stations; none for `paper` and
     /// `robust`.  A station with flagged rows only is in none.

@@ -200,6 +200,9 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     static_cast<Fit&>(result) = std::get<Fit>(std::move(chosen.fit));
     value_stations_outside(result);
     remark_unused_uncertainties(result, *chosen.model);
+    if (chosen.model->name == kPaper && !applied.steps.empty())
+        result.remarks.emplace_back(
+            "paper does not know steps: those of the amendments are not used");
     result.model = chosen.model->name;
     result.choice = chosen.choice;
     result.choice_loso_mgal = chosen.choice_loso_mgal;

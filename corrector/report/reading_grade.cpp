@@ -91,6 +91,7 @@ void add_temperature(ReadingGrade& reading, const model::CorrectedRow& row, bool
 /// @param is_left_out  u is that of the prediction without the row's station, not of the residual.
 void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is_left_out) {
     if (!row.residual || !row.u_corrected || !(row.u_corrected->value() > 0.0)) return;
+    if (row.row.is_reference_refused) return;  // it says nothing about the reading
     const double ratio = is_left_out ? row.studentised_residual.value_or(0.0)
                                      : row.residual->value() / row.u_corrected->value();
     if (std::abs(ratio) <= kCareRatio) return;

@@ -104,6 +104,8 @@ std::string flags_of(const model::CorrectedRow& row, const model::SurveyOptions&
     const auto& datum = options.datum;
     if (!row.row.reference) {
         flags.emplace_back("no-reference");
+    } else if (row.row.is_reference_refused) {
+        flags.emplace_back("reference-not-used");
     } else if (!datum.empty() && std::ranges::count(datum, row.row.site) == 0) {
         flags.emplace_back("not-datum");
     }

@@ -17,8 +17,8 @@ namespace a351::corrector::result {
 
 /// Returns the reasons why a row is doubtful or not in the fit, joined by ';'.
 ///
-/// The order is "outlier" (marked by the operator), SurveyRow::notes, then "no-reference" or
-/// "not-datum".  The last one means that a list of datum stations is given and lacks the site.
+/// The order is "outlier" (marked by the operator), SurveyRow::notes, then "no-reference",
+/// "reference-not-used" (by an amendment) or "not-datum".  The last one means that a list of datum stations is given and lacks the site.
 /// Empty: there is no reason.
 [[nodiscard]] std::string flags_of(const model::CorrectedRow& row,
                                    const model::SurveyOptions& options);

@@ -155,13 +155,15 @@ def wrong_reference(day, mistake, is_noticed):
 
 
 def step(day, mistake, is_noticed):
-    return {"kinds": {"step"}, "sites": set()}  # Made when the day was simulated.
+    return {"kinds": {"step"}, "sites": set(), "off_mgal": day.step_mgal}  # Made when the day was simulated.
 
 
 def is_said(findings, expected):
     """Returns true if a finding names the mistake."""
     for finding in findings:
-        if "step" in expected["kinds"] and (finding["kind"] == "step" or finding["code"].endswith("_or_step")):
+        # At an end of the day a step looks like a reading that is off.
+        if "step" in expected["kinds"] and (finding["kind"] == "step" or finding["code"].endswith("_or_step")) \
+                and abs(abs(finding["size_mgal"]) - expected["off_mgal"]) < 4.0 * finding["u_mgal"]:
             return True
         if finding["kind"] in expected["kinds"] and {finding["site"], finding["other_site"]} & expected["sites"]:
             return True
@@ -207,6 +209,7 @@ def play(folder, scenario_file, seed, count=3, names=None):
     clean.write()
     _, clean_errors = corrected(clean, "result")
     day = simulated("day", sum(steps))
+    day.step_mgal = sum(steps)
     made = []
     for mistake in chosen:
         is_noticed = mistake.get("can_notice", False) and draw.random() < 0.3

@@ -148,6 +148,14 @@ TEST_CASE("a step next to an end of the day is a reading that is off", "[mistake
     CHECK(found[0].size_mgal < -20.0);
 }
 
+TEST_CASE("an unknown that is there twice takes one direction only", "[mistake]") {
+    Eigen::MatrixXd a(6, 3);
+    for (Eigen::Index i = 0; i < 6; ++i) a.row(i) << 1.0, static_cast<double>(i), 1.0;
+    const Eigen::MatrixXd basis = residual::orthonormal_basis(a);
+    CHECK(basis.cols() == 2);
+    CHECK((basis * (basis.transpose() * a) - a).norm() < 1e-12);
+}
+
 TEST_CASE("nothing is searched with too few readings, or without residuals", "[mistake]") {
     MadeUp day(8);
     day.add(2, 3, 40.0);

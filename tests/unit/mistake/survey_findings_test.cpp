@@ -100,6 +100,12 @@ TEST_CASE("swapped names are two findings, a step has its time", "[mistake]") {
     REQUIRE(names.size() >= 2);
     const auto is_name = [](const Finding& finding) { return finding.kind == "other_name"; };
     CHECK(std::ranges::count_if(names, is_name) == 2);
+    // One proposal renames both: half of it would make two stays of one site.
+    const auto first = std::ranges::find_if(names, is_name);
+    CHECK(std::next(first)->amendment.empty());
+    CHECK(first->amendment.find("to = \"" + first->other_site + "\"") != std::string::npos);
+    CHECK(first->amendment.find("to = \"" + std::next(first)->other_site + "\"") !=
+          std::string::npos);
 
     Day stepped;
     for (std::size_t i = 6; i < stepped.rows.size(); ++i) stepped.off(i, -30.0);

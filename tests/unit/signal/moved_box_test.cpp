@@ -72,6 +72,44 @@ TEST_CASE("a lorry, knocks and hands that do not move the box are no move", "[si
     CHECK(told == 0);
 }
 
+TEST_CASE("what the operator says was no move does not cut the stay", "[signal][moved_box]") {
+    MadeUpBox early(1);
+    early.rest(60.0);
+    early.shake(80.0, 20000.0);
+    early.place(0.0);
+    early.rest(300.0);
+    const StillPart all{0, early.samples().size()};
+    CHECK(answered_stay(early.samples(), std::nullopt).part.first > 0);
+    const auto answered = answered_stay(early.samples(), early.samples().back().time);
+    CHECK(answered.part == all);
+    CHECK(answered.moves.empty());
+
+    MadeUpBox driven(4);  // shaken at its start, without a move
+    driven.shake(80.0, 20000.0);
+    driven.rest(300.0);
+    CHECK(answered_stay(driven.samples(), std::nullopt).part.first > 0);
+    CHECK(answered_stay(driven.samples(), driven.samples().back().time).part.first == 0);
+
+    MadeUpBox shaken(2);
+    shaken.shake(200.0, 20000.0);
+    CHECK(answered_stay(shaken.samples(), std::nullopt).part == StillPart{});
+    CHECK(answered_stay(shaken.samples(), shaken.samples().back().time).part ==
+          StillPart{0, shaken.samples().size()});
+
+    MadeUpBox late(3);  // answered at once, then carried off
+    late.rest(300.0);
+    late.shake(80.0, 20000.0);
+    late.rest(100.0);
+    const UtcTime answer = late.samples().back().time;
+    late.shake(20.0, 20000.0);
+    late.place(0.0);
+    late.rest(100.0);
+    const StillPart part = answered_stay(late.samples(), answer).part;
+    CHECK(part.first == 0);
+    CHECK(late.samples().at(part.behind).time > answer);
+    CHECK(answered_stay({}, answer).part == StillPart{});
+}
+
 TEST_CASE("a start that was pressed too early is moved to where the box stands",
           "[signal][moved_box]") {
     MadeUpBox box(1);
