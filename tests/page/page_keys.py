@@ -124,10 +124,12 @@ with Browser(allowed_errors=["status of 403"]) as page:
     demand("a text that is no time is not sent", daemon.posts[-1][0] == "/api/occupation/rename")
     page.press(Keys.ENTER, Keys.DELETE)
     page.run("document.getElementById('times-from').value = ''")
-    page.press(earlier := daemon.status["occupation"]["start"][11:17] + "00", Keys.ENTER)
+    start = daemon.status["occupation"]["start"]
+    second = "00" if start[17:19] != "00" else "01"  # A time that is as before would not be sent.
+    page.press(earlier := start[11:17] + second, Keys.ENTER)
     order = last_post(daemon, page, "/api/occupation/retime")
     demand(f"the start is sent with its date: {order}",
-           order == {**running, "site": "No.5", "from": daemon.status["occupation"]["start"][:17] + "00.000Z"}
+           order == {**running, "site": "No.5", "from": start[:17] + second + ".000Z"}
            and earlier in order["from"])
 
     page.find("#note").send_keys("rain began", Keys.ENTER)
