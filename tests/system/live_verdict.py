@@ -27,12 +27,20 @@ def state(session):
 
 
 def slope_limit(session):
-    """Returns the limit of the temperature slope that the status shows.
+    """Waits until the status shows the limit of the temperature slope, and returns it.
 
     The state alone does not show which threshold is used, because the box at a benchmark is disturbed for seconds repeatedly.
+    While it is disturbed, there is no check of the slope.
     """
-    return next((check["limit"] for check in session.status().get("verdict", {}).get("checks", [])
-                 if check["quantity"] == "temperature slope"), None)
+    limits = []
+
+    def is_shown():
+        limits.extend(check["limit"] for check in session.status().get("verdict", {}).get("checks", [])
+                      if check["quantity"] == "temperature slope")
+        return limits
+
+    wait_for("the limit of the temperature slope is shown", is_shown, 20)
+    return limits[-1]
 
 
 def nanoseconds(utc):
@@ -77,7 +85,7 @@ with Scratch() as scratch:
         wait_for(claim, is_so, 10)
 
     shipped = slope_limit(session)
-    demand(f"the shipped threshold is shown: {shipped} degC/h", shipped is not None)
+    print(f"shipped threshold: {shipped} degC/h")
     reload(given + "[verdict]\nslope_degc_per_h = 0.001\n", "the threshold reloaded by SIGHUP is used",
            lambda: slope_limit(session) == 0.001)
     wait_for("settling by the new threshold", lambda: state(session) == "settling", 10)
