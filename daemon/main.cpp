@@ -279,12 +279,14 @@ int main(int argc, char** argv) {
     std::string clock_text;
     bool is_check = false;
     bool is_list = false;
-    app.add_option("--config", config_file, "configuration file (TOML)")->type_name("FILE");
-    app.add_flag("--check-config", is_check, "check the configuration, print ok, and exit");
-    app.add_option("--clock", clock_text, "run on simulated time: scaled:FACTOR@UTC[,HOST]")
+    app.add_option("--config", config_file, "Configuration file (TOML)")->type_name("FILE");
+    app.add_flag("--check-config", is_check, "Check the configuration, print ok, and exit");
+    app.add_option("--clock", clock_text,
+                   "Simulated time, scaled:FACTOR@UTC[,HOST]: UTC + FACTOR x (host clock - HOST); "
+                   "default of HOST: now")
         ->type_name("SCALE");
     app.add_flag("--list-ports", is_list,
-                 "list serial ports (path, by-id name, USB VID:PID:SERIAL) and exit");
+                 "List the serial ports (path, by-id name, USB VID:PID:SERIAL) and exit");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& done) {

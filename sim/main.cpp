@@ -29,7 +29,7 @@ int fail(const char* reason, int status) {
 int main(int argc, char** argv) {
     using namespace a351;
     using namespace a351::sim;
-    CLI::App app{"Emulated M-A351 accelerometer, and simulated survey days", "a351-sim"};
+    CLI::App app{"Emulates an M-A351 accelerometer and simulates survey days.", "a351-sim"};
     app.set_version_flag("--version", "a351-sim " A351_VERSION);
     app.require_subcommand(1);
     command::add_device_command(app, until_stopped);

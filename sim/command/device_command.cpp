@@ -152,15 +152,17 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
 void add_device_command(CLI::App& app, UntilStopped until_stopped) {
     const auto command = std::make_shared<DeviceCommand>();
     CLI::App* device =
-        app.add_subcommand("device", "Serve the emulated sensor on a pseudo-terminal");
+        app.add_subcommand("device", "Serves the emulated sensor on a pseudo-terminal.");
     add_day(*device, command->day);
     add_unit(*device, command->unit);
-    device->add_option("--firmware", command->firmware, "Firmware version")->capture_default_str();
+    device->add_option("--firmware", command->firmware, "Firmware version")
+        ->type_name("N")
+        ->capture_default_str();
     device->add_flag("--no-id", command->lacks_id_register,
-                     "Register W0:4C, which the data sheet does not have, reads 0");
+                     "Let the register W0:4C, which the data sheet does not have, read 0");
     device
         ->add_option("--state", command->state,
-                     "TOML file that keeps the flash memory between runs")
+                     "TOML file that keeps the flash memory between runs; default: nothing is kept")
         ->type_name("FILE");
     device
         ->add_option("--link", command->link,
@@ -168,26 +170,30 @@ void add_device_command(CLI::App& app, UntilStopped until_stopped) {
         ->type_name("PATH")
         ->required();
     device
-        ->add_option("--oven-link", command->oven_link,
-                     "Symbolic link to make to the pseudo-terminal of the oven's controller")
+        ->add_option(
+            "--oven-link", command->oven_link,
+            "Symbolic link to make to the pseudo-terminal of the oven's controller; default: "
+            "none")
         ->type_name("PATH");
     CLI::Option* clock = add_clock(*device, command->clock);
     device
         ->add_option("--speed", command->speed,
                      "Simulated seconds per real second, from the start of the scenario on")
+        ->type_name("X")
         ->check(CLI::Range(1e-3, 1e6))
         ->excludes(clock)
         ->capture_default_str();
     device
-        ->add_option("--truth", command->truth, "File to write: every frame and what became of it")
+        ->add_option("--truth", command->truth,
+                     "File to write with every frame and what became of it")
         ->type_name("FILE");
     device->add_option("--report", command->report, "JSON file to write at the end")
         ->type_name("FILE");
-    device->add_option("--faults", command->faults, "TOML file of the faults and their times")
+    device->add_option("--faults", command->faults, "TOML file with faults and their times")
         ->type_name("FILE");
     device
         ->add_option("--control", command->control,
-                     "Unix socket to make; it takes faults and orders while the emulator runs")
+                     "Unix socket to make, which takes faults and orders while the emulator runs")
         ->type_name("PATH");
     device->callback([command, until_stopped] { run(*command, until_stopped()); });
 }

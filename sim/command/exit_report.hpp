@@ -24,7 +24,7 @@ struct ExitReport {
     std::optional<oven::Report> oven;  ///< Empty: the oven was not served.
 };
 
-/// Returns the report as one JSON object; keys: a351-sim(1), REPORT.
+/// Returns the report as one JSON object; keys: a351-sim-device(1), REPORT.
 /// @param indent  spaces per level; negative: everything in one line.
 [[nodiscard]] std::string to_json(const ExitReport& report, int indent);
 

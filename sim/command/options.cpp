@@ -19,25 +19,29 @@ CLI::Validator eight_characters() {
 }  // namespace
 
 void add_day(CLI::App& command, DayOptions& day) {
-    command.add_option("--scenario", day.scenario, "Name of a scenario, or a TOML file")
+    command.add_option("--scenario", day.scenario, "Scenario of the day: its name, or a TOML file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    command.add_option("--seed", day.seed, "Seed of all random numbers")->capture_default_str();
+    command.add_option("--seed", day.seed, "Seed of all random numbers")
+        ->type_name("N")
+        ->capture_default_str();
 }
 
-void add_profile(CLI::App& command, std::string& profile, const std::string& used_for) {
-    command.add_option("--profile", profile, used_for + "Kind of device")
+void add_profile(CLI::App& command, std::string& profile, const std::string& restriction) {
+    command.add_option("--profile", profile, "Kind of device" + restriction)
         ->type_name("NAME")
         ->check(CLI::IsMember(wire::profile_names()))
         ->capture_default_str();
 }
 
-void add_unit(CLI::App& command, UnitOptions& unit, const std::string& used_for) {
-    add_profile(command, unit.profile, used_for);
-    command.add_option("--product", unit.product, used_for + "Product identifier")
+void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restriction) {
+    add_profile(command, unit.profile, restriction);
+    command
+        .add_option("--product", unit.product,
+                    "Product identifier; default: that of the profile" + restriction)
         ->type_name("ID")
         ->check(eight_characters());
-    command.add_option("--serial", unit.serial, used_for + "Serial number")
+    command.add_option("--serial", unit.serial, "Serial number" + restriction)
         ->type_name("ID")
         ->check(eight_characters())
         ->capture_default_str();
@@ -52,8 +56,8 @@ std::string product_of(const UnitOptions& unit) {
 CLI::Option* add_clock(CLI::App& command, std::string& clock) {
     return command
         .add_option("--clock", clock,
-                    "Simulated time, scaled:FACTOR@UTC[,HOST]: it is UTC at the host time HOST "
-                    "(default: now)")
+                    "Simulated time, scaled:FACTOR@UTC[,HOST]: UTC + FACTOR x (host clock - HOST); "
+                    "default of HOST: now")
         ->type_name("SCALE");
 }
 

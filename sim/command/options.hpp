@@ -28,10 +28,10 @@ struct UnitOptions {
 };
 
 /// Adds --profile.
-/// @param used_for  begins the description: the inputs to which the option applies.
-void add_profile(CLI::App& command, std::string& profile, const std::string& used_for = {});
+/// @param restriction  ends the description: the inputs to which the option applies.
+void add_profile(CLI::App& command, std::string& profile, const std::string& restriction = {});
 /// Adds --profile, --product and --serial.
-void add_unit(CLI::App& command, UnitOptions& unit, const std::string& used_for = {});
+void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restriction = {});
 
 [[nodiscard]] const wire::DeviceProfile& profile_of(const std::string& name);
 [[nodiscard]] std::string product_of(const UnitOptions& unit);

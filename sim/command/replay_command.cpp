@@ -80,7 +80,7 @@ void run(const ReplayCommand& command, const std::function<bool()>& should_stop)
 
 void add_replay_command(CLI::App& app, UntilStopped until_stopped) {
     const auto command = std::make_shared<ReplayCommand>();
-    CLI::App* replay = app.add_subcommand("replay", "Serve a recording on a pseudo-terminal");
+    CLI::App* replay = app.add_subcommand("replay", "Serves a recording on a pseudo-terminal.");
     replay
         ->add_option("FILE", command->files,
                      "Journal segments, or miniSEED files of a data root, or their directories")
@@ -100,10 +100,10 @@ void add_replay_command(CLI::App& app, UntilStopped until_stopped) {
         ->capture_default_str();
     replay
         ->add_option("--axes", command->axes,
-                     "For miniSEED only: last letters of the channels of x, y and z")
+                     "Last letters of the channels of x, y and z (miniSEED only)")
         ->type_name("X,Y,Z")
         ->capture_default_str();
-    add_unit(*replay, command->unit, "For miniSEED only.  ");
+    add_unit(*replay, command->unit, " (miniSEED only)");
     replay->callback([command, until_stopped] { run(*command, until_stopped()); });
 }
 

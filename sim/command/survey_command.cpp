@@ -19,10 +19,11 @@ struct SurveyCommand {
 void add_survey_command(CLI::App& app) {
     const auto command = std::make_shared<SurveyCommand>();
     CLI::App* survey =
-        app.add_subcommand("survey", "Write a simulated day directly to a data root");
+        app.add_subcommand("survey", "Writes a simulated day directly to a data root.");
     add_day(*survey, command->day);
     add_profile(*survey, command->profile);
-    survey->add_option("--out", command->out, "Directory to write: new, or without a simulated day")
+    survey
+        ->add_option("--out", command->out, "Data root to write: new, or without any file of a day")
         ->type_name("DIR")
         ->required();
     survey->callback([command] {
@@ -36,9 +37,10 @@ void add_survey_command(CLI::App& app) {
 void add_plan_command(CLI::App& app) {
     const auto command = std::make_shared<SurveyCommand>();
     CLI::App* plan =
-        app.add_subcommand("plan", "Write sites, schedule and truth of a simulated day");
+        app.add_subcommand("plan", "Writes sites, schedule and truth of a simulated day.");
     add_day(*plan, command->day);
-    plan->add_option("--out", command->out, "Directory for the tables; made if it does not exist")
+    plan->add_option("--out", command->out,
+                     "Directory of the tables; it is made if it does not exist")
         ->type_name("DIR")
         ->required();
     plan->callback([command] {

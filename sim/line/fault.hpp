@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// Faults of the sensor and its line, as written in a fault script or sent through the control
-/// socket.  Kinds and keys: a351-sim(1), FAULTS.
+/// socket.  Kinds and keys: a351-faults.toml(5).
 
 #include <array>
 #include <cstdint>

@@ -29,8 +29,8 @@ public:
     /// Reads two ascending numbers.
     void range(std::string_view key, Range& value, double low, double high) {
         require(key);
-        if (!table_.has(key)) return;
         const std::vector<double> ends = table_.numbers(key, low, high);
+        if (!table_.has(key)) return;
         if (ends.size() != 2 || ends[0] > ends[1])
             table_.refuse(key, "not a range", "two ascending numbers");
         value = {ends[0], ends[1]};

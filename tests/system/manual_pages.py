@@ -1,6 +1,7 @@
-"""The manual pages list exactly the options of --help; the pages of a351-correct do so for each subcommand.
+"""The manual pages list exactly the options of --help; the pages of a351-correct and a351-sim do so for each subcommand.
 
-The pages of the configuration and of the survey file list exactly the keys that the parser accepts.
+The pages of the configuration, the survey file, the scenario and the file of faults list exactly the keys that the parser
+accepts.
 """
 
 import re
@@ -12,77 +13,136 @@ PAGES = {
     "a351ctl": ("daemon/ctl/a351ctl.1",
                 ["status", "watch", "start", "stop", "setup", "discard", "restore", "resume", "not-moved", "rename", "retime", "note", "target",
                  "sites", "list"]),
-    "a351-sim": ("sim/a351-sim.1", ["device", "replay", "survey", "plan"]),
 }
 OPTION = r"(?<![\w-])--[a-z][a-z0-9-]*"
+INSTALLED = (TOP / "config" / "CMakeLists.txt").read_text()
 
 
 def offered_options(help_text):
     return set(re.findall(OPTION, "\n".join(line for line in help_text.splitlines() if line.lstrip().startswith("-"))))
 
 
-def demand_options(name, page, described, offered):
-    demand(f"{name}: options missing in {page}: {sorted(offered - described) or 'none'}", offered <= described)
-    demand(f"{name}: options of {page} that do not exist: {sorted(described - offered) or 'none'}", described <= offered)
+def demand_same(what, page, described, accepted):
+    demand(f"{what}: missing in {page}: {sorted(accepted - described) or 'none'}; there, but do not exist: "
+           f"{sorted(described - accepted) or 'none'}", accepted == described)
+
+
+def text_of(page):
+    return page.read_text().replace("\\-", "-")
 
 
 def section_of(page_text, title):
-    return page_text.split(f"\n.SH {title}\n")[1].split("\n.SH ")[0]
+    return page_text.split(f"\n{title}\n")[1].split("\n.SH ")[0].split("\n.SS ")[0]
+
+
+def entries_of(section):
+    """Returns the keys of the entries, each the line after .TP: `.B key` or `.BR key1 ", " key2`."""
+    heads = re.findall(r'^\.TP\n\.[BI]+R? (.*)$', section, re.M)
+    return {word for head in heads for word in re.findall(r"[a-z][a-z0-9_]*", re.sub('"[^"]*"', " ", head))}
+
+
+def pages_of_subcommands(program, folder, commands_folder):
+    """Checks the overview of a program and the page of each of its subcommands."""
+    help_text = run(BIN / program, "--help").stdout
+    commands = re.findall(r"^  ([a-z]+) ", help_text.split("\nSubcommands:\n")[1], re.M)
+    overview = folder / f"{program}.1"
+    helps = {overview: (program, help_text)} | {
+        commands_folder / f"{program}-{command}.1": (f"{program} {command}", run(BIN / program, command, "--help").stdout)
+        for command in commands}
+    for page, (name, said) in helps.items():
+        entries = "\n".join(re.findall(r"^\.TP\n(.*)$", section_of(text_of(page), ".SH OPTIONS"), re.M))
+        demand_same(f"options of {name}", page.name, set(re.findall(OPTION, entries)), offered_options(said))
+        shown = set(re.findall(OPTION, section_of(text_of(page), ".SH SYNOPSIS")))
+        demand(f"options in its synopsis, all of which exist: {sorted(shown) or 'none'}", shown <= offered_options(said))
+    for command in commands:
+        demand(f"{overview.name} names {command} and its page",
+               f".BR {program}-{command} (1)\n.BR {command} :\n" in text_of(overview))
+    demand("every page belongs to a subcommand", set(commands_folder.glob("*.1")) == set(helps) - {overview})
+    listed = re.search(rf"foreach\(command IN ITEMS ([a-z ]+)\)\n +install\(FILES \S+/{program}-\$\{{command\}}\.1\s", INSTALLED)
+    demand("every page is installed", listed and sorted(listed[1].split()) == sorted(commands))
+    demand(f"{program} --version", run(BIN / program, "--version").stdout.startswith(program + " "))
+
+
+def accepted_keys(command, *texts):
+    """Returns all keys that the refusals of `zzz` allow.  A refusal lists the keys that were looked for."""
+    keys = set()
+    for text in texts:
+        with Scratch() as scratch:
+            (scratch / "file.toml").write_text(text)
+            message = run(*command, cwd=scratch, check=False).stderr
+        keys |= set(message.split("allowed: ")[1].strip().split(", ")) - {"zzz"}
+    return keys
 
 
 for program, (page, commands) in PAGES.items():
     helps = [run(BIN / program, *command, "--help").stdout for command in [[]] + [[c] for c in commands]]
-    page_text = (TOP / page).read_text().replace("\\-", "-")
+    page_text = text_of(TOP / page)
     lines = [line for line in page_text.splitlines() if line.startswith((".TP", ".B", ".BI", ".BR"))]
-    demand_options(program, page, set(re.findall(OPTION, "\n".join(lines))), offered_options("\n".join(helps)))
+    demand_same(f"options of {program}", page, set(re.findall(OPTION, "\n".join(lines))), offered_options("\n".join(helps)))
     for command in commands:
         demand(f"{program}: {page} names {command}", re.search(rf"\b{command}\b", page_text) is not None)
     demand(f"{program} --version", run(BIN / program, "--version").stdout.startswith(program + " "))
+pages_of_subcommands("a351-correct", TOP / "corrector", TOP / "corrector" / "command")
+pages_of_subcommands("a351-sim", TOP / "sim", TOP / "sim" / "command")
+for page in TOP.glob("*/**/*.5"):
+    demand(f"{page.name} is installed", page.name in INSTALLED)
 
-help_text = run(BIN / "a351-correct", "--help").stdout
-commands = re.findall(r"^  ([a-z]+) ", help_text.split("\nSubcommands:\n")[1], re.M)
-folder = TOP / "corrector" / "command"
-overview = folder.parent / "a351-correct.1"
-helps = {overview: ("a351-correct", help_text)} | {
-    folder / f"a351-correct-{command}.1": (f"a351-correct {command}", run(BIN / "a351-correct", command, "--help").stdout)
-    for command in commands}
-for page, (name, help_text) in helps.items():
-    page_text = page.read_text().replace("\\-", "-")
-    entries = "\n".join(re.findall(r"^\.TP\n(.*)$", section_of(page_text, "OPTIONS"), re.M))
-    demand_options(name, page.name, set(re.findall(OPTION, entries)), offered_options(help_text))
-    shown = set(re.findall(OPTION, section_of(page_text, "SYNOPSIS")))
-    demand(f"options in its synopsis, all of which exist: {sorted(shown) or 'none'}", shown <= offered_options(help_text))
-for command in commands:
-    demand(f"{overview.name} names {command} and its page", f".BR a351-correct-{command} (1)\n.BR {command} :\n" in
-           overview.read_text().replace("\\-", "-"))
-demand("every page belongs to a subcommand", set(folder.glob("*.1")) == set(helps) - {overview})
-installed = re.search(r"foreach\(command IN ITEMS ([a-z ]+)\)\n +install\(FILES \S+/a351-correct-\$\{command\}\.1\s",
-                      (TOP / "config" / "CMakeLists.txt").read_text())
-demand("every page is installed", installed and sorted(installed[1].split()) == sorted(commands))
-demand("a351-correct --version", run(BIN / "a351-correct", "--version").stdout.startswith("a351-correct "))
-
-page_text = (folder / "a351-survey.toml.5").read_text()
+page = TOP / "corrector" / "command" / "a351-survey.toml.5"
 for table in ("survey", "prior"):
-    listed = page_text.split(f"\n[{table}]")[1].split("\n.fi")[0].split("\n[")[0]
-    described = set(re.findall(r"^([a-z0-9_]+) = ", listed, re.M))
-    with Scratch() as scratch:
-        (scratch / "day.toml").write_text(f"[{table}]\nzzz = 1\n")
-        message = run(BIN / "a351-correct", "survey", scratch / "day.toml", check=False).stderr
-    accepted = set(message.split("allowed: ")[1].strip().split(", ")) - {"zzz"}
-    demand(f"[{table}] of the survey file: keys missing on the page: {sorted(accepted - described) or 'none'}; keys that do "
-           f"not exist: {sorted(described - accepted) or 'none'}", accepted == described)
+    listed = page.read_text().split(f"\n[{table}]")[1].split("\n.fi")[0].split("\n[")[0]
+    demand_same(f"keys of [{table}]", page.name, set(re.findall(r"^([a-z0-9_]+) = ", listed, re.M)),
+                accepted_keys([BIN / "a351-correct", "survey", "file.toml"], f"[{table}]\nzzz = 1\n"))
 
 page_text = (TOP / "daemon" / "a351d.toml.5").read_text()
 position = "[station]\nlatitude = 36.2\nlongitude = 140.1\nelevation_m = 400.0\n"
 for table in ("station", "sensor", "oven", "storage", "page", "survey", "verdict"):
-    with Scratch() as scratch:
-        text = position + "[sensor]\nport = \"p\"\n[storage]\nroot = \"d\"\n"
-        header = f"[{table}]\n"
-        text = text.replace(header, header + "zzz = 1\n") if header in text else text + header + "zzz = 1\n"
-        (scratch / "c.toml").write_text(text)
-        message = run(BIN / "a351d", "--config", scratch / "c.toml", "--check-config", check=False).stderr
-    accepted = set(message.split("allowed: ")[1].strip().split(", ")) - {"zzz"}
+    text = position + "[sensor]\nport = \"p\"\n[storage]\nroot = \"d\"\n"
+    header = f"[{table}]\n"
+    text = text.replace(header, header + "zzz = 1\n") if header in text else text + header + "zzz = 1\n"
+    accepted = accepted_keys([BIN / "a351d", "--config", "file.toml", "--check-config"], text)
     section = page_text.split(f".SS [{table}]")[1].split(".SS")[0].split(".SH")[0]
     described = {key for line in re.findall(r"^\.B (.*)$", section, re.M) for key in line.split(", ")}
-    demand(f"[{table}]: keys missing on the page: {sorted(accepted - described) or 'none'}", accepted <= described)
-    demand(f"[{table}]: every key on the page exists", all(key in accepted for key in described))
+    demand_same(f"keys of [{table}]", "a351d.toml.5", described, accepted)
+
+page = TOP / "sim" / "command" / "a351-faults.toml.5"
+plan_faults = [BIN / "a351-sim", "device", "--link", "sensor", "--oven-link", "oven", "--faults", "file.toml"]
+kinds = dict(re.findall(r"^([a-z_]+)\t(?:T\{\n)?(.*)(?:\nT\})?\t", section_of(text_of(page), ".SH KINDS"), re.M))
+del kinds["kind"]  # The heading.
+demand_same("kinds of faults", page.name, set(kinds), accepted_keys(plan_faults, '[[fault]]\nkind = "zzz"\nat_s = 1\n'))
+serial = 'serial_number = "12345678"\n'
+instants = {"at_s": "1", "at_utc": '"2017-07-16T00:00:00Z"', "at_frame": "1"}
+for kind, keys in kinds.items():
+    more = {"other_unit": serial, "change_settings": "output_rate_hz = 100\n"}.get(kind, "")
+    texts = [f'[[fault]]\nkind = "{kind}"\n{more}{key} = {instant}\nzzz = 1\n' for key, instant in instants.items()]
+    demand_same(f"keys of {kind}", page.name, set(keys.split(", ")) - {""} | {"kind", *instants}, accepted_keys(plan_faults, *texts))
+entries = entries_of(section_of(text_of(page), ".SH FAULTS AT AN INSTANT"))
+demand_same("keys of [[fault]]", page.name, entries, {"kind", *instants} | {key for keys in kinds.values() for key in keys.split(", ")} - {""})
+random = {key.removesuffix("_per_h") for key in accepted_keys(plan_faults, "[random]\nzzz = 1\n")} - {"seed"}
+demand("random faults are of all kinds but the three that the page names",
+       set(kinds) - random == {"other_unit", "change_settings", "overrun"})
+
+page = TOP / "sim" / "command" / "a351-scenario.toml.5"
+plan = [BIN / "a351-sim", "plan", "--scenario", "file.toml", "--out", "plan"]
+base = 'base = "tsukuba"\nname = "x"\n'
+site = '[[site]]\nname = "s"\nlongitude_deg = 1\nlatitude_deg = 1\naltitude_m = 1\ngravity_mgal = 980000\n'
+tables = {
+    "[[site]]": [site],
+    "[[occupation]]": ['[[occupation]]\nsite = "No.1"\ncentre_utc = "2017-07-16T00:00:00Z"\n'],
+    "[[ambient]]": ["[[ambient]]\nat_h = 1\ndegc = 1\n", '[[ambient]]\nat_utc = "2017-07-16T00:00:00Z"\ndegc = 1\n'],
+    "[[lid_open]]": ['[[lid_open]]\nsite = "No.1"\noutside_degc = 1\n',
+                     '[[lid_open]]\nfrom_utc = "2017-07-16T00:00:00Z"\nto_utc = "2017-07-16T01:00:00Z"\noutside_degc = 1\n'],
+    "[schedule]": ["[schedule]\n", '[schedule]\nstart_utc = "2017-07-16T00:00:00Z"\nduration_h = 1\n'],
+}
+for table, texts in tables.items():
+    described = entries_of(section_of(text_of(page), f".SS {table}"))
+    demand_same(f"keys of {table}", page.name, described, accepted_keys(plan, *[base + text + "zzz = 1\n" for text in texts]))
+others = section_of(text_of(page), ".SS Other tables")
+entries = dict(re.findall(r"^\.TP\n\.B \[([a-z_]+)\]\n((?:(?!\.TP).*\n?)*)", others, re.M))
+top_level = {"name", "base", *(table.strip("[]") for table in tables)}
+demand_same("tables", page.name, top_level | set(entries), accepted_keys(plan, base + "zzz = 1\n"))
+for table, text in entries.items():
+    named = {word for line in re.findall(r"^\.B[RI]? (.*)$", text, re.M) for word in re.findall(r"\b[a-z]+_[a-z_]+\b", line)}
+    accepted = accepted_keys(plan, f"{base}[{table}]\nzzz = 1\n")
+    demand(f"[{table}]: every key that {page.name} names exists: {sorted(named) or 'none'}", named <= accepted)
+    if table == "line":
+        demand_same("keys of [line]", page.name, named, accepted)

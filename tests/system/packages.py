@@ -24,6 +24,7 @@ MORE_FILES = {
                      "usr/share/doc/a351-correct/corrector/methods.md",
                      "usr/share/doc/a351-correct/daemon/field-guide.md"],
     "a351-sim": ["usr/share/a351/scenarios/tsukuba.toml", "usr/share/a351/faults/example.toml",
+                 "usr/share/man/man1/a351-sim-device.1.gz", "usr/share/man/man5/a351-scenario.toml.5.gz",
                  "usr/share/doc/a351-sim/sim/truth/truth-format.md"],
 }
 # Libraries that each package needs besides those of C and C++, and libraries of the other packages that it must not need.
