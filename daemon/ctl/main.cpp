@@ -31,19 +31,19 @@ void check(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments a;
-    CLI::App app("Shows the state of the daemon a351d and controls occupations", "a351ctl");
+    CLI::App app("Shows the state of the daemon a351d and controls occupations.", "a351ctl");
     app.set_version_flag("--version", std::string("a351ctl ") + A351_VERSION);
     app.add_option("--url", a.url, "Address of the daemon")
         ->type_name("URL")
         ->envname("A351_URL")
         ->capture_default_str();
     app.add_option("--clock", a.clock,
-                   "Simulated time; checked but has no effect here, because the daemon gives "
-                   "all times")
+                   "Simulated time, scaled:FACTOR@UTC[,HOST]; checked but without effect, because "
+                   "the daemon gives all times")
         ->type_name("SCALE");
-    app.add_option(
-           "--token", a.token,
-           "Token of a daemon that is reached over a network; preferably set A351_TOKEN instead")
+    app.add_option("--token", a.token,
+                   "Token for changes over a network; better set A351_TOKEN, because others see "
+                   "this option")
         ->type_name("TOKEN")
         ->envname("A351_TOKEN");
     app.require_subcommand(1);
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     const auto add_at = [&](CLI::App* command) {
         command
             ->add_option("--at", a.at,
-                         "Time in the recorded past: RFC 3339, local HH:MM[:SS] or -12min; "
+                         "Instant in the recorded past: RFC 3339, local HH:MM[:SS] or -12min; "
                          "default: the last sample")
             ->type_name("WHEN");
     };
@@ -70,60 +70,64 @@ int main(int argc, char** argv) {
             ->type_name("NAME");
     };
     auto* status = app.add_subcommand("status",
-                                      "Show the status on one screen; exit status 0 good, 1 "
-                                      "warning, 2 fault, 3 not running or bad usage");
+                                      "Shows the status on one screen. Exit status: 0 good, 1 "
+                                      "warning, 2 fault, 3 not running or bad usage.");
     add_json(status);
-    app.add_subcommand("watch", "Show the status every second until interrupted");
-    auto* start = app.add_subcommand("start", "Start an occupation at a benchmark");
-    start->add_option("SITE", a.site, "Benchmark")->type_name("")->required();
+    app.add_subcommand("watch", "Shows the status every second until interrupted.");
+    auto* start = app.add_subcommand("start", "Starts an occupation at a benchmark.");
+    start->add_option("SITE", a.site, "Benchmark, as in sites")->type_name("")->required();
     add_at(start);
     add_remark(start);
-    auto* stop = app.add_subcommand("stop", "Stop the running occupation");
+    auto* stop = app.add_subcommand("stop", "Stops the running occupation.");
     add_at(stop);
     add_remark(stop);
     auto* setup = app.add_subcommand(
-        "setup", "Begin a further set-up: the sensor was lifted and set down again");
+        "setup", "Begins a further set-up: the box was lifted and set down again.");
     add_at(setup);
     constexpr const char* kStay = "Key of the stay, from list; default: the running or last one";
-    auto* discard = app.add_subcommand("discard", "Discard a stay; its data are kept");
+    auto* discard = app.add_subcommand("discard", "Discards a stay; its data are kept.");
     discard->add_option("STAY", a.stay, kStay)->type_name("");
     add_reason(discard);
-    auto* restore = app.add_subcommand("restore", "Cancel the discard of a stay");
+    auto* restore = app.add_subcommand("restore", "Cancels the discard of a stay.");
     restore->add_option("STAY", a.stay, "Key of the stay, from list")->type_name("")->required();
     add_reason(restore);
     auto* not_moved = app.add_subcommand(
         "not-moved",
-        "Say that the box was not moved during a stay so far, in answer to the warning");
+        "States that the box was not moved during a stay so far, in answer to the warning.");
     not_moved->add_option("STAY", a.stay, kStay)->type_name("");
     add_reason(not_moved);
     auto* resume = app.add_subcommand(
-        "resume", "Continue the last stay, at most 10 min after it was stopped by mistake");
+        "resume", "Continues the last stay, at most 10 min after it was stopped by mistake.");
     resume->add_option("STAY", a.stay, kStay)->type_name("");
     add_reason(resume);
-    auto* rename = app.add_subcommand("rename", "Correct the site of a stay");
-    rename->add_option("[STAY] SITE", a.stay_and_site, "Key of the stay as above; benchmark")
+    auto* rename = app.add_subcommand("rename", "Corrects the site of a stay.");
+    rename
+        ->add_option("[STAY] SITE", a.stay_and_site,
+                     "Key of the stay, from list (default: the running or last one), and its "
+                     "correct benchmark")
         ->type_name("")
         ->expected(1, 2)
         ->required();
     add_reason(rename);
-    auto* retime = app.add_subcommand("retime", "Correct start or end of a stay");
+    auto* retime = app.add_subcommand("retime", "Corrects start or end of a stay.");
     retime->add_option("STAY", a.stay, "Key of the stay, from list")->type_name("")->required();
-    retime->add_option("--from", a.from, "Start: RFC 3339, local HH:MM[:SS] or -12min")
+    retime->add_option("--from", a.from, "New start: RFC 3339, local HH:MM[:SS] or -12min")
         ->type_name("WHEN");
-    retime->add_option("--to", a.to, "End, likewise")->type_name("WHEN");
+    retime->add_option("--to", a.to, "New end, likewise")->type_name("WHEN");
     add_reason(retime);
-    auto* note = app.add_subcommand("note", "Write a remark to the event log");
+    auto* note = app.add_subcommand("note", "Writes a remark to the event log.");
     note->add_option("WORDS", a.note, "Remark")->type_name("")->required();
     note->add_option("--stay", a.stay, "Key of the stay; default: the running one, if any")
         ->type_name("KEY");
     auto* target =
-        app.add_subcommand("target", "Set the standard error at which a reading is good enough");
+        app.add_subcommand("target", "Sets the standard error at which a reading is good enough.");
     target->add_option("MGAL", a.target_mgal, "Standard error, 0.01-1000 mGal")
         ->type_name("")
         ->required();
     add_json(
-        app.add_subcommand("sites", "List the benchmarks, nearest to the last occupation first"));
-    add_json(app.add_subcommand("list", "List the finished stays with their keys"));
+        app.add_subcommand("sites", "Lists the benchmarks, nearest to the last occupation first."));
+    add_json(app.add_subcommand(
+        "list", "Lists the finished stays with their keys, then the discarded ones."));
 
     const auto usage_status = [&] { return *status ? kNoDaemon : kUsage; };
     try {

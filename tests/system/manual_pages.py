@@ -1,10 +1,11 @@
 """The manual pages list exactly the options of --help; the pages of a351-correct and a351-sim do so for each subcommand.
 
 The pages of the configuration, the survey file, the scenario and the file of faults list exactly the keys that the parser
-accepts.
+accepts; the page of the HTTP interface names every path.
 """
 
 import re
+import tomllib
 
 from programs import BIN, TOP, Scratch, demand, run
 
@@ -84,14 +85,42 @@ for program, (page, commands) in PAGES.items():
     demand(f"{program} --version", run(BIN / program, "--version").stdout.startswith(program + " "))
 pages_of_subcommands("a351-correct", TOP / "corrector", TOP / "corrector" / "command")
 pages_of_subcommands("a351-sim", TOP / "sim", TOP / "sim" / "command")
-for page in TOP.glob("*/**/*.5"):
+for page in TOP.glob("*/**/*.[57]"):
     demand(f"{page.name} is installed", page.name in INSTALLED)
+
+page = TOP / "daemon" / "page" / "a351d-http.7"
+served = set(re.findall(r'"(/(?:api/[a-z_/]+|metrics|live))"', "".join((page.parent / name).read_text() for name in ("api.cpp", "server.cpp"))))
+named = set()
+for head in re.findall(r"^\.B[IR]? (?:.*?)(/[a-z].*)$", text_of(page), re.M):
+    start, _, changes = head.partition(" ")
+    path = re.match(r"[a-z_/]+", start)[0]
+    named |= {path + change for change in changes.split("|")} if path.endswith("/") else {path}
+demand_same("paths of the interface", page.name, named, served)
 
 page = TOP / "corrector" / "command" / "a351-survey.toml.5"
 for table in ("survey", "prior"):
     listed = page.read_text().split(f"\n[{table}]")[1].split("\n.fi")[0].split("\n[")[0]
     demand_same(f"keys of [{table}]", page.name, set(re.findall(r"^([a-z0-9_]+) = ", listed, re.M)),
                 accepted_keys([BIN / "a351-correct", "survey", "file.toml"], f"[{table}]\nzzz = 1\n"))
+
+EXAMPLE = (TOP / "config" / "a351d.toml").read_text()
+
+
+def demand_limits(key, default, entry, config):
+    """Demands that the entry of a number has the default of the example and the range that a refusal names."""
+    if not isinstance(default, (int, float)) or isinstance(default, bool):
+        return
+    table, name = key.split(".")
+    with Scratch() as scratch:
+        lines = [line for line in config.replace("zzz = 1\n", "").splitlines() if not line.startswith(name + " ")]
+        lines.insert(lines.index(f"[{table}]") + 1, f"{name} = 1000000")
+        (scratch / "file.toml").write_text("\n".join(lines) + "\n")
+        message = run(BIN / "a351d", "--config", "file.toml", "--check-config", cwd=scratch, check=False).stderr
+    allowed = re.findall(r"-?[\d.]+", message.split("allowed: ")[1])
+    is_required = "Required." in entry
+    demand(f"{key}: its entry has {', '.join(allowed)} and {'no default' if is_required else f'the default {default:g}'}",
+           all(re.search(rf"(?<![\w.-]){limit}(?!\w|\.\d)", entry) for limit in allowed) and (is_required or re.search(rf"default (?:is )?{default:g}\b|\b{default:g} \(default\)", entry)))
+
 
 page_text = (TOP / "daemon" / "a351d.toml.5").read_text()
 position = "[station]\nlatitude = 36.2\nlongitude = 140.1\nelevation_m = 400.0\n"
@@ -100,9 +129,11 @@ for table in ("station", "sensor", "oven", "storage", "page", "survey", "verdict
     header = f"[{table}]\n"
     text = text.replace(header, header + "zzz = 1\n") if header in text else text + header + "zzz = 1\n"
     accepted = accepted_keys([BIN / "a351d", "--config", "file.toml", "--check-config"], text)
-    section = page_text.split(f".SS [{table}]")[1].split(".SS")[0].split(".SH")[0]
-    described = {key for line in re.findall(r"^\.B (.*)$", section, re.M) for key in line.split(", ")}
-    demand_same(f"keys of [{table}]", "a351d.toml.5", described, accepted)
+    section = re.split(r"^\.S[SH]", page_text.split(f".SS [{table}]")[1], flags=re.M)[0]
+    described = dict(re.findall(r"^\.TP\n\.B (\S+)\n((?:(?!\.TP|\.PP).*\n)*)", section, re.M))
+    demand_same(f"keys of [{table}]", "a351d.toml.5", set(described), accepted)
+    for key, value in tomllib.loads(EXAMPLE).get(table, {}).items():
+        demand_limits(f"{table}.{key}", value, described[key].replace("\\-", "-"), text)
 
 page = TOP / "sim" / "command" / "a351-faults.toml.5"
 plan_faults = [BIN / "a351-sim", "device", "--link", "sensor", "--oven-link", "oven", "--faults", "file.toml"]

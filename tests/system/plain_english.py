@@ -27,7 +27,7 @@ DIALECT = re.compile(r"(?<![\w-])(?:" + "|".join(WORDS) + r")(?![\w-])", re.IGNO
 OPENING = re.compile(r"(?:Of|What|Whether|Such|So|By|That|Who|Told)\b(?! (?:that|is)\b)")
 
 SOURCES = [folder + "/**/*.[ch]pp" for folder in ("protocol", "daemon", "sim", "corrector")]
-PAGES = ["**/*.[15]", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "protocol/**/*.md", "daemon/**/*.md",
+PAGES = ["**/*.[157]", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "protocol/**/*.md", "daemon/**/*.md",
          "sim/**/*.md", "corrector/**/*.md", "daemon/page/**/*.html", "daemon/page/**/*.js", "sim/demo", "config/*.toml", "config/install-packages"]
 TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|R"(\w*)\((.*?)\)\1"|"((?:[^"\\\n]|\\.)*)"|'(?:[^'\\\n]|\\.)+'""", re.DOTALL)
 
