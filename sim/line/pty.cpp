@@ -169,6 +169,10 @@ int Pty::baud() const {
 }
 
 std::size_t Pty::unread() const {
+    // FIONREAD does not count bytes that the kernel's worker has not delivered yet.  If none are
+    // there, poll() waits for the worker.
+    pollfd delivered{terminal_->slave, POLLIN, 0};
+    static_cast<void>(::poll(&delivered, 1, 0));
     int waiting = 0;
     if (::ioctl(terminal_->slave, FIONREAD, &waiting) != 0) fail_to("ask " + terminal_->path);
     return static_cast<std::size_t>(waiting);

@@ -46,8 +46,8 @@ public:
     /// Returns the baud rate that the host has set; 0 if it is not one of the usual rates.
     [[nodiscard]] int baud() const;
 
-    /// Returns the number of bytes written that the host has not read.  The kernel may not yet
-    /// count the bytes written last.
+    /// Returns the number of bytes written that the host has not read; 0 only if it has read all.
+    /// While the terminal is full, the kernel does not count all of them.
     [[nodiscard]] std::size_t unread() const;
 
     /// Pulls the adapter out: the host sees its terminal hang up, and the link is removed.

@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 constexpr Nanoseconds kBatch = 1ms;
 constexpr Nanoseconds kLongestWait = 100ms;
 constexpr Nanoseconds kGrace = 2s;
-/// Time for written bytes to pass the kernel's flip buffer; until then they do not count as unread.
+/// Time in which nothing may be unread at the end: after a read the kernel refills a full terminal.
 constexpr Nanoseconds kSettle = 200ms;
 constexpr Nanoseconds kQuiet = 10ms;
 /// Before the port is pulled out, the host may read, so that the bytes sent have arrived: until

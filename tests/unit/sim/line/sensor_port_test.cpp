@@ -141,6 +141,25 @@ constexpr std::string_view kStartLogging =
 
 }  // namespace
 
+TEST_CASE("nothing is unread only when the host has read all, also right after a write",
+          "[sim][pty]") {
+    Pty pty(link_path("unread"));
+    const int host = ::open(pty.slave_path().c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC);
+    REQUIRE(host >= 0);
+    const std::array<std::byte, 24> frame{};
+    std::array<std::byte, 24> read{};
+    int missed = 0, left = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        REQUIRE(pty.write(frame) == frame.size());
+        missed += pty.unread() != frame.size();
+        REQUIRE(::read(host, read.data(), read.size()) == static_cast<ssize_t>(read.size()));
+        left += pty.unread() != 0;
+    }
+    ::close(host);
+    CHECK(missed == 0);
+    CHECK(left == 0);
+}
+
 TEST_CASE("a host configures the device through the terminal and reads its frames",
           "[sim][sensor_port]") {
     Served served("round_trip", 200.0);
