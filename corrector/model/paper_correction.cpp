@@ -90,6 +90,7 @@ std::vector<double> temperature_corrected_mgal(const std::vector<reading::Survey
                                                const TemperatureLine& line) {
     std::vector<double> corrected;
     for (const reading::SurveyRow& row : rows) {
+        // Equation (3), with the reading where the publication prints the reference.
         const double temperature_effect =
             line.slope_mgal_per_degc * row.temperature.value() + line.intercept.value();
         corrected.push_back((row.acceleration - row.tide).value() - temperature_effect);

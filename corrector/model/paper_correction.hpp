@@ -7,11 +7,11 @@
 ///
 ///     D_i  = G_i - g_i - tide_i                    Difference
 ///     D    = a T + b                               least squares over the rows in use
-///     G1_i = G_i - tide_i - (a T_i + b)            Corrected (1);  e1_i = g_i - G1_i
+///     G1_i = G_i - tide_i - (a T_i + b)            Corrected (1), equation (3);  e1_i = g_i - G1_i
 ///     G2_i = G1_i + e1_first + (e1_last - e1_first) (t_i - t_first) / (t_last - t_first)
 ///
-/// G is the reading, g the reference, T the temperature.  First and last are the first and the last
-/// row of the base station.
+/// G is the reading, g the reference, T the temperature.  Equation (3) is printed with g in place
+/// of G.  First and last are the first and the last row of the base station.
 ///
 /// Use it to reproduce the publication; for results use another model.  Programs take
 /// paper_model().  The steps, in their order:

@@ -55,6 +55,9 @@ struct TiltSeries {
 /// the covariance is the inverse of their sum.
 ///
 /// A single series is returned as it is.  Series that disagree do not enlarge the covariance.
+///
+/// Accuracy: rounding; the same series twice gives its values and half its covariance
+/// (tilt_series_test.cpp).
 /// @param series  at least one, with positive definite covariances.
 /// @throws std::invalid_argument  one of several covariances is not positive definite.
 [[nodiscard]] unit::AxisBias combine(const std::vector<TiltSeries>& series);

@@ -46,20 +46,21 @@ struct Ecliptic {
 /// Returns the position of the Moon: Meeus, ch. 47, with the terms of lunar_terms.hpp.
 /// @param t  Julian centuries of TT from J2000.
 Ecliptic moon_position(double t) {
-    // L', D, M, M', F without terms from t^3 on: Meeus, eq. 47.1 to 47.5.
-    const double mean_longitude = 218.3164477 + 481267.88123421 * t - 0.0015786 * t * t;
-    const double d = 297.8501921 + 445267.1114034 * t - 0.0018819 * t * t;
-    const double m = 357.5291092 + 35999.0502909 * t - 0.0001536 * t * t;
-    const double m_prime = 134.9633964 + 477198.8675055 * t + 0.0087414 * t * t;
-    const double f = 93.2720950 + 483202.0175233 * t - 0.0036539 * t * t;
-    const double e = 1.0 - 0.002516 * t - 0.0000074 * t * t;  // E: eq. 47.6
+    // Equations of Meeus without terms from t^3 on.
+    const double mean_longitude =
+        218.3164477 + 481267.88123421 * t - 0.0015786 * t * t;                    // L': 47.1
+    const double d = 297.8501921 + 445267.1114034 * t - 0.0018819 * t * t;        // D: 47.2
+    const double m = 357.5291092 + 35999.0502909 * t - 0.0001536 * t * t;         // M: 47.3
+    const double m_prime = 134.9633964 + 477198.8675055 * t + 0.0087414 * t * t;  // M': 47.4
+    const double f = 93.2720950 + 483202.0175233 * t - 0.0036539 * t * t;         // F: 47.5
+    const double e = 1.0 - 0.002516 * t - 0.0000074 * t * t;                      // E: 47.6
 
     const auto angle = [&](const LunarArgument& a) {
         return a.d * d + a.m * m + a.m_prime * m_prime + a.f * f;
     };
     const auto scale = [&](const LunarArgument& a) { return std::pow(e, std::abs(a.m)); };
 
-    // lambda = L' + sum l, distance = 385000.56 km + sum r, beta = sum b
+    // Longitude = L' + sum l, distance = 385000.56 km + sum r, latitude = sum b: tables 47.A, 47.B.
     double longitude_udeg = 0.0;
     double distance_m = 385000.56e3;
     for (const LongitudeDistanceTerm& term : kLongitudeDistanceTerms) {

@@ -34,6 +34,9 @@ public:
     /// Returns the means over the bins (bins), in the unit of the values.
     ///
     /// Values with a NaN make the bins NaN that use this sample.  Cost: O(samples of all bins).
+    ///
+    /// Accuracy: rounding; bins between and outside the samples of a ramp have its exact means
+    /// (day_columns_test.cpp).
     /// @param values  (grid) values on the grid; their number is not checked.
     [[nodiscard]] Eigen::VectorXd of(const std::vector<double>& values) const;
 

@@ -12,9 +12,16 @@
 /// - step: all readings from one set-up on are higher or lower;
 /// - tails: a quarter of the set-ups has most of the scatter, so placement is not normal.
 ///
-/// A statistic is a ratio of squares, so the size of the noise has little effect; lags and the sizes
-/// of the noise relative to each other and to the priors are those of the fit.  Its probability is
-/// counted in simulations of the same day without a misfit, with the same draws each time.
+/// A statistic is a share of squares, 0 to 1:
+///
+///     curvature, step:  largest t^2 / (t^2 + s) over all directions
+///     tails:            1 - s' / s0, with a quarter of the set-ups taken away, worst first
+///
+/// t is the part of the whitened residuals in the direction of the misfit, s the scatter of the
+/// readings without it, s0 the scatter with it, s' that without the quarter.  The size of the noise
+/// has therefore little effect; lags and the sizes of the noise relative to each other and to the
+/// priors are those of the fit.  The probability of a statistic is counted in 2000 simulations of the
+/// same day without a misfit, with the same draws each time: p is 1/2001 at least.
 
 #include <array>
 #include <string_view>
@@ -40,7 +47,7 @@ inline constexpr std::array<double, 3> kMisfitProbabilities{0.008, 0.025, 0.004}
 struct FitTest {
     Misfit misfit{};
     double p = 1.0;  ///< Probability of at least this statistic on a day that the model fits.
-    /// curvature: 0 of the temperature, 1 of the time; step: first set-up behind it; tails: the
+    /// curvature: 0 of the temperature, 1 of the time; step: first set-up after it; tails: the
     /// set-up that fits worst.
     std::size_t place = 0;
 
@@ -56,8 +63,12 @@ inline constexpr int kFewestFitDof = 5;
 
 /// Tests a fit.
 ///
-/// Error rates on simulated days: tests/bench/misfits.py.
-/// @param record, stations, priors  those of the fit.
+/// Accuracy: a probability of 1 % has a standard error of 0.2 %.  Error rates on simulated days:
+/// tests/bench/misfits.py.  goodness_of_fit_test.cpp: on ten ordinary days with five times the usual
+/// noise at most 2 of 30 tests name a misfit; a step of 15 mGal, a response of 150 mGal/degC^2 and
+/// two set-ups that are off by 14 and 17 mGal are found where they are.
+/// @param record, stations, priors  those of the fit; finite.
+/// @param fit  fit_day() of them.
 /// @return one test of each kind; none with fewer than kFewestFitDof degrees of freedom.
 /// Source: B. D. Ripley, Stochastic Simulation, Wiley 1987, section 7.1 (Monte Carlo tests).
 [[nodiscard]] std::vector<FitTest> goodness_of_fit(const reading::DayRecord& record,

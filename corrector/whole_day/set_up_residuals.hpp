@@ -14,13 +14,21 @@
 namespace a351::corrector::whole_day {
 
 /// Returns the matrix (set-ups, bins) that averages bins over set-ups, weighted by their samples.
+/// Each row adds up to 1; the row of a set-up without a bin is NaN.
 [[nodiscard]] Eigen::MatrixXd averaging(const reading::DayRecord& record, std::size_t set_ups);
 
 /// Returns the residuals of the set-ups with the lags and the noise of a fit.
 ///
-/// Unknown are the constant, unknown stations and steps.  The priors of all other terms, of the lags
-/// to first order, and the expected noise are in the covariance.
-/// @param record, stations, priors  as fit_day().
+///     r = W M (y - prior expectation) without its part in the unknowns,   W' W = C^-1
+///     C = M N M' + sum of x x' over the terms with a prior and over both lags
+///
+/// M is averaging(), y the bins, N their noise_covariance() with the expected noise, x a column of a
+/// term or a lag (to first order) times the deviation of its prior.  Unknowns are the constant,
+/// unknown stations and steps.
+///
+/// Accuracy: no test of its own; goodness_of_fit_test.cpp and mistake_search_test.cpp find misfits
+/// and mistakes of known size in these residuals.  Cost: O(bins^2 + set-ups^3).
+/// @param record, stations, priors  as fit_day(); finite, each set-up has a bin.
 /// @param fit  fit of these stations, or of others: then lags, noise and coefficients are those.
 [[nodiscard]] residual::Residuals set_up_residuals(const reading::DayRecord& record,
                                                    const std::vector<DayStation>& stations,

@@ -20,7 +20,7 @@ inline constexpr double kGaussianPerMad = 1.4826;
 /// Returns the middle value, in the unit of the input; for an even number of values, the upper of
 /// the two middle ones, not their mean.  The result is always one of the values.
 ///
-/// Cost: O(n) on average.  The vector is taken by value: a caller that needs it no more moves it.
+/// Exact: no arithmetic is done.  Cost: O(n) on average.  The vector is taken by value: a caller that needs it no more moves it.
 /// @param values  (n), n >= 1, without NaN; not checked.  The order does not matter.  Infinite
 ///                values are allowed.
 [[nodiscard]] inline double median(std::vector<double> values) {

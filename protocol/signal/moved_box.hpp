@@ -4,7 +4,7 @@
 /// lifted and set down, kicked, or not yet set down.
 ///
 ///     const std::vector<BoxMove> moves = find_box_moves(samples);
-///     const StillPart part = choose_still_part(samples, moves);   // where the box stood
+///     const StillPart part = choose_still_part(samples, moves);   // where the box was at rest
 ///
 /// At rest the level of the box does not change.  A shock or a lorry alone is not a move.
 
@@ -36,19 +36,25 @@ struct BoxMove {
 
 /// Returns the moves, in order of time.
 ///
-/// Compared are the means of the axes over ten samples at rest on either side of each instant.
+/// The means of the axes over ten samples at rest on either side of each instant are compared.
 /// The box has moved if
 /// - its level changes by more than 0.02 deg, or
 /// - between both it was handled (shaken above 2 Gal for 5 s) and its level changes by more than
 ///   0.005 deg or the norm by more than 10 mGal.
 ///
 /// A sample is at rest if no sample within 10 s, the reach of the decimation, is shaken above 2 Gal.
-/// @param samples  one in 2 s, in order of time.
+/// A sample with a missing axis (NaN) is never at rest; a missing shake counts as no shaking.
+///
+/// Cost: O(n).
+/// Accuracy (moved_box_test.cpp): of 67 made-up stays each that end with a drive, a lift by 10 cm
+/// and a kick of 0.05 deg, at least 95 % are found, with the end within 15 s.  None of 200 stays with
+/// a lorry, knocks, and hands that tilt the box by 0.001 deg has a move.  corrector/methods.md has
+/// simulated days.
+/// @param samples  one in 2 s, in order of time; neither is checked.
 /// @return none with fewer than 20 samples at rest.
-/// Accuracy: moved_box_test.cpp, and corrector/methods.md for simulated days.
 [[nodiscard]] std::vector<BoxMove> find_box_moves(std::span<const MotionSample> samples);
 
-/// The part of a stay in which the box stood: samples [first, behind).
+/// The part of a stay in which the box did not move: samples [first, behind).
 struct StillPart {
     std::size_t first = 0, behind = 0;
     bool operator==(const StillPart&) const = default;
@@ -61,6 +67,9 @@ struct StillPart {
 /// If the box was handled in the ten minutes before the move that ends the part, it ends there,
 /// because the way to a car may be quiet.
 /// A minute or more of shaking at either end is left out: there the box was carried or driven.
+///
+/// Accuracy: as find_box_moves(); a start that was pressed too early moves to within 14 s of the
+/// instant at which the box was set down (moved_box_test.cpp).
 /// @param moves  find_box_moves() of the samples.
 /// @return all samples if there is neither; none if the box was never at rest
 ///         and was shaken for a minute or more.
@@ -73,7 +82,9 @@ struct AnsweredStay {
     std::vector<BoxMove> moves;  ///< Moves after it.
 };
 
-/// Returns the part of a stay in which the box stood.
+/// Returns the part of a stay in which the box did not move.
+///
+/// No cut remains at or before the answer (moved_box_test.cpp).
 /// @param not_moved_until  the answer; absent: there is none.
 [[nodiscard]] AnsweredStay answered_stay(std::span<const MotionSample> samples,
                                          std::optional<UtcTime> not_moved_until);

@@ -74,7 +74,8 @@ struct ThermalPrior {
 /// values; lags: log-normal, factor 1.5.
 ///
 /// A day alone does not determine all parameters, so its prior has means that are not 0.  The
-/// priors of different parameters are independent.
+/// priors of different parameters are independent.  Test: thermal_response_test.cpp, "priors of a
+/// day are the typical unit, those of a record leave it open".
 [[nodiscard]] ThermalPrior day_prior(ThermalTerm term);
 
 /// Deviations in a long record.  Those of rA and rS are five and three times the value of the
@@ -110,8 +111,8 @@ inline constexpr double kRecordLagFactor = 2.0;
 
 /// Returns the rate that the fast path feels, (T - lag(T, tF)) / tF, degC/h (n).
 ///
-/// It is 0 at the first sample.  For a steady ramp it becomes the slope after several tF.  NaN is
-/// treated as by lagged().
+/// It is 0 at the first sample.  For a steady ramp it becomes the slope after several tF.  NaN and
+/// accuracy are those of lagged(): an error of lagged() counts by 3600 / tF.
 /// @param series      T (n), at constant rate.
 /// @param fast_lag_s  tF, s, > 0.
 [[nodiscard]] std::vector<double> fast_rate_degc_per_h(const TimeSeries<DegC>& series,
