@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "corrector/command/commands.hpp"
+#include "corrector/command/gravity_so_far.hpp"
 #include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_day.hpp"
@@ -40,7 +41,17 @@ struct SurveyCommandOptions {
     std::string calibration;
     std::string from, to;
     std::vector<std::string> figures;
+    std::string sites;
+    bool is_json = false;
 };
+
+job::SurveyFile read_survey_of(const std::string& file, const std::string& sites) {
+    if (std::filesystem::is_directory(file)) return job::survey_of_root(file, sites);
+    if (!sites.empty())
+        throw InputError("--sites " + sites + ": " + file +
+                         " is a survey file, which names its sites; allowed: with a data root");
+    return job::read_survey_file(file);
+}
 
 job::SurveyFile with_overrides(job::SurveyFile survey, const SurveyCommandOptions& options) {
     if (!options.model.empty()) survey.survey.model = options.model;
@@ -130,12 +141,18 @@ void correct_days(const SurveyCommandOptions& options) {
     std::vector<job::SurveyFile> surveys;
     std::set<std::string> names;
     for (const std::string& file : options.files) {
-        surveys.push_back(with_overrides(job::read_survey_file(file), options));
+        surveys.push_back(with_overrides(read_survey_of(file, options.sites), options));
         if (!names.insert(folder_name(surveys.back().name)).second) {
             throw InputError(fmt::format(
                 "{}: survey.name = {}: used by two days; allowed: a different name for each day",
                 file, surveys.back().name));
         }
+    }
+    if (options.is_json) {
+        if (surveys.size() > 1)
+            throw InputError("--json: more than one survey; allowed: one survey file or data root");
+        print_gravity_so_far(std::move(surveys.front()));
+        return;
     }
     const std::filesystem::path out = options.out.empty()
                                           ? surveys.front().path.parent_path() / "result"
@@ -188,7 +205,13 @@ void add_survey_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("survey", "Corrects survey days from the archive of a data root.");
     const auto options = std::make_shared<SurveyCommandOptions>();
-    add_required(command, "FILE", "", options->files, "Survey files (TOML), one per day");
+    add_required(command, "FILE", "", options->files,
+                 "Survey files (TOML), one per day, or data roots");
+    add_option(command, "--sites", "FILE", options->sites,
+               "Table of the sites of a data root (default: sites.csv beside it)");
+    command.add_flag("--json", options->is_json,
+                     "Print the gravity so far as one JSON document and write nothing. The stay "
+                     "that runs is used, and data that are only in the journal");
     add_option(command, "--out", "DIR", options->out,
                "Folder of the result (default: result beside the first survey file); several days "
                "have one folder each in it");

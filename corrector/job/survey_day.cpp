@@ -6,9 +6,20 @@
 #include "corrector/mistake/survey_findings.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/survey_correction.hpp"
-#include "protocol/core/input_error.hpp"
+#include "corrector/reading/refused.hpp"
 
 namespace a351::corrector::job {
+namespace {
+
+std::string in_context(const InputError& error, const SurveyFile& survey,
+                       const reading::OccupationRows& read) {
+    std::string message = fmt::format(
+        "{}: {}", (survey.path.empty() ? survey.root : survey.path).string(), error.what());
+    for (const std::string& warning : read.warnings) message += "; " + warning;
+    return message;
+}
+
+}  // namespace
 
 model::SurveyCorrection correct_survey_day(const SurveyFile& survey,
                                            reading::OccupationRows& read) {
@@ -20,10 +31,10 @@ model::SurveyCorrection correct_survey_day(const SurveyFile& survey,
         result.findings = read.findings;
         result.findings = mistake::find_mistakes(result, {read.rows, read.sites, day});
         return result;
+    } catch (const reading::Refused& refused) {
+        throw reading::Refused(refused.code(), in_context(refused, survey, read));
     } catch (const InputError& error) {
-        std::string message = fmt::format("{}: {}", survey.path.string(), error.what());
-        for (const std::string& warning : read.warnings) message += "; " + warning;
-        throw InputError(message);
+        throw InputError(in_context(error, survey, read));
     }
 }
 

@@ -100,6 +100,15 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     return survey;
 }
 
+SurveyFile survey_of_root(const std::filesystem::path& root, const std::filesystem::path& sites) {
+    SurveyFile survey;
+    survey.root = std::filesystem::canonical(root);
+    survey.name = survey.root.filename().string();
+    survey.sites = sites.empty() ? survey.root.parent_path() / "sites.csv" : sites;
+    static_cast<void>(text::read_sites(survey.sites));
+    return survey;
+}
+
 void use_calibration(SurveyFile& survey, const std::filesystem::path& file) {
     survey.calibration = file;
     survey.survey.calibration = unit::read_calibration(file);

@@ -58,6 +58,13 @@ struct SurveyFile : reading::SurveySource {
 ///                     that cannot be read.
 [[nodiscard]] SurveyFile read_survey_file(const std::filesystem::path& file);
 
+/// Returns the survey of a data root without a survey file: all its keys have their defaults.
+/// @param root   its folder is the name of the survey.
+/// @param sites  table of the sites; empty: sites.csv beside the root.
+/// @throws InputError  the table of sites cannot be read.
+[[nodiscard]] SurveyFile survey_of_root(const std::filesystem::path& root,
+                                        const std::filesystem::path& sites);
+
 /// Reads a calibration for the survey.  It replaces an earlier one.
 ///
 /// The unit and the validity are compared with the record later, by check_calibration().

@@ -7,6 +7,7 @@
 
 #include "corrector/model/model.hpp"
 #include "corrector/model/outlier_tests.hpp"
+#include "corrector/reading/refused.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -182,7 +183,8 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
                                      text::joined(model_names())));
     if (rows.empty()) throw InputError("no occupations; allowed: at least two with a reference");
     if (rows.size() == 1 && options.model == kAutomatic)
-        throw InputError("one row, nothing to compare it with; allowed: at least 2 rows");
+        throw reading::Refused("too_few_readings",
+                               "one row, nothing to compare it with; allowed: at least 2 rows");
     SurveyOptions applied = options;
     if (applied.base.empty()) applied.base = rows.front().site;
     require_row_of(rows, applied.base, "base");
@@ -194,8 +196,10 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     const RowChoice& in_fit = applied.use_flags ? unflagged : all;
     Chosen chosen = choose_and_fit(problem, in_fit);
     if (const auto* const refusal = std::get_if<Refusal>(&chosen.fit))
-        throw InputError(fmt::format("model = {}: {}; allowed: {}", chosen.model->name,
-                                     refusal->trouble, refusal->allowed));
+        throw reading::Refused(
+            std::ranges::count(in_fit.in_use, true) == 0 ? "no_reference" : "not_determined",
+            fmt::format("model = {}: {}; allowed: {}", chosen.model->name, refusal->trouble,
+                        refusal->allowed));
     SurveyCorrection result;
     static_cast<Fit&>(result) = std::get<Fit>(std::move(chosen.fit));
     value_stations_outside(result);

@@ -49,8 +49,9 @@ void add_left_out(SurveyCorrection& result, const std::vector<reading::LeftOut>&
 ///                 station have the same reference, or none.
 /// @param options  see SurveyOptions.  An empty base becomes the station of the first row.
 /// @param day      record of these rows, for the model `day`; null: there are only averages.
-/// @throws InputError  if a base or datum station has no row, the model is unknown or refuses the
-///                     rows, or there are no rows.
+/// @throws reading::Refused  the model refuses the rows, or there is one row only.
+/// @throws InputError        a base or datum station has no row, the model is unknown, or there are
+///                           no rows.
 [[nodiscard]] SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
                                               const SurveyOptions& options,
                                               const reading::DayRecord* day = nullptr);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "protocol/core/input_error.hpp"
+#include "corrector/reading/refused.hpp"
 #include "protocol/events/occupations.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
@@ -95,6 +95,18 @@ void keep_last_day(std::vector<events::Occupation>& occupations, OccupationList&
         all - occupations.size()));
 }
 
+/// Stops the running occupation at `end`, or at the next later start; returns its key.
+std::string stop_running(events::OccupationReplay& replay, UtcTime end) {
+    if (!replay.running()) return {};
+    const std::string key = replay.running()->key;
+    for (const events::Occupation& other : replay.finished()) {
+        const UtcTime start = other.set_ups.front().start;
+        if (start > replay.running()->start) end = std::min(end, start);
+    }
+    replay.take({"stop", end, {}, {}, {}});
+    return key;
+}
+
 UtcTime instant(const text::CsvTable& table, std::size_t row, std::string_view column) {
     const auto time = parse_rfc3339_in_zone(table.cell(row, column), std::chrono::minutes(0));
     if (!time) table.refuse(row, column, "not an instant", "YYYY-MM-DDThh:mm:ssZ");
@@ -137,14 +149,16 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
 
 OccupationList read_logged_occupations(const std::filesystem::path& events,
                                        const std::optional<UtcTime>& from,
-                                       const std::optional<UtcTime>& to) {
+                                       const std::optional<UtcTime>& to,
+                                       const std::optional<UtcTime>& running_until) {
     const events::EventLog log = events::read_events(events);
     OccupationList list;
     for (const events::EventDamage& damage : log.damage) {
         list.warnings.push_back(fmt::format("{}:{}: not an event, skipped",
                                             damage.file.filename().string(), damage.line));
     }
-    const events::OccupationReplay replay(log.events);
+    events::OccupationReplay replay(log.events);
+    if (running_until) list.running_key = stop_running(replay, *running_until);
     auto occupations = replay.finished();
     if (!from && !to) keep_last_day(occupations, list, events);
     for (const events::Occupation& occupation : occupations) {
@@ -191,8 +205,8 @@ OccupationList drop_invalid_occupations(OccupationList list, const std::vector<t
     leave_out_overlapping(list);
     if (list.windows.empty()) {
         list.warnings.insert(list.warnings.begin(), origin.string() + ": no occupation");
-        throw InputError(text::joined(list.warnings, "; ") +
-                         "; allowed: at least one, with its end");
+        throw Refused(list.left_out.empty() ? "no_stay" : "no_usable_stay",
+                      text::joined(list.warnings, "; ") + "; allowed: at least one, with its end");
     }
     return list;
 }
@@ -200,7 +214,7 @@ OccupationList drop_invalid_occupations(OccupationList list, const std::vector<t
 void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warnings,
                const OccupationWindow& window, const std::string& reason,
                const std::string& detail) {
-    left_out.push_back({window.site, window.number, window.start, window.end, reason});
+    left_out.push_back({window.site, window.number, window.start, window.end, reason, window.key});
     warnings.push_back(fmt::format("{} is left out: {}{}", named(window), reason, detail));
 }
 

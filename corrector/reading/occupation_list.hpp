@@ -50,6 +50,7 @@ struct OccupationList {
     std::vector<OccupationWindow> windows;  ///< Set-ups in order of start.
     std::vector<LeftOut> left_out;          ///< Set-ups that cannot be used, in order of discovery.
     std::vector<std::string> warnings;      ///< Entries skipped or left out, with the reason.
+    std::string running_key = {};           ///< Key of the stay that still runs; may be empty.
 };
 
 /// Reads a table `site,occupation,start_utc,end_utc,used,note`.  `used` is 1, 0 or empty (= 1).  A
@@ -80,10 +81,12 @@ struct OccupationList {
 /// @param from, to  only occupations that start at or after `from` and before `to`.  If neither is
 ///                  given: the last survey day (events::kSurveyNight), with a warning if there are
 ///                  others.
+/// @param running_until  if given, an occupation that still runs is included as if it were stopped
+///                       at this instant, or at the next later start.
 /// @throws InputError  the log has occupations, but none in that time.
-[[nodiscard]] OccupationList read_logged_occupations(const std::filesystem::path& events,
-                                                     const std::optional<UtcTime>& from = {},
-                                                     const std::optional<UtcTime>& to = {});
+[[nodiscard]] OccupationList read_logged_occupations(
+    const std::filesystem::path& events, const std::optional<UtcTime>& from = {},
+    const std::optional<UtcTime>& to = {}, const std::optional<UtcTime>& running_until = {});
 
 /// Leaves out impossible occupations, with a warning for each.
 ///
@@ -98,7 +101,7 @@ struct OccupationList {
 /// @param origin  file or directory from which they were read, for messages.
 /// @return the list with its windows in order of start, at least one; `left_out` and `warnings`
 ///         are extended.
-/// @throws InputError  none is left; the message has all warnings.
+/// @throws Refused  none is left; the message has all warnings.
 [[nodiscard]] OccupationList drop_invalid_occupations(OccupationList list,
                                                       const std::vector<text::Site>& sites,
                                                       const std::filesystem::path& origin);

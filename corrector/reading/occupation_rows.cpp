@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <optional>
+#include <system_error>
 #include <tuple>
 
 #include "corrector/reading/moved_stay.hpp"
 #include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/on_all_cores.hpp"
+#include "corrector/reading/refused.hpp"
 #include "corrector/reading/vertical_axis.hpp"
+#include "protocol/archive/journal_tail.hpp"
 #include "protocol/archive/sds.hpp"
-#include "protocol/core/input_error.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -21,6 +23,11 @@ constexpr std::chrono::hours kBefore(8);    // memory of the slowest response to
 
 UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows) {
     return windows.front().start - (is_axis ? Nanoseconds(kMargin) : Nanoseconds(kBefore));
+}
+
+UtcTime last_sample(const archive::ChannelData& channel) {
+    const archive::Segment& last = channel.segments.back();
+    return last.time_of(last.counts.size() - 1);
 }
 
 /// Returns every file that read_samples() reads.
@@ -47,6 +54,37 @@ std::vector<std::filesystem::path> archive_files(const SurveySource& source,
     return files;
 }
 
+/// Adds the samples that have not reached the archive.  A journal segment that the daemon has just
+/// compressed is looked for once more.
+void add_journaled(SurveySamples& samples, const SurveySource& source,
+                   const journal::StationCodes& codes, const SurveyChannels& channels,
+                   const std::vector<OccupationWindow>& windows) {
+    const UtcTime to = windows.back().end + kMargin;
+    UtcTime archived = to;
+    const auto each_channel = [&](const auto& visit) {
+        for (std::size_t k = 0; k < samples.axes.size(); ++k)
+            visit(samples.axes[k], channels.axes[k].code, first_sample(true, windows));
+        visit(samples.temperature, channels.temperature.code, first_sample(false, windows));
+    };
+    each_channel([&](const archive::ChannelData& data, const std::string&, UtcTime from) {
+        archived = std::min(archived, data.segments.empty() ? from : last_sample(data));
+    });
+    if (archived > to - std::chrono::seconds(1)) return;
+    const auto read = [&] {
+        return archive::JournalTail(source.root / "journal", codes, archived, to);
+    };
+    const archive::JournalTail tail = [&] {
+        try {
+            return read();
+        } catch (const std::system_error&) {
+            return read();
+        }
+    }();
+    each_channel([&](archive::ChannelData& data, const std::string& code, UtcTime from) {
+        tail.append_to(data, code, from, to);
+    });
+}
+
 /// Reads all samples from the first window to the last, and the temperature before.  Each channel
 /// is read once.
 SurveySamples read_samples(const SurveySource& source, const journal::StationCodes& codes,
@@ -62,6 +100,7 @@ SurveySamples read_samples(const SurveySource& source, const journal::StationCod
                                   first_sample(is_axis, windows), to);
     };
     on_all_cores(samples.axes.size() + 1, read);
+    if (source.is_so_far) add_journaled(samples, source, codes, channels, windows);
     return samples;
 }
 
@@ -117,8 +156,11 @@ std::pair<OccupationList, Amendments> read_occupations(const SurveySource& sourc
                                                        std::vector<text::Site>& sites) {
     const bool is_logged = source.occupations.empty();
     const auto origin = is_logged ? source.root / "events" : source.occupations;
-    OccupationList list = is_logged ? read_logged_occupations(origin, source.from, source.to)
-                                    : read_occupation_table(origin, sites, source.from, source.to);
+    const auto running_until =
+        source.is_so_far ? archive::journal_end(source.root / "journal") : std::nullopt;
+    OccupationList list =
+        is_logged ? read_logged_occupations(origin, source.from, source.to, running_until)
+                  : read_occupation_table(origin, sites, source.from, source.to);
     for (std::size_t i = 0; i < list.windows.size(); ++i)
         list.windows[i].listed = {list.windows[i].site, list.windows[i].number,
                                   set_up_number(list.windows, i)};
@@ -158,6 +200,10 @@ SurveyStays read_survey_inputs(const SurveySource& source) {
     stays.sites = text::read_sites(source.sites);
     std::tie(stays.list, stays.amendments) = read_occupations(source, stays.sites);
     stays.metadata = source.root / "metadata" / "station.xml";
+    if (!std::filesystem::exists(stays.metadata))
+        throw Refused("no_metadata", stays.metadata.string() +
+                                         ": no such file; allowed: the metadata that the daemon "
+                                         "writes with the first data");
     stays.station = station::read_station_xml(stays.metadata, stays.list.windows.front().start);
     stays.channels = find_channels(stays.station, stays.metadata);
     return stays;
@@ -236,17 +282,20 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.records.push_back(std::move(*values[i]));
     }
     if (result.rows.empty()) {
-        throw InputError(fmt::format(
-            "{}: root = {}: no occupation has samples; last: {}; allowed: an archive that covers "
-            "these hours",
-            source.path.string(), source.root.string(), result.warnings.back()));
+        throw Refused("no_reading", fmt::format("{}: root = {}: no occupation has samples; last: "
+                                                "{}; allowed: an archive that covers "
+                                                "these hours",
+                                                source.path.string(), source.root.string(),
+                                                result.warnings.back()));
     }
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
     for (std::string& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));
     result.temperature_course =
         temperature_course(samples.temperature.segments, channels.temperature);
-    result.inputs = inputs_of(source, stays);
+    if (!source.is_so_far) result.inputs = inputs_of(source, stays);
+    result.running_key = list.running_key;
+    if (!samples.axes[2].segments.empty()) result.data_end = last_sample(samples.axes[2]);
     return result;
 }
 

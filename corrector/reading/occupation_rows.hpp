@@ -47,6 +47,9 @@ struct SurveySource {
     /// or the last survey day of the log.
     std::optional<UtcTime> from;
     std::optional<UtcTime> to;  ///< End of this time, not included.
+    /// True while the daemon records: an occupation that runs is used up to the last sample, and
+    /// samples that have not reached the archive are taken from the journal.
+    bool is_so_far = false;
     /// Options of every average.  averaging.cutoff_s is checked when the first one is computed.
     RepresentativeOptions averaging;
 };
@@ -76,7 +79,9 @@ struct OccupationRows {
     std::vector<Finding> findings;      ///< Moved boxes, in order of time.
     Amendments amendments;
     std::vector<text::Site> sites;        ///< With the references as amended.
-    std::vector<text::InputFile> inputs;  ///< All files that were read.
+    std::vector<text::InputFile> inputs;  ///< All files that were read; none so far.
+    std::string running_key;              ///< Key of the stay that still runs; may be empty.
+    std::optional<UtcTime> data_end;      ///< Last sample of the vertical axis that was read.
     std::string serial_number;            ///< Sensor; empty if not in the metadata.
 };
 
@@ -86,8 +91,8 @@ struct OccupationRows {
 /// amended, and impossible ones are left out.  The metadata is metadata/station.xml of the root,
 /// with the epochs in force at the first set-up.
 ///
-/// @throws InputError  one of them cannot be read or has a mistake, no occupation is possible, or a
-///                     channel is missing.
+/// @throws Refused     no occupation is possible, or there are no metadata yet.
+/// @throws InputError  one of them cannot be read or has a mistake, or a channel is missing.
 [[nodiscard]] SurveyStays read_survey_inputs(const SurveySource& source);
 
 /// Averages every occupation, on all cores.  The result does not depend on their number.  The tide
@@ -106,7 +111,7 @@ struct OccupationRows {
 /// @param source    the one of which `stays` was read.
 /// @param stays     from read_survey_inputs().
 /// @param progress  called after each set-up, from any thread, never from two at once; not empty.
-/// @throws InputError             no occupation has a value.
+/// @throws Refused                no occupation has a value.
 /// @throws std::invalid_argument  averaging.cutoff_s is out of range.
 /// @throws std::system_error      a file of the archive cannot be read, or no thread started.
 [[nodiscard]] OccupationRows average_occupations(const SurveySource& source,

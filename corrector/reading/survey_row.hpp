@@ -77,11 +77,12 @@ struct SurveyRow {
 /// An occupation that has no row.  It appears in the results with its reason, so that no stay is
 /// lost unseen.
 struct LeftOut {
-    std::string site;    ///< Name as logged, which may be a slip.
-    int occupation = 1;  ///< Number of the stay at this site.
-    UtcTime start;       ///< Start of the stay as given.
-    UtcTime end;         ///< End of the stay as given.
-    std::string reason;  ///< Reason in a few words.
+    std::string site;      ///< Name as logged, which may be a slip.
+    int occupation = 1;    ///< Number of the stay at this site.
+    UtcTime start;         ///< Start of the stay as given.
+    UtcTime end;           ///< End of the stay as given.
+    std::string reason;    ///< Reason in a few words.
+    std::string key = {};  ///< Key of the stay in the event log; empty if not from there.
 };
 
 /// Reads a table `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],

@@ -24,7 +24,7 @@ constexpr double kRepeatRatio = 3.0;
 // which good readings scatter.
 constexpr double kTrendDifference_mgal = 0.5;
 
-void add(ReadingGrade& reading, Grade grade, std::string reason) {
+void add(ReadingGrade& reading, Grade grade, Reason reason) {
     reading.grade = std::max(reading.grade, grade);
     reading.reasons.push_back(std::move(reason));
 }
@@ -64,14 +64,14 @@ constexpr std::array<std::string_view, 4> kTrendNotes{"fallback", "disturbed_sta
 void add_note(ReadingGrade& reading, const std::string& note, bool is_day) {
     if (is_day && std::ranges::count(kTrendNotes, note) > 0) return;
     if (is_day && note == "pulse") {
-        add(reading, Grade::care, "a knock: the samples around it were left out");
+        add(reading, Grade::care, {note, {}, "a knock: the samples around it were left out"});
         return;
     }
     const auto known = std::ranges::find(kNoteTexts, note, &NoteText::note);
     if (known == kNoteTexts.end()) {
-        add(reading, Grade::care, note);
+        add(reading, Grade::care, {note, {}, note});
     } else {
-        add(reading, known->grade, std::string(known->text));
+        add(reading, known->grade, {note, {}, std::string(known->text)});
     }
 }
 
@@ -80,11 +80,13 @@ void add_temperature(ReadingGrade& reading, const model::CorrectedRow& row, bool
     if (doubt.empty()) return;
     if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
     add(reading, corrects_rate ? Grade::care : Grade::repeat,
-        fmt::format("temperature not steady: {}{}", doubt,
-                    corrects_rate
-                        ? fmt::format("; the value depends on a rate correction of {} mGal",
-                                      text::fixed(row.rate_correction.value(), 1))
-                        : ", which the model does not correct"));
+        {"temperature_moving",
+         {row.row.rate_degc_per_h, row.rate_correction.value()},
+         fmt::format("temperature not steady: {}{}", doubt,
+                     corrects_rate
+                         ? fmt::format("; the value depends on a rate correction of {} mGal",
+                                       text::fixed(row.rate_correction.value(), 1))
+                         : ", which the model does not correct")});
 }
 
 /// Adds a reason if the residual is large.
@@ -96,11 +98,13 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
                                      : row.residual->value() / row.u_corrected->value();
     if (std::abs(ratio) <= kCareRatio) return;
     add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
-        fmt::format("{} mGal {} its reference{}, {} times its uncertainty",
-                    text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
-                    ratio > 0.0 ? "below" : "above",
-                    is_left_out ? " when its station is left out" : "",
-                    text::fixed(std::abs(ratio), 1)));
+        {"off_reference",
+         {-ratio * row.u_corrected->value(), std::abs(ratio)},
+         fmt::format("{} mGal {} its reference{}, {} times its uncertainty",
+                     text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
+                     ratio > 0.0 ? "below" : "above",
+                     is_left_out ? " when its station is left out" : "",
+                     text::fixed(std::abs(ratio), 1))});
 }
 
 /// Adds the findings that concern the reading.
@@ -109,7 +113,8 @@ void add_findings(ReadingGrade& reading, const reading::SurveyRow& row,
     for (const reading::Finding& finding : findings) {
         if (finding.site != row.site || finding.occupation != row.occupation) continue;
         if (finding.kind == "moved_box" || finding.code == "never_at_rest") continue;  // its note
-        add(reading, finding.kind == "bad_reading" ? Grade::repeat : Grade::care, finding.text);
+        add(reading, finding.kind == "bad_reading" ? Grade::repeat : Grade::care,
+            {finding.code, {}, finding.text});
     }
 }
 
@@ -119,8 +124,10 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
     const MilliGal error = *row.row.record->standard_error;
     if (error <= *row.u_corrected) return;
     add(reading, Grade::repeat,
-        fmt::format("the scatter of its samples alone gives {} mGal, more than its u of {} mGal",
-                    text::fixed(error.value(), 1), text::fixed(row.u_corrected->value(), 1)));
+        {"scattered",
+         {error.value(), row.u_corrected->value()},
+         fmt::format("the scatter of its samples alone gives {} mGal, more than its u of {} mGal",
+                     text::fixed(error.value(), 1), text::fixed(row.u_corrected->value(), 1))});
 }
 
 void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {
@@ -128,8 +135,10 @@ void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {
     const double difference = row.record->smoother_minus_eemd().value();
     if (std::abs(difference) <= kTrendDifference_mgal) return;
     add(reading, Grade::care,
-        fmt::format("its two trends (smoother, EEMD) differ by {} mGal",
-                    text::fixed(difference, 2)));
+        {"trends_differ",
+         {difference},
+         fmt::format("its two trends (smoother, EEMD) differ by {} mGal",
+                     text::fixed(difference, 2))});
 }
 
 /// Scatter of readings of one station after all corrections.
@@ -162,14 +171,17 @@ void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrect
         if (readings[pair.later].grade == Grade::repeat) continue;
         const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
         if (ratio <= kCareRatio) continue;
-        const auto text = [&](std::size_t other) {
-            return fmt::format("differs by {} mGal from {}, {} times the value expected from {}",
-                               text::fixed(std::abs(pair.after_all.value()), 1),
-                               figure::reading_name(result.rows, other), text::fixed(ratio, 1),
-                               scatter->name);
+        const auto reason = [&](std::size_t other) {
+            return Reason{
+                "differs",
+                {std::abs(pair.after_all.value()), ratio},
+                fmt::format("differs by {} mGal from {}, {} times the value expected from {}",
+                            text::fixed(std::abs(pair.after_all.value()), 1),
+                            figure::reading_name(result.rows, other), text::fixed(ratio, 1),
+                            scatter->name)};
         };
-        add(readings[pair.earlier], Grade::care, text(pair.later));
-        add(readings[pair.later], Grade::care, text(pair.earlier));
+        add(readings[pair.earlier], Grade::care, reason(pair.later));
+        add(readings[pair.later], Grade::care, reason(pair.earlier));
     }
 }
 
@@ -185,8 +197,10 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
         ReadingGrade& reading = readings.emplace_back();
         if (row.row.is_flagged) {
             add(reading, row.is_used ? Grade::care : Grade::repeat,
-                std::string("marked by the operator as not to be used") +
-                    (row.is_used ? ", but in the fit" : ""));
+                {"flagged",
+                 {},
+                 std::string("marked by the operator as not to be used") +
+                     (row.is_used ? ", but in the fit" : "")});
         }
         add_temperature(reading, row, corrects_rate);
         add_residual(reading, row, is_day);

@@ -28,10 +28,17 @@ enum class Grade {
     repeat,  ///< Not reliable.
 };
 
+/// A reason for a grade.
+struct Reason {
+    std::string code;             ///< Which sentence the text is.
+    std::vector<double> numbers;  ///< Numbers of the sentence, unrounded, in its order.
+    std::string text;             ///< The reason in words, without the reading's name.
+};
+
 /// The grade of one reading.  Some reasons only inform: `trust` can have reasons too.
 struct ReadingGrade {
     Grade grade = Grade::trust;
-    std::vector<std::string> reasons;  ///< Reasons in words, without the reading's name.
+    std::vector<Reason> reasons;
 };
 
 /// Returns one grade per row.

@@ -50,11 +50,13 @@ std::string reading_table(const model::SurveyCorrection& result,
     for (const Grade grade : {Grade::repeat, Grade::care, Grade::trust}) {
         for (std::size_t i = 0; i < grades.size(); ++i) {
             if (grades[i].grade != grade || grades[i].reasons.empty()) continue;
+            std::vector<std::string> reasons;
+            for (const Reason& reason : grades[i].reasons) reasons.push_back(reason.text);
             rows.push_back({figure::reading_name(result.rows, i),
                             kGradeTexts.at(static_cast<std::size_t>(grade)),
                             text::fixed_or(error_of(result.rows[i]), 2, "-"),
                             text::fixed_or(result.rows[i].u_corrected, 2, "-"),
-                            text::joined(grades[i].reasons, "; ")});
+                            text::joined(reasons, "; ")});
         }
     }
     if (rows.empty()) return {};

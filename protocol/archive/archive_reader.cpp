@@ -6,7 +6,7 @@
 #include <cassert>
 #include <chrono>
 
-#include "protocol/archive/miniseed.hpp"
+#include "protocol/archive/record_joiner.hpp"
 #include "protocol/archive/sds.hpp"
 #include "protocol/files/file_bytes.hpp"
 
@@ -16,44 +16,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Collector {
-public:
-    Collector(ChannelData& data, UtcTime from, UtcTime to) : data_(data), from_(from), to_(to) {}
-
-    void take(const DecodedRecord& record) {
-        const double rate_hz = record.rate_hz();
-        const UtcTime start = record.header.start;
-        const auto time_of = [&](std::size_t i) {
-            return start + from_seconds(static_cast<double>(i) / rate_hz);
-        };
-        const std::size_t count = record.samples.size();
-        std::size_t first = 0;
-        while (first < count && time_of(first) < from_) ++first;
-        std::size_t last = count;
-        while (last > first && time_of(last - 1) >= to_) --last;
-        if (first == last) return;
-        if (!joins(start, rate_hz)) data_.segments.push_back({rate_hz, {}, {}});
-        Segment& segment = data_.segments.back();
-        segment.anchors.push_back({segment.counts.size(), time_of(first)});
-        segment.counts.insert(segment.counts.end(),
-                              record.samples.begin() + static_cast<std::ptrdiff_t>(first),
-                              record.samples.begin() + static_cast<std::ptrdiff_t>(last));
-        expected_ = time_of(count);
-    }
-
-private:
-    /// Returns true if a record continues the last segment: same rate, start within half a sample.
-    [[nodiscard]] bool joins(UtcTime start, double rate_hz) const {
-        if (data_.segments.empty() || data_.segments.back().rate_hz != rate_hz) return false;
-        return std::chrono::abs(start - expected_) <= from_seconds(0.5 / rate_hz);
-    }
-
-    ChannelData& data_;
-    UtcTime from_, to_;
-    UtcTime expected_;  ///< Start of the record that would continue the last one.
-};
+/// Returns true if a record continues the last segment: same rate, start within half a sample.
+bool continues(const ChannelData& data, UtcTime start, double rate_hz) {
+    if (data.segments.empty() || data.segments.back().rate_hz != rate_hz) return false;
+    const Segment& last = data.segments.back();
+    return std::chrono::abs(start - last.time_of(last.counts.size())) <=
+           from_seconds(0.5 / rate_hz);
+}
 
 }  // namespace
+
+void RecordJoiner::take(const DecodedRecord& record) {
+    const double rate_hz = record.rate_hz();
+    const UtcTime start = record.header.start;
+    const auto time_of = [&](std::size_t i) {
+        return start + from_seconds(static_cast<double>(i) / rate_hz);
+    };
+    const std::size_t count = record.samples.size();
+    std::size_t first = 0;
+    while (first < count && time_of(first) < from_) ++first;
+    std::size_t last = count;
+    while (last > first && time_of(last - 1) >= to_) --last;
+    if (first == last) return;
+    if (!continues(data_, start, rate_hz)) data_.segments.push_back({rate_hz, {}, {}});
+    Segment& segment = data_.segments.back();
+    segment.anchors.push_back({segment.counts.size(), time_of(first)});
+    segment.counts.insert(segment.counts.end(),
+                          record.samples.begin() + static_cast<std::ptrdiff_t>(first),
+                          record.samples.begin() + static_cast<std::ptrdiff_t>(last));
+}
 
 UtcTime Segment::time_of(std::size_t i) const {
     const auto behind = std::ranges::upper_bound(anchors, i, {}, &Anchor::offset);
@@ -71,7 +62,7 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
                          const std::string& channel, UtcTime from, UtcTime to) {
     ChannelData data;
     if (from >= to) return data;
-    Collector collector(data, from, to);
+    RecordJoiner joiner(data, from, to);
     // No record crosses midnight, and names sort by day.
     const auto first = sds_file(archive, codes, channel, from).filename();
     const auto last = sds_file(archive, codes, channel, to - Nanoseconds(1)).filename();
@@ -83,7 +74,7 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
             const auto record = next_record(bytes, channel, at);
             const std::size_t found = record ? at - kRecordSize : at;
             if (found > unread) data.damage.push_back({file, unread, found - unread});
-            if (record) collector.take(*record);
+            if (record) joiner.take(*record);
         }
     }
     std::ranges::stable_sort(data.segments, {},

@@ -37,7 +37,7 @@ Grade first_grade(const SurveyCorrection& result) { return grade_readings(result
 std::string first_reasons(const SurveyCorrection& result) {
     std::string text;
     const ReadingGrade first = grade_readings(result).front();
-    for (const std::string& reason : first.reasons) text += reason + '|';
+    for (const Reason& reason : first.reasons) text += reason.text + '|';
     return text;
 }
 

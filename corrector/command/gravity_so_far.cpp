@@ -1,0 +1,32 @@
+#include "corrector/command/gravity_so_far.hpp"
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "corrector/job/survey_day.hpp"
+#include "corrector/job/survey_readings.hpp"
+#include "corrector/reading/refused.hpp"
+#include "corrector/report/gravity_so_far.hpp"
+#include "protocol/archive/journal_tail.hpp"
+
+namespace a351::corrector::command {
+
+void print_gravity_so_far(job::SurveyFile survey) {
+    survey.is_so_far = true;
+    report::GravitySoFar so_far;
+    so_far.as_of = archive::journal_end(survey.root / "journal");
+    try {
+        so_far.read = job::read_survey(survey, [](std::size_t, std::size_t) {});
+        so_far.result = job::correct_survey_day(survey, *so_far.read);
+    } catch (const reading::Refused& refused) {
+        so_far.reason = refused.code();
+        so_far.reason_text = report::in_words(refused);
+    }
+    // Names of sites may be in any encoding, but JSON is UTF-8.
+    std::cout << report::to_json(so_far).dump(2, ' ', false,
+                                              nlohmann::ordered_json::error_handler_t::replace)
+              << '\n';
+}
+
+}  // namespace a351::corrector::command

@@ -1,0 +1,172 @@
+#include "corrector/report/gravity_so_far.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "corrector/report/reading_grade.hpp"
+
+namespace a351::corrector::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+/// Refusals that are usual in the field; the others keep their message.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kRefusals{{
+    {"no_stay", "no stay was started"},
+    {"no_metadata", "no data were recorded yet"},
+    {"no_reading", "no stay has enough samples for a reading yet"},
+    {"too_few_readings", "one reading alone cannot be corrected: read a second benchmark"},
+    {"no_reference", "no benchmark with known gravity was read yet"},
+}};
+
+/// Findings that say what is still to be done in the day; they mean nothing before its end.
+constexpr std::array<std::string_view, 2> kOfWholeDay{"not_visited", "base_not_revisited"};
+
+/// A stay, and the places of its set-ups in the lists of the survey.
+struct Stay {
+    std::string key, site;
+    int occupation = 1;
+    UtcTime start;
+    std::vector<std::size_t> rows, left_out;
+};
+
+std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
+                           const std::vector<reading::LeftOut>& left_out) {
+    std::vector<Stay> stays;
+    const auto stay_of = [&](const std::string& key, const std::string& site, int occupation,
+                             UtcTime start) -> Stay& {
+        auto stay = std::ranges::find_if(stays, [&](const Stay& one) {
+            return one.key == key && one.site == site && one.occupation == occupation;
+        });
+        if (stay == stays.end()) stay = stays.insert(stay, {key, site, occupation, start, {}, {}});
+        stay->start = std::min(stay->start, start);
+        return *stay;
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        stay_of(rows[i].key, rows[i].site, rows[i].occupation, rows[i].start.value_or(rows[i].time))
+            .rows.push_back(i);
+    for (std::size_t i = 0; i < left_out.size(); ++i)
+        stay_of(left_out[i].key, left_out[i].site, left_out[i].occupation, left_out[i].start)
+            .left_out.push_back(i);
+    std::ranges::stable_sort(stays, {}, &Stay::start);
+    return stays;
+}
+
+const model::StationValue* station_of(const model::SurveyCorrection& result,
+                                      const std::string& site) {
+    const auto station = std::ranges::find(result.stations, site, &model::StationValue::site);
+    return station == result.stations.end() ? nullptr : &*station;
+}
+
+/// Sets the value of a stay with rows.
+void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& result) {
+    if (stay.rows.empty()) return;
+    const model::StationValue* const station = station_of(result, stay.site);
+    const bool is_whole_station = station != nullptr && station->row_count == stay.rows.size();
+    double corrected = 0.0, left_out = 0.0;
+    std::size_t predicted = 0;
+    std::optional<double> u;
+    for (const std::size_t i : stay.rows) {
+        const model::CorrectedRow& row = result.rows[i];
+        corrected += row.corrected.value();
+        if (const auto* const day = row.as<model::WholeDayRow>(); day && day->left_out) {
+            left_out += day->left_out->value();
+            ++predicted;
+        }
+        if (row.u_corrected) u = std::max(u.value_or(0.0), row.u_corrected->value());
+    }
+    const auto n = static_cast<double>(stay.rows.size());
+    if (is_whole_station && stay.rows.size() > 1 && station->u_gravity)
+        u = station->u_gravity->value();
+    json["gravity_mgal"] = corrected / n;
+    json["u_mgal"] = number_or_null(u);
+    const auto& reference = result.rows[stay.rows.front()].row.reference;
+    if (!reference) return;
+    if (predicted == stay.rows.size())
+        json["left_out_difference_mgal"] = left_out / n - reference->value();
+    else if (is_whole_station && station->left_out)
+        json["left_out_difference_mgal"] = (*station->left_out - *reference).value();
+}
+
+Json remarks_of(const Stay& stay, const std::vector<ReadingGrade>& grades,
+                const std::vector<reading::LeftOut>& left_out) {
+    Json remarks = Json::array();
+    std::set<std::string> texts;
+    const auto add = [&](const Reason& reason) {
+        if (texts.insert(reason.text).second)
+            remarks.push_back(
+                {{"code", reason.code}, {"numbers", reason.numbers}, {"text", reason.text}});
+    };
+    for (const std::size_t i : stay.left_out) add({"left_out", {}, left_out[i].reason});
+    if (!grades.empty())
+        for (const std::size_t i : stay.rows)
+            for (const Reason& reason : grades[i].reasons) add(reason);
+    return remarks;
+}
+
+/// Returns the rows as they were corrected, or else as they were read.
+std::vector<reading::SurveyRow> rows_of(const GravitySoFar& so_far) {
+    if (!so_far.result) return so_far.read ? so_far.read->rows : std::vector<reading::SurveyRow>();
+    std::vector<reading::SurveyRow> rows;
+    for (const model::CorrectedRow& row : so_far.result->rows) rows.push_back(row.row);
+    return rows;
+}
+
+}  // namespace
+
+std::string in_words(const reading::Refused& refused) {
+    for (const auto& [code, text] : kRefusals)
+        if (code == refused.code()) return std::string(text);
+    return refused.what();
+}
+
+Json to_json(const GravitySoFar& so_far) {
+    const auto instant = [](const std::optional<UtcTime>& time) {
+        return time ? Json(to_rfc3339(*time, 3)) : Json(nullptr);
+    };
+    Json json;
+    json["as_of_utc"] = instant(so_far.as_of);
+    json["data_to_utc"] = instant(so_far.read ? so_far.read->data_end : std::nullopt);
+    json["reason"] = text_or_null(so_far.reason);
+    json["reason_text"] = text_or_null(so_far.reason_text);
+    json["model"] = so_far.result ? Json(so_far.result->model) : Json(nullptr);
+    json["stays"] = Json::array();
+    std::vector<reading::LeftOut> left_out;
+    if (so_far.read) left_out = so_far.result ? so_far.result->left_out : so_far.read->left_out;
+    const auto grades =
+        so_far.result ? grade_readings(*so_far.result) : std::vector<ReadingGrade>();
+    for (const Stay& stay : stays_of(rows_of(so_far), left_out)) {
+        Json one;
+        one["key"] = text_or_null(stay.key);
+        one["site"] = stay.site;
+        one["occupation"] = stay.occupation;
+        one["set_ups"] = stay.rows.size() + stay.left_out.size();
+        for (const char* const name :
+             {"gravity_mgal", "u_mgal", "u_evening_mgal", "left_out_difference_mgal"})
+            one[name] = nullptr;
+        if (so_far.result) add_value(one, stay, *so_far.result);
+        one["is_running"] = !stay.key.empty() && stay.key == so_far.read->running_key;
+        one["remarks"] = remarks_of(stay, grades, left_out);
+        json["stays"].push_back(std::move(one));
+    }
+    std::vector<reading::Finding> findings;
+    if (so_far.read) findings = so_far.result ? so_far.result->findings : so_far.read->findings;
+    std::erase_if(findings, [](const reading::Finding& finding) {
+        return std::ranges::count(kOfWholeDay, finding.kind) > 0;
+    });
+    json["findings"] = reading::findings_json(findings);
+    return json;
+}
+
+}  // namespace a351::corrector::report

@@ -1,0 +1,37 @@
+#pragma once
+/// @file
+/// Gravity so far: one JSON document about the stays of a day that is still being recorded.  The
+/// daemon shows it; its members are in the manual page a351-correct-survey(1).
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "corrector/model/corrected_survey.hpp"
+#include "corrector/reading/occupation_rows.hpp"
+#include "corrector/reading/refused.hpp"
+
+namespace a351::corrector::report {
+
+/// What is known of a day so far.  Each part is absent as long as it cannot be computed.
+struct GravitySoFar {
+    std::optional<UtcTime> as_of;  ///< Newest clock reading of the journal.
+    std::optional<reading::OccupationRows> read;
+    std::optional<model::SurveyCorrection> result;
+    std::string reason;       ///< Code of reading::Refused; empty with a result.
+    std::string reason_text;  ///< The same in words.
+};
+
+/// Returns a refusal in one sentence for the operator.
+[[nodiscard]] std::string in_words(const reading::Refused& refused);
+
+/// Returns the document.  Each stay has one element, in order of time, those without a value too.
+///
+/// - gravity_mgal: mean of the corrected values of its set-ups.
+/// - u_mgal: standard uncertainty as if the station were unknown; of a stay with several set-ups at
+///   a station that has more stays, the largest of its set-ups.
+/// - left_out_difference_mgal: value without the station's reference, minus the reference.
+/// - remarks: the reasons of its grade (reading_grade.hpp), or why it has no value.
+[[nodiscard]] nlohmann::ordered_json to_json(const GravitySoFar& so_far);
+
+}  // namespace a351::corrector::report
