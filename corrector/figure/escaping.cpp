@@ -64,17 +64,6 @@ std::string short_label(std::string_view text) {
     return label;
 }
 
-std::string html_text(std::string_view text) {
-    constexpr std::string_view kSpecial = "&<>\"'";
-    constexpr std::array<const char*, 5> kReferences{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
-    std::string html;
-    for (const char c : clean_utf8(text)) {
-        const std::size_t i = kSpecial.find(c);
-        html += i == std::string_view::npos ? std::string(1, c) : kReferences.at(i);
-    }
-    return html;
-}
-
 std::string gnuplot_string(std::string_view text) {
     std::string quoted = "'";
     for (const char c : clean_utf8(text)) {

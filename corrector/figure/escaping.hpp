@@ -1,11 +1,10 @@
 #pragma once
 /// @file
-/// Conversion of text from outside (names of sites, notes) for HTML and gnuplot scripts.
+/// Conversion of text from outside (names of sites, notes) for pages and gnuplot scripts.
 ///
-/// The text may have any bytes and any encoding.  Use the function of the place where the text
-/// goes, once: html_text() of html_text() shows the references as text.
+/// The text may have any bytes and any encoding.
 ///
-///     page += "<td>" + html_text(site) + "</td>";
+///     node.text().set(clean_utf8(site).c_str());
 ///     script += "set title " + gnuplot_string(site) + '\n';
 ///
 /// The functions throw nothing but std::bad_alloc.  Examples: tests/unit/figure/escaping_test.cpp.
@@ -27,10 +26,6 @@ namespace a351::corrector::figure {
 /// ellipsis.  The ellipsis is the twentieth character.  Characters are code points: a letter with a
 /// combining mark counts as two.
 [[nodiscard]] std::string short_label(std::string_view text);
-
-/// Returns clean_utf8() with & < > " ' as character references, for element content and attributes.
-/// It is not meant for scripts, styles or addresses within a page.
-[[nodiscard]] std::string html_text(std::string_view text);
 
 /// Returns clean_utf8() as a single-quoted string of gnuplot, in which backslash, backquote and @
 /// have no special meaning.  An apostrophe becomes U+2019.  The manual's form, two apostrophes,

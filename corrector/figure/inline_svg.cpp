@@ -1,8 +1,5 @@
 #include "corrector/figure/inline_svg.hpp"
 
-#include <cstring>
-#include <pugixml.hpp>
-#include <sstream>
 #include <string_view>
 
 namespace a351::corrector::figure {
@@ -35,19 +32,19 @@ void remove_titles(pugi::xml_node node) {
 
 }  // namespace
 
-std::optional<std::string> inline_svg(const std::string& svg, const std::string& prefix) {
-    pugi::xml_document document;
-    if (!document.load_buffer(svg.data(), svg.size(), pugi::parse_default, pugi::encoding_utf8))
-        return std::nullopt;
-    pugi::xml_node root = document.child("svg");
-    if (!root || !root.attribute("viewBox")) return std::nullopt;
+bool add_svg(pugi::xml_node parent, const std::string& svg, const std::string& prefix) {
+    const bool is_parsed =
+        parent.append_buffer(svg.data(), svg.size(), pugi::parse_default, pugi::encoding_utf8);
+    pugi::xml_node root = parent.last_child();
+    if (!is_parsed || root.name() != std::string_view("svg") || !root.attribute("viewBox")) {
+        parent.remove_children();
+        return false;
+    }
     root.remove_attribute("width");
     root.remove_attribute("height");
     remove_titles(root);
     own_ids(root, prefix);
-    std::ostringstream out;
-    root.print(out, "", pugi::format_raw, pugi::encoding_utf8);
-    return out.str();
+    return true;
 }
 
 }  // namespace a351::corrector::figure

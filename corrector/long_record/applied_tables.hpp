@@ -3,7 +3,7 @@
 /// Effect of an applied calibration as table cells, text and JSON.
 ///
 /// Every table compares three columns: before, parametric, by modes (apply_calibration.hpp).  The
-/// first row is the header.  Cells are plain text with three decimals; html_table() escapes them.
+/// first row is the header.  Cells are plain text with three decimals.
 ///
 /// Functions of an AppliedCalibration need one.  Those of a RecordResult may be called without one.
 

@@ -4,7 +4,7 @@
 ///
 ///     std::cout << text::aligned(segments_table(result));
 ///     const TextTable table = response_table(result);
-///     page += html_table("lrrrrrr", table.front(), {table.begin() + 1, table.end()});
+///     add_table(page.body(), "lrrrrrr", table.front(), {table.begin() + 1, table.end()});
 ///
 /// Cells are plain text with rounded numbers.  Programs read response.csv and result.json.  All
 /// functions need a complete RecordResult, and are deterministic.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/inline_svg.hpp"
@@ -10,7 +11,7 @@
 namespace a351::corrector::report {
 namespace {
 
-constexpr std::string_view kStyle = R"(
+constexpr const char* kStyle = R"(
 @page { size: A4; margin: 14mm 13mm; }
 body { font: 15px/1.45 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111;
   max-width: 62em; margin: 2em auto; padding: 0 1em; }
@@ -57,79 +58,107 @@ pre { font-size: .85em; white-space: pre-wrap; border-left: 3px solid #999; padd
 }
 )";
 
-std::string cell(std::string_view tag, char alignment, std::string_view text) {
-    return fmt::format("<{0}{1}>{2}</{0}>", tag,
-                       alignment == 'l' ? "" : fmt::format(" class=\"{}\"", alignment),
-                       figure::html_text(text));
+void add_line(pugi::xml_node part, const char* tag, std::string_view alignment,
+              const HtmlCells& cells) {
+    const pugi::xml_node line = add_part(part, "tr");
+    for (std::size_t i = 0; i < alignment.size(); ++i) {
+        pugi::xml_node cell = add(line, tag, cells.at(i));
+        if (alignment[i] != 'l')
+            cell.append_attribute("class") = std::string(1, alignment[i]).c_str();
+    }
 }
 
-std::string line(std::string_view tag, std::string_view alignment, const HtmlCells& cells) {
-    std::string html = "<tr>";
-    for (std::size_t i = 0; i < alignment.size(); ++i) html += cell(tag, alignment[i], cells.at(i));
-    return html + "</tr>\n";
-}
-
-std::string figure_html(const figure::Figure& figure, const figure::Drawing& drawing) {
+void add_figure(pugi::xml_node parent, const figure::Figure& figure,
+                const figure::Drawing& drawing) {
+    const pugi::xml_node node = add_part(parent, "figure");
     const auto picture =
         std::ranges::find(drawing.pictures, figure.name + ".svg", &text::NamedText::first);
-    const auto svg = picture == drawing.pictures.end()
-                         ? std::nullopt
-                         : figure::inline_svg(picture->second, figure.name + "-");
-    return fmt::format("<figure>\n{}\n<figcaption>{} <code>{}.gp</code></figcaption>\n</figure>\n",
-                       svg.value_or("<p><em>This figure is missing.</em></p>"),
-                       figure::html_text(figure.caption), figure.name);
+    if (picture == drawing.pictures.end() ||
+        !figure::add_svg(node, picture->second, figure.name + "-"))
+        add(add_part(node, "p"), "em", "This figure is missing.");
+    const pugi::xml_node caption = add(node, "figcaption", figure.caption + ' ');
+    add(caption, "code", figure.name + ".gp");
 }
 
 }  // namespace
 
-std::string html_table(std::string_view alignment, const HtmlCells& header,
-                       const std::vector<HtmlCells>& rows) {
-    constexpr std::size_t kMany = 12;  // more columns do not fit on A4 at the normal text size
-    std::string html =
-        alignment.size() > kMany ? "<div class=\"wide many\">" : "<div class=\"wide\">";
-    html += "<table>\n<thead>" + line("th", alignment, header) + "</thead>\n<tbody>\n";
-    for (const HtmlCells& row : rows) html += line("td", alignment, row);
-    return html + "</tbody></table></div>\n";
+Page::Page(const std::string& title) {
+    document_.append_child(pugi::node_doctype).set_value("html");
+    pugi::xml_node html = document_.append_child("html");
+    html.append_attribute("xmlns") = "http://www.w3.org/1999/xhtml";
+    html.append_attribute("lang") = "en";
+    pugi::xml_node head = html.append_child("head");
+    head.append_child("meta").append_attribute("charset") = "utf-8";
+    pugi::xml_node viewport = head.append_child("meta");
+    viewport.append_attribute("name") = "viewport";
+    viewport.append_attribute("content") = "width=device-width";
+    add(head, "title", title);
+    head.append_child("style").text().set(kStyle);
+    html.append_child("body");
 }
 
-std::string html_table(const result::Table& table) {
+std::string Page::text() const {
+    std::ostringstream out;
+    document_.save(out, "", pugi::format_indent | pugi::format_no_declaration);
+    return out.str();
+}
+
+pugi::xml_node add_part(pugi::xml_node parent, const char* tag, const char* name_of_class) {
+    pugi::xml_node part = parent.append_child(tag);
+    if (*name_of_class != '\0') part.append_attribute("class") = name_of_class;
+    return part;
+}
+
+void add_text(pugi::xml_node parent, const std::string& text) {
+    parent.append_child(pugi::node_pcdata).set_value(figure::clean_utf8(text).c_str());
+}
+
+pugi::xml_node add(pugi::xml_node parent, const char* tag, const std::string& text) {
+    const pugi::xml_node element = parent.append_child(tag);
+    add_text(element, text);
+    return element;
+}
+
+pugi::xml_node add_section(pugi::xml_node parent, const std::string& title) {
+    const pugi::xml_node section = add_part(parent, "section");
+    add(section, "h2", title);
+    return section;
+}
+
+void add_table(pugi::xml_node parent, std::string_view alignment, const HtmlCells& header,
+               const std::vector<HtmlCells>& rows) {
+    constexpr std::size_t kMany = 12;  // more columns do not fit on A4 at the normal text size
+    const pugi::xml_node table =
+        add_part(add_part(parent, "div", alignment.size() > kMany ? "wide many" : "wide"), "table");
+    add_line(add_part(table, "thead"), "th", alignment, header);
+    const pugi::xml_node body = add_part(table, "tbody");
+    for (const HtmlCells& row : rows) add_line(body, "td", alignment, row);
+}
+
+void add_table(pugi::xml_node parent, const result::Table& table) {
     HtmlCells headings = table.headings;
     for (std::string& heading : headings)
         if (const auto at = heading.find("degC"); at != std::string::npos)
             heading.replace(at, 4, "\u00B0C");
-    return html_table(table.alignment, headings, table.rows);
+    add_table(parent, table.alignment, headings, table.rows);
 }
 
-std::string html_paragraph(std::string_view text) {
-    return "<p>" + figure::html_text(text) + "</p>\n";
+void add_list(pugi::xml_node parent, const std::vector<std::string>& items) {
+    if (items.empty()) return;
+    const pugi::xml_node list = add_part(parent, "ul");
+    for (const std::string& item : items) add(list, "li", item);
 }
 
-std::string html_list(const std::vector<std::string>& items) {
-    std::string html;
-    for (const std::string& item : items)
-        html += fmt::format("<li>{}</li>\n", figure::html_text(item));
-    return html.empty() ? html : fmt::format("<ul>\n{}</ul>\n", html);
-}
-
-std::string figures_html(const std::vector<figure::Figure>& figures,
-                         const figure::Drawing& drawing) {
-    std::string large, small;
-    for (const figure::Figure& figure : figures)
-        (figure.is_small ? small : large) += figure_html(figure, drawing);
-    return large + (small.empty() ? "" : "<div class=\"small\">\n" + small + "</div>\n");
-}
-
-std::string section(std::string_view title, std::string_view html) {
-    return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", figure::html_text(title), html);
-}
-
-std::string html_page(std::string_view title, std::string_view body) {
-    return fmt::format(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
-        "<meta charset=\"utf-8\"/>\n"
-        "<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>{}</title>\n"
-        "<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-        figure::html_text(title), kStyle, body);
+void add_figures(pugi::xml_node parent, const std::vector<figure::Figure>& figures,
+                 const figure::Drawing& drawing) {
+    pugi::xml_node side_by_side;
+    for (const bool is_small : {false, true}) {
+        for (const figure::Figure& figure : figures) {
+            if (figure.is_small != is_small) continue;
+            if (is_small && !side_by_side) side_by_side = add_part(parent, "div", "small");
+            add_figure(is_small ? side_by_side : parent, figure, drawing);
+        }
+    }
 }
 
 std::vector<std::string> missing_lines(const std::vector<std::string>& troubles) {

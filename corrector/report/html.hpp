@@ -1,17 +1,18 @@
 #pragma once
 /// @file
-/// Parts of an HTML page that is also well-formed XML.  The functions escape all text that they
-/// take.
+/// A page of HTML 5 that is also well-formed XML, built of nodes.
 ///
-/// Parameters named `html` or `body`, and only these, are HTML that is escaped already.  All others
-/// may be text from anywhere:
+/// Texts are nodes, which pugixml escapes when it writes the page.  They may have any bytes:
 ///
-///     std::string body = "<h1>" + html_text(title) + "</h1>\n";  // html_text(): escaping.hpp
-///     body += section("Stations", html_table(table_of(station_columns(), stations)));
-///     const std::string page = html_page(title, body);
+///     const Page page(title);
+///     add(page.body(), "h1", title);
+///     const pugi::xml_node stations = add_section(page.body(), "Stations");
+///     add_table(stations, table_of(station_columns(), values));
+///     const std::string html = page.text();
 ///
 /// A page needs no other file: style and pictures are in it, and there is no script.
 
+#include <pugixml.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,46 +23,61 @@
 
 namespace a351::corrector::report {
 
+/// A page.  Its nodes are valid as long as the page.
+class Page {
+public:
+    /// @param title  title of the window; the page shows a heading only if its body has one.
+    explicit Page(const std::string& title);
+
+    [[nodiscard]] pugi::xml_node body() const {
+        return document_.first_element_by_path("html/body");
+    }
+    /// Returns the whole page in UTF-8.
+    [[nodiscard]] std::string text() const;
+
+private:
+    pugi::xml_document document_;
+};
+
 /// Cells of a line of a table, as plain text.
 using HtmlCells = std::vector<std::string>;
 
-/// Returns a table.  One of more than twelve columns has smaller letters in print, to fit on A4.
+/// Adds an element with a text, which may be empty, and returns it.
+pugi::xml_node add(pugi::xml_node parent, const char* tag, const std::string& text);
+/// Adds a text to an element, after its other content.
+void add_text(pugi::xml_node parent, const std::string& text);
+/// Adds an element without a text and returns it.  Its class is left out if it is empty.
+pugi::xml_node add_part(pugi::xml_node parent, const char* tag, const char* name_of_class = "");
+
+/// Adds a section of a page, with its title as a heading of second order, and returns it.
+pugi::xml_node add_section(pugi::xml_node parent, const std::string& title);
+
+/// Adds a table.  One of more than twelve columns has smaller letters in print, to fit on A4.
 /// @param alignment  a letter per column: l left, n left without line breaks, r right (numbers).
 /// @param header     one cell per letter, like every row.
 /// @param rows       lines in order; may be empty.  Cells beyond the letters are left out.
 /// @throws std::out_of_range  the header or a row has fewer cells than there are letters.
-[[nodiscard]] std::string html_table(std::string_view alignment, const HtmlCells& header,
-                                     const std::vector<HtmlCells>& rows);
+void add_table(pugi::xml_node parent, std::string_view alignment, const HtmlCells& header,
+               const std::vector<HtmlCells>& rows);
 
-/// Returns a table for people, with degC as the degree sign and C.  This change concerns headings
+/// Adds a table for people, with degC as the degree sign and C.  This change concerns headings
 /// only, once in each.
-[[nodiscard]] std::string html_table(const result::Table& table);
+void add_table(pugi::xml_node parent, const result::Table& table);
 
-/// Returns a paragraph.
-[[nodiscard]] std::string html_paragraph(std::string_view text);
-/// Returns a list with bullets; nothing without items.
-[[nodiscard]] std::string html_list(const std::vector<std::string>& items);
+/// Adds a list with bullets; nothing without items.
+void add_list(pugi::xml_node parent, const std::vector<std::string>& items);
 
-/// Returns the pictures with their captions; small ones are side by side, after the others.
+/// Adds the pictures with their captions; small ones are side by side, after the others.
 ///
 /// A figure without an SVG in `drawing` has a note that it is missing.  Each caption ends with the
 /// name of the script, so that a reader finds it.
 /// @param drawing  result of draw() for these and possibly other figures.  Call this function
 ///                 before add_figure_files(), which empties it.
-[[nodiscard]] std::string figures_html(const std::vector<figure::Figure>& figures,
-                                       const figure::Drawing& drawing);
-
-/// Returns a section of a page, with its title as a heading of second order.
-/// @param html  content, not escaped here.
-[[nodiscard]] std::string section(std::string_view title, std::string_view html);
-
-/// Returns the whole page: HTML 5 that is also well-formed XML, in UTF-8.
-/// @param title  title of the window; the page shows a heading only if `body` has one.
-/// @param body   HTML, not escaped here.
-[[nodiscard]] std::string html_page(std::string_view title, std::string_view body);
+void add_figures(pugi::xml_node parent, const std::vector<figure::Figure>& figures,
+                 const figure::Drawing& drawing);
 
 /// Returns one line for all missing figures: the first reason and the number of others; none
-/// without troubles.  The line is plain text, for the terminal and for html_list().
+/// without troubles.
 /// @param troubles  Drawing::troubles.
 [[nodiscard]] std::vector<std::string> missing_lines(const std::vector<std::string>& troubles);
 

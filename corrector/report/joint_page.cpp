@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/figure/escaping.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -35,7 +34,7 @@ const model::StationValue* find_station(const model::SurveyCorrection& day,
     return found == day.stations.end() ? nullptr : &*found;
 }
 
-std::string days_table(const std::vector<JointDay>& days) {
+void add_days(pugi::xml_node parent, const std::vector<JointDay>& days) {
     std::vector<HtmlCells> rows;
     for (const JointDay& day : days) {
         HtmlCells& cells = rows.emplace_back(7, "-");
@@ -52,25 +51,29 @@ std::string days_table(const std::vector<JointDay>& days) {
         cells[5] = text::fixed_or(result.score.rms_mgal, 3, "-");
         cells[6] = text::fixed_or(result.score.loso_mgal, 3, "-");
     }
-    return html_table("nnnlrrr",
-                      {"Day", "First reading UTC", "Last reading UTC", "Model", "In the fit",
-                       "RMS mGal (in sample)", "RMS mGal (cross-validated, leave-one-station-out)"},
-                      rows);
+    add_table(parent, "nnnlrrr",
+              {"Day", "First reading UTC", "Last reading UTC", "Model", "In the fit",
+               "RMS mGal (in sample)", "RMS mGal (cross-validated, leave-one-station-out)"},
+              rows);
 }
 
-std::string links(const std::vector<JointDay>& days) {
-    std::string html;
+void add_links(pugi::xml_node parent, const std::vector<JointDay>& days) {
+    pugi::xml_node line;
     for (const JointDay& day : days) {
         if (day.result == nullptr) continue;
-        html +=
-            fmt::format("{}<a href=\"{}/report.html\">{}</a>", html.empty() ? "<p>Reports: " : ", ",
-                        address_part(day.folder), figure::html_text(day.name));
+        if (line) {
+            add_text(line, ", ");
+        } else {
+            line = add(parent, "p", "Reports: ");
+        }
+        add(line, "a", day.name).append_attribute("href") =
+            (address_part(day.folder) + "/report.html").c_str();
     }
-    return html.empty() ? html : html + ".</p>\n";
+    if (line) add_text(line, ".");
 }
 
-std::string stations_table(const std::vector<JointDay>& days,
-                           const std::vector<model::SurveyCorrection>& results) {
+void add_stations(pugi::xml_node parent, const std::vector<JointDay>& days,
+                  const std::vector<model::SurveyCorrection>& results) {
     const std::vector<result::JointStation> stations = result::join_days(results);
     result::Table table = result::table_of(result::joint_columns(), stations);
     for (const JointDay& day : days) {
@@ -89,7 +92,7 @@ std::string stations_table(const std::vector<JointDay>& days,
                           (value->is_flagged_only ? " *" : ""));
         }
     }
-    return html_table(table.alignment, table.headings, table.rows);
+    add_table(parent, table);
 }
 
 std::string scatter_sentence(const std::vector<model::SurveyCorrection>& results) {
@@ -151,22 +154,24 @@ std::string joint_html(const std::vector<JointDay>& days) {
         }
     }
     const std::string title = fmt::format("Gravity survey of {} days", days.size());
-    const std::string absent =
-        troubles.empty() ? "" : html_paragraph("Not corrected, and not included below:");
-    return html_page(
-        title,
-        fmt::format(
-            "<h1>{}</h1>\n{}{}<h2>Days</h2>\n{}{}<h2>Stations</h2>\n{}{}{}",
-            figure::html_text(title), absent, html_list(troubles), days_table(days), links(days),
-            stations_table(days, results),
-            html_paragraph(
-                "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no "
-                "u). The value of a day does not use the station's own reference; in sample: a day "
-                "gives only a value that does. u contains what the days share of the instrument's "
-                "uncertainty, but not that of shared references. NAME - joint: the day's value "
-                "minus "
-                "the mean. *: only readings that were left out of the day's fit."),
-            html_paragraph(scatter_sentence(results))));
+    const Page page(title);
+    const pugi::xml_node body = page.body();
+    add(body, "h1", title);
+    if (!troubles.empty()) add(body, "p", "Not corrected, and not included below:");
+    add_list(body, troubles);
+    add(body, "h2", "Days");
+    add_days(body, days);
+    add_links(body, days);
+    add(body, "h2", "Stations");
+    add_stations(body, days, results);
+    add(body, "p",
+        "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no u). The "
+        "value of a day does not use the station's own reference; in sample: a day gives only a "
+        "value that does. u contains what the days share of the instrument's uncertainty, but not "
+        "that of shared references. NAME - joint: the day's value minus the mean. *: only readings "
+        "that were left out of the day's fit.");
+    add(body, "p", scatter_sentence(results));
+    return page.text();
 }
 
 }  // namespace a351::corrector::report

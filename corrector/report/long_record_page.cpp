@@ -12,24 +12,34 @@
 namespace a351::corrector::report {
 namespace {
 
-std::string table_html(std::string_view alignment, const long_record::TextTable& table) {
-    return html_table(alignment, table.front(), {table.begin() + 1, table.end()});
+constexpr const char* kTitle = "A long record at one point";
+
+void add_text_table(pugi::xml_node parent, std::string_view alignment,
+                    const long_record::TextTable& table) {
+    add_table(parent, alignment, table.front(), {table.begin() + 1, table.end()});
 }
 
-std::string head_html(const long_record::RecordResult& result) {
+void add_head(pugi::xml_node parent, const long_record::RecordResult& result) {
     const long_record::RecordSegment& segment = result.segment();
     const double hours = static_cast<double>(segment.size()) * result.record.step_s / 3600.0;
     const std::string& unit = segment.serial_number;
-    return "<h1>A long record at one point</h1>\n" +
-           html_paragraph(fmt::format(
-               "Analysed: {}{} h from {}, a sample every {} s{}.",
-               unit.empty() ? "" : fmt::format("sensor {}, ", unit), text::fixed(hours, 1),
-               to_rfc3339(segment.start), text::fixed(result.record.step_s, 0),
-               result.record.is_tide_removed ? ", earth tide removed" : "")) +
-           html_paragraph(result.analysis.reading) +
-           html_paragraph(
-               fmt::format("Two-path fit: {}.", long_record::two_paths_reading(result))) +
-           html_list(result.analysis.remarks);
+    add(parent, "h1", kTitle);
+    add(parent, "p",
+        fmt::format("Analysed: {}{} h from {}, a sample every {} s{}.",
+                    unit.empty() ? "" : fmt::format("sensor {}, ", unit), text::fixed(hours, 1),
+                    to_rfc3339(segment.start), text::fixed(result.record.step_s, 0),
+                    result.record.is_tide_removed ? ", earth tide removed" : ""));
+    add(parent, "p", result.analysis.reading);
+    add(parent, "p", fmt::format("Two-path fit: {}.", long_record::two_paths_reading(result)));
+    add_list(parent, result.analysis.remarks);
+}
+
+void add_applied(pugi::xml_node parent, const long_record::AppliedCalibration& applied,
+                 const std::vector<figure::Figure>& figures, const figure::Drawing& drawing) {
+    add_list(parent, long_record::applied_sentences(applied));
+    add_text_table(parent, "lrrr", long_record::applied_bands_table(applied));
+    add_figures(parent, figures, drawing);
+    add_text_table(parent, "lrrr", long_record::allan_table(applied));
 }
 
 }  // namespace
@@ -48,29 +58,29 @@ Report make_long_record_page(const long_record::RecordResult& result,
     Report page;
     page.warnings = missing_lines(drawing.troubles);
 
-    std::string body = "<section class=\"first\">\n" + head_html(result) +
-                       html_list(page.warnings) + "</section>\n";
+    const Page document(kTitle);
+    const pugi::xml_node body = document.body();
+    const pugi::xml_node first = add_part(body, "section", "first");
+    add_head(first, result);
+    add_list(first, page.warnings);
     if (result.applied)
-        body += section("With the calibration",
-                        html_list(long_record::applied_sentences(*result.applied)) +
-                            table_html("lrrr", long_record::applied_bands_table(*result.applied)) +
-                            figures_html(applied, drawing) +
-                            table_html("lrrr", long_record::allan_table(*result.applied)));
-    body +=
-        section("Response by period", table_html("lrrrrrr", long_record::response_table(result)) +
-                                          figures_html(response, drawing) +
-                                          html_list(long_record::refused_bands(result)));
-    body += section("Two paths", table_html("lrrll", long_record::two_paths_table(result)));
-    body += section("The publication's statistics",
-                    table_html("lrll", long_record::statistics_table(result)) +
-                        html_paragraph(long_record::chosen_modes(result)));
-    body += section("The publication's figures", figures_html(figures, drawing));
-    body += section("Segments", table_html("llrrrl", long_record::segments_table(result)) +
-                                    html_paragraph("* analysed") +
-                                    html_list(long_record::refused_parts(result)));
-    body += section("Settings, inputs, warnings",
-                    provenance_html(settings, result.record.inputs, result.record.warnings));
-    page.files.emplace_back("record.html", html_page("A long record at one point", body));
+        add_applied(add_section(body, "With the calibration"), *result.applied, applied, drawing);
+    pugi::xml_node section = add_section(body, "Response by period");
+    add_text_table(section, "lrrrrrr", long_record::response_table(result));
+    add_figures(section, response, drawing);
+    add_list(section, long_record::refused_bands(result));
+    add_text_table(add_section(body, "Two paths"), "lrrll", long_record::two_paths_table(result));
+    section = add_section(body, "The publication's statistics");
+    add_text_table(section, "lrll", long_record::statistics_table(result));
+    add(section, "p", long_record::chosen_modes(result));
+    add_figures(add_section(body, "The publication's figures"), figures, drawing);
+    section = add_section(body, "Segments");
+    add_text_table(section, "llrrrl", long_record::segments_table(result));
+    add(section, "p", "* analysed");
+    add_list(section, long_record::refused_parts(result));
+    add_provenance(add_section(body, "Settings, inputs, warnings"), settings, result.record.inputs,
+                   result.record.warnings);
+    page.files.emplace_back("record.html", document.text());
     add_figure_files(page.files, all, drawing);
     return page;
 }

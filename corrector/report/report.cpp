@@ -1,11 +1,8 @@
 #include "corrector/report/report.hpp"
 
-#include <fmt/core.h>
-
 #include <nlohmann/json.hpp>
 
 #include "corrector/figure/drawing.hpp"
-#include "corrector/figure/escaping.hpp"
 #include "corrector/figure/survey_figures.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/report/result_tables.hpp"
@@ -53,18 +50,20 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
     std::vector<std::string> warnings = sources.warnings;
     warnings.insert(warnings.end(), result.remarks.begin(), result.remarks.end());
     const std::string title = "Gravity survey " + sources.title;
-    std::string body =
-        fmt::format("<section class=\"first\">\n<h1>{}</h1>\n{}</section>\n",
-                    figure::html_text(title), summary_html(result, warnings, report.warnings));
-    body += section("Stations", stations_html(result));
-    body += section("Figures", figures_html(of_results, drawing));
-    body += section("Repeated stations", closures_html(result));
-    body += section("Readings", occupations_html(result));
-    body += section("Models", models_html(result));
-    if (!of_records.empty()) body += section("Records", figures_html(of_records, drawing));
-    body +=
-        section("Settings, inputs, warnings", provenance_html(settings, sources.inputs, warnings));
-    report.files.emplace_back("report.html", html_page(title, body));
+    const Page page(title);
+    const pugi::xml_node body = page.body();
+    const pugi::xml_node first = add_part(body, "section", "first");
+    add(first, "h1", title);
+    add_summary(first, result, warnings, report.warnings);
+    add_stations(add_section(body, "Stations"), result);
+    add_figures(add_section(body, "Figures"), of_results, drawing);
+    add_closures(add_section(body, "Repeated stations"), result);
+    add_occupations(add_section(body, "Readings"), result);
+    add_models(add_section(body, "Models"), result);
+    if (!of_records.empty()) add_figures(add_section(body, "Records"), of_records, drawing);
+    add_provenance(add_section(body, "Settings, inputs, warnings"), settings, sources.inputs,
+                   warnings);
+    report.files.emplace_back("report.html", page.text());
     add_figure_files(report.files, all, drawing);
     return report;
 }

@@ -68,45 +68,45 @@ std::string explanation(const model::SurveyCorrection& result) {
            "left out) / u.";
 }
 
-std::string budget_html(const model::SurveyCorrection& result) {
+void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const result::Table table = result::budget_table(result);
-    if (table.rows.empty()) return "";
-    return "<h3>Sources of the uncertainty</h3>\n" + html_table(table) +
-           html_paragraph(
-               "Standard uncertainties in mGal; the sum of their squares is u squared. Placement "
-               "becomes smaller with further set-ups. Levelling: unknown biases of the horizontal "
-               "axes; smaller if the box is level, or with a tilt series. Thermal: the unit's "
-               "response to temperature; smaller with a calibration or more known stations. Datum: "
-               "the references.");
+    if (table.rows.empty()) return;
+    add(parent, "h3", "Sources of the uncertainty");
+    add_table(parent, table);
+    add(parent, "p",
+        "Standard uncertainties in mGal; the sum of their squares is u squared. Placement becomes "
+        "smaller with further set-ups. Levelling: unknown biases of the horizontal axes; smaller "
+        "if the box is level, or with a tilt series. Thermal: the unit's response to temperature; "
+        "smaller with a calibration or more known stations. Datum: the references.");
 }
 
 }  // namespace
 
-std::string stations_html(const model::SurveyCorrection& result) {
+void add_stations(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const result::Table table = result::stations_table(result);
     const auto has = [&table](std::string_view heading) {
         return std::ranges::find(table.headings, heading) != table.headings.end();
     };
-    return html_table(table) +
-           html_paragraph(fmt::format(
-               "Residuals are in sample.{} u is a standard uncertainty, {}.{}{}",
-               has("Left out mGal")
-                   ? " Left out: value without the station's own reference (cross-validated)."
-                   : "",
-               result.as<model::WholeDayPart>() != nullptr        ? "as if the station were unknown"
-               : result.as<model::NetworkAdjustment>() != nullptr ? "a priori"
-                                                                  : "from the scatter in sample",
-               has("U 95 % mGal")
-                   ? " Gravity of an unknown station is within ± U of the value with a "
-                     "probability of 95 %."
-                   : "",
-               std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only)
-                   ? " Flagged only: only readings that were left out of the fit."
-                   : "")) +
-           budget_html(result);
+    add_table(parent, table);
+    add(parent, "p",
+        fmt::format(
+            "Residuals are in sample.{} u is a standard uncertainty, {}.{}{}",
+            has("Left out mGal")
+                ? " Left out: value without the station's own reference (cross-validated)."
+                : "",
+            result.as<model::WholeDayPart>() != nullptr        ? "as if the station were unknown"
+            : result.as<model::NetworkAdjustment>() != nullptr ? "a priori"
+                                                               : "from the scatter in sample",
+            has("U 95 % mGal") ? " Gravity of an unknown station is within ± U of the value with a "
+                                 "probability of 95 %."
+                               : "",
+            std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only)
+                ? " Flagged only: only readings that were left out of the fit."
+                : ""));
+    add_budget(parent, result);
 }
 
-std::string occupations_html(const model::SurveyCorrection& result) {
+void add_occupations(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const std::vector<result::Column<model::CorrectedRow>> columns = columns_of(result);
     const bool is_recorded = result.rows.front().row.start.has_value();
     const std::size_t first = is_recorded ? 3 : 2;  // columns before those of the declaration
@@ -134,15 +134,17 @@ std::string occupations_html(const model::SurveyCorrection& result) {
         cells[1] = is_recorded ? between(stay.start, stay.end) : to_rfc3339(stay.start);
         cells.back() = stay.reason;
     });
-    return html_table(table) + html_paragraph(explanation(result));
+    add_table(parent, table);
+    add(parent, "p", explanation(result));
 }
 
-std::string closures_html(const model::SurveyCorrection& result) {
+void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const std::vector<Closure> closures = close_stations(result);
     if (closures.empty()) {
-        return html_paragraph(
-            "No station was read twice, so there are no closures; drift is visible only "
-            "against the references.");
+        add(parent, "p",
+            "No station was read twice, so there are no closures; drift is visible only against "
+            "the references.");
+        return;
     }
     std::vector<HtmlCells> rows;
     for (const Closure& pair : closures) {
@@ -156,42 +158,40 @@ std::string closures_html(const model::SurveyCorrection& result) {
     rows.push_back({fmt::format("RMS of {}", closures.size()), "", "", number(rms.before),
                     number(rms.after_tide), number(rms.after_temperature), number(rms.after_rate),
                     number(rms.after_all), ""});
-    return html_table("nnrrrrrrr",
-                      {"Earlier", "Later", "Hours", "As read", "After tide", "After temperature",
-                       "After rate, tilt", "After drift (all)", "Drift mGal/h"},
-                      rows) +
-           html_paragraph(
-               "Later minus earlier reading of one station, in mGal. Drift: value that each "
-               "pair alone implies, from the difference after rate. The last differences are in "
-               "sample, because the coefficients were fitted to the same readings.");
+    add_table(parent, "nnrrrrrrr",
+              {"Earlier", "Later", "Hours", "As read", "After tide", "After temperature",
+               "After rate, tilt", "After drift (all)", "Drift mGal/h"},
+              rows);
+    add(parent, "p",
+        "Later minus earlier reading of one station, in mGal. Drift: value that each pair alone "
+        "implies, from the difference after rate. The last differences are in sample, because the "
+        "coefficients were fitted to the same readings.");
 }
 
-std::string models_html(const model::SurveyCorrection& result) {
-    std::string html =
-        html_table(result::models_table(result)) +
-        html_paragraph(
-            "LOO: RMS error of a reading predicted without it (leave-one-out). LOSO: "
-            "RMS error of the readings of a station predicted without them "
-            "(leave-one-station-out).");
-    if (result.choice) {
-        html += html_paragraph(fmt::format(
-            "Chosen: among the models within one standard error of the least "
-            "leave-one-station-out error, up to {} mGal, the one with the fewest terms.",
-            text::fixed(result.choice->limit_mgal, 3)));
-    }
+void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    add_table(parent, result::models_table(result));
+    add(parent, "p",
+        "LOO: RMS error of a reading predicted without it (leave-one-out). LOSO: RMS error of the "
+        "readings of a station predicted without them (leave-one-station-out).");
+    if (result.choice)
+        add(parent, "p",
+            fmt::format("Chosen: among the models within one standard error of the least "
+                        "leave-one-station-out error, up to {} mGal, the one with the fewest "
+                        "terms.",
+                        text::fixed(result.choice->limit_mgal, 3)));
     std::vector<HtmlCells> coefficients;
-    for (const model::Coefficient& c : result.coefficients) {
+    for (const model::Coefficient& c : result.coefficients)
         coefficients.push_back({c.name, text::fixed(c.value, 4), cell(c.standard_error, 4)});
-    }
-    return fmt::format("{}<h3>Coefficients of {}</h3>\n{}", html, result.model,
-                       html_table("lrr", {"Coefficient", "Value", "Standard error"}, coefficients));
+    add(parent, "h3", "Coefficients of " + result.model);
+    add_table(parent, "lrr", {"Coefficient", "Value", "Standard error"}, coefficients);
 }
 
-std::string provenance_html(const nlohmann::ordered_json& settings,
-                            const std::vector<text::InputFile>& inputs,
-                            const std::vector<std::string>& warnings) {
-    std::string html = "<h3>Warnings</h3>\n";
-    html += warnings.empty() ? html_paragraph("None.") : html_list(warnings);
+void add_provenance(pugi::xml_node parent, const nlohmann::ordered_json& settings,
+                    const std::vector<text::InputFile>& inputs,
+                    const std::vector<std::string>& warnings) {
+    add(parent, "h3", "Warnings");
+    if (warnings.empty()) add(parent, "p", "None.");
+    add_list(parent, warnings);
     std::vector<HtmlCells> rows;
     for (const auto& [key, value] : settings.items()) {
         if (key == "warnings") continue;
@@ -201,14 +201,14 @@ std::string provenance_html(const nlohmann::ordered_json& settings,
                                               nlohmann::ordered_json::error_handler_t::replace)});
     }
     rows.push_back({"program", "a351-correct " A351_VERSION});
-    html += "<h3>Settings</h3>\n" + html_table("ll", {"Setting", "Value"}, rows);
+    add(parent, "h3", "Settings");
+    add_table(parent, "ll", {"Setting", "Value"}, rows);
     std::vector<HtmlCells> files;
-    for (const text::InputFile& input : inputs) {
+    for (const text::InputFile& input : inputs)
         files.push_back({input.role, input.name, std::to_string(input.byte_count),
                          fmt::format("{:08x}", input.crc32)});
-    }
-    return html + "<h3>Inputs</h3>\n" +
-           html_table("llrr", {"Role", "File", "Bytes", "CRC-32"}, files);
+    add(parent, "h3", "Inputs");
+    add_table(parent, "llrr", {"Role", "File", "Bytes", "CRC-32"}, files);
 }
 
 }  // namespace a351::corrector::report

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
-#include "corrector/figure/escaping.hpp"
 #include "corrector/figure/reading_name.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/report/html.hpp"
@@ -42,9 +42,9 @@ std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason
     return reasons;
 }
 
-/// Returns the table of readings with reasons, the doubtful ones first.
-std::string reading_table(const model::SurveyCorrection& result,
-                          const std::vector<ReadingGrade>& grades) {
+/// Adds the table of readings with reasons, the doubtful ones first.
+void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result,
+                  const std::vector<ReadingGrade>& grades) {
     const bool is_day = result.as<model::WholeDayPart>() != nullptr;
     std::vector<HtmlCells> rows;
     for (const Grade grade : {Grade::repeat, Grade::care, Grade::trust}) {
@@ -59,14 +59,14 @@ std::string reading_table(const model::SurveyCorrection& result,
                             text::joined(reasons, "; ")});
         }
     }
-    if (rows.empty()) return {};
-    return html_table("nnrrl",
-                      {"Reading", "Verdict",
-                       is_day ? "Error mGal (station left out)" : "Residual mGal", "u mGal", "Why"},
-                      rows);
+    if (rows.empty()) return;
+    add_table(parent, "nnrrl",
+              {"Reading", "Verdict", is_day ? "Error mGal (station left out)" : "Residual mGal",
+               "u mGal", "Why"},
+              rows);
 }
 
-std::string accuracy_table(const model::SurveyCorrection& result) {
+void add_accuracy(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const model::Score& score = result.score;
     std::vector<HtmlCells> rows;
     const auto add = [&rows](const std::string& quantity, const std::optional<double>& value,
@@ -82,26 +82,33 @@ std::string accuracy_table(const model::SurveyCorrection& result) {
         "cross-validated (leave-one-station-out)");
     add("the same, with the model chosen again each time", result.choice_loso_mgal, "",
         "cross-validated (leave-one-station-out)");
-    return html_table("lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
+    add_table(parent, "lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
 }
 
-/// Returns what is wrong with the day, with the amendments to paste; empty if nothing is.
-std::string findings_html(const std::vector<reading::Finding>& findings) {
-    if (findings.empty()) return {};
-    std::string items, amendments;
+/// Adds what is wrong with the day, with the amendments to paste.
+void add_findings(pugi::xml_node parent, const std::vector<reading::Finding>& findings) {
+    if (findings.empty()) return;
+    add(parent, "h2", "Found in this day");
+    const pugi::xml_node list = add_part(parent, "ol");
+    std::string amendments;
     for (const reading::Finding& finding : findings) {
-        const std::string text = figure::html_text(finding.text);
-        items += finding.is_headline ? fmt::format("<li><b>{}</b></li>\n", text)
-                                     : fmt::format("<li>{}</li>\n", text);
+        if (finding.is_headline) {
+            add(add_part(list, "li"), "b", finding.text);
+        } else {
+            add(list, "li", finding.text);
+        }
         amendments += finding.amendment;
     }
-    std::string html = fmt::format("<h2>Found in this day</h2>\n<ol>\n{}</ol>\n", items);
-    if (!amendments.empty())
-        html += html_paragraph(
-                    "To carry out the proposals: a351-correct amend SURVEY.toml --all, or paste "
-                    "into the amendments file what is right:") +
-                fmt::format("<pre>{}</pre>\n", figure::html_text(amendments));
-    return html;
+    if (amendments.empty()) return;
+    add(parent, "p",
+        "To carry out the proposals: a351-correct amend SURVEY.toml --all, or paste into the "
+        "amendments file what is right:");
+    pugi::xml_node block = add_part(parent, "pre");
+    std::istringstream lines(amendments);
+    for (std::string line; std::getline(lines, line);) {
+        add_text(block, line);
+        block.append_child(pugi::node_pcdata).set_value("\n");
+    }
 }
 
 bool is_unusable(const model::SurveyCorrection& result) {
@@ -223,24 +230,29 @@ std::string scatter_sentence(const model::Score& score) {
     return fmt::format("n = {}: {} For a new station quote {}", score.row_count, scatter, quote);
 }
 
-std::string summary_html(const model::SurveyCorrection& result,
-                         const std::vector<std::string>& warnings,
-                         const std::vector<std::string>& missing) {
+void add_summary(pugi::xml_node parent, const model::SurveyCorrection& result,
+                 const std::vector<std::string>& warnings,
+                 const std::vector<std::string>& missing) {
     const std::vector<ReadingGrade> grades = grade_readings(result);
+    add(parent, "p", headline(result));
+    add_findings(parent, result.findings);
+    add(parent, "h2", "What to do");
+    add_list(parent, actions(result, grades));
+    add_readings(parent, result, grades);
+    add(parent, "h2", "Accuracy");
+    add_accuracy(parent, result);
+    add(parent, "p",
+        is_unusable(result) ? "No figure of this day is to be quoted before its mistakes are put "
+                              "right."
+                            : scatter_sentence(result.score));
     std::vector<std::string> limits = limits_of(result);
-    if (!warnings.empty()) {
+    if (!warnings.empty())
         limits.push_back(
             fmt::format("Warnings about the input: {}, see the last section.", warnings.size()));
-    }
     limits.insert(limits.end(), missing.begin(), missing.end());
-    return fmt::format("{}{}<h2>What to do</h2>\n{}{}<h2>Accuracy</h2>\n{}{}{}{}",
-                       html_paragraph(headline(result)), findings_html(result.findings),
-                       html_list(actions(result, grades)), reading_table(result, grades),
-                       accuracy_table(result),
-                       html_paragraph(is_unusable(result) ? "No figure of this day is to be quoted "
-                                                            "before its mistakes are put right."
-                                                          : scatter_sentence(result.score)),
-                       limits.empty() ? "" : "<h2>Limits</h2>\n", html_list(limits));
+    if (limits.empty()) return;
+    add(parent, "h2", "Limits");
+    add_list(parent, limits);
 }
 
 }  // namespace a351::corrector::report

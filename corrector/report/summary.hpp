@@ -6,6 +6,7 @@
 /// accuracy.  Every root mean square is marked as in sample or cross-validated (summary_test.cpp).
 
 #include <optional>
+#include <pugixml.hpp>
 #include <string>
 #include <vector>
 
@@ -44,15 +45,14 @@ namespace a351::corrector::report {
 /// the leave-one-station-out error, if the model has one.
 [[nodiscard]] std::string scatter_sentence(const model::Score& score);
 
-/// Returns the HTML of the page: headline, findings with amendments to paste, actions, readings with reasons, accuracy, limits.
+/// Adds the content of the page: headline, findings with amendments to paste, actions, readings with reasons, accuracy, limits.
 ///
 /// The readings are graded here.  A reading without a reason is not in the table.  For `day` the
 /// table has the error of the prediction without the reading's station, else the residual.
 /// @param result    at least one row.
 /// @param warnings  about the input; only their number is shown, with a hint to the last section.
 /// @param missing   lines on missing figures.
-[[nodiscard]] std::string summary_html(const model::SurveyCorrection& result,
-                                       const std::vector<std::string>& warnings,
-                                       const std::vector<std::string>& missing);
+void add_summary(pugi::xml_node parent, const model::SurveyCorrection& result,
+                 const std::vector<std::string>& warnings, const std::vector<std::string>& missing);
 
 }  // namespace a351::corrector::report

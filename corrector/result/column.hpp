@@ -13,7 +13,7 @@
 ///     const std::string text = aligned_text(table_of(columns, stations));
 ///
 /// The order of the columns is that of the list in every form.  Texts are not escaped here.  In CSV
-/// they must contain neither comma nor line end; html_table() of html.hpp escapes them for a page.
+/// they must contain neither comma nor line end.
 ///
 /// No function reads a clock, a locale or a file.
 

@@ -86,9 +86,8 @@ TEST_CASE("the whole-day model is graded by its prediction without the station",
     CHECK(first_grade(result) == Grade::trust);
     result.rows[0].studentised_residual = -3.1;
     CHECK(first_grade(result) == Grade::repeat);
-    CHECK(
-        first_reasons(result) ==
-        "6.2 mGal above its reference when its station is left out, 3.1 times its uncertainty|");
+    CHECK(first_reasons(result) ==
+          "6.2 mGal above its reference when its station is left out, 3.1 times its uncertainty|");
 }
 
 TEST_CASE("set-ups of one station are compared by the placement scatter of the whole-day model",

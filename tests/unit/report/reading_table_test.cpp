@@ -17,9 +17,9 @@ using namespace a351::corrector::whole_day;
 namespace {
 
 /// Returns the cells of each line by the title of their column.
-std::vector<std::map<std::string, std::string>> lines_of(const std::string& html) {
+std::vector<std::map<std::string, std::string>> lines_of(const SurveyCorrection& result) {
     pugi::xml_document document;
-    REQUIRE(document.load_string(("<body>" + html + "</body>").c_str()));
+    add_occupations(document.append_child("body"), result);
     const auto table = document.select_node("//table").node();
     std::vector<std::string> titles;
     for (const auto& cell : table.select_nodes("thead//th"))
@@ -55,7 +55,7 @@ SurveyCorrection corrected_by_day(const DayRecord& day) {
 
 TEST_CASE("the table of the whole-day model shows all its corrections", "[report][readings]") {
     const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
-    const auto lines = lines_of(occupations_html(corrected_by_day(made.record())));
+    const auto lines = lines_of(corrected_by_day(made.record()));
     REQUIRE(lines.size() == MadeUpDay::kSetUps);
     for (auto line : lines) {
         const auto value = [&line](const char* title) { return std::stod(line.at(title)); };
@@ -75,7 +75,7 @@ TEST_CASE("the table of the whole-day model shows which time it averages", "[rep
     std::erase_if(day.bins, [](const DayBin& bin) {
         return bin.set_up == 2 && bin.time < MadeUpDay::start() + std::chrono::minutes(183);
     });
-    const auto lines = lines_of(occupations_html(corrected_by_day(day)));
+    const auto lines = lines_of(corrected_by_day(day));
     // 14 bins of 25 samples, 2 s apart, from 02:00 on every half hour.
     CHECK(lines[0].at("Averaged UTC") == "2026-05-01 02:00:00\u201302:11:38");
     CHECK(lines[0].at("s") == "700");
@@ -86,7 +86,7 @@ TEST_CASE("the table of the whole-day model shows which time it averages", "[rep
 TEST_CASE("a table of given averages has no columns of records", "[report][readings]") {
     SurveyOptions options;
     options.model = "t";
-    const auto lines = lines_of(occupations_html(correct_survey(made_up::day(), options)));
+    const auto lines = lines_of(correct_survey(made_up::day(), options));
     REQUIRE(lines.size() == 12);
     for (const char* const title : {"Averaged UTC", "s", "Tilt corr.", "Left out"})
         CHECK_FALSE(lines[0].contains(title));
@@ -98,7 +98,7 @@ TEST_CASE("an occupation without a value is listed in time order", "[report][rea
     SurveyCorrection result = correct_survey(made_up::day(), options);
     const UtcTime start = result.rows[2].row.time - std::chrono::minutes(9);
     add_left_out(result, {{"S9", 2, start, start, "no samples"}});
-    const auto lines = lines_of(occupations_html(result));
+    const auto lines = lines_of(result);
     REQUIRE(lines.size() == 13);
     CHECK(lines[2].at("Reading") == "S9 (2)");
     CHECK(lines[2].at("Time UTC") == to_rfc3339(start));

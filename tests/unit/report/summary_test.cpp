@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
+#include "corrector/report/html.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351::corrector;
@@ -26,6 +27,14 @@ std::vector<SurveyRow> scattered_day() {
         rows[i].acceleration = rows[i].acceleration + MilliGal(i % 2 == 0 ? 0.5 : -0.5);
     }
     return rows;
+}
+
+/// Returns the summary as it is in the page.
+std::string summary_text(const SurveyCorrection& result, const std::vector<std::string>& warnings,
+                         const std::vector<std::string>& missing) {
+    const Page page("");
+    add_summary(page.body(), result, warnings, missing);
+    return page.text();
 }
 
 }  // namespace
@@ -99,12 +108,23 @@ TEST_CASE("the scatter is given with its own standard error", "[report][summary]
 
 TEST_CASE("the summary says of every accuracy figure whether it is in sample or cross-validated",
           "[report][summary]") {
-    const std::string html = summary_html(corrected(scattered_day()), {"a"}, {"figures <missing>"});
+    const std::string html = summary_text(corrected(scattered_day()), {"a"}, {"figures <missing>"});
     CHECK_THAT(html, ContainsSubstring("<td>in sample</td>") &&
                          ContainsSubstring("<td>cross-validated (leave-one-out)</td>") &&
                          ContainsSubstring("<td>cross-validated (leave-one-station-out)</td>") &&
                          ContainsSubstring("Warnings about the input: 1,") &&
                          ContainsSubstring("figures &lt;missing&gt;"));
+}
+
+TEST_CASE("a proposed amendment keeps its lines and characters", "[report][summary]") {
+    SurveyCorrection result = corrected(scattered_day());
+    Finding finding;
+    finding.text = "a <step>";
+    finding.amendment = "[[step]]\nreason = \"S1 & S2\"\n";
+    result.findings = {finding};
+    CHECK_THAT(summary_text(result, {}, {}),
+               ContainsSubstring("<li>a &lt;step&gt;</li>") &&
+                   ContainsSubstring("<pre>[[step]]\nreason = \"S1 &amp; S2\"\n</pre>"));
 }
 
 TEST_CASE("the stations of a network count as unknowns, not as coefficients of its readings",
@@ -118,7 +138,7 @@ TEST_CASE("the stations of a network count as unknowns, not as coefficients of i
           Approx(*result.score.rms_mgal / std::sqrt(18.0)));
     CHECK_THAT(scatter_sentence(result.score), ContainsSubstring("with 9 degrees of freedom"));
     CHECK_THAT(
-        summary_html(result, {}, {}),
+        summary_text(result, {}, {}),
         ContainsSubstring("12 readings in the fit, 11 unknowns, of which 8 stations (8 held), "
                           "9 degrees of freedom."));
 }
@@ -137,9 +157,9 @@ TEST_CASE(
     SurveyCorrection result = corrected(scattered_day());
     CorrectedRow& row = result.rows[0];
     row.row.notes = {"gap"};
-    CHECK_THAT(summary_html(result, {}, {}), ContainsSubstring("Residual mGal"));
+    CHECK_THAT(summary_text(result, {}, {}), ContainsSubstring("Residual mGal"));
     row.own.emplace<WholeDayRow>().left_out = *row.row.reference - MilliGal(7.77);
     result.own = WholeDayPart{};
-    CHECK_THAT(summary_html(result, {}, {}), ContainsSubstring("Error mGal (station left out)") &&
+    CHECK_THAT(summary_text(result, {}, {}), ContainsSubstring("Error mGal (station left out)") &&
                                                  ContainsSubstring("<td class=\"r\">7.77</td>"));
 }
