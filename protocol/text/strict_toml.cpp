@@ -9,6 +9,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/csv.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::text {
@@ -25,9 +26,28 @@ std::string position(const std::filesystem::path& origin, const toml::source_reg
 }
 
 std::string as_written(const toml::node& node) {
+    if (const auto* const number = node.as_floating_point()) return shortest(**number);
     std::ostringstream out;
     node.visit([&out](const auto& value) { out << value; });
     return out.str();
+}
+
+/// Returns true if a key differs from another in a few letters: one of four, at least one.
+bool is_misspelt(std::string_view key, std::string_view right) {
+    // Levenshtein's distance: the least number of letters to add, leave out or replace.
+    std::vector<std::size_t> row;  // to the first letter, the first two ... of `right`
+    for (std::size_t k = 1; k <= right.size(); ++k) row.push_back(k);
+    std::size_t whole = right.size();
+    for (std::size_t i = 0; i < key.size(); ++i) {
+        std::size_t corner = i;
+        whole = i + 1;
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            const std::size_t replaced = corner + (key[i] == right[k] ? 0 : 1);
+            corner = row[k];
+            row[k] = whole = std::min({replaced, whole + 1, row[k] + 1});
+        }
+    }
+    return whole <= std::max<std::size_t>(1, right.size() / 4);
 }
 
 }  // namespace
@@ -48,6 +68,7 @@ bool TomlTable::has(std::string_view key) const {
 void TomlTable::refuse(std::string_view key, std::string_view trouble,
                        std::string_view allowed) const {
     const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
+    if (node == nullptr) refuse_misspelt(key);
     const toml::source_region nowhere{};
     const auto& source = node != nullptr     ? node->source()
                          : table_ != nullptr ? table_->source()
@@ -58,6 +79,17 @@ void TomlTable::refuse(std::string_view key, std::string_view trouble,
     if (node != nullptr && !node->is_table() && !node->is_array_of_tables())
         message += " = " + as_written(*node);
     throw InputError(fmt::format("{}: {}; allowed: {}", message, trouble, allowed));
+}
+
+/// Throws the InputError about a key that is meant to be the absent `right`, if there is one.
+void TomlTable::refuse_misspelt(std::string_view right) const {
+    if (table_ == nullptr) return;
+    for (const auto& [key, node] : *table_) {
+        if (asked_.contains(key.str()) || !is_misspelt(key.str(), right)) continue;
+        throw InputError(fmt::format("{}: {}{}{}: unknown key; did you mean {}?",
+                                     position(document_->origin, node.source()), name_,
+                                     name_.empty() ? "" : ".", key.str(), right));
+    }
 }
 
 std::string TomlTable::string_or(std::string_view key, std::string fallback) {
@@ -166,6 +198,8 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
 
 void TomlTable::require_all_read() const {
     if (table_ == nullptr) return;
+    for (const std::string& key : asked_)
+        if (!table_->contains(key)) refuse_misspelt(key);
     for (const auto& [key, node] : *table_) {
         if (!asked_.contains(key.str()))
             refuse(key.str(), "unknown key", joined({asked_.begin(), asked_.end()}));

@@ -96,7 +96,7 @@ public:
     /// @param trouble  what is wrong, in a few words: "no such site".
     /// @param allowed  what would be right, for example the list of names.
     /// @throws InputError  always.  It has the line of the key, or of the table if there is no such
-    ///                     key.
+    ///                     key.  If a key that was not read is similar to `key`, it is named.
     [[noreturn]] void refuse(std::string_view key, std::string_view trouble,
                              std::string_view allowed) const;
 
@@ -111,6 +111,7 @@ private:
 
     TomlTable(std::shared_ptr<const Document> document, const toml::table* table, std::string name);
     [[nodiscard]] const toml::node* find(std::string_view key);
+    void refuse_misspelt(std::string_view right) const;
 
     std::shared_ptr<const Document> document_;
     const toml::table* table_;  ///< Owned by document_; null for an absent table.

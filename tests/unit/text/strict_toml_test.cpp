@@ -55,6 +55,26 @@ TEST_CASE("an error in a TOML file names file, line, key, value and what is allo
     CHECK_THROWS_AS(read_toml("/nowhere/c.toml"), InputError);
 }
 
+TEST_CASE("a misspelt key is named with the right one", "[text][strict_toml]") {
+    auto station = parse_toml("[station]\nlattitude = 36.1\nlongitude = 140\n", "c.toml");
+    auto table = station.table("station");
+    CHECK_THROWS_WITH(table.refuse("latitude", "missing", "a number"),
+                      "c.toml:2: station.lattitude: unknown key; did you mean latitude?");
+    CHECK(table.number("longitude", -180, 360) == 140.0);
+    CHECK(table.number("latitude", -90, 90) == std::nullopt);
+    CHECK_THROWS_WITH(table.require_all_read(),
+                      "c.toml:2: station.lattitude: unknown key; did you mean latitude?");
+    auto other = parse_toml("root = 1\n", "c.toml");
+    CHECK(other.string_or("port", "") == "");
+    CHECK_THROWS_WITH(other.require_all_read(), "c.toml:1: root = 1: unknown key; allowed: port");
+}
+
+TEST_CASE("a number in an error is written as in the file", "[text][strict_toml]") {
+    auto root = parse_toml("latitude = 96.1\n", "c.toml");
+    CHECK_THROWS_WITH(root.number("latitude", -90, 90),
+                      "c.toml:1: latitude = 96.1: out of range; allowed: a number from -90 to 90");
+}
+
 TEST_CASE("a text written as a TOML string is read back", "[text][toml]") {
     for (const std::string text :
          {"No.5", "a \"b\" \\ c", "tab\tline\nbell\x07 del\x7f", "\xc3\xa9 \xe5\xb1\xb1"}) {
