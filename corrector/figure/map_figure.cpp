@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/survey_figures.hpp"
@@ -150,8 +151,10 @@ std::string station_lines(const std::vector<const text::Site*>& stations, bool i
     std::string lines;
     for (const text::Site* site : stations) {
         if (site->gravity.has_value() != is_known) continue;
+        const double altitude_m =
+            site->has_altitude ? site->altitude.value() : std::numeric_limits<double>::quiet_NaN();
         lines += fmt::format("{}{}{}# {}\n", datum(site->longitude.value(), 6),
-                             datum(site->latitude.value(), 6), datum(site->altitude.value(), 2),
+                             datum(site->latitude.value(), 6), datum(altitude_m, 2),
                              clean_utf8(site->name));
     }
     return lines;
@@ -191,8 +194,8 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
     LabelPlacer placer(frame, stations);
     std::string labels;
     for (const text::Site* site : stations) {
-        const std::string label = fmt::format("{}, {} m", short_label(site->name),
-                                              text::fixed(site->altitude.value(), 0));
+        std::string label = short_label(site->name);
+        if (site->has_altitude) label += ", " + text::fixed(site->altitude.value(), 0) + " m";
         const LabelPlace place = placer.place(*site, label.size());
         const double x = frame.x_px(site->longitude.value()) + place.x_px;
         const double y = frame.y_px(site->latitude.value()) + place.y_px;

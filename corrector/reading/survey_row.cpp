@@ -112,9 +112,10 @@ std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
     std::vector<std::string> warnings;
     for (const SurveyRow& row : rows) {
         const text::Site* const site = text::find_site(sites, row.site);
-        if (site == nullptr || site->is_placed) continue;
+        if (site == nullptr || (site->is_placed && site->has_altitude)) continue;
         std::string warning = row.site;
-        warning += ": no position in the table of sites; the mean of the others is used";
+        warning += site->is_placed ? ": no height" : ": no position";
+        warning += " in the table of sites; the mean of the others is used";
         if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
             warnings.push_back(std::move(warning));
     }

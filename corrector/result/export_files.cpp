@@ -33,11 +33,10 @@ Json feature(const model::StationValue& station, const text::Site& site) {
     json["geometry"] = nullptr;
     if (site.is_placed) {
         constexpr double kTurn_deg = 360.0;
-        json["geometry"] = {
-            {"type", "Point"},
-            {"coordinates",
-             Json::array({rounded(std::remainder(site.longitude.value(), kTurn_deg)),
-                          rounded(site.latitude.value()), rounded(site.altitude.value())})}};
+        Json place = Json::array({rounded(std::remainder(site.longitude.value(), kTurn_deg)),
+                                  rounded(site.latitude.value())});
+        if (site.has_altitude) place.push_back(rounded(site.altitude.value()));
+        json["geometry"] = {{"type", "Point"}, {"coordinates", place}};
     }
     json["properties"] = {{"site", station.site},
                           {"n", station.row_count},

@@ -10,6 +10,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/text_file.hpp"
 
 namespace a351::text {
 namespace {
@@ -18,14 +19,14 @@ namespace {
 /// depend on the order of the rows.
 /// @param turn  period of the coordinate: 360 for longitudes.
 std::vector<double> filled_column(const CsvTable& table, std::string_view column, double low,
-                                  double high, double turn, std::vector<bool>& is_placed,
+                                  double high, double turn, std::vector<bool>& is_given,
                                   const std::filesystem::path& file) {
     std::vector<double> given;
     std::vector<double> values(table.row_count());
     for (std::size_t row = 0; row < values.size(); ++row) {
         const auto value = table.number_if_given(row, column, low, high);
         if (value) given.push_back(*value);
-        if (!value) is_placed[row] = false;
+        if (!value) is_given[row] = false;
         values[row] = value.value_or(std::numeric_limits<double>::quiet_NaN());
     }
     if (given.empty() && !values.empty()) {
@@ -71,15 +72,21 @@ std::string bare(std::string_view name) {
 }  // namespace
 
 std::vector<Site> read_sites(const std::filesystem::path& file) {
+    return parse_sites(read_text_file(file), file);
+}
+
+std::vector<Site> parse_sites(std::string_view text, const std::filesystem::path& origin) {
     constexpr double kNoTurn = 1e9;
-    const CsvTable table = read_csv(file);
-    std::vector<bool> is_placed(table.row_count(), true);
-    const auto column = [&](std::string_view name, double low, double high, double turn) {
-        return filled_column(table, name, low, high, turn, is_placed, file);
+    const CsvTable table = CsvTable::parse(text, origin);
+    std::vector<bool> is_placed(table.row_count(), true), has_altitude = is_placed;
+    const auto column = [&](std::string_view name, double low, double high, double turn,
+                            std::vector<bool>& is_given) {
+        return filled_column(table, name, low, high, turn, is_given, origin);
     };
-    const auto longitudes = column("longitude_deg", -180.0, 360.0, 360.0);
-    const auto latitudes = column("latitude_deg", -90.0, 90.0, kNoTurn);
-    const auto altitudes = column("altitude_m", -500.0, 9000.0, kNoTurn);
+    const auto longitudes = column("longitude_deg", -180.0, 360.0, 360.0, is_placed);
+    const auto latitudes = column("latitude_deg", -90.0, 90.0, kNoTurn, is_placed);
+    const auto altitudes =
+        column("altitude_m", kLeastAltitude_m, kGreatestAltitude_m, kNoTurn, has_altitude);
     std::vector<Site> sites;
     for (std::size_t row = 0; row < table.row_count(); ++row) {
         const std::string& name = table.cell(row, "site");
@@ -103,9 +110,27 @@ std::vector<Site> read_sites(const std::filesystem::path& file) {
                     ? table.number_if_given(row, "u_gravity_mgal", 0.0, kLeastReliable_mgal)
                     : std::nullopt)
             site.u_gravity = MilliGal(*u);
+        site.has_altitude = has_altitude[row];
         sites.push_back(std::move(site));
     }
     return sites;
+}
+
+std::string trouble_with_site_name(std::string_view name) {
+    if (name.empty()) return "the name of the site is empty";
+    if (!is_utf8(name)) return "the name of the site is not UTF-8; allowed: UTF-8";
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+    if (is_blank(name.front()) || is_blank(name.back()))
+        return "the name of the site begins or ends with a blank; leave it out";
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(name[i]);
+        const auto next = i + 1 < name.size() ? static_cast<unsigned char>(name[i + 1]) : 0U;
+        // U+0080 to U+009F are control characters too; in UTF-8 they begin with C2.
+        if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && next >= 0x80 && next <= 0x9F))
+            return "the name of the site has a control character; allowed: visible characters";
+        if (byte == ',') return "the name of the site has a comma, which separates the columns";
+    }
+    return {};
 }
 
 const Site* find_site(const std::vector<Site>& sites, std::string_view name) {

@@ -22,21 +22,24 @@ namespace a351::text {
 /// mGal (Arctic Ocean).
 inline constexpr double kLeastGravity_mgal = 976000.0, kGreatestGravity_mgal = 984000.0;
 
+/// Limits of an altitude, m: the shore of the Dead Sea is at -440, Mount Everest at 8849.
+inline constexpr double kLeastAltitude_m = -500.0, kGreatestAltitude_m = 9000.0;
+
 /// Benchmark, a row of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal, and if
 /// known u_gravity_mgal.
 struct Site {
     /// Name, not empty and unique in its table.  Upper and lower case are different.
     std::string name;
-    Degrees longitude;  ///< East, -180 to 360.
-    Degrees latitude;   ///< Geodetic, north.
-    /// Altitude, -500 to 9000 m.
-    Metres altitude;
+    Degrees longitude;                ///< East, -180 to 360.
+    Degrees latitude;                 ///< Geodetic, north.
+    Metres altitude;                  ///< kLeastAltitude_m to kGreatestAltitude_m.
     std::optional<MilliGal> gravity;  ///< Reference value; absent for an unknown station.
-    /// False if longitude, latitude or altitude was empty and is now the mean of the other sites.
-    /// The mean is good enough for a tide, which differs by less than 0.0001 mGal over a survey,
-    /// but not for a map.
+    /// False if longitude or latitude was empty and is now the mean of the other sites.  The mean is
+    /// good enough for a tide, which differs by less than 0.0001 mGal over a survey, but not for a
+    /// map.
     bool is_placed = true;
     std::optional<MilliGal> u_gravity = {};  ///< Standard uncertainty of the reference, if given.
+    bool has_altitude = true;  ///< False if the altitude was empty and is now such a mean.
 };
 
 /// Reads a table of sites; empty coordinates become the mean of the other sites.
@@ -52,6 +55,15 @@ struct Site {
 /// @throws InputError  a column is missing, a number is not one or out of range, a coordinate is
 ///                     empty for every site, a site has no name, appears twice or is not UTF-8.
 [[nodiscard]] std::vector<Site> read_sites(const std::filesystem::path& file);
+
+/// Reads a table of sites from text in memory, as read_sites().
+/// @param origin  file name shown in messages.
+[[nodiscard]] std::vector<Site> parse_sites(std::string_view text,
+                                            const std::filesystem::path& origin);
+
+/// Returns why a site cannot have this name, in one line with the remedy; empty if it can.  A name
+/// is UTF-8 without commas, control characters and blanks at its ends.
+[[nodiscard]] std::string trouble_with_site_name(std::string_view name);
 
 /// Returns the site of that name, or null.  The pointer is into `sites` and valid as long as the
 /// list does not change.  The names are compared in turn, exactly.

@@ -255,6 +255,9 @@ TEST_CASE("a station without coordinates is not on the map", "[report][figures]"
         result.stations.push_back(station);
     }
     std::vector<text::Site> sites{site("A", 10.0, 45.0), site("B", 10.0, 45.0)};
+    sites[1].has_altitude = false;
+    CHECK_THAT(map_figure(result, sites).value().script,
+               ContainsSubstring("'A, 100 m'") && ContainsSubstring("'B'"));
     sites[1].is_placed = false;
     const auto figure = map_figure(result, sites);
     CHECK_THAT(figure.value().script,

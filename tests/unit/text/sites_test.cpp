@@ -61,8 +61,12 @@ TEST_CASE("a site without coordinates gets the mean position of the others, in a
     CHECK(sites[2].altitude == Metres(25.0));
     CHECK(sites[3].altitude == Metres(25.0));
     CHECK(sites[3].latitude == Degrees(-17.2));
-    const std::vector<bool> is_placed{true, true, false, false};
-    for (std::size_t i = 0; i < 4; ++i) CHECK(sites[i].is_placed == is_placed[i]);
+    const std::vector<bool> is_placed{true, true, false, true},
+        has_altitude{true, true, false, false};
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(sites[i].is_placed == is_placed[i]);
+        CHECK(sites[i].has_altitude == has_altitude[i]);
+    }
     const auto turned = read_sites(written(kHeader + rows[3] + rows[2] + rows[1] + rows[0]));
     CHECK(turned[1].longitude == sites[2].longitude);
     CHECK(turned[1].latitude == sites[2].latitude);
