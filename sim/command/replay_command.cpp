@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/events/occupations.hpp"
 #include "sim/command/commands.hpp"
 #include "sim/command/options.hpp"
 #include "sim/line/sensor_port.hpp"
@@ -19,6 +20,7 @@ struct ReplayCommand {
     std::string speed = "1";  ///< A factor, or "max".
     std::string clock;
     std::string axes = "1,2,Z";
+    bool is_show = false;
     UnitOptions unit;  ///< Unit of a miniSEED recording, which does not name it.
 };
 
@@ -55,7 +57,40 @@ replay::Timing timing_of(const ReplayCommand& command) {
                                   : replay::Timing::from_host_start;
 }
 
+void report_damage(const replay::Recording& recording) {
+    for (const replay::RecordingDamage& damage : recording.damage()) {
+        std::cerr << "a351-sim: " << damage.file.string() << ": " << damage.byte_count
+                  << " bytes from offset " << damage.offset
+                  << " on were not replayed: " << damage.reason << '\n';
+    }
+    if (const auto left_out = recording.incomplete_samples(); left_out > 0) {
+        std::cerr << "a351-sim: " << left_out
+                  << " samples were not replayed, because a channel lacks them\n";
+    }
+}
+
+/// Prints the first and the last instant, and the stays in the event logs of data roots.
+void show(const ReplayCommand& command) {
+    const auto recording = replay::open_recording(files_of(command));
+    const replay::Extent extent = replay::extent_of(*recording);
+    std::cout << "start_utc=" << to_rfc3339(extent.first, 3)
+              << " end_utc=" << to_rfc3339(extent.last, 3) << " sessions=" << extent.sessions
+              << '\n';
+    report_damage(*recording);
+    std::vector<events::Occupation> stays;
+    for (const auto& root : command.files)
+        for (auto& stay : events::occupations_of(events::read_events(root / "events").events))
+            stays.push_back(std::move(stay));
+    if (!stays.empty()) std::cout << "site,occupation,start_utc,end_utc,key\n";
+    for (const events::Occupation& stay : stays)
+        for (const auto& set_up : stay.set_ups)
+            std::cout << stay.site << ',' << stay.number << ',' << to_rfc3339(set_up.start, 3)
+                      << ',' << to_rfc3339(set_up.end, 3) << ',' << stay.key << '\n';
+}
+
 void run(const ReplayCommand& command, const std::function<bool()>& should_stop) {
+    if (command.is_show) return show(command);
+    if (command.link.empty()) throw InputError("--link PATH is required, or --show");
     replay::Device device(replay::open_recording(files_of(command)), timing_of(command),
                           line::steady_now());
     const double factor = command.speed == "max" ? 1.0 : factor_of(command.speed);
@@ -65,15 +100,7 @@ void run(const ReplayCommand& command, const std::function<bool()>& should_stop)
     line::SensorPort port(pty, device, line);
     std::array<line::Service*, 1> services{&port};
     line::attend(services, clock, [&] { return should_stop() || port.is_finished(); });
-    for (const replay::RecordingDamage& damage : device.recording().damage()) {
-        std::cerr << "a351-sim: " << damage.file.string() << ": " << damage.byte_count
-                  << " bytes from offset " << damage.offset
-                  << " on were not replayed: " << damage.reason << '\n';
-    }
-    if (const auto left_out = device.recording().incomplete_samples(); left_out > 0) {
-        std::cerr << "a351-sim: " << left_out
-                  << " samples were not replayed, because a channel lacks them\n";
-    }
+    report_damage(device.recording());
 }
 
 }  // namespace
@@ -83,14 +110,15 @@ void add_replay_command(CLI::App& app, UntilStopped until_stopped) {
     CLI::App* replay = app.add_subcommand("replay", "Serves a recording on a pseudo-terminal.");
     replay
         ->add_option("FILE", command->files,
-                     "Journal segments, or miniSEED files of a data root, or their directories")
+                     "Data root, or journal segments, or miniSEED files, or their directories")
         ->type_name("")
         ->required();
     replay
         ->add_option("--link", command->link,
                      "Symbolic link to make to the sensor's pseudo-terminal")
-        ->type_name("PATH")
-        ->required();
+        ->type_name("PATH");
+    replay->add_flag("--show", command->is_show,
+                     "Print first and last instant, and the stays of data roots, and exit");
     CLI::Option* clock = add_clock(*replay, command->clock);
     replay
         ->add_option("--speed", command->speed,

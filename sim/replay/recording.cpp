@@ -67,6 +67,9 @@ Expanded expand(const std::vector<fs::path>& given) {
             expanded.files.push_back(path);
         } else if (const auto segments = journal::segment_files(path); !segments.empty()) {
             add_segments(path, segments, expanded);
+        } else if (const auto of_root = journal::segment_files(path / "journal");
+                   !of_root.empty()) {
+            add_segments(path, of_root, expanded);
         } else {
             add_day_files(path, expanded);
         }
@@ -97,6 +100,25 @@ void order_segments(std::vector<fs::path>& files) {
 }
 
 }  // namespace
+
+Extent extent_of(Recording& recording) {
+    class Nowhere final : public device::LineSink {
+        void send(std::span<const std::byte>, UtcTime, const truth::Record*) override {}
+        [[nodiscard]] bool is_full() const override { return false; }
+    } nowhere;
+    Extent extent{UtcTime::max(), UtcTime::min()};
+    do {
+        const RecordedUnit& unit = recording.unit();
+        device::RegisterMachine machine(*unit.profile, unit.identity, Nanoseconds(0));
+        for (auto due = recording.next_due(machine); due; due = recording.next_due(machine)) {
+            extent.first = std::min(extent.first, *due);
+            extent.last = std::max(extent.last, *due);
+            recording.send_next(machine, *due, nowhere);
+        }
+        ++extent.sessions;
+    } while (recording.begin_next_session());
+    return extent;
+}
 
 std::unique_ptr<Recording> open_recording(const RecordingFiles& input) {
     auto [files, damage] = expand(input.files);

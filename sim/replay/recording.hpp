@@ -62,8 +62,9 @@ public:
 
 struct RecordingFiles {
     /// Journal segments or miniSEED files, distinguished by their first bytes.  A directory means
-    /// the segments in it, or, if it has none, the day files below it.  In a directory, segments
-    /// without a whole header are skipped and reported by Recording::damage().
+    /// the segments in it, or in its folder `journal`, or, if there are none, the day files below
+    /// it.  In a directory, segments without a whole header are skipped and reported by
+    /// Recording::damage().
     std::vector<std::filesystem::path> files;
     std::array<std::string, 3> axes{"1", "2", "Z"};  ///< Channels of x, y, z; for archives.
     RecordedUnit archive_unit = {};                  ///< Unit to emulate for an archive.
@@ -74,5 +75,14 @@ struct RecordingFiles {
 /// @throws InputError  a file is missing, empty or of neither kind; journal and miniSEED are mixed;
 ///         JournalRecording or ArchiveSource refuses the files.
 [[nodiscard]] std::unique_ptr<Recording> open_recording(const RecordingFiles& input);
+
+/// First and last instant of a recording, by its own clock.
+struct Extent {
+    UtcTime first, last;
+    int sessions = 0;
+};
+
+/// Reads a recording to its end.
+[[nodiscard]] Extent extent_of(Recording& recording);
 
 }  // namespace a351::sim::replay

@@ -28,7 +28,7 @@ OPENING = re.compile(r"(?:Of|What|Whether|Such|So|By|That|Who|Told)\b(?! (?:that
 
 SOURCES = [folder + "/**/*.[ch]pp" for folder in ("protocol", "daemon", "sim", "corrector")]
 PAGES = ["**/*.[157]", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "protocol/**/*.md", "daemon/**/*.md",
-         "sim/**/*.md", "corrector/**/*.md", "daemon/page/**/*.html", "daemon/page/**/*.js", "sim/demo", "config/*.toml", "config/install-packages"]
+         "sim/**/*.md", "corrector/**/*.md", "daemon/page/**/*.html", "daemon/page/**/*.js", "sim/demo", "sim/relive", "config/*.toml", "config/install-packages"]
 TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|R"(\w*)\((.*?)\)\1"|"((?:[^"\\\n]|\\.)*)"|'(?:[^'\\\n]|\\.)+'""", re.DOTALL)
 
 
