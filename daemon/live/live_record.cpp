@@ -19,6 +19,8 @@ constexpr int kRecentSeconds = 90;  // The page shows 60.
 constexpr int kLeastRecent = 50'000 / 4;
 constexpr std::size_t kLevelSeconds = 2;  // Traffic of 20 mGal changes the tilt by 0.1' or less.
 constexpr Nanoseconds kOvenStep = std::chrono::seconds(2);
+/// Sample intervals from one sample to the next above which one is missing between them.
+constexpr double kMostIntervals = 1.5;
 
 constexpr double kArcminPerRadian = 60.0 * 180.0 / std::numbers::pi;
 
@@ -56,6 +58,10 @@ void Record::take(const PlacedSample& sample) {
     }
     if (last_ && sample.time <= *last_) forget_from(sample.time);
     if (!last_) judge_.at(sample.time);  // "no data" from here on, until the filters are full.
+    if (last_ && seconds_between(*last_, sample.time) > kMostIntervals / rate_hz_) {
+        gaps_.push_back({*last_ + from_seconds(1.0 / rate_hz_), sample.time});
+        keep_a_day(gaps_);
+    }
     last_ = sample.time;
     recent_.take(sample);
     std::array<float, kLiveChannelCount> values{};
@@ -80,6 +86,7 @@ void Record::end_of_history() {
 
 /// Removes the series from `time` on, and judges the rest again.
 void Record::forget_from(UtcTime time) {
+    while (!gaps_.empty() && gaps_.back().time >= time) gaps_.pop_back();
     if (thinned_.empty() || thinned_.back().time < time) return;
     while (!thinned_.empty() && thinned_.back().time >= time) thinned_.pop_back();
     judge_again();
@@ -146,6 +153,16 @@ verdict::RunningReading Record::reading(UtcTime from, UtcTime to, MilliGal targe
         value.take(sample);
     }
     return value.reading(target, judge_.verdict().state);
+}
+
+double Record::missing_s(UtcTime from, UtcTime to) const {
+    const std::lock_guard lock(mutex_);
+    double missing = 0.0;
+    for (const Gap& gap : gaps_) {
+        const UtcTime first = std::max(gap.from, from), next = std::min(gap.time, to);
+        if (first < next) missing += seconds_between(first, next);
+    }
+    return missing;
 }
 
 std::vector<signal::MotionSample> Record::motion(UtcTime from, UtcTime to) const {

@@ -90,6 +90,9 @@ public:
     /// outside do not affect it.
     [[nodiscard]] verdict::RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;
 
+    /// Returns the length of signal that is missing between the samples in [from, to), in s.
+    [[nodiscard]] double missing_s(UtcTime from, UtcTime to) const;
+
     /// Returns the motion of the box in [from, to): the 2 s series, each sample with the shaking around
     /// it.
     [[nodiscard]] std::vector<signal::MotionSample> motion(UtcTime from, UtcTime to) const;
@@ -116,6 +119,10 @@ private:
     std::vector<verdict::LiveSample> fresh_;  ///< Kept for reuse.
     std::deque<verdict::LiveSample> thinned_;
     std::deque<OvenPoint> oven_;
+    struct Gap {
+        UtcTime from, time;  ///< When a sample was missing first, and the next one that came.
+    };
+    std::deque<Gap> gaps_;
     std::optional<UtcTime> last_;
     std::optional<UtcTime> history_end_;  ///< Set while a replay may deliver old samples again.
 };

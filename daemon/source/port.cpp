@@ -55,6 +55,9 @@ std::unique_ptr<Port> open_port(const PortAddress& address, int baud) {
     }
     std::error_code error;
     device = std::filesystem::canonical(device, error);
+    if (error == std::errc::no_such_file_or_directory)
+        throw PortError(PortError::Kind::absent, address.to_text(),
+                        "there is no such port; check the cable, and a351d --list-ports");
     if (error) throw PortError(PortError::Kind::absent, address.to_text(), error.message());
     return std::make_unique<TtyPort>(device, baud);
 }

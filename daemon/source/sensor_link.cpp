@@ -110,13 +110,15 @@ void SensorLink::run() noexcept {
 void SensorLink::open() {
     port_ = open_port(options_.address, bauds_.front());
     is_port_new_ = true;
+    was_open_ = true;
 }
 
 bool SensorLink::find_port() {
     try {
         if (!port_) open();
     } catch (const PortError& error) {
-        set_state(LinkStatus::State::searching, error.what());
+        const bool is_unplugged = was_open_ && error.kind() == PortError::Kind::absent;
+        set_state(LinkStatus::State::searching, is_unplugged ? unplugged() : error.what());
         return false;
     }
     const std::lock_guard lock(mutex_);
@@ -250,10 +252,15 @@ void SensorLink::note_stall(End end) {
     back_off(trouble);
 }
 
+/// Returns what the operator is to know of a port that was there and is gone.
+std::string SensorLink::unplugged() const {
+    return "sensor unplugged: the port is gone (" + options_.address.to_text() +
+           "); plug the cable in again";
+}
+
 void SensorLink::lose_port() {
     port_.reset();
-    set_state(LinkStatus::State::searching,
-              options_.address.to_text() + ": the port has disappeared; check cable and adapter");
+    set_state(LinkStatus::State::searching, unplugged());
     {
         const std::lock_guard lock(mutex_);
         status_.port.clear();

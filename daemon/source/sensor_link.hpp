@@ -91,6 +91,7 @@ private:
     [[nodiscard]] RawTime push_woken();
     void stop_sensor();
     void lose_port();
+    [[nodiscard]] std::string unplugged() const;
     void wait(std::chrono::seconds instrument_span);
     void set_state(LinkStatus::State state, std::string trouble);
 
@@ -99,6 +100,7 @@ private:
     ReadQueue& queue_;
     std::unique_ptr<Port> port_;
     bool is_port_new_ = false;  ///< The port was opened and not listened to yet.
+    bool was_open_ = false;     ///< The port has been opened at least once.
     std::vector<int> bauds_;    ///< Rates to try; the first is in use.
     std::size_t bauds_tried_ = 0;
     std::size_t failures_in_a_row_ = 0;

@@ -61,6 +61,26 @@ void assess_rate(Status& status) {
     status.warn(status.rate_advice);
 }
 
+/// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later
+/// only if more of them come per second than the sensor's rate, or if the clock was set back.
+void assess_clock(Status& status) {
+    constexpr std::chrono::seconds kAhead{5};     // above the uncertainty of a locked clock
+    constexpr std::chrono::seconds kUnknown{15};  // the kernel's bound of a clock never set is 16 s
+    if (status.last_sample && *status.last_sample > status.now + kAhead) {
+        status.warn(
+            "the samples are later than the clock: an emulator or a replay is faster than real "
+            "time, or the clock was set back; start a351d with the emulator's --clock, or see "
+            "sim/relive");
+    }
+    if (status.timing_uncertainty && *status.timing_uncertainty > kUnknown) {
+        status.warn(
+            fmt::format("the laptop's clock was never synchronised: times may be wrong by {:.0f} "
+                        "s; synchronise "
+                        "it (timedatectl), and correct the times later with a351-correct retime",
+                        std::chrono::duration<double>(*status.timing_uncertainty).count()));
+    }
+}
+
 }  // namespace
 
 void fill(Status& status, const source::LinkStatus& link) {
@@ -109,6 +129,7 @@ void assess(Status& status) {
                         "uses another unit's behaviour; check survey.calibration",
                         printable(calibrated), status.serial_number));
     }
+    assess_clock(status);
     if (status.timing_state == timing::State::unlocked) {
         status.warn(
             "timing: unlocked, sample times are not known until 60 s of data have been received; "

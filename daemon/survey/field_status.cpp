@@ -27,11 +27,13 @@ std::vector<SetUp> set_ups_so_far(const events::RunningOccupation& running, UtcT
     return set_ups;
 }
 
+/// Returns warnings on the running stay.  A return to the first site of the day, the base, is none.
 std::vector<std::string> warnings_of(const events::RunningOccupation& running,
                                      const std::vector<events::Occupation>& day, double running_s,
                                      double planned_s) {
     std::vector<std::string> warnings;
-    if (std::ranges::count(day, running.site, &events::Occupation::site) > 0) {
+    if (std::ranges::count(day, running.site, &events::Occupation::site) > 0 &&
+        running.site != day.front().site) {
         warnings.push_back(
             fmt::format("the site was occupied before: this is stay {}", running.number));
     }
@@ -106,6 +108,10 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
     field.half_time_s = std::max(0.0, 0.5 * planned_s - running_s);
     field.proposes_set_up = set_ups.size() == 1 && *field.half_time_s == 0.0;
     field.warnings = warnings_of(*running, survey_day(occupations, now), running_s, planned_s);
+    constexpr double kLeastMissing_s = 1.0;  // A shorter gap changes no reading.
+    if (const double missing_s = live.missing_s(last.start, now); missing_s >= kLeastMissing_s) {
+        field.warnings.push_back(fmt::format("{:.0f} s are missing in this set-up", missing_s));
+    }
     field.moved = move_prompt(live.motion(std::max(last.start, now - kMoveMemory), now),
                               running->not_moved_until);
     // The start of a long set-up is not in the part that is looked at.

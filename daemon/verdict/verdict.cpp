@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "protocol/core/units.hpp"
@@ -14,6 +15,23 @@ namespace {
 
 constexpr double kAheadHours = 600.0 / kSecondsPerHour;
 constexpr double kWatchedHours = 1.0;  ///< Time in which a box that was switched on warms up.
+
+/// Returns the seconds until the checks are met by waiting alone; std::nullopt if that is not
+/// enough.
+std::optional<double> waiting_time_s(std::span<const Reason> reasons) {
+    double longest_s = 0.0;
+    for (const Reason& reason : reasons) {
+        if (reason.is_met) continue;
+        const std::string_view unit = reason.unit;
+        const double unit_s = unit == "s"     ? 1.0
+                              : unit == "min" ? kSecondsPerMinute
+                              : unit == "h"   ? kSecondsPerHour
+                                              : 0.0;
+        if (!reason.is_least || unit_s == 0.0) return std::nullopt;
+        longest_s = std::max(longest_s, unit_s * (reason.limit - reason.value));
+    }
+    return longest_s;
+}
 
 }  // namespace
 
@@ -106,9 +124,9 @@ const Verdict& Judge::at(UtcTime now) {
     bool is_settled = false;
     if (const auto outlook = trend_.outlook(warm_up_mgal)) {
         const double change = std::abs(outlook->change_mgal), error = outlook->error_mgal;
-        is_settled =
-            check({"reading will change in 10 min by", change, "mGal", "", options_.change_mgal,
-                   false, change + sure * error <= options_.change_mgal, error});
+        is_settled = check({"reading will change in 10 min by", outlook->change_mgal, "mGal", "",
+                            options_.change_mgal, false,
+                            change + sure * error <= options_.change_mgal, error});
         is_settled &= most("temperature slope", std::abs(trend_.slope_degc_per_h()), "degC/h",
                            options_.slope_degc_per_h);
     } else {
@@ -123,7 +141,7 @@ const Verdict& Judge::at(UtcTime now) {
     if (!is_settled && on_h < options_.warm_up_h)
         is_warm = least("switched on", on_h, "h", options_.warm_up_h, "ago");
 
-    const auto thermal_count = static_cast<std::ptrdiff_t>(reasons.size());
+    const std::size_t thermal_count = reasons.size();
     bool is_quiet = true;
     const auto ago = [&](const char* event, std::optional<UtcTime> time, double limit_s) {
         if (time) is_quiet &= least(event, seconds_between(*time, now), "s", limit_s, "ago");
@@ -139,22 +157,32 @@ const Verdict& Judge::at(UtcTime now) {
     } else {
         steady_since_.reset();
     }
-    is_steady_ = steady_since_ && seconds_between(*steady_since_, now) >= options_.hold_s;
-    if (!is_warm) return decide(State::warming_up, now, std::move(reasons));
+    const double steady_s = steady_since_ ? seconds_between(*steady_since_, now) : 0.0;
+    is_steady_ = steady_since_ && steady_s >= options_.hold_s;
+    const std::span checks(reasons);
+    const auto thermal_s = waiting_time_s(checks.first(thermal_count)),
+               quiet_s = waiting_time_s(checks.subspan(thermal_count));
+    std::optional<double> left_s;
+    if (thermal_s && quiet_s)
+        left_s = std::max(*thermal_s + std::max(0.0, options_.hold_s - steady_s), *quiet_s);
+    if (!is_warm) return decide(State::warming_up, now, std::move(reasons), left_s);
     if (!is_quiet) {  // The disturbances come first.
-        std::rotate(reasons.begin(), reasons.begin() + thermal_count, reasons.end());
-        return decide(State::disturbed, now, std::move(reasons));
+        std::rotate(reasons.begin(), reasons.begin() + static_cast<std::ptrdiff_t>(thermal_count),
+                    reasons.end());
+        return decide(State::disturbed, now, std::move(reasons), left_s);
     }
     const auto state = is_steady_ ? State::stable : State::settling;
-    return decide(state, now, std::move(reasons));
+    return decide(state, now, std::move(reasons), left_s);
 }
 
-const Verdict& Judge::decide(State state, UtcTime now, std::vector<Reason> reasons) {
+const Verdict& Judge::decide(State state, UtcTime now, std::vector<Reason> reasons,
+                             std::optional<double> time_left_s) {
     std::ranges::stable_sort(reasons, {}, &Reason::is_met);
     if (state != verdict_.state || !has_judged_) verdict_.since = now;
     has_judged_ = true;
     verdict_.state = state;
     verdict_.reasons = std::move(reasons);
+    verdict_.time_left_s = time_left_s;
     return verdict_;
 }
 

@@ -40,6 +40,9 @@ struct Verdict {
     State state = State::no_data;
     UtcTime since;                ///< Begin of the state.
     std::vector<Reason> reasons;  ///< Checks; those not met come first.
+    /// Least time until the verdict can be stable; absent if temperature or noise decide, or without
+    /// data.
+    std::optional<double> time_left_s = {};
 };
 
 /// Judges the live series.  From the worst to the best:
@@ -72,7 +75,8 @@ public:
 
 private:
     void follow_power(UtcTime seen_at, double degc);
-    const Verdict& decide(State state, UtcTime now, std::vector<Reason> reasons);
+    const Verdict& decide(State state, UtcTime now, std::vector<Reason> reasons,
+                          std::optional<double> time_left_s = std::nullopt);
 
     Options options_;
     TemperatureTrend trend_;

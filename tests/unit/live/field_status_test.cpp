@@ -53,7 +53,43 @@ TEST_CASE("a forgotten stop and a repeated site give a warning", "[field]") {
     CHECK(stopped.message.ends_with("; shorter than planned: 2.0 of 10 min"));
     const auto again = field.occupations.start("No.0", {}, minute(4));
     CHECK(again.message.ends_with("; the site was occupied before: stay 2"));
-    CHECK(field_status(field.occupations, field.live, minute(5)).warnings.size() == 1);
+    (void)field.occupations.stop({}, minute(6));
+    for (const int at : {7, 10}) {
+        (void)field.occupations.start("No.1", {}, minute(at));
+        CHECK(field_status(field.occupations, field.live, minute(at + 1)).warnings.size() ==
+              (at == 7 ? 0U : 1U));
+        (void)field.occupations.stop({}, minute(at + 2));
+    }
+}
+
+TEST_CASE("a return to the first site of the day is no warning", "[field]") {
+    Field field;
+    (void)field.occupations.start("No.0", {}, minute(1));
+    (void)field.occupations.stop({}, minute(3));
+    (void)field.occupations.start("No.0", {}, minute(4));
+    CHECK(field_status(field.occupations, field.live, minute(5)).warnings.empty());
+}
+
+TEST_CASE("missing samples of the running set-up are said, those before it are not", "[field]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    Record live{kProfile, 50, {}};
+    const auto is_lost = [](std::int64_t second) {
+        return (second >= 5 * 60 && second < 6 * 60) ||
+               (second >= 12 * 60 && second < 12 * 60 + 90);
+    };
+    for (std::int64_t i = 0; i < std::int64_t{20} * 60 * 50; ++i)
+        if (!is_lost(i / 50)) live.take(placed(i, 100.0, 0.0, 980000.0));
+    CHECK(live.missing_s(minute(0), minute(20)) == Approx(150.0).margin(0.1));
+    CHECK(live.missing_s(minute(7), minute(12)) == 0.0);
+    CHECK(live.missing_s(minute(5) + std::chrono::seconds(30), minute(8)) ==
+          Approx(30.0).margin(0.1));
+    (void)occupations.start("No.0", {}, minute(10));
+    const auto said = [&](int at) { return field_status(occupations, live, minute(at)).warnings; };
+    CHECK(said(11).empty());
+    CHECK(said(15) == std::vector<std::string>{"90 s are missing in this set-up"});
+    (void)occupations.setup(minute(14));
+    CHECK(said(16).empty());
 }
 
 TEST_CASE("tilt is relative to the first set-up of the day", "[field][level]") {

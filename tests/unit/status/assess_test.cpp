@@ -63,6 +63,32 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     CHECK(status.level == Status::Level::warning);
 }
 
+TEST_CASE("samples from the future are a warning with the remedy", "[daemon][assess]") {
+    Status status = healthy();
+    status.now = *parse_rfc3339("2026-03-14T08:00:00Z");
+    status.last_sample = status.now + std::chrono::seconds(4);
+    assess(status);
+    CHECK(status.reasons.empty());
+    status.last_sample = status.now + std::chrono::seconds(847);
+    assess(status);
+    REQUIRE(status.reasons.size() == 1);
+    CHECK_THAT(status.reasons[0], ContainsSubstring("--clock") && ContainsSubstring("later than"));
+    CHECK(status.level == Status::Level::warning);
+}
+
+TEST_CASE("a clock that was never synchronised is a warning with its size", "[daemon][assess]") {
+    Status status = healthy();
+    status.timing_uncertainty = std::chrono::seconds(14);
+    assess(status);
+    CHECK(status.reasons.empty());
+    status.timing_uncertainty = std::chrono::milliseconds(16002);
+    assess(status);
+    REQUIRE(status.reasons.size() == 1);
+    CHECK_THAT(status.reasons[0], ContainsSubstring("never synchronised") &&
+                                      ContainsSubstring("wrong by 16 s") &&
+                                      ContainsSubstring("a351-correct retime"));
+}
+
 TEST_CASE("an oven that is not enabled is no trouble, an oven that does not answer is a warning",
           "[daemon][assess]") {
     OvenLinkStatus link;

@@ -78,8 +78,11 @@ TEST_CASE(
     REQUIRE(known != nullptr);
     CHECK(known->value == Approx(10.0).margin(0.5));
     CHECK_FALSE(known->is_met);
+    // At least the rest of the 20 min, and then the hold.
+    CHECK(early.time_left_s.value() == Approx(600.0 + 20.0).margin(30.0));
 
     CHECK(series.run(900.0).state == State::stable);
+    CHECK(series.judge.verdict().time_left_s == 0.0);
     const UtcTime since = series.judge.verdict().since;
     CHECK(series.run(3600.0).state == State::stable);
     CHECK(series.judge.verdict().since == since);
@@ -98,7 +101,9 @@ TEST_CASE("a moving temperature gives the verdict settling, with slope and chang
     // The filter assumes that every ramp ends, and attributes part of the cycle to it.
     CHECK(find(verdict, "temperature slope")->value == Approx(0.5).margin(0.15));
     CHECK(find(verdict, "temperature slope")->to_text().find("degC/h (limit") != std::string::npos);
-    CHECK(find(verdict, "reading will change in 10 min by")->value > 2.0);
+    const double change_mgal = find(verdict, "reading will change in 10 min by")->value;
+    CHECK(change_mgal < -2.0);  // A rising temperature lowers the reading.
+    CHECK_FALSE(verdict.time_left_s);
 
     series.slope_degc_per_h = 0.0;
     CHECK(series.run(2400.0).state == State::stable);
