@@ -58,11 +58,15 @@ struct LogEnd {
     ~LogEnd() { spdlog::shutdown(); }
 };
 
+/// Prints the serial ports, and marks those of FTDI: the sensor's adapter is one of them.
 void print_ports() {
+    constexpr int kFtdi = 0x0403;
+    std::puts("PORT\tBY-ID\tUSB VID:PID:SERIAL\tREMARK");
     for (const source::SerialPortEntry& port : source::list_serial_ports()) {
-        std::printf("%s\t%s\t%s\n", port.path.c_str(),
+        std::printf("%s\t%s\t%s\t%s\n", port.path.c_str(),
                     port.by_id.empty() ? "-" : port.by_id.c_str(),
-                    port.usb ? port.usb->to_text().c_str() : "-");
+                    port.usb ? port.usb->to_text().c_str() : "-",
+                    port.usb && port.usb->vendor == kFtdi ? "FTDI: could be the sensor" : "-");
     }
 }
 
@@ -165,7 +169,9 @@ verdict::Options thresholds_of(const config::Config& config, const source::HostC
 }
 
 survey::OccupationOptions occupation_options(const config::Config& config) {
-    return {.planned = config.survey.planned, .target = MilliGal(config.verdict.target_mgal)};
+    return {.planned = config.survey.planned,
+            .target = MilliGal(config.verdict.target_mgal),
+            .sites_file = config.survey.sites_file};
 }
 
 /// Reads the configuration again after SIGHUP, and takes sites, planned length and thresholds from

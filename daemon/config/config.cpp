@@ -242,8 +242,8 @@ SurveyConfig read_survey(TomlTable table) {
             table.refuse(key, "no such file: " + file.string(), allowed);
         return file;
     };
-    if (const auto file = file_at("sites", "a CSV file of sites, or \"\""); !file.empty())
-        survey.sites = text::read_sites(file);
+    survey.sites_file = file_at("sites", "a CSV file of sites, or \"\"");
+    if (!survey.sites_file.empty()) survey.sites = text::read_sites(survey.sites_file);
     if (const auto file =
             file_at("calibration", "a calibration file written by a351-correct, or \"\"");
         !file.empty())

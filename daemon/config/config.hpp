@@ -33,7 +33,8 @@ struct PageConfig {
 };
 
 struct SurveyConfig {
-    std::vector<text::Site> sites;  ///< Empty if no file is given.
+    std::filesystem::path sites_file;  ///< Empty if none is given.
+    std::vector<text::Site> sites;
     std::optional<unit::Calibration> calibration;
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of an occupation.
 };

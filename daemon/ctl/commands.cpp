@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -14,6 +16,8 @@
 #include "daemon/ctl/meant_stay.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "daemon/ctl/when.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/sites.hpp"
 
 namespace a351::daemon::ctl {
 
@@ -38,13 +42,14 @@ json parsed(const Reply& reply) {
 }
 
 /// Returns the body of a good answer; otherwise prints the error and returns std::nullopt.
-std::optional<json> accepted(const Reply& reply) {
+/// @param prefix  begins the printed error.
+std::optional<json> accepted(const Reply& reply, const std::string& prefix = {}) {
     auto body = parsed(reply);
     if (reply.status == 200) return body;
     const auto error = body.find("error");
-    complain(error != body.end() && error->is_string()
-                 ? error->get<std::string>()
-                 : fmt::format("the daemon answered with status {}", reply.status));
+    complain(prefix + (error != body.end() && error->is_string()
+                           ? error->get<std::string>()
+                           : fmt::format("the daemon answered with status {}", reply.status)));
     return std::nullopt;
 }
 
@@ -75,9 +80,12 @@ int watch(const Client& client) {
             screen = std::string(error.what()) + "\n";
         }
         if (is_terminal) {
+            winsize size{};
+            if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0)
+                screen = fitted(screen, size.ws_col, size.ws_row);
             std::string cleared = "\x1b[H";
             for (const char c : screen) cleared += c == '\n' ? "\x1b[K\n" : std::string(1, c);
-            print(cleared + "\x1b[J");
+            print(cleared + "\x1b[K\x1b[J");
         } else {
             print(screen + "\n");
         }
@@ -87,17 +95,20 @@ int watch(const Client& client) {
     return kDone;
 }
 
+/// Sends a change.  @param prefix  begins the printed answer.
 int change(const Client& client, const Arguments& arguments, const std::string& path,
-           const json& body) {
+           const json& body, const std::string& prefix = {}) {
     std::string token = arguments.token;
     if (token.empty()) {
         const auto answer = accepted(client.get("/api/token"));
         if (!answer) return kRefused;
         token = answer->value("token", "");
     }
-    const auto answer = accepted(client.post(path, body.dump(), token));
+    // Arguments may be invalid UTF-8; invalid parts become U+FFFD, which the daemon does not know.
+    const std::string text = body.dump(-1, ' ', false, json::error_handler_t::replace);
+    const auto answer = accepted(client.post(path, text, token), prefix);
     if (!answer) return kRefused;
-    print(printable(answer->value("message", "done")) + "\n");
+    print(prefix + printable(answer->value("message", "done")) + "\n");
     return kDone;
 }
 
@@ -122,6 +133,40 @@ json order(const Client& client, const Arguments& arguments) {
         body[key] = instant ? to_rfc3339(*instant, 9) : *text;
     }
     return body;
+}
+
+/// Sends start, stop or setup to several daemons, at one instant that all of them have recorded.
+int change_all(const Arguments& arguments, const std::string& command) {
+    std::vector<Client> clients;
+    for (const std::string& url : arguments.urls) clients.emplace_back(parse_url(url));
+    json body;
+    std::optional<UtcTime> common;
+    for (const Client& client : clients) {
+        const auto status = parsed(client.get("/api/status"));
+        const json sample = status.value("sample", json());
+        const auto last = parse_rfc3339(sample.is_object() ? sample.value("utc", "") : "");
+        if (last) common = common ? std::min(*common, *last) : *last;
+    }
+    body = order(clients.front(), arguments);
+    if (!body.contains("at") && common) body["at"] = to_rfc3339(*common, 9);
+    int worst = kDone;
+    for (std::size_t i = 0; i < clients.size(); ++i)
+        worst = std::max(worst, change(clients[i], arguments, "/api/occupation/" + command, body,
+                                       printable(arguments.urls[i]) + ": "));
+    return worst;
+}
+
+int add_site(const Client& client, const Arguments& arguments) {
+    if (const auto trouble = text::trouble_with_site_name(arguments.site); !trouble.empty()) {
+        complain(trouble);
+        return kRefused;
+    }
+    json body{{"site", arguments.site},
+              {"latitude_deg", arguments.latitude_deg},
+              {"longitude_deg", arguments.longitude_deg}};
+    if (arguments.height_m) body["altitude_m"] = *arguments.height_m;
+    if (arguments.gravity_mgal) body["gravity_mgal"] = *arguments.gravity_mgal;
+    return change(client, arguments, "/api/sites", body);
 }
 
 /// Changes the stay that was named; without a name the running or last one, which is printed first.
@@ -157,7 +202,12 @@ int show(const Client& client, const Arguments& arguments, const std::string& pa
 }  // namespace
 
 int run_command(const std::string& command, const Arguments& arguments) {
-    const Client client(parse_url(arguments.url));
+    const bool is_start = command == "start" || command == "stop" || command == "setup";
+    if (arguments.urls.size() > 1 && !is_start)
+        throw InputError("--url: given more than once; allowed for start, stop and setup only");
+    if (arguments.urls.size() > 1) return change_all(arguments, command);
+    const Client client(parse_url(arguments.urls.front()));
+    if (command == "site") return add_site(client, arguments);
     if (command == "status") return show_status(client, arguments);
     if (command == "watch") return watch(client);
     if (command == "sites") return show(client, arguments, "/api/sites", site_table);
@@ -166,7 +216,7 @@ int run_command(const std::string& command, const Arguments& arguments) {
         return change(client, arguments, "/api/target",
                       json{{"target_mgal", arguments.target_mgal}});
     if (command == "note") return change(client, arguments, "/api/note", order(client, arguments));
-    if (command == "start" || command == "stop" || command == "setup")
+    if (is_start)
         return change(client, arguments, "/api/occupation/" + command, order(client, arguments));
     return change_stay(client, arguments, command == "not-moved" ? "not_moved" : command);
 }

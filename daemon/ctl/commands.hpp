@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ inline constexpr int kNoDaemon = 3;  ///< Also bad usage of `status`, as for mon
 
 /// The command line; texts that were not given are empty.
 struct Arguments {
-    std::string url = "http://127.0.0.1:8351";
+    std::vector<std::string> urls{"http://127.0.0.1:8351"};
     std::string clock;
     std::string token;
     bool json = false;
@@ -25,6 +26,8 @@ struct Arguments {
     std::string note;
     std::string reason;
     double target_mgal = 0.0;
+    double latitude_deg = 0.0, longitude_deg = 0.0;
+    std::optional<double> height_m, gravity_mgal;
 };
 
 /// Writes a line of this program to stderr, without control characters.

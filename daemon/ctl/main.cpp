@@ -27,16 +27,36 @@ void check(const Arguments& arguments) {
         throw InputError("--clock = " + arguments.clock + ": allowed: scaled:FACTOR@UTC[,HOST]");
 }
 
+/// @throws InputError  there is no command, or arguments that it does not take.
+void require_command(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    const auto extras = app.remaining();
+    if (!chosen.empty() && extras.empty()) return;
+    if (!chosen.empty()) {
+        const std::string command = chosen.front()->get_name();
+        throw InputError(fmt::format("{} is not an argument of {}; see a351ctl {} --help",
+                                     extras.front(), command, command));
+    }
+    std::string commands;
+    for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
+        commands += (commands.empty() ? "" : ", ") + one->get_name();
+    throw InputError(fmt::format(
+        "{}; allowed: {}",
+        extras.empty() ? "no command is given" : extras.front() + " is not a command", commands));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     Arguments a;
     CLI::App app("Shows the state of the daemon a351d and controls occupations.", "a351ctl");
     app.set_version_flag("--version", std::string("a351ctl ") + A351_VERSION);
-    app.add_option("--url", a.url, "Address of the daemon")
+    app.add_option("--url", a.urls,
+                   "Address of the daemon; several for start, stop and setup at one instant")
         ->type_name("URL")
         ->envname("A351_URL")
-        ->capture_default_str();
+        ->allow_extra_args(false)
+        ->default_str(a.urls.front());
     app.add_option("--clock", a.clock,
                    "Simulated time, scaled:FACTOR@UTC[,HOST]; checked but without effect, because "
                    "the daemon gives all times")
@@ -46,7 +66,6 @@ int main(int argc, char** argv) {
                    "this option")
         ->type_name("TOKEN")
         ->envname("A351_TOKEN");
-    app.require_subcommand(1);
     app.fallthrough();
 
     const auto add_at = [&](CLI::App* command) {
@@ -128,10 +147,25 @@ int main(int argc, char** argv) {
         app.add_subcommand("sites", "Lists the benchmarks, nearest to the last occupation first."));
     add_json(app.add_subcommand(
         "list", "Lists the finished stays with their keys, then the discarded ones."));
+    auto* site = app.add_subcommand("site", "Changes the list of benchmarks.");
+    site->require_subcommand(1);
+    auto* site_add = site->add_subcommand("add", "Appends a benchmark to the list of the daemon.");
+    site_add->add_option("NAME", a.site, "Name, not in the list yet")->type_name("")->required();
+    site_add->add_option("--latitude", a.latitude_deg, "Latitude, degrees north")
+        ->type_name("DEG")
+        ->required();
+    site_add->add_option("--longitude", a.longitude_deg, "Longitude, degrees east")
+        ->type_name("DEG")
+        ->required();
+    site_add->add_option("--height", a.height_m, "Height above sea level, if known")
+        ->type_name("M");
+    site_add->add_option("--gravity", a.gravity_mgal, "Gravity, if known")->type_name("MGAL");
+    app.allow_extras();  // Not inherited by the commands, because they are there already.
 
     const auto usage_status = [&] { return *status ? kNoDaemon : kUsage; };
     try {
         app.parse(argc, argv);
+        require_command(app);
         check(a);
         const std::string command = app.get_subcommands().front()->get_name();
         if (command == "rename") {

@@ -110,8 +110,11 @@ std::string occupation(const json& status) {
 std::string verdict(const json& status) {
     const json& why = at(status, "verdict/reasons");
     const json& held_s = at(status, "verdict/held_s");
+    const json& left_s = at(status, "verdict/time_left_s");
+    const bool is_waiting = left_s.is_number() && left_s.get<double>() > 0.0;
     return text_of(status, "verdict/state") +
            (held_s.is_number() ? number_of(held_s, " for {:.0f} s") : "") +
+           (is_waiting ? number_of(left_s, ", at least {:.0f} s more") : "") +
            (why.empty() ? "" : ": " + joined(why));
 }
 
@@ -207,9 +210,12 @@ std::string status_screen(const json& status, bool is_coloured) {
         line("a351d", fmt::format("{}   {}   {}{}", text_of(status, "version"),
                                   text_of(status, "now"), coloured(level, level, is_coloured),
                                   reasons.empty() ? "" : ": " + joined(reasons)));
+    screen += line("verdict", verdict(status));
+    screen += line("occupation", occupation(status));
+    if (at(status, "occupation/reading").is_object()) screen += line("reading", reading(status));
+    if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
     screen += line("device", device(status));
     screen += line("sampling", rate(status));
-    screen += line("verdict", verdict(status));
     screen += line("axes", axes(status));
     screen += line("temperature", number_of(status, "sample/temperature_degc", "{:.3f} degC"));
     screen += line("oven", oven(status));
@@ -233,10 +239,46 @@ std::string status_screen(const json& status, bool is_coloured) {
     const json& free_bytes = at(status, "disk/free_bytes");
     const json free_gb = free_bytes.is_number() ? json(free_bytes.get<double>() / 1e9) : json();
     screen += line("disk", number_of(free_gb, "{:.1f} GB free"));
-    screen += line("occupation", occupation(status));
-    if (at(status, "occupation/reading").is_object()) screen += line("reading", reading(status));
-    if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
     return screen;
+}
+
+std::string fitted(const std::string& screen, std::size_t columns, std::size_t rows) {
+    constexpr std::size_t kIndent = 13;  // that of line()
+    std::string shown;
+    std::size_t row = 0, column = 0, last_blank = std::string::npos, after_blank = 0;
+    for (std::size_t i = 0; i < screen.size() && row < rows; ++i) {
+        const char c = screen[i];
+        if (c == '\x1b') {  // A colour takes no place.
+            const std::size_t end = std::min(screen.find('m', i), screen.size() - 1);
+            shown.append(screen, i, end - i + 1);
+            i = end;
+            continue;
+        }
+        shown += c;
+        if (c == '\n') {
+            ++row;
+            column = 0;
+            last_blank = std::string::npos;
+            continue;
+        }
+        if ((static_cast<unsigned char>(c) & 0xC0U) == 0x80) continue;  // the rest of a letter
+        ++column;
+        if (c == ' ' && column > kIndent) {
+            last_blank = shown.size() - 1;
+            after_blank = column;
+        }
+        if (column < columns || last_blank == std::string::npos) continue;
+        if (++row == rows) {
+            shown.resize(last_blank);
+            break;
+        }
+        shown.replace(last_blank, 1, "\n" + std::string(kIndent, ' '));
+        column = column - after_blank + kIndent;
+        last_blank = std::string::npos;
+    }
+    // The line end of the last row would scroll the first one away.
+    if (shown.ends_with('\n')) shown.pop_back();
+    return shown;
 }
 
 std::string site_table(const json& answer) {
@@ -253,13 +295,15 @@ std::string site_table(const json& answer) {
 
 std::string occupation_table(const json& answer) {
     std::vector<std::vector<std::string>> rows = {
-        {"site", "stay", "start", "end", "mgal", "key", "note"}};
+        {"site", "stay", "start", "end", "mgal", "error_mgal", "key", "operator", "note"}};
     const auto add = [&](const json& one, const std::string& number, std::string note) {
-        std::string value = number_of(one, "reading/value_mgal", "{:.2f}");
         for (const auto& set_up : at(one, "set_ups")) {
             rows.push_back({text_of(one, "site"), number, text_of(set_up, "start"),
-                            text_of(set_up, "end"), value, text_of(one, "key"), note});
-            note = value = "";
+                            text_of(set_up, "end"),
+                            number_of(set_up, "reading/value_mgal", "{:.2f}"),
+                            number_of(set_up, "reading/standard_error_mgal", "{:.2f}"),
+                            text_of(one, "key"), text_of(one, "operator"), note});
+            note = "";
         }
     };
     for (const auto& one : at(answer, "occupations"))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -9,6 +10,11 @@ namespace a351::daemon::ctl {
 /// Returns the answer of GET /api/status as one screen of text, with "-" for unknown values.
 /// Control characters in names and notes are shown as "?", because the terminal would execute them.
 [[nodiscard]] std::string status_screen(const nlohmann::json& status, bool is_coloured);
+
+/// Fits a screen to a terminal: long lines are broken at blanks and indented, and lines at the end
+/// that have no place are left out.
+/// @param columns, rows  size of the terminal.
+[[nodiscard]] std::string fitted(const std::string& screen, std::size_t columns, std::size_t rows);
 
 /// Return the answers of GET /api/sites and GET /api/occupations as tables.
 [[nodiscard]] std::string site_table(const nlohmann::json& answer);

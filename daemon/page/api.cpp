@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/page/history_json.hpp"
+#include "daemon/page/order.hpp"
 #include "daemon/page/status_json.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -30,52 +31,8 @@ constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/retime",
                                             "/api/occupation/not_moved",
                                             "/api/note",
+                                            "/api/sites",
                                             "/api/target"};
-
-/// The body of a POST: a JSON object whose values are texts.  A key that is absent, null or ""
-/// counts as not given.
-struct Order {
-    std::string key;        ///< Key of a stay.
-    std::string site;       ///< To rename: the correct one; else that of the stay.
-    survey::Remark remark;  ///< Keys operator, note and reason.
-    std::optional<UtcTime> at, from, to;
-};
-
-/// Reads the body of a POST.
-/// @param allowed  keys that may be given; others are refused.
-/// @throws InputError  not a JSON object, a key that is not allowed, a value that is not a text, or
-///                     a time that is not RFC 3339; names the key.
-Order parse_order(std::string_view body, const std::vector<std::string>& allowed) {
-    const auto parsed = json::parse(body, nullptr, false);
-    if (!parsed.is_object()) throw InputError("body: not a JSON object");
-    Order order;
-    for (const auto& [key, value] : parsed.items()) {
-        require_allowed("body", key, allowed);
-        if (value.is_null()) continue;
-        if (!value.is_string()) throw InputError("body: key " + key + ": not a text");
-        const auto text = value.get<std::string>();
-        if (key == "key") order.key = text;
-        if (key == "site") order.site = text;
-        if (key == "operator") order.remark.operator_name = text;
-        if (key == "note") order.remark.note = text;
-        if (key == "reason") order.remark.reason = text;
-        for (const auto& [name, instant] :
-             {std::pair{"at", &order.at}, {"from", &order.from}, {"to", &order.to}})
-            if (key == name && !text.empty()) *instant = parse_instant("body", key, text);
-    }
-    return order;
-}
-
-/// Reads the body {"target_mgal": number}.
-/// @throws InputError  anything else.
-MilliGal parse_target(std::string_view body) {
-    const auto parsed = json::parse(body, nullptr, false);
-    if (!parsed.is_object() || parsed.size() != 1 || !parsed.contains("target_mgal"))
-        throw InputError("body: allowed: one key, target_mgal");
-    const auto& target = parsed.at("target_mgal");
-    if (!target.is_number()) throw InputError("body: key target_mgal: not a number");
-    return MilliGal(target.get<double>());
-}
 
 /// Makes an answer of this body.  Texts from files and devices may be invalid UTF-8; invalid parts
 /// become U+FFFD.
@@ -89,6 +46,26 @@ Response answer_of(const survey::Outcome& outcome,
     if (outcome.kind == survey::Outcome::Kind::failed) return refusal(500, outcome.message);
     return ok({{"message", outcome.message},
                {"occupation", running ? to_json(*running, running->start) : json()}});
+}
+
+/// Returns why the running stay is not the one that a request names; empty if it is, or if the
+/// request names none.
+std::string other_stay(const Order& order,
+                       const std::optional<events::RunningOccupation>& running) {
+    if (!running) return {};  // refused by Occupations
+    if ((order.key.empty() || order.key == running->key) &&
+        (order.site.empty() || order.site == running->site))
+        return {};
+    return fmt::format("{} (stay {}) is running, not {}; nothing was changed", running->site,
+                       running->number, order.site.empty() ? order.key : order.site);
+}
+
+/// Returns what was not steady when a stay was stopped, as the end of a sentence.
+std::string unsteadiness_of(const status::Status& status) {
+    std::string text;
+    for (const verdict::Reason& reason : status.verdict.reasons)
+        if (!reason.is_met) text += (text.empty() ? "; not stable: " : ", ") + reason.to_text();
+    return text;
 }
 
 }  // namespace
@@ -124,13 +101,9 @@ std::optional<std::string> Api::urgent_status() noexcept {
         const status::Status status = sources_.status();
         const bool is_fresh =
             status.last_sample && status.now - *status.last_sample <= sources_.stale_after;
-        auto text = fmt::format("{}{}{}", to_text(status.level), status.link_state,
-                                is_fresh ? verdict::to_text(status.verdict.state) : "stale");
-        if (const auto& running = sources_.occupations.running()) {
-            text += running->site + to_rfc3339(running->start) +
-                    to_rfc3339(running->set_ups.back()) + running->operator_name + running->note;
-        }
-        return text;
+        return fmt::format("{}{}{}{}", to_text(status.level), status.link_state,
+                           is_fresh ? verdict::to_text(status.verdict.state) : "stale",
+                           sources_.occupations.changes());
     } catch (...) {
         ++use_.failures;
         return std::nullopt;
@@ -150,16 +123,18 @@ Response Api::route(const Request& request) {
     const auto query = mark == std::string_view::npos ? "" : target.substr(mark + 1);
 
     const bool is_readable = std::ranges::count(kReadable, path) > 0 || assets_.contains(path);
-    if (!is_readable && std::ranges::count(kChangeable, path) == 0)
-        return refusal(404, "there is no such path");
+    const bool is_changeable = std::ranges::count(kChangeable, path) > 0;
+    if (!is_readable && !is_changeable) return refusal(404, "there is no such path");
     if (is_readable && (request.method == "GET" || request.method == "HEAD"))
         return read(path, query);
-    if (!is_readable && request.method == "POST") {
+    if (is_changeable && request.method == "POST") {
         if (!query.empty()) throw InputError("query: none is allowed here");
         return change(path, request.body);
     }
     auto response = refusal(405, request.method + " is not allowed here");
-    response.headers.emplace_back("Allow", is_readable ? "GET, HEAD" : "POST");
+    response.headers.emplace_back("Allow", !is_readable    ? "POST"
+                                           : is_changeable ? "GET, HEAD, POST"
+                                                           : "GET, HEAD");
     return response;
 }
 
@@ -202,8 +177,13 @@ Response Api::occupations_so_far() const {
     json list = json::array();
     for (const auto& one : sources_.occupations.list()) {
         list.push_back(to_json(one));
-        list.back()["reading"] =
-            to_json(survey::reading_of(one.set_ups, sources_.live, sources_.occupations.target()));
+        const auto reading = [&](const std::vector<events::Occupation::SetUp>& set_ups) {
+            return to_json(
+                survey::reading_of(set_ups, sources_.live, sources_.occupations.target()));
+        };
+        list.back()["reading"] = reading(one.set_ups);
+        for (std::size_t i = 0; i < one.set_ups.size(); ++i)
+            list.back()["set_ups"][i]["reading"] = reading({one.set_ups[i]});
     }
     json discarded = json::array();
     for (const auto& one : sources_.occupations.discarded()) discarded.push_back(to_json(one));
@@ -236,13 +216,19 @@ Response Api::change(std::string_view path, const std::string& body) {
         if (order.site.empty()) throw InputError("body: key site is missing");
         outcome = occupations.start(order.site, order.remark, order.at);
     } else if (path == "/api/occupation/stop") {
-        const auto order = parse_order(body, {"site", "operator", "note", "at"});
-        const auto& running = occupations.running();
-        if (running && !order.site.empty() && order.site != running->site)
-            return refusal(409, running->site + " is running, not " + order.site);
+        const auto order = parse_order(body, {"key", "site", "operator", "note", "at"});
+        if (const auto other = other_stay(order, occupations.running()); !other.empty())
+            return refusal(409, other);
         outcome = occupations.stop(order.remark, order.at);
+        if (outcome.kind == survey::Outcome::Kind::done && !order.at)
+            outcome.message += unsteadiness_of(sources_.status());
     } else if (path == "/api/occupation/setup") {
-        outcome = occupations.setup(parse_order(body, {"at"}).at);
+        const auto order = parse_order(body, {"key", "site", "at"});
+        if (const auto other = other_stay(order, occupations.running()); !other.empty())
+            return refusal(409, other);
+        outcome = occupations.setup(order.at);
+    } else if (path == "/api/sites") {
+        outcome = occupations.add_site(parse_new_site(body));
     } else if (path == "/api/target") {
         outcome = occupations.set_target(parse_target(body));
     } else if (path == "/api/note") {

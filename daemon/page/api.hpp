@@ -5,8 +5,8 @@
 /// GET  / and the other files of the page
 /// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/token
 /// GET  /api/history?channel=NAME&from=UTC&to=UTC&points=N /metrics
-/// POST /api/occupation/start|stop|setup|discard|restore|resume|rename|retime /api/note /api/target,
-///      with a JSON object as body; a change of a stay names it by its key
+/// POST /api/occupation/start|stop|setup|discard|restore|resume|rename|retime /api/note /api/target
+///      /api/sites, with a JSON object as body; a change of a stay names it by its key
 ///
 /// An answer under /api is JSON; a refusal is {"error": one line}: 400 malformed, 403 and 421
 /// security, 404 and 405 unknown path or method, 409 not allowed now, 500 not on disk or an

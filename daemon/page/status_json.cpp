@@ -48,6 +48,7 @@ json occupation_of(const survey::Occupations& occupations, const survey::FieldSt
     occupation["reading"] = field.reading ? to_json(*field.reading, occupations.target()) : json();
     occupation["whole"] = to_json(field.whole);
     occupation["half_time_s"] = or_null(field.half_time_s);
+    occupation["planned_s"] = std::chrono::duration<double>(occupations.planned()).count();
     occupation["propose_set_up"] = field.proposes_set_up;
     occupation["warnings"] = field.warnings;
     occupation["moved"] = nullptr;
@@ -143,6 +144,7 @@ json to_json(const status::Status& status, const survey::Occupations& occupation
             {"verdict", verdict_of(status, stale_after)},
             {"occupation", occupation_of(occupations, field, status.now)},
             {"target_mgal", occupations.target().value()},
+            {"changes", occupations.changes()},
             {"tilt", tilt_of(field)},
             {"live", channels_of(live)},
             {"sample", sample_of(status)},
@@ -183,8 +185,10 @@ json to_json(const events::Occupation& occupation) {
     json set_ups = json::array();
     for (const auto& one : occupation.set_ups)
         set_ups.push_back({{"start", to_rfc3339(one.start, 3)}, {"end", to_rfc3339(one.end, 3)}});
-    return {{"key", occupation.key},   {"site", occupation.site}, {"number", occupation.number},
-            {"note", occupation.note}, {"used", nullptr},         {"set_ups", set_ups}};
+    return {{"key", occupation.key},       {"site", occupation.site},
+            {"number", occupation.number}, {"operator", occupation.operator_name},
+            {"note", occupation.note},     {"used", nullptr},
+            {"set_ups", set_ups}};
 }
 
 json to_json(const survey::SiteDistance& one) {
@@ -193,7 +197,7 @@ json to_json(const survey::SiteDistance& one) {
     return {{"site", site.name},
             {"longitude_deg", placed(site.longitude.value())},
             {"latitude_deg", placed(site.latitude.value())},
-            {"altitude_m", placed(site.altitude.value())},
+            {"altitude_m", site.has_altitude ? json(site.altitude.value()) : json()},
             {"gravity_mgal", or_null(site.gravity)},
             {"distance_m", or_null(one.distance)}};
 }
@@ -215,6 +219,7 @@ json to_json(const verdict::Verdict& verdict, UtcTime now) {
     return {{"state", verdict::to_text(verdict.state)},
             {"since", is_known ? json(to_rfc3339(verdict.since, 3)) : json()},
             {"held_s", is_known ? json(seconds_between(verdict.since, now)) : json()},
+            {"time_left_s", or_null(verdict.time_left_s)},
             {"reasons", reasons},
             {"checks", checks}};
 }

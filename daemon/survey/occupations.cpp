@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "daemon/survey/event_texts.hpp"
+#include "daemon/survey/site_list.hpp"
+#include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
 
@@ -144,9 +146,30 @@ Outcome Occupations::set_target(MilliGal target) {
                   fmt::format("target set: good enough at a standard error of {} mGal", digits));
 }
 
+Outcome Occupations::add_site(const text::Site& site) {
+    const auto& file = options_.sites_file;
+    if (file.empty()) return refused("there is no list of sites; set sites in [survey]");
+    const text::Site* const similar = text::similar_site(sites_, site.name);
+    const std::string remark = similar ? "; a similar name is " + similar->name : "";
+    try {
+        sites_ = append_site(files::posix_files(), file, site);
+    } catch (const InputError& error) {
+        return refused(error.what());
+    } catch (const std::system_error& error) {
+        return {Outcome::Kind::failed,
+                fmt::format("not added: {} cannot be written ({}); keep the list where the daemon "
+                            "may write, for example in /var/lib/a351/sites",
+                            file.string(), error.code().message())};
+    }
+    ++changes_;
+    return {Outcome::Kind::done, fmt::format("added {}: {} sites in {}{}", site.name, sites_.size(),
+                                             file.string(), remark)};
+}
+
 void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& options) {
     sites_ = std::move(sites);
     options_ = options;
+    ++changes_;
 }
 
 Outcome Occupations::commit(events::Event event, std::string message) {
@@ -157,6 +180,7 @@ Outcome Occupations::commit(events::Event event, std::string message) {
     }
     replay_.take(event);
     note_aside(event);
+    ++changes_;
     return {Outcome::Kind::done, std::move(message)};
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,6 +46,7 @@ inline constexpr Nanoseconds kLongestResume = std::chrono::minutes(10);
 struct OccupationOptions {
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay.
     MilliGal target{1.0};                            ///< Target until the operator sets another.
+    std::filesystem::path sites_file = {};  ///< List that gets new sites; empty: there is none.
 };
 
 /// Starts and stops occupations.  Every change is an event, which the recorder commits before the
@@ -94,10 +97,16 @@ public:
     [[nodiscard]] MilliGal target() const noexcept { return target_.value_or(options_.target); }
     [[nodiscard]] Nanoseconds planned() const noexcept { return options_.planned; }
 
+    /// Appends a site to the list, see append_site(), and uses it from now on.
+    Outcome add_site(const text::Site& site);
+
     /// Replaces the list of sites and the planned length, and the target unless the operator has
     /// set one.
     void use(std::vector<text::Site> sites, const OccupationOptions& options);
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
+
+    /// Returns the number of changes of stays, notes, target and sites since the start.
+    [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
 
     /// Returns the finished occupations, in order of time.
     [[nodiscard]] std::vector<events::Occupation> list() const { return replay_.finished(); }
@@ -139,6 +148,7 @@ private:
     std::vector<text::Site> sites_;
     events::OccupationReplay replay_;
     UtcTime last_event_;
+    std::uint64_t changes_ = 0;
 };
 
 }  // namespace a351::daemon::survey

@@ -195,7 +195,8 @@ std::vector<Occupation> OccupationReplay::stays(bool are_discarded) const {
         auto set_ups = set_ups_of(starts_of(one), one.end);
         if (one.is_discarded != are_discarded || set_ups.empty()) continue;
         occupations.push_back({one.stay.key, one.stay.site, one.stay.number, std::move(set_ups),
-                               one.stay.note, one.is_stopped, one.stay.not_moved_until});
+                               one.stay.note, one.is_stopped, one.stay.not_moved_until,
+                               one.stay.operator_name});
     }
     std::ranges::stable_sort(occupations, {}, start_of);
     return occupations;

@@ -45,6 +45,7 @@ struct Occupation {
     bool is_stopped = true;      ///< False: it has no stop, and the next start ended it.
     /// The operator says that the box was not moved before this instant.
     std::optional<UtcTime> not_moved_until{};
+    std::string operator_name{};  ///< Detail `operator` of the start; empty if not given.
 };
 
 /// The stay that was started and has not ended.

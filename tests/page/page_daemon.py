@@ -94,15 +94,38 @@ def work_an_occupation(session, browser):
     browser.wait_for("the daemon has the new target", lambda: session.status()["target_mgal"] == 0.5)
     time.sleep(1.0)
     browser.click("#stop")
+    browser.wait_for_text("confirm-stop-text", "Stop No.1 (stay 1)")
+    browser.click("#confirm-stop-yes")
     browser.wait_for_text("answer", "stopped No.1 (stay 1)")
+    browser.wait_for_text("answer", "not stable: ")
     browser.wait_for_text("day-rows", "2 set-ups")
     browser.shot("real-stopped-1366")
 
     browser.choose("start-site", "No.1")
-    browser.wait_for_text("start-warning", "was occupied at")
-    browser.choose("start-site", "No.2")
-    browser.wait_for("another site has no warning", lambda: browser.text("start-warning") == "")
+    browser.wait_for("a return to the first site of the day is no warning", lambda: browser.text("start-warning") == "")
+    add_a_site(session, browser)
     change_stays(session, browser)
+
+
+def add_a_site(session, browser):
+    """A site is appended to the list and can be started at once; a refused one keeps its dialog and texts."""
+    before = (session.scratch / "sites.csv").read_text()
+    browser.click("#add-site")
+    browser.wait_for_text("new-site-text", "Add a site")
+    for field, text in (("name", "No.1"), ("latitude", "36,2511"), ("longitude", "140.12")):
+        browser.find(f"#new-site-{field}").send_keys(text)
+    browser.click("#new-site-yes")
+    browser.wait_for_text("new-site-error", "Not done: the site No.1 is in the list already")
+    browser.shot("real-new-site-1366")
+    demand("the texts are still there", browser.find("#new-site-latitude").get_attribute("value") == "36,2511")
+    browser.find("#new-site-name").send_keys("b")
+    browser.click("#new-site-yes")
+    browser.wait_for_text("answer", "added No.1b")
+    browser.wait_for("the new site is chosen for the next start",
+                     lambda: browser.find("#start-site").get_attribute("value") == "No.1b")
+    demand("one row was appended to the list", (session.scratch / "sites.csv").read_text() == before + "No.1b,140.12,36.2511,,\n")
+    session.ctl("site", "add", "No.1c", "--latitude", "36.2", "--longitude", "140.1", "--height", "12", "--gravity", "979800.5")
+    browser.wait_for("the page follows a site added in the terminal", lambda: "No.1c" in browser.text("start-site"))
 
 
 def later(rfc3339, seconds):
@@ -129,8 +152,8 @@ def change_stays(session, browser):
     session.ctl("start", "No.0", "--at", later(stopped, 1.0))
     session.ctl("stop", "--at", later(stopped, 3.0))
     last = stays()[-1]
-    browser.driver.refresh()
-    browser.wait_for_text("day-rows", "No.0")
+    browser.wait_for_text("day-rows", "No.0")  # The page follows the terminal without a reload.
+    browser.wait_for_text("day-rows", "No.2")
 
     press("No.2", "Rename")
     browser.wait_for_text("rename-text", "Choose the correct site for No.2 (stay 1)")
@@ -144,9 +167,9 @@ def change_stays(session, browser):
     browser.wait_for_text("discard-text", "Discard No.3 (stay 1)")
     session.ctl("rename", last["key"], "No.2")  # another operator, meanwhile
     browser.click("#discard-yes")
-    browser.wait_for_text("answer", f"Not done: the stay {last['key']} is at No.2, not at No.3")
+    browser.wait_for_text("discard-error", f"Not done: the stay {last['key']} is at No.2, not at No.3")
     demand("nothing was discarded", len(stays()) == 3)
-    browser.driver.refresh()
+    browser.click("#discard-no")
     browser.wait_for_text("day-rows", "No.2")
     press("No.2", "Discard")
     browser.wait_for_text("discard-text", "Discard No.2 (stay 1)")

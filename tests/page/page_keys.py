@@ -53,15 +53,15 @@ def renew_token(stub, browser):
     demand("a typed token is kept after a reload", browser.text("token-form") == "")
 
 
-with Browser(allowed_errors=["status of 403"]) as page:
+with Browser(allowed_errors=["status of 403", "status of 409"]) as page:
     daemon = StubDaemon()
     daemon.sites = sites()
     daemon.occupations = [finished("No.0")]
     time.sleep(0.3)
     page.open(daemon.port)
     page.wait_for_text("start-site", "No.5, 3.3 km")
-    order = ["start-site", "start-operator", "start-note", "start", "start-at", "target"]
-    demand(f"Tab moves through the form first: {order}", tab_round(page, 6) == order)
+    order = ["start-site", "start-operator", "start-note", "start", "start-at", "add-site", "target"]
+    demand(f"Tab moves through the form first: {order}", tab_round(page, 7) == order)
     page.press(Keys.ENTER)
     demand("Enter in the target field sets the target", last_post(daemon, page, "/api/target") == {"target_mgal": 1.0})
     for text in ("0", "x", "-1"):
@@ -85,10 +85,26 @@ with Browser(allowed_errors=["status of 403"]) as page:
     order = ["stop", "setup", "run-discard", "run-rename", "run-times", "target"]
     demand(f"Tab moves through the actions of a running occupation: {order}", tab_round(page, 6) == order)
     page.press_with_shift(*[Keys.TAB] * 5)
+    daemon.status["occupation"]["planned_s"] = 600.0
+    time.sleep(1.2)
+    count = len(daemon.posts)
     page.press(Keys.ENTER)
-    demand("Enter on Stop stops the occupation", last_post(daemon, page, "/api/occupation/stop") == {})
+    page.wait_for_text("confirm-stop-text", "Stop No.5 (stay 1), running since")
+    page.wait_for_text("confirm-stop-doubts", "shorter than planned: 6 min")
+    page.wait_for_text("confirm-stop-doubts", "The verdict is settling, not stable")
+    page.demand_readable("the question before a stop")
+    page.shot("stop-1366")
+    page.press(Keys.ENTER)
+    page.wait_for("Enter on the question continues, because the first button is the harmless one",
+                  lambda: page.text("confirm-stop-text") == "")
+    demand("a stop that was not confirmed is not sent", len(daemon.posts) == count)
+    page.press(Keys.ENTER, Keys.TAB, Keys.ENTER)
+    running = {"key": "20260301T013000Z", "operator": "T. Sato"}
+    demand("the second button stops the stay that the question named",
+           last_post(daemon, page, "/api/occupation/stop") == {**running, "site": "No.5"})
     page.press(Keys.TAB, Keys.SPACE)
-    demand("Space on Next set-up starts the next set-up", last_post(daemon, page, "/api/occupation/setup") == {})
+    demand("Space on Next set-up starts the next set-up of the stay that is shown",
+           last_post(daemon, page, "/api/occupation/setup") == STAY)
 
     count = len(daemon.posts)
     page.press(Keys.TAB, Keys.ENTER)
@@ -104,7 +120,6 @@ with Browser(allowed_errors=["status of 403"]) as page:
     page.press(Keys.ESCAPE)
     page.wait_for("Escape keeps the occupation", lambda: page.text("discard-text") == "")
     page.press(Keys.ENTER, Keys.TAB, Keys.ENTER)
-    running = {"key": "20260301T013000Z", "operator": "T. Sato"}
     demand("the second button discards the occupation that the question named",
            last_post(daemon, page, "/api/occupation/discard") == {**running, "site": "No.5"})
 
@@ -112,7 +127,15 @@ with Browser(allowed_errors=["status of 403"]) as page:
     page.wait_for_text("rename-text", "Choose the correct site for No.5 (stay 1), running since")
     page.demand_readable("the new name")
     page.shot("rename-1366")
+    daemon.refusal = "the stay is at No.6, not at No.5"
     page.press("No.7", Keys.TAB, "wrong button", Keys.TAB, Keys.TAB, Keys.ENTER)
+    page.wait_for_text("rename-error", "Not done: the stay is at No.6, not at No.5")
+    page.demand_readable("a refused order")
+    page.shot("refused-1366")
+    demand("a refused order leaves its dialog open, with the texts", page.find("#rename-reason").get_attribute("value") == "wrong button"
+           and page.find("#rename-site").get_attribute("value") == "No.7")
+    daemon.refusal = None
+    page.press(Keys.ENTER)
     demand("key, correct site and reason are sent", last_post(daemon, page, "/api/occupation/rename")
            == {**running, "site": "No.7", "reason": "wrong button"})
 
@@ -120,7 +143,7 @@ with Browser(allowed_errors=["status of 403"]) as page:
     page.wait_for_text("times-text", "Correct the times of No.5 (stay 1), running since")
     page.demand_readable("the new times")
     page.press("noon", Keys.ENTER)
-    page.wait_for_text("answer", "noon")
+    page.wait_for_text("times-error", "noon is no time of day")
     demand("a text that is no time is not sent", daemon.posts[-1][0] == "/api/occupation/rename")
     page.press(Keys.ENTER, Keys.DELETE)
     page.run("document.getElementById('times-from').value = ''")

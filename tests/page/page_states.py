@@ -5,7 +5,7 @@ import time
 from browser import LAPTOP, PHONE, Browser
 from made_up import VERDICTS, finished, occupation, reading, sites, tilt, verdict
 from programs import demand
-from stub_daemon import StubDaemon
+from stub_daemon import StubDaemon, check
 
 ABOVE_FOLD = ["verdict-word", "verdict-checks", "occupation-title", "level-word"]
 
@@ -29,6 +29,17 @@ def show_verdicts(stub, browser):
     checks = browser.text("verdict-checks")
     demand("values have units", "0.05 °C/h (limit 0.25 °C/h)" in checks and "180 s ago (needs 72 s)" in checks)
     demand("an error is shown with its value", "2.1 ± 1.4 mGal/h" in checks)
+
+
+def show_time_left(stub, browser):
+    stub.status["verdict"] = {**verdict("disturbed", held_s=12), "time_left_s": 110.0}
+    browser.wait_for_text("verdict-held", "Unchanged for 12 s. At least 1 min 50 s more.")
+    known = check("temperature known for", 2.3, "min", 20.0, False, is_least=True)
+    stub.status["verdict"] = {**verdict("settling", held_s=138), "checks": [known], "time_left_s": 1082.0}
+    browser.wait_for_text("verdict-advice", "Wait: the temperature is known for 2.3 of 20 min.")
+    browser.wait_for_text("verdict-held", "At least 18 min 02 s more.")
+    stub.status["verdict"] = {**verdict("stable", held_s=60), "time_left_s": 0.0}
+    browser.wait_for("a stable verdict has no time left", lambda: browser.text("verdict-held") == "Unchanged for 1 min 00 s.")
 
 
 def show_without_colour(stub, browser):
@@ -85,8 +96,8 @@ def show_occupations(stub, browser):
 
     at = "2026-03-01T01:43:20.000Z"
     stay = {key: occupation()[key] for key in ("key", "site")}
-    for is_at_start, answers in ((False, {"moved-stop": ("occupation/stop", {"site": stay["site"], "at": at}),
-                                          "moved-setup": ("occupation/setup", {"at": at}),
+    for is_at_start, answers in ((False, {"moved-stop": ("occupation/stop", {**stay, "at": at}),
+                                          "moved-setup": ("occupation/setup", {**stay, "at": at}),
                                           "moved-not": ("occupation/not_moved", stay)}),
                                  (True, {"moved-stop": ("occupation/retime", {**stay, "from": at, "reason": "started too early"})})):
         stub.status["occupation"] = occupation(moved={"utc": at, "is_at_start": is_at_start})
@@ -137,8 +148,11 @@ def show_day(stub, browser):
     rows = browser.text("day-rows").splitlines()
     demand(f"occupations are listed newest first, with set-ups, note and value if known: {rows}",
            "2 set-ups" in rows[0] and "–" in rows[1] and "windy" in rows[2] and "± 0.42" in rows[2])
-    browser.find("#start-site").send_keys("No.0")
+    browser.find("#start-site").send_keys("No.1")
     browser.wait_for_text("start-warning", "was occupied at")
+    browser.choose("start-site", "No.0")
+    browser.wait_for("a return to the first site of the day is no warning", lambda: browser.text("start-warning") == "")
+    browser.choose("start-site", "No.1")
     browser.shot("day-1366")
     browser.resize((1366, 1500))
     time.sleep(2.5)
@@ -155,6 +169,8 @@ def show_trouble(stub, browser):
     browser.wait_for_text("trouble", "FAULT: the disk of the data root is full; port: no such device")
     stub.status["counters"]["checksum_errors"] = 3
     browser.wait_for_text("health-rows", "checksum errors 3")
+    stub.status["counters"]["gaps"], stub.status["counters"]["samples_missing"] = 1, 3000
+    browser.wait_for_text("health-rows", "1 gap, 3000 samples missing")
     browser.demand_readable("a fault")
     browser.shot("fault-1366")
 
@@ -166,6 +182,7 @@ with Browser() as page:
     page.open(daemon.port)
     page.wait_for_text("clock", "UTC")
     show_verdicts(daemon, page)
+    show_time_left(daemon, page)
     show_without_colour(daemon, page)
     count_announcements(daemon, page)
     show_occupations(daemon, page)

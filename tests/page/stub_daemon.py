@@ -14,6 +14,7 @@ import random
 import struct
 import threading
 import time
+import zlib
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 ASSETS = [TOP / "daemon" / "page" / "assets", pathlib.Path("/usr/share/javascript/dygraphs")]
@@ -78,6 +79,7 @@ class StubDaemon:
         self.sites = []
         self.occupations, self.discarded = [], []
         self.posts = []
+        self.refusal = None  # Reason for which orders are refused.
         self.history_gap = None  # (begin, end) in Unix seconds of a gap in the history.
         self.peak_s = None  # Unix time of a peak of 2 mg in the history.
         self.is_sampling = True
@@ -125,6 +127,8 @@ class StubDaemon:
     def full_status(self):
         status = dict(self.status)
         status["now"] = rfc3339(time.time())
+        stay = {**(status["occupation"] or {}), "reading": None, "whole": None}
+        status["changes"] = zlib.crc32(json.dumps([self.sites, self.occupations, self.discarded, stay]).encode())
         if self.samples:
             last_s = self.begin_s + self.samples[-1][0] / RATE_HZ
             status["sample"] = {"utc": rfc3339(last_s), "age_s": time.time() - last_s, "acceleration_mg": [0, 0, 999],
@@ -203,6 +207,8 @@ class StubDaemon:
             return
         if request.headers["X-A351-Token"] != self.token:
             return self.reply(request, {"error": "the token (header X-A351-Token) is missing or wrong"}, status=403)
+        if self.refusal:
+            return self.reply(request, {"error": self.refusal}, status=409)
         self.reply(request, {"message": f"took {request.path}", "occupation": self.status["occupation"]})
 
     def live(self, request):

@@ -13,7 +13,7 @@ PAGES = {
     "a351d": ("daemon/a351d.1", []),
     "a351ctl": ("daemon/ctl/a351ctl.1",
                 ["status", "watch", "start", "stop", "setup", "discard", "restore", "resume", "not-moved", "rename", "retime", "note", "target",
-                 "sites", "list"]),
+                 "sites", "site add", "list"]),
 }
 OPTION = r"(?<![\w-])--[a-z][a-z0-9-]*"
 INSTALLED = (TOP / "config" / "CMakeLists.txt").read_text()
@@ -76,7 +76,7 @@ def accepted_keys(command, *texts):
 
 
 for program, (page, commands) in PAGES.items():
-    helps = [run(BIN / program, *command, "--help").stdout for command in [[]] + [[c] for c in commands]]
+    helps = [run(BIN / program, *command, "--help").stdout for command in [[]] + [c.split() for c in commands]]
     page_text = text_of(TOP / page)
     lines = [line for line in page_text.splitlines() if line.startswith((".TP", ".B", ".BI", ".BR"))]
     demand_same(f"options of {program}", page, set(re.findall(OPTION, "\n".join(lines))), offered_options("\n".join(helps)))

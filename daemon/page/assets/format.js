@@ -18,6 +18,11 @@ export function signed(value, digits = 1) {
     return value > 0 ? "+" + text : text;
 }
 
+/** Formats a count with its noun: 1 gap, 2 gaps. */
+export function counted(count, noun) {
+    return `${count} ${noun}${count === 1 ? "" : "s"}`;
+}
+
 /** Formats seconds as 45 s, 3 min 20 s or 2 h 05 min. */
 export function duration(seconds) {
     if (!Number.isFinite(seconds)) return "–";

@@ -1,7 +1,7 @@
 // The health panel: reception, storage and timing of the data.
 
 import { by_id, make } from "./dom.js";
-import { duration, number, visible, volume } from "./format.js";
+import { counted, duration, number, visible, volume } from "./format.js";
 
 const kReserve = { present: "in place", given_up: "released", unavailable: "not possible" };
 
@@ -53,7 +53,7 @@ export function show_health(status, page) {
         ["Received", `sample ${status.received ?? "–"}`],
         ["Journaled", `sample ${status.journaled ?? "–"}${behind(status.received, status.journaled, rate_hz)}`],
         ["Archived", `sample ${status.archived ?? "–"}${behind(status.received, status.archived, rate_hz)}`],
-        ["Gaps", `${counters.gaps} gaps, ${counters.samples_missing} samples missing`],
+        ["Gaps", `${counted(counters.gaps, "gap")}, ${counted(counters.samples_missing, "sample")} missing`],
         ["Errors", trouble_counts(counters)],
         ["Time", timing_text(status.timing)],
         ["Oven", oven_text(status.oven)],

@@ -4,6 +4,7 @@ import { get, post } from "./api.js";
 import { by_id, make, set_items, set_text, show } from "./dom.js";
 import { duration, number, time_of_day, visible } from "./format.js";
 import { recalled, remember } from "./memory.js";
+import { NewSite } from "./new_site.js";
 import { nearest_instant, StayDialogs } from "./stay_dialogs.js";
 
 const kDay_ms = 24 * 3600 * 1000;
@@ -29,12 +30,14 @@ export class OccupationPanel {
         this.resume_button = null; // Button of the stay that can be resumed.
         this.resume_until_ms = 0;
         this.running = null;
-        this.last_key = null; // Key of the occupation for which the lists were last read.
+        this.verdict = null;
+        this.changes = null; // The daemon's count of changes when the lists were last read.
+        this.wanted_site = null; // Site to be chosen for the next start when the list has it.
         this.target_mgal = null;
         this.now_ms = 0;
         by_id("start-operator").value = recalled("operator");
-        this.dialogs = new StayDialogs((path, body) => this.change(path, body), (text) => this.refuse(text),
-            () => this.chosen("rename"));
+        this.dialogs = new StayDialogs((path, body) => this.send(path, this.signed(body)), () => this.chosen("rename"));
+        this.new_site = new NewSite((path, body) => this.send(path, body), (site) => { this.wanted_site = site; });
         this.listen();
     }
 
@@ -48,12 +51,12 @@ export class OccupationPanel {
         on_submit("note-form", () => this.write_note());
         by_id("start-site").addEventListener("change", () => this.warn_of_repeat());
         by_id("start-name").addEventListener("input", () => this.warn_of_repeat());
-        by_id("stop").addEventListener("click", () => this.order("/api/occupation/stop", {}));
-        by_id("setup").addEventListener("click", () => this.order("/api/occupation/setup", {}));
+        by_id("stop").addEventListener("click", () => this.dialogs.open("stop", this.running, this.verdict));
+        by_id("setup").addEventListener("click", () => this.order("/api/occupation/setup", this.named()));
         by_id("moved-stop").addEventListener("click", () => this.answer_move());
-        by_id("moved-setup").addEventListener("click", () => this.order("/api/occupation/setup", { at: this.running.moved.utc }));
-        by_id("moved-not").addEventListener("click", () => this.change("/api/occupation/not_moved",
-            { key: this.running.key, site: this.running.site }));
+        by_id("moved-setup").addEventListener("click", () => this.order("/api/occupation/setup",
+            { ...this.named(), at: this.running.moved.utc }));
+        by_id("moved-not").addEventListener("click", () => this.change("/api/occupation/not_moved", this.named()));
         for (const kind of ["discard", "rename", "times"]) {
             by_id(`run-${kind}`).addEventListener("click", () => this.dialogs.open(kind, this.running));
         }
@@ -61,38 +64,51 @@ export class OccupationPanel {
 
     /** Ends the stay where the box was moved; after an early start begins it there. */
     answer_move() {
-        const { key, site, moved } = this.running;
-        if (!moved.is_at_start) return this.order("/api/occupation/stop", { site, at: moved.utc });
-        return this.change("/api/occupation/retime", { key, site, from: moved.utc, reason: "started too early" });
+        const { moved } = this.running;
+        if (!moved.is_at_start) return this.order("/api/occupation/stop", { ...this.named(), at: moved.utc });
+        return this.change("/api/occupation/retime", { ...this.named(), from: moved.utc, reason: "started too early" });
+    }
+
+    /** Names the running stay for an order, which the daemon refuses if another one runs meanwhile. */
+    named() {
+        return { key: this.running.key, site: this.running.site };
     }
 
     /** Makes the lists be read again: the daemon may have been restarted with other sites. */
     forget_lists() {
-        this.last_key = null;
+        this.changes = null;
     }
 
-    /** Sends an order to the daemon and shows its answer.  @return true if it was carried out. */
-    async order(path, body) {
+    /** Sends an order to the daemon and shows its answer.  @throws Error with a line for the operator. */
+    async send(path, body) {
         by_id("answer").classList.remove("error");
         set_text("answer", "…");
         try {
             set_text("answer", visible((await post(path, body)).message));
             this.forget_lists();
-            return true;
         } catch (error) {
-            by_id("answer").classList.add("error");
-            set_text("answer", `Not done: ${visible(error.message)}`);
-            return false;
+            this.refuse(visible(error.message));
+            throw error;
         }
+    }
+
+    /** Sends an order and shows its answer or its error.  @return true if it was carried out. */
+    order(path, body) {
+        return this.send(path, body).then(() => true, () => false);
+    }
+
+    /** Adds the operator's name, if it is given. */
+    signed(body) {
+        const operator = by_id("start-operator").value;
+        return { ...body, ...(operator && { operator }) };
     }
 
     /** Sends a change of a stay, with the operator's name. */
     change(path, body) {
-        const operator = by_id("start-operator").value;
-        return this.order(path, { ...body, ...(operator && { operator }) });
+        return this.order(path, this.signed(body));
     }
 
-    /** Shows why an order was not sent. */
+    /** Shows why an order was not carried out. */
     refuse(text) {
         by_id("answer").classList.add("error");
         set_text("answer", `Not done: ${text}`);
@@ -155,7 +171,7 @@ export class OccupationPanel {
         select.hidden = !has_list;
         select.required = has_list && kind === "start";
         by_id(`${kind}-name`).hidden = has_list;
-        const chosen = select.value;
+        const chosen = (kind === "start" && this.wanted_site) || select.value;
         const first = make("option", "choose …");
         first.value = "";
         select.replaceChildren(first, ...this.sites.map((site) => {
@@ -165,11 +181,14 @@ export class OccupationPanel {
         }));
         select.value = chosen;
         if (select.selectedIndex < 0) select.value = "";
+        else if (kind === "start") this.wanted_site = null;
     }
 
     warn_of_repeat() {
         const site = this.chosen("start");
-        const before = site ? this.today().filter((one) => one.site === site) : [];
+        const today = this.today();
+        // A return to the first site of the day, the base, is no mistake.
+        const before = site && site !== today[0]?.site ? today.filter((one) => one.site === site) : [];
         show("start-warning", before.length > 0);
         if (before.length) {
             set_text("start-warning", `This site was occupied at ${before
@@ -242,9 +261,9 @@ export class OccupationPanel {
     show(status) {
         this.running = status.occupation;
         this.now_ms = Date.parse(status.now);
-        const key = JSON.stringify([this.running?.site, this.running?.start, this.running?.set_up]);
-        if (key !== this.last_key) {
-            this.last_key = key;
+        this.verdict = status.verdict;
+        if (status.changes !== this.changes) {
+            this.changes = status.changes;
             this.read_lists();
         }
         show("start-form", !this.running);

@@ -1,8 +1,9 @@
-// The dialogs that change one stay: discard, rename, times.  A dialog keeps the stay for which it was opened, and the
+// The dialogs that change one stay: stop, discard, rename, times.  A dialog keeps the stay for which it was opened, and the
 // order names it by its key, so that nothing else is changed if stays come and go meanwhile.
 
-import { by_id, set_text, show } from "./dom.js";
-import { duration, time_of_day, visible } from "./format.js";
+import { Dialog } from "./dialog.js";
+import { by_id, set_items, set_text, show } from "./dom.js";
+import { duration, number, time_of_day, visible } from "./format.js";
 
 const kDay_ms = 24 * 3600 * 1000;
 
@@ -25,36 +26,45 @@ export function nearest_instant(text, near_ms) {
         .reduce((best, one) => (Math.abs(one - near_ms) < Math.abs(best - near_ms) ? one : best));
 }
 
+/** Returns what speaks against stopping now, as texts. */
+function doubts(stay, verdict) {
+    const list = [];
+    if (stay.planned_s && stay.running_s < stay.planned_s) {
+        list.push(`It is shorter than planned: ${duration(stay.running_s)} of ${number(stay.planned_s / 60, 0)} min.`);
+    }
+    if (verdict.state !== "stable") {
+        list.push(`The verdict is ${visible(verdict.state)}, not stable: ${visible(verdict.reasons.join("; "))}`);
+    }
+    return list;
+}
+
 export class StayDialogs {
-    /** @param order  sends an order: order(path, body).
-        @param refuse  shows why nothing was sent.
+    /** @param send  sends an order: send(path, body); rejects with a line for the operator.
         @param new_site  returns the site chosen for a rename. */
-    constructor(order, refuse, new_site) {
-        this.order = order;
-        this.refuse = refuse;
+    constructor(send, new_site) {
         this.new_site = new_site;
         this.stay = null;
-        const on_submit = (kind, act) => by_id(`${kind}-form`).addEventListener("submit", (event) => {
-            event.preventDefault();
-            if (act()) by_id(kind).close();
-        });
-        on_submit("discard", () => this.send("discard", { site: this.stay.site }, "discard-reason"));
-        on_submit("rename", () => this.rename());
-        on_submit("times", () => this.retime());
-        for (const kind of ["discard", "rename", "times"]) {
-            by_id(`${kind}-no`).addEventListener("click", () => by_id(kind).close());
-        }
+        this.dialogs = {
+            stop: new Dialog("confirm-stop", send, () => this.order("stop", { site: this.stay.site })),
+            discard: new Dialog("discard", send, () => this.order("discard", { site: this.stay.site }, "discard-reason")),
+            rename: new Dialog("rename", send, () => this.renamed()),
+            times: new Dialog("times", send, () => this.retimed()),
+        };
     }
 
-    /** Opens a dialog: discard, rename or times.  @param stay  { key, site, number, start, end, running_s } */
-    open(kind, stay) {
+    /** Opens a dialog: stop, discard, rename or times.
+        @param stay  { key, site, number, start, end, running_s, planned_s }
+        @param verdict  the present one; for stop. */
+    open(kind, stay, verdict = null) {
         this.stay = stay;
-        by_id(`${kind}-reason`).value = "";
-        if (kind === "rename") by_id("rename-site").value = by_id("rename-name").value = "";
-        if (kind === "discard") {
+        if (kind === "stop") {
+            set_text("confirm-stop-text", `Stop ${described(stay)}?`);
+            set_items("confirm-stop-doubts", doubts(stay, verdict).map((text) => [`⚠ ${text}`, ""]));
+        } else if (kind === "discard") {
             set_text("discard-text", stay.end ? `Discard ${described(stay)}?`
                 : `Discard the running occupation at ${visible(stay.site)}, ${duration(stay.running_s)} old?`);
         } else if (kind === "rename") {
+            by_id("rename-site").value = by_id("rename-name").value = "";
             set_text("rename-text", `Choose the correct site for ${described(stay)}:`);
         } else {
             set_text("times-text", `Correct the times of ${described(stay)}:`);
@@ -62,34 +72,32 @@ export class StayDialogs {
             by_id("times-to").value = stay.end ? time_of_day(stay.end) : "";
             show("times-end", Boolean(stay.end));
         }
-        by_id(kind).showModal();
+        if (kind !== "stop") by_id(`${kind}-reason`).value = "";
+        this.dialogs[kind].open();
     }
 
-    send(change, body, reason_id) {
-        const reason = by_id(reason_id).value;
-        this.order(`/api/occupation/${change}`,
-            { key: this.stay.key, ...body, ...(reason && { reason }) });
-        return true;
+    order(change, body, reason_id = null) {
+        const reason = reason_id && by_id(reason_id).value;
+        return [`/api/occupation/${change}`, { key: this.stay.key, ...body, ...(reason && { reason }) }];
     }
 
-    rename() {
+    renamed() {
         const site = this.new_site();
-        return site && this.send("rename", { site }, "rename-reason");
+        if (!site) throw new Error("no site is chosen");
+        return this.order("rename", { site }, "rename-reason");
     }
 
-    /** Sends the times that were changed.  @return true if there are any. */
-    retime() {
+    /** Returns the order with the times that were changed. */
+    retimed() {
         const body = { site: this.stay.site };
         for (const [key, old] of [["from", this.stay.start], ["to", this.stay.end]]) {
             const text = by_id(`times-${key}`).value;
             if (!old || text === time_of_day(old)) continue;
             const instant_ms = nearest_instant(text, Date.parse(old));
-            if (instant_ms === null) {
-                return this.refuse(`${text} is no time of day; allowed: HH:MM or HH:MM:SS, in UTC`);
-            }
+            if (instant_ms === null) throw new Error(`${text} is no time of day; allowed: HH:MM or HH:MM:SS, in UTC`);
             body[key] = new Date(instant_ms).toISOString();
         }
-        if (body.from || body.to) return this.send("retime", body, "times-reason");
-        return this.refuse("the times are as before");
+        if (!body.from && !body.to) throw new Error("the times are as before");
+        return this.order("retime", body, "times-reason");
     }
 }

@@ -20,6 +20,12 @@ function check_text(check) {
         `(${check.is_least ? "needs" : "limit"} ${significant(check.limit)}${name})`;
 }
 
+function advice(verdict) {
+    const unknown = verdict.checks.find((check) => !check.is_met && check.quantity === "temperature known for");
+    if (!unknown || verdict.state === "disturbed") return kAdvice[verdict.state] ?? "";
+    return `Wait: the temperature is known for ${significant(unknown.value)} of ${significant(unknown.limit)} min.`;
+}
+
 /** Shows the verdict.  @param stale_s  age of the newest sample if it is too old for a verdict, else null.
     @return the word shown. */
 export function show_verdict(verdict, stale_s) {
@@ -31,9 +37,11 @@ export function show_verdict(verdict, stale_s) {
     by_id("verdict-sign").setAttribute("href", `#sign-${state.replace(" ", "-")}`);
     set_text("verdict-word", word);
     set_text("verdict-advice", is_stale
-        ? `Last verdict: ${visible(verdict.state)}, ${duration(stale_s)} ago.` : kAdvice[state] ?? "");
+        ? `Last verdict: ${visible(verdict.state)}, ${duration(stale_s)} ago.` : advice(verdict));
     const is_held = !is_stale && Number.isFinite(verdict.held_s);
-    set_text("verdict-held", is_held ? `Unchanged for ${duration(verdict.held_s)}.` : "");
+    const is_waiting = is_held && verdict.time_left_s > 0;
+    set_text("verdict-held", (is_held ? `Unchanged for ${duration(verdict.held_s)}.` : "") +
+        (is_waiting ? ` At least ${duration(verdict.time_left_s)} more.` : ""));
     const checks = verdict.checks;
     if (is_stale) set_items("verdict-checks", [[`✗ newest sample ${duration(stale_s)} old`, "unmet"]]);
     else set_items("verdict-checks", checks.length

@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/asked_page.hpp"
 
 using namespace a351;
@@ -84,6 +85,91 @@ TEST_CASE("a malformed body is refused with an error that names the key", "[daem
     CHECK(page.recorder.log.empty());
 }
 
+TEST_CASE("a stop or a set-up that names another stay than the running one is refused",
+          "[daemon][page]") {
+    Page page;
+    page.ask(post("/api/occupation/start", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})"));
+    for (const char* change : {"stop", "setup"}) {
+        const std::string path = std::string("/api/occupation/") + change;
+        const auto answer = page.ask(post(path, R"({"key":"20260314T080000Z"})"), 409);
+        CHECK(is(answer, "/error",
+                 R"("No.0 (stay 1) is running, not 20260314T080000Z; nothing was changed")"));
+        page.ask(post(path, R"({"key":"20260314T081000Z","site":"No.1"})"), 409);
+    }
+    CHECK(page.recorder.log.size() == 1);
+    const std::string right = R"({"key":"20260314T081000Z","site":"No.0",)";
+    page.ask(post("/api/occupation/setup", right + R"("at":"2026-03-14T08:20:00Z"})"));
+    page.ask(post("/api/occupation/stop", right + R"("at":"2026-03-14T08:30:00Z"})"));
+    page.ask(post("/api/occupation/stop", R"({"key":"20260314T081000Z"})"), 409);
+    CHECK(page.recorder.log.size() == 3);
+}
+
+TEST_CASE("the answer to a stop says what was not steady at that moment", "[daemon][page]") {
+    Page page;
+    const auto stopped = [&](const std::string& body) {
+        page.ask(post("/api/occupation/start", R"({"site":"No.0"})"));
+        page.recorder.last = *page.recorder.last + std::chrono::minutes(1);
+        const auto answer = page.ask(post("/api/occupation/stop", body));
+        return answer["message"].get<std::string>();
+    };
+    using verdict::Reason;
+    page.status.verdict.reasons = {
+        Reason{"reading will change in 10 min by", -3.1, "mGal", "", 2.0, false, false, 0.5},
+        Reason{"last knock", 12.0, "s", "ago", 72.0, true, false},
+        Reason{"noise", 1.0, "", "x its usual level", 5.0, false, true}};
+    CHECK_THAT(stopped("{}"),
+               ContainsSubstring("; not stable: reading will change in 10 min by -3.1 +- 0.5 mGal "
+                                 "(limit 2 mGal), last knock 12 s ago (needs 72 s)"));
+    const auto later = to_rfc3339(*page.recorder.last + std::chrono::minutes(1));
+    CHECK(stopped(R"({"at":")" + later + "\"}").find("not stable") ==
+          std::string::npos);  // The verdict of that time is not known.
+    page.status.verdict.reasons.erase(page.status.verdict.reasons.begin(),
+                                      page.status.verdict.reasons.begin() + 2);
+    CHECK(stopped("{}").find("not stable") == std::string::npos);
+}
+
+TEST_CASE("every change raises the counter in the status, and GET does not", "[daemon][page]") {
+    Page page;
+    const auto changes = [&] { return page.ask(get("/api/status"))["changes"].get<int>(); };
+    CHECK(changes() == 0);
+    page.ask(get("/api/occupations"));
+    const auto before = page.api.urgent_status();
+    page.ask(post("/api/occupation/start", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})"));
+    CHECK(changes() == 1);
+    CHECK(page.api.urgent_status() != before);
+    page.ask(post("/api/occupation/start", R"({"site":"No.0"})"), 409);
+    CHECK(changes() == 1);
+    page.ask(post("/api/note", R"({"note":"windy"})"));
+    page.ask(post("/api/target", R"({"target_mgal":0.5})"));
+    page.occupations.use(two_sites(), {});
+    CHECK(changes() == 4);
+}
+
+TEST_CASE("a site is added by POST with numbers, and a malformed one is refused",
+          "[daemon][page]") {
+    Page page;
+    const test::TemporaryDirectory directory;
+    const auto file = directory.write(
+        "sites.csv", "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nA,140,36,1,\n");
+    page.occupations.use(text::read_sites(file), {.sites_file = file});
+    for (const char* body :
+         {R"({"site":"B","latitude_deg":36.1})", R"({"latitude_deg":36.1,"longitude_deg":140})",
+          R"({"site":"B","latitude_deg":"36.1","longitude_deg":140})", "[]",
+          R"({"site":1,"latitude_deg":36.1,"longitude_deg":140})",
+          R"({"site":"B","latitude_deg":36.1,"longitude_deg":140,"height":2})"})
+        page.ask(post("/api/sites", body), 400);
+    page.ask(post("/api/sites", R"({"site":"A","latitude_deg":36.1,"longitude_deg":140})"), 409);
+    page.ask(post("/api/sites", R"({"site":"B","latitude_deg":96.1,"longitude_deg":140})"), 409);
+    page.ask(post("/api/sites",
+                  R"({"site":"B","latitude_deg":36.1,"longitude_deg":140,"altitude_m":null})"));
+    const auto list = page.ask(get("/api/sites"))["sites"];
+    REQUIRE(list.size() == 2);
+    const std::size_t place = list[0]["site"] == "B" ? 0 : 1;
+    CHECK(list[place]["latitude_deg"].get<double>() == 36.1);
+    CHECK(list[place]["altitude_m"].is_null());
+    CHECK(list[place]["distance_m"].is_number());
+}
+
 TEST_CASE("a target is set by POST and refused outside the allowed range", "[daemon][page]") {
     Page page;
     page.ask(post("/api/target", R"({"target_mgal":0.5})"));
@@ -107,11 +193,14 @@ TEST_CASE("GET changes nothing, POST reads nothing, and unknown paths are answer
         CHECK(response.headers.front().first == "Allow");
         CHECK(response.headers.front().second == "POST");
     }
-    for (const char* path : {"/api/status", "/api/events", "/api/sites", "/api/token", "/"}) {
+    for (const char* path : {"/api/status", "/api/events", "/api/token", "/"}) {
         const auto response = page.api.answer(post(path));
         CHECK(response.status == 405);
         CHECK(response.headers.front().first == "Allow");
     }
+    const auto response = page.api.answer({"PUT", "/api/sites", {}, "{}"});
+    CHECK(response.status == 405);
+    CHECK(response.headers.front().second == "GET, HEAD, POST");
     for (const char* path : {"/api", "/api/status/", "/../etc/passwd", "", "*", "//api/status",
                              "http://127.0.0.1:8351/api/status", "/api/occupation"}) {
         CHECK(page.api.answer(get(path)).status == 404);

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <future>
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
 
 #include "daemon/page/server.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/text_file.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/fake_recorder.hpp"
 
 using namespace a351;
@@ -41,9 +44,10 @@ Run run(const std::string& arguments) {
 
 /// The HTTP interface of a daemon without the rest of the daemon.
 struct FakeDaemon {
-    explicit FakeDaemon(Status::Level level = Status::Level::good) {
+    explicit FakeDaemon(Status::Level level = Status::Level::good, int last = 60) {
+        recorder.last = minute(last);
         status.level = level;
-        status.now = status.last_sample.emplace(minute(60));
+        status.now = status.last_sample.emplace(minute(last));
         server.start();
     }
     Run ctl(const std::string& arguments) const {
@@ -122,6 +126,9 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
         CHECK(result.exit == 2);
         CHECK(std::count(result.text.begin(), result.text.end(), '\n') == 1);
     }
+    CHECK(has(run("fly"), "a351ctl: fly is not a command; allowed: status, watch, start, stop,"));
+    CHECK(has(run(""), "a351ctl: no command is given; allowed: status"));
+    CHECK(has(run("stop now"), "a351ctl: now is not an argument of stop; see a351ctl stop --help"));
     const auto nobody = run("--url http://127.0.0.1:1 stop");
     CHECK(nobody.exit == 3);
     CHECK(has(nobody, "a351ctl: no daemon answers at http://127.0.0.1:1"));
@@ -129,6 +136,61 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
     CHECK(run("--help").exit == 0);
     CHECK(has(run("--version"), A351_VERSION));
     CHECK(daemon.ctl("--clock scaled:60@2026-03-14T08:00:00Z sites").exit == 0);
+}
+
+TEST_CASE("several daemons start, set up and stop at one common instant", "[daemon][ctl]") {
+    FakeDaemon one, other(Status::Level::good, 50);
+    const auto address = [](const FakeDaemon& daemon) {
+        return "http://127.0.0.1:" + std::to_string(daemon.server.port());
+    };
+    const std::string both = "--url " + address(one) + " --url " + address(other) + " ";
+    const auto started = run(both + "start No.0 --at 2026-03-14T08:20:00Z");
+    CHECK(started.exit == 0);
+    for (const FakeDaemon* daemon : {&one, &other})
+        CHECK(has(started, address(*daemon) + ": started No.0 at 2026-03-14T08:20:00.0Z"));
+    CHECK(run(both + "setup --at 2026-03-14T08:30:00Z").exit == 0);
+    CHECK(one.ctl("stop").exit == 0);
+    const auto stopped = run(both + "stop");
+    CHECK(stopped.exit == 1);
+    CHECK(has(stopped, "a351ctl: " + address(one) + ": no occupation is running"));
+    CHECK(has(stopped, address(other) + ": stopped No.0 (stay 1) at 2026-03-14T08:50:00.0Z"));
+    CHECK(run(both + "list").exit == 2);
+    CHECK(run("--url " + address(one) + " --url http://127.0.0.1:1 start No.0").exit == 3);
+    one.server.stop();
+    other.server.stop();
+    CHECK(one.recorder.log.size() == 3);  // Nothing is sent if one of them does not answer.
+    CHECK(other.recorder.log[2].utc == minute(50));  // The last sample that both have.
+}
+
+TEST_CASE("a site is added in the terminal, and a refusal is one line", "[daemon][ctl]") {
+    FakeDaemon daemon;
+    const test::TemporaryDirectory directory;
+    const auto file = directory.write(
+        "sites.csv", "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nA,140,36,1,\n");
+    std::promise<void> is_used;
+    daemon.server.post([&] {
+        daemon.occupations.use(text::read_sites(file), {.sites_file = file});
+        is_used.set_value();
+    });
+    is_used.get_future().wait();
+    const std::string place = " --latitude 36.25 --longitude 140.125";
+    const auto added = daemon.ctl("site add 'B 1'" + place + " --height 12.5 --gravity 979800.25");
+    CHECK(added.exit == 0);
+    CHECK(has(added, "added B 1: 2 sites in"));
+    CHECK(text::read_text_file(file).ends_with("\nB 1,140.125,36.25,12.5,979800.25\n"));
+    CHECK(daemon.ctl("site add C" + place).exit == 0);
+    CHECK(has(daemon.ctl("sites"), "C     140.125000     36.250000     -"));
+    for (const std::string wrong : {"A", "'a,b'", "\"$(printf '\\203\\145')\"", "''"}) {
+        const auto refused = run("--url http://127.0.0.1:" + std::to_string(daemon.server.port()) +
+                                 " site add " + wrong + place);
+        CAPTURE(wrong, refused.text);
+        CHECK(refused.exit == 1);
+        CHECK(std::count(refused.text.begin(), refused.text.end(), '\n') == 1);
+    }
+    CHECK(daemon.ctl("site add D --latitude 36").exit == 2);
+    CHECK(daemon.ctl("site").exit == 2);
+    daemon.server.stop();
+    CHECK(daemon.occupations.sites().size() == 3);
 }
 
 TEST_CASE("options of the command line are in the recorded event", "[daemon][ctl]") {

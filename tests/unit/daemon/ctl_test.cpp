@@ -67,6 +67,20 @@ TEST_CASE("control characters in names do not reach the terminal", "[daemon][ctl
     CHECK(status_screen(hostile, false).find('\x1b') == std::string::npos);
 }
 
+TEST_CASE("a screen fits the terminal, with lines broken between words", "[daemon][ctl]") {
+    const std::string long_line = "verdict      settling: one two three four\n";
+    CHECK(fitted(long_line, 80, 24) == "verdict      settling: one two three four");
+    CHECK(fitted(long_line, 27, 24) ==
+          "verdict      settling: one\n             two three\n             four");
+    CHECK(fitted(long_line, 27, 2) == "verdict      settling: one\n             two three");
+    CHECK(fitted("a\nb\nc\n", 80, 2) == "a\nb");
+    const std::string coloured = "a351d        \x1b[1;32mgood\x1b[0m: wind and rain\n";
+    CHECK(fitted(coloured, 28, 24) ==
+          "a351d        \x1b[1;32mgood\x1b[0m: wind and\n             rain");
+    CHECK(fitted("site         \xE5\xB1\xB1\xE5\xB1\xB1 b c\n", 20, 9) ==
+          "site         \xE5\xB1\xB1\xE5\xB1\xB1 b c");
+}
+
 TEST_CASE("the URL of a daemon is http, a host and an optional port", "[daemon][ctl]") {
     CHECK(parse_url("http://127.0.0.1:8351").authority() == "127.0.0.1:8351");
     CHECK(parse_url("http://[::1]:8351/").authority() == "[::1]:8351");
