@@ -181,7 +181,7 @@ TEST_CASE("readings of one station that disagree are both graded care", "[report
     CHECK(first_grade(result) == Grade::care);
     CHECK(first_reasons(result) ==
           "differs by 5.7 mGal from A (2), 2.0 times the value expected from s|");
-    CHECK(grade_readings(result)[1].reasons.front() ==
+    CHECK(grade_readings(result)[1].reasons.front().text ==
           "differs by 5.7 mGal from A (1), 2.0 times the value expected from s");
     result.rows[1].row.rate_degc_per_h = 0.3;  // it must be repeated and is not used for comparison
     CHECK(first_grade(result) == Grade::trust);
