@@ -36,7 +36,10 @@ namespace a351::corrector::job {
 [[nodiscard]] reading::OccupationRows read_survey(const SurveyFile& survey,
                                                   const reading::Progress& progress);
 
-/// Sets the steps of the amendments that divide the readings, and removes the base and datum stations without a row from the options, with a warning for each.
+/// Completes the options of a survey with what its readings allow: sets the steps of the amendments
+/// that divide the readings, and removes base and datum stations without a row, with a warning for
+/// each.
+///
 /// The base of `paper` is kept, because its drift step needs it.  The datum is kept if none of its
 /// stations would be left.
 ///

@@ -45,7 +45,7 @@ struct ResponsePoint {
     std::string needed;                 ///< Record that would show a gain; empty if it is claimed.
 };
 
-/// Shortest period of a response, s.  Reason: below, three filters attenuate.
+/// Shortest period of a response, s.  Reason: three filters attenuate shorter ones.
 inline constexpr double kShortestResponse_s = 120.0;
 /// 1 - confidence of the limits, dimensionless.  Reason: 95 % limits are usual.
 inline constexpr double kSignificance = 0.05;

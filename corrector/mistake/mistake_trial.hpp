@@ -70,7 +70,7 @@ public:
 
     /// Returns false if too few readings are left to explain anything.
     [[nodiscard]] bool is_possible() const;
-    /// Returns true if so many readings are left that a mistake may be put right on trial.
+    /// Returns true if enough readings are left to put a mistake right on trial.
     [[nodiscard]] bool allows_trial() const;
 
     /// Returns the mistakes that explain most, the best first, by -dof / 2 ln(1 - share) less what an

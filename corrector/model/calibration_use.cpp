@@ -183,7 +183,8 @@ SurveyCorrection correct_with_calibration(const std::vector<reading::SurveyRow>&
     if (calibration.axis_bias)
         text += fmt::format(
             ": axis bias x tilt was subtracted from the readings, for the scores of all models "
-            "too; it scatters by {} mGal rms; the calibration was not compared with the readings",
+            "too; this correction varies by {} mGal rms from reading to reading; the calibration "
+            "was not compared with the readings",
             text::fixed(use.effect_rms_mgal, 2));
     else
         text += ": no axis biases";

@@ -153,8 +153,8 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     if (!trouble) {
         if (!is_automatic)
             chosen.remarks.emplace_back(
-                "network: the whole-day model is used, because it adjusts the same and knows the "
-                "temperature between the readings");
+                "network: the whole-day model is used, because it makes the same adjustment and "
+                "knows the temperature between the readings");
         return chosen;
     }
     if (problem.day != nullptr) chosen.remarks.push_back("not the whole-day model: " + *trouble);

@@ -149,8 +149,9 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
             static_cast<double>(gap.after - gap.before - 1) / temperature.series.rate().value();
     if (missing_s >= kNotableGap_s)
         result.remarks.push_back(fmt::format(
-            "{} min of the temperature are missing, the longest gap has {}; what it left in the "
-            "instrument is estimated, and u contains its uncertainty, if the sensor stayed powered",
+            "{} min of the temperature are missing, the longest gap has {}; the effect of a gap on "
+            "later readings is estimated, and u includes its uncertainty, provided that the sensor "
+            "stayed powered",
             std::lround(missing_s / 60.0), std::lround(temperature.longest_gap_s() / 60.0)));
 }
 

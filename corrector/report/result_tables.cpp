@@ -63,9 +63,9 @@ std::string explanation(const model::SurveyCorrection& result) {
     return text +
            "The model day averages all undisturbed samples between the two instants; column s is "
            "their duration in seconds. °C/h is the rate that its fast term uses. The residual is "
-           "placement, one value for every set-up. Left out: value of the reading if its "
-           "station's reference is not used. u is the uncertainty of this value; t = (reference - "
-           "left out) / u.";
+           "the error of placing the box, one value for each set-up. Left out: the value of the "
+           "reading if the reference of its station is not used; u is the uncertainty of this "
+           "value, and t = (reference - left out) / u.";
 }
 
 void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result) {
@@ -163,9 +163,10 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
                "After rate, tilt", "After drift (all)", "Drift mGal/h"},
               rows);
     add(parent, "p",
-        "Later minus earlier reading of one station, in mGal. Drift: value that each pair alone "
-        "implies, from the difference after rate. The last differences are in sample, because the "
-        "coefficients were fitted to the same readings.");
+        "Later minus earlier reading of one station, in mGal. Drift: the drift that this pair "
+        "alone would mean, the difference after rate divided by the time between the readings. "
+        "The last differences are in sample, because the coefficients were fitted to the same "
+        "readings.");
 }
 
 void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {

@@ -189,8 +189,8 @@ std::vector<std::string> limits_of(const model::SurveyCorrection& result) {
     }
     if (single_count > 0) {
         limits.push_back(fmt::format(
-            "{} of {} stations have only one reading: only a known reference can show a blunder "
-            "there.",
+            "{} of {} stations have only one reading: an error there can be seen only if the "
+            "reference is known.",
             single_count, result.stations.size()));
     }
     if (!unchecked.empty()) {
@@ -209,9 +209,9 @@ std::string scatter_sentence(const model::Score& score) {
     const bool has_priors = score.model == model::kWholeDay || score.model == model::kNetwork;
     if (has_priors && !score.loso_mgal)
         return fmt::format(
-            "n = {}: no known station can be left out, because the others would hold nothing. For "
-            "a new station quote its u, which contains what the priors of the instrument leave "
-            "open.",
+            "n = {}: no known station can be left out as a test, because no other reference would "
+            "remain. For a new station quote its u, which includes what is not known of the "
+            "instrument.",
             score.row_count);
     const auto error = standard_error_of_rms(score);
     const std::string scatter =
@@ -242,8 +242,7 @@ void add_summary(pugi::xml_node parent, const model::SurveyCorrection& result,
     add(parent, "h2", "Accuracy");
     add_accuracy(parent, result);
     add(parent, "p",
-        is_unusable(result) ? "No figure of this day is to be quoted before its mistakes are put "
-                              "right."
+        is_unusable(result) ? "Correct the mistakes of this day before you use any of its values."
                             : scatter_sentence(result.score));
     std::vector<std::string> limits = limits_of(result);
     if (!warnings.empty())

@@ -75,7 +75,7 @@ public:
 
     /// Returns the number of terms, gravities and states.
     [[nodiscard]] Eigen::Index estimated() const { return states_begin() + states_sd_mgal_.size(); }
-    /// Returns the place of the first state behind a gap.
+    /// Returns the place of the first state after a gap.
     [[nodiscard]] Eigen::Index states_begin() const { return kTerms + gravity_sd_mgal_.size(); }
     /// Returns the place of the first step, in front of the states.
     [[nodiscard]] Eigen::Index steps_begin() const { return states_begin() - step_count_; }

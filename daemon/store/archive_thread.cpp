@@ -132,7 +132,7 @@ void ArchiveThread::take(const NumberedChunk& numbered) {
 
 /// Handles a segment's header, of the running session or of a new one.
 void ArchiveThread::begin_session(const journal::Header& header) {
-    // The first header of a session has the time of its begin.
+    // The first header of a session has the time of its start.
     if (undescribed_.empty() || undescribed_.back().session != header.session)
         undescribed_.push_back(header);
     if (session_ != header.session) outbox_.last_sample.reset();

@@ -80,7 +80,7 @@ void Store::finish_recovery(const archive::RecoveryReport& report) {
 /// Writes the station metadata.  Trouble is shown in the status and does not delay the archive; the
 /// next header tries again.
 void Store::describe(const journal::Header& header) {
-    // Without a host clock the begin of the epoch is not known.
+    // Without a host clock the start of the epoch is not known.
     if (header.clock.realtime < archive::TimeGate::kEarliest) return;
     station::Description description = options_.station;
     // The times of the first samples precede their header by the filter's delay.

@@ -29,7 +29,9 @@ public:
     /// @return              std::nullopt until `history_min` minutes are known.
     [[nodiscard]] std::optional<Outlook> outlook(double warm_up_mgal) const;
 
-    [[nodiscard]] double slope_degc_per_h() const noexcept;  ///< Slope without the oven's cycle.
+    /// Returns the slope without the oven's cycle.
+    [[nodiscard]] double slope_degc_per_h() const noexcept;
+    /// Returns the time for which the temperature is known without a break, min.
     [[nodiscard]] double known_min() const noexcept;
 
 private:
@@ -39,7 +41,7 @@ private:
     OvenFilter filter_;
     ReadingOutlook reading_;
     int means_ = 0;  ///< Means observed or filled without a break.
-    UtcTime begun_;  ///< Begin of the mean in progress.
+    UtcTime begun_;  ///< Start of the mean in progress.
     UtcTime last_;   ///< Time of the last value.
     double last_degc_ = 0.0;
     double sum_degc_ = 0.0, squares_degc2_ = 0.0;  ///< Squares of the steps between values.

@@ -15,7 +15,8 @@ constexpr double kAgreement_s = 1.0;  // a wrong choice is off by a period: 16 s
 // crystal.
 constexpr double kRateError = 100e-6;
 
-// Ticks, about a second: a counter that steps back by no more is corrupt, not almost a wrap ahead.
+// Largest step back, ticks (about a second), that counts as a corrupt counter.  A larger one counts
+// as a jump ahead by almost the whole range of the counter.
 constexpr std::int64_t kJumpBack = 4096;
 
 // Delay that no adapter causes: such a frame was in a buffer.

@@ -17,7 +17,7 @@ using UntilStopped = std::function<bool()> (*)();
 /// and std::system_error if an operation on a terminal or a file failed.
 void add_device_command(CLI::App& app, UntilStopped until_stopped);
 
-/// `replay`: serves a recording behind the handshake of the live device, until it has ended and the
+/// `replay`: serves a recording with the handshake of the live device, until it has ended and the
 /// host has read it, or a signal arrives.  Then reports on stderr what could not be replayed.
 /// Its run throws InputError for unusable files, clock or link, and std::runtime_error if the host
 /// asked for settings that were not recorded.

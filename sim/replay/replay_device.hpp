@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A recording behind the handshake of the live device.  No I/O of its own and no clock.
+/// A recording with the handshake of the live device.  No I/O of its own and no clock.
 
 #include <cstdint>
 #include <memory>

@@ -167,7 +167,7 @@ TEST_CASE(
 
 TEST_CASE(
     "re-timed samples are right from the first one after a sleep of the host, however late the "
-    "reading that shows the sleep",
+    "clock reading comes that shows the sleep",
     "[record][retime]") {
     constexpr Nanoseconds kSlept = 40s;
     constexpr std::int64_t kAsleepFrom = 3'010, kAwakeFrom = 5'010;

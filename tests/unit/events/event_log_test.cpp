@@ -52,7 +52,8 @@ TEST_CASE("a line with a missing field or a field of another type is not an even
     CHECK_FALSE(parse_event(line));
 }
 
-TEST_CASE("a detail with the name of a field is refused", "[record][event_log]") {
+TEST_CASE("an event detail that has the name of a field of every event is refused",
+          "[record][event_log]") {
     Event event = start("09:30", "No.5");
     event.details["utc"] = "now";
     CHECK_THROWS_AS(to_json(event), std::invalid_argument);

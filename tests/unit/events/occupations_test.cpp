@@ -207,7 +207,8 @@ TEST_CASE("a stay is resumed as if it had not been stopped", "[record][occupatio
     CHECK(shown(events).back() == "B#1 10:00-10:05");
 }
 
-TEST_CASE("the start of a running stay is moved, its end is not", "[record][occupations]") {
+TEST_CASE("new times of a running stay move its start and give it no end",
+          "[record][occupations]") {
     OccupationReplay replay({start("09:00", "A"), event_of("setup", "09:05")});
     replay.take(event_of("retime", "09:10",
                          {{"key", "20260301T090000Z"},

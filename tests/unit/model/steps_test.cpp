@@ -72,7 +72,7 @@ TEST_CASE("a linear model refuses a step without a reading after it", "[model][s
         ContainsSubstring("some after each step"));
 }
 
-TEST_CASE("the whole-day model estimates a step, and unknown stations behind it", "[model][step]") {
+TEST_CASE("the whole-day model estimates a step, and unknown stations after it", "[model][step]") {
     reading::DayRecord day = whole_day::MadeUpDay{}.record();
     std::vector<reading::SurveyRow> rows = rows_of(day);
     for (auto& bin : day.bins)

@@ -162,7 +162,7 @@ TEST_CASE("known notes are graded by their meaning, unknown notes as care", "[re
     SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"disturbed_end"};
     CHECK(first_grade(result) == Grade::trust);
-    CHECK(first_reasons(result) == "averaged only up to a disturbance at its end|");
+    CHECK(first_reasons(result) == "only the part before a disturbance at its end was averaged|");
     result.rows[0].row.notes = {"fallback"};
     CHECK(first_grade(result) == Grade::care);
     result.rows[0].row.notes = {"seen from afar"};

@@ -102,8 +102,10 @@ TEST_CASE("the scatter is given with its own standard error", "[report][summary]
     CHECK_THAT(scatter_sentence(score), ContainsSubstring("say nothing about accuracy"));
     score.model = "day";
     score.loso_mgal.reset();
-    CHECK_THAT(scatter_sentence(score), EndsWith("For a new station quote its u, which contains "
-                                                 "what the priors of the instrument leave open."));
+    CHECK_THAT(
+        scatter_sentence(score),
+        EndsWith(
+            "For a new station quote its u, which includes what is not known of the instrument."));
 }
 
 TEST_CASE("the summary says of every accuracy figure whether it is in sample or cross-validated",

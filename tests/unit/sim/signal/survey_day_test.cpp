@@ -68,8 +68,9 @@ TEST_CASE("the simulated night has the published night's cycle, slopes and delay
     check(indoor_figures(10));
 }
 
-TEST_CASE("the band pass of the statistics has gain 1 inside and 1/2 at its corners, without phase",
-          "[sim][survey_day]") {
+TEST_CASE(
+    "the band pass of the statistics has gain 1 inside and 1/2 at its corners, and shifts no phase",
+    "[sim][survey_day]") {
     CHECK(gain(600.0) == Approx(0.5).margin(0.005));
     CHECK(gain(1500.0) == Approx(0.5).margin(0.005));
     CHECK(gain(std::sqrt(600.0 * 1500.0)) == Approx(1.0).margin(0.005));
