@@ -114,6 +114,10 @@ void log_recovery(spdlog::logger& log, const archive::RecoveryReport& report) {
                  report.journal->byte_count, report.journal->file.string(), report.journal->offset,
                  report.journal->reason);
     }
+    for (const journal::Damage& damage : report.damage) {
+        log.error("recovery: {} bytes of {} at offset {} are damaged and skipped: {}",
+                  damage.byte_count, damage.file.string(), damage.offset, damage.reason);
+    }
     for (const archive::TornTail& tail : report.archive) {
         log.warn("recovery: {} bytes removed from {} from offset {} on", tail.byte_count,
                  tail.file.string(), tail.offset);

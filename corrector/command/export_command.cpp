@@ -36,6 +36,7 @@ void run(Texts texts) {
         std::cerr << "a351-correct: " << archive::to_text(damage) << '\n';
     std::cout << fmt::format("{}: {} values of {} at {} Hz in {} runs without a gap\n", texts.out,
                              report.values, options.channel, options.rate_hz, report.runs);
+    report_damaged_input(!report.damage.empty());
 }
 
 }  // namespace

@@ -42,9 +42,14 @@ int main(int argc, char** argv) {
     command::add_table_command(program);
     command::add_tide_command(program);
     try {
-        program.parse(argc, argv);
+        int status = kDone;
+        try {
+            program.parse(argc, argv);
+        } catch (const CLI::RuntimeError& done_in_part) {
+            status = done_in_part.get_exit_code();
+        }
         std::cout.flush();
-        return std::cout ? kDone : report("standard output: cannot be written", kFailed);
+        return std::cout ? status : report("standard output: cannot be written", kFailed);
     } catch (const CLI::Success& help_or_version) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {

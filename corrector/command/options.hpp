@@ -87,4 +87,13 @@ void require_file_option(std::string_view name, const std::filesystem::path& pat
 /// @throws InputError  the path, or the longest part of it that exists, is not a folder.
 void require_folder_option(std::string_view name, const std::filesystem::path& path);
 
+/// Exit status of a command that has done its work although a part of its input was damaged.
+inline constexpr int kDoneInPart = 4;
+
+/// Ends a command with kDoneInPart if its input was damaged; to be called last in its callback.
+/// @throws CLI::RuntimeError  caught by main().
+inline void report_damaged_input(bool is_damaged) {
+    if (is_damaged) throw CLI::RuntimeError("a part of the input is damaged", kDoneInPart);
+}
+
 }  // namespace a351::corrector::command

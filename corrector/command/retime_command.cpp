@@ -28,6 +28,7 @@ void run(const RetimeOptions& options) {
         "missing\n",
         options.out.string(), report.records, report.counters.sessions, report.segments,
         report.counters.frames, report.counters.gaps, report.counters.samples_missing);
+    report_damaged_input(!report.damage.empty());
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ namespace a351::archive {
 /// Damage that was found and repaired at start.
 struct RecoveryReport {
     std::optional<journal::Damage> journal;  ///< RecoveryPlan::cut; the caller sets it.
+    std::vector<journal::Damage> damage;     ///< Places of the replayed segments whose chunks are lost.
     std::vector<TornTail> archive;           ///< Parts of day files that were cut.
     std::uint64_t records_added = 0;         ///< Records that the archive lacked.
     std::uint64_t records_confirmed = 0;     ///< Records that the archive already held.
@@ -73,8 +74,8 @@ struct RecoveryPlan {
 /// Idempotent: a second run, or one that was killed and started again, ends with the same bytes.
 /// They are those of an uninterrupted run, except where an earlier shutdown ended records early.
 ///
-/// The bytes cut from the archive are kept beside the day file.  Damage within a segment ends it;
-/// the replay continues with the next one, and the report does not mention it.
+/// The bytes cut from the archive are kept beside the day file.  Damage within a segment costs the
+/// chunks in it; the replay continues behind it.
 ///
 /// @param writer  new, for the codes of `replay`.  Afterwards it is still in its replay, and not
 ///                synced.

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include "protocol/archive/archive_writer.hpp"
@@ -52,11 +54,23 @@ private:
     std::uint64_t records_ = 0;
 };
 
+/// Reads the journal for the first time.
+/// @throws std::runtime_error  it has no frame of the sensor.
 void gather(const Segments& segments, Retiming& retiming) {
     Discard nothing;
     Archiver archiver(nothing, &retiming);
     journal::Sequence chunks(segments);
     while (const auto chunk = chunks.next()) archiver.take(*chunk);
+    if (archiver.counters().frames > 0) return;
+    std::string reason;
+    if (!chunks.damage().empty()) {
+        const journal::Damage& damage = chunks.damage().front();
+        reason = fmt::format("; {}: offset {}: {}", damage.file.string(), damage.offset,
+                             damage.reason);
+    }
+    throw std::runtime_error(fmt::format("{}: no frame of the sensor can be read from {} segments{}",
+                                         segments.front().parent_path().string(), segments.size(),
+                                         reason));
 }
 
 void write(const Segments& segments, Retiming& retiming, Archives& archives, RetimeReport& report) {

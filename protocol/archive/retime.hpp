@@ -77,7 +77,7 @@ private:
 struct RetimeReport {
     std::uint64_t segments = 0;           ///< Segments of the journal, damaged ones included.
     std::uint64_t records = 0;            ///< Records written.
-    std::vector<journal::Damage> damage;  ///< Segments that end early.
+    std::vector<journal::Damage> damage;  ///< Places of the journal whose chunks are lost.
     Counters counters;                    ///< Counters of the whole journal, read once.
 };
 
@@ -99,6 +99,7 @@ struct RetimeReport {
 /// @param out   new directory; `out` + ".partial" beside it must not exist either.
 /// @throws InputError         no journal in `root`, or `out` exists, or a header of the journal
 ///                            names unknown settings.
+/// @throws std::runtime_error no frame of the sensor can be read; nothing is written.
 /// @throws std::system_error  a file cannot be read or written.
 RetimeReport retime(files::FileLayer& files, const std::filesystem::path& root,
                     const std::filesystem::path& out);

@@ -1,7 +1,8 @@
 #pragma once
 /// @file
-/// Compression of closed journal segments, and its inverse.  A compressed segment is one zstd frame
-/// that holds the segment byte for byte: protocol/journal/journal-format.md.
+/// Compression of closed journal segments, and its inverse.  A compressed segment holds the segment
+/// byte for byte, in zstd frames of 512 KiB, so that damage costs one of them at most:
+/// protocol/journal/journal-format.md.
 ///
 /// Reader reads both forms, so readers do not need this header.  Compress closed segments
 /// only: the writer appends to the newest one, and a program that listed the segments before would
@@ -36,14 +37,16 @@ namespace a351::journal {
 ///                             Catch std::system_error first, because it is derived from this type.
 void compress_segment(files::FileLayer& files, const std::filesystem::path& segment);
 
-/// Returns the bytes of a compressed segment.
+/// Returns the bytes of a compressed segment; those that damage cost are 0.
 ///
-/// The size is taken from the frame and checked before memory is allocated: at most 65 MiB.  The
-/// chunks inside are not checked; Reader does that.
+/// A damaged frame is unpacked as far as possible, and the next one is searched for.  The chunks
+/// inside are not checked; Reader does that, and reports what is lost.  Sizes are checked before
+/// memory is allocated: at most 65 MiB.
 ///
-/// @param segment  file with one zstd frame that states its size; its name does not matter.
+/// @param segment  file with zstd frames that state their sizes, also a single one; its name does
+///                 not matter.
 /// @throws std::system_error   it cannot be read.
-/// @throws std::runtime_error  it is not a whole zstd frame, or larger than any segment.
+/// @throws std::runtime_error  it has no zstd frame, or is larger than any segment.
 [[nodiscard]] std::vector<std::byte> decompress_segment(const std::filesystem::path& segment);
 
 }  // namespace a351::journal

@@ -10,13 +10,23 @@
 #include <utility>
 
 #include "protocol/files/file_bytes.hpp"
-#include "protocol/journal/journal_codec.hpp"
 #include "protocol/journal/journal_compression.hpp"
 
 namespace a351::journal {
 namespace {
 
 bool is_compressed(const std::filesystem::path& segment) { return segment.extension() == ".zst"; }
+
+/// Bytes in which a good chunk is searched for at once.
+constexpr std::size_t kSearchedBytes = std::size_t{64} * 1024;
+
+/// Returns true if these 13 bytes may begin a chunk that follows chunk `next` - 1.
+/// @param rest  bytes of the segment from the header's end on.
+bool may_follow(const ChunkHeader& header, std::uint32_t next, std::uint64_t rest,
+                std::uint64_t size) {
+    return header.length <= kMostPayloadBytes && header.length <= rest && header.type != 0 &&
+           header.sequence >= next && header.sequence - next <= size / kChunkHeaderSize;
+}
 
 }  // namespace
 
@@ -29,7 +39,7 @@ Reader::Reader(std::filesystem::path segment) : path_(std::move(segment)) {
                 std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
         } catch (const std::runtime_error& error) {
             size_ = std::filesystem::file_size(path_);
-            stop(error.what());
+            refuse(error.what());
         }
         return;
     }
@@ -38,49 +48,100 @@ Reader::Reader(std::filesystem::path segment) : path_(std::move(segment)) {
     size_ = std::filesystem::file_size(path_);
 }
 
-bool Reader::read(std::span<std::byte> bytes) {
+bool Reader::read(std::uint64_t at, std::span<std::byte> bytes) {
+    if (at != position_) {
+        in_->clear();
+        in_->seekg(static_cast<std::streamoff>(at));
+    }
     in_->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    position_ = at + bytes.size();
     return in_->good();
 }
 
-std::optional<Chunk> Reader::stop(std::string reason) {
-    damage_ = Damage{path_, offset_, size_ - offset_, std::move(reason)};
+/// Ends the segment.  Without a header all of it is damage.
+std::optional<Chunk> Reader::refuse(std::string reason) {
+    damage_.push_back({path_, offset_, size_ - offset_, std::move(reason)});
+    is_over_ = true;
+    return std::nullopt;
+}
+
+Reader::Look Reader::look_at(std::uint64_t at) {
+    std::array<std::byte, kChunkHeaderSize> head{};
+    Look look;
+    const auto refused = [&look](const char* trouble) {
+        look.trouble = trouble;
+        return look;
+    };
+    if (size_ - at < head.size() || !read(at, head)) return refused("torn chunk header");
+    look.header = decode_chunk_header(head);
+    const ChunkHeader& header = look.header;
+    if (header.length > kMostPayloadBytes) return refused("impossible length");
+    if (size_ - at - head.size() < header.length) return refused("torn chunk");
+    payload_.resize(header.length);
+    if (!read(at + head.size(), payload_)) return refused("torn chunk");
+    if (chunk_crc(header, payload_) != header.crc) return refused("wrong checksum");
+    const bool is_head = header.type == static_cast<std::uint8_t>(ChunkType::head);
+    if (is_head != (header.sequence == 0))
+        return refused(is_head ? "header inside the segment" : "no header");
+    if (is_known(header.type)) {
+        look.chunk = decode_payload(static_cast<ChunkType>(header.type), payload_);
+        if (!look.chunk) return refused("payload does not fit its type");
+    }
+    return look;
+}
+
+std::optional<Reader::Place> Reader::search(std::uint64_t from) {
+    std::vector<std::byte> bytes;
+    for (std::uint64_t at = from; size_ - at >= kChunkHeaderSize;) {
+        bytes.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kSearchedBytes, size_ - at)));
+        if (!read(at, bytes)) return std::nullopt;
+        const std::size_t places = bytes.size() - kChunkHeaderSize + 1;
+        for (std::size_t i = 0; i < places; ++i, ++at) {
+            const auto header = decode_chunk_header(std::span(bytes).subspan(i, kChunkHeaderSize));
+            if (!may_follow(header, next_sequence_, size_ - at - kChunkHeaderSize, size_)) continue;
+            if (look_at(at).trouble == nullptr) return Place{at, header.sequence};
+        }
+    }
     return std::nullopt;
 }
 
 std::optional<Chunk> Reader::next() {
-    if (damage_) return std::nullopt;
+    if (is_over_) return std::nullopt;
     if (offset_ == 0) {
         std::array<std::byte, kPreambleSize> preamble{};
-        if (size_ < kPreambleSize || !read(preamble)) return stop("shorter than its preamble");
-        if (!is_preamble(preamble)) return stop("not a journal of this version");
+        if (size_ < kPreambleSize || !read(0, preamble)) return refuse("shorter than its preamble");
+        if (!is_preamble(preamble)) return refuse("not a journal of this version");
+        if (size_ == kPreambleSize) return refuse("no header");
         // offset_ stays 0 until the header is read: without it the whole file is damaged.
     }
-    for (std::uint64_t at = std::max<std::uint64_t>(offset_, kPreambleSize); at < size_;
-         at = offset_) {
-        std::array<std::byte, kChunkHeaderSize> head{};
-        if (size_ - at < head.size() || !read(head)) return stop("torn chunk header");
-        const ChunkHeader chunk = decode_chunk_header(head);
-        if (chunk.length > kMostPayloadBytes) return stop("impossible length");
-        if (size_ - at - head.size() < chunk.length) return stop("torn chunk");
-        payload_.resize(chunk.length);
-        if (!read(payload_)) return stop("torn chunk");
-        if (chunk_crc(chunk, payload_) != chunk.crc) return stop("wrong checksum");
-        if (chunk.sequence != next_sequence_) return stop("wrong sequence number");
-        const bool is_head = chunk.type == static_cast<std::uint8_t>(ChunkType::head);
-        if (is_head != (chunk.sequence == 0))
-            return stop(is_head ? "header inside the segment" : "no header");
-        std::optional<Chunk> decoded;
-        if (is_known(chunk.type)) {
-            decoded = decode_payload(static_cast<ChunkType>(chunk.type), payload_);
-            if (!decoded) return stop("payload does not fit its type");
+    while (offset_ < size_) {
+        const std::uint64_t at = std::max<std::uint64_t>(offset_, kPreambleSize);
+        Look look = look_at(at);
+        if (look.trouble == nullptr && look.header.sequence != next_sequence_)
+            look.trouble = "wrong sequence number";
+        if (look.trouble != nullptr) {
+            if (offset_ == 0) return refuse(look.trouble);
+            const auto found = search(offset_);
+            if (!found) return refuse(look.trouble);
+            damage_.push_back(
+                {path_, offset_, found->offset - offset_, look.trouble, found->sequence});
+            offset_ = found->offset;
+            next_sequence_ = found->sequence;
+            continue;
         }
-        offset_ = at + head.size() + chunk.length;
+        offset_ = at + kChunkHeaderSize + look.header.length;
         sequence_ = next_sequence_++;
-        if (decoded) return decoded;
+        if (look.chunk) return look.chunk;
     }
-    if (next_sequence_ == 0) return stop("no header");
     return std::nullopt;
+}
+
+bool is_repeated_later(const Damage& damage, const Header& header, const Header& next) {
+    if (!damage.next_sequence || !next.repeats) return false;
+    // A further attempt repeats all that a failed one has, from chunk 1 on.
+    if (next.repeats == header.repeats) return true;
+    return next.repeats->segment == segment_number(damage.file) &&
+           next.repeats->sequence < *damage.next_sequence;
 }
 
 bool Repetitions::is_repeated(std::uint64_t segment, std::uint32_t sequence, const Chunk& chunk) {
@@ -111,12 +172,26 @@ std::optional<Chunk> Sequence::next() {
             const auto& segment = segments_[next_segment_++];
             number_ = segment_number(segment).value_or(0);
             reader_.emplace(segment);
+            damage_in_segment_ = 0;
         }
-        while (auto chunk = reader_->next())
+        while (auto chunk = reader_->next()) {
+            const auto& damage = reader_->damage();
+            if (std::exchange(damage_in_segment_, damage.size()) != damage.size() &&
+                is_repeated_later(damage.back()))
+                break;
             if (!repetitions_.is_repeated(number_, reader_->sequence(), *chunk)) return chunk;
-        if (reader_->damage()) damage_.push_back(*reader_->damage());
+        }
+        damage_.insert(damage_.end(), reader_->damage().begin(), reader_->damage().end());
         reader_.reset();
     }
+}
+
+bool Sequence::is_repeated_later(const Damage& damage) const {
+    const auto header = segment_header(segments_[next_segment_ - 1]);
+    for (std::size_t k = next_segment_; k < segments_.size(); ++k)
+        if (const auto next = segment_header(segments_[k]))
+            return header && journal::is_repeated_later(damage, *header, *next);
+    return false;
 }
 
 std::optional<Header> segment_header(const std::filesystem::path& segment) {
@@ -180,21 +255,21 @@ std::optional<Damage> repair_newest_segment(files::FileLayer& files,
     Reader reader(segments.back());
     while (reader.next()) {
     }
-    const auto& damage = reader.damage();
-    if (!damage) {
+    if (reader.damage().empty() || reader.damage().back().next_sequence) {
         // The writer may have been killed before its last sync.
         files.open_append(segments.back())->sync();
         return std::nullopt;
     }
-    auto side = damage->file;
+    const Damage& damage = reader.damage().back();
+    auto side = damage.file;
     side += ".torn";
-    if (damage->offset == 0) {
-        files.rename(damage->file, side);
+    if (damage.offset == 0) {
+        files.rename(damage.file, side);
         files.sync_directory(directory);
     } else {
         files::replace_file(files, side,
-                            files::read_bytes(damage->file, damage->offset, damage->byte_count));
-        files.truncate(damage->file, damage->offset);
+                            files::read_bytes(damage.file, damage.offset, damage.byte_count));
+        files.truncate(damage.file, damage.offset);
     }
     return damage;
 }

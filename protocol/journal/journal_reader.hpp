@@ -26,32 +26,37 @@
 
 #include "protocol/files/file_layer.hpp"
 #include "protocol/journal/journal.hpp"
+#include "protocol/journal/journal_codec.hpp"
 
 namespace a351::journal {
 
-/// Damage that ends a segment before its file ends.
+/// Bytes of a segment that are not a good chunk; their chunks are lost.
 ///
 /// In a compressed segment the positions count its bytes before compression.  If it cannot be
 /// unpacked at all, `offset` is 0 and `byte_count` is the size of the compressed file.
 struct Damage {
     std::filesystem::path file;
     std::uint64_t offset = 0;      ///< First byte after the last good chunk.
-    std::uint64_t byte_count = 0;  ///< From there to the end of the file.
+    std::uint64_t byte_count = 0;  ///< From there to the next good chunk, or to the end of the file.
     /// Reason as text, "wrong checksum" or "torn chunk" for example, without file and position.
     std::string reason;
+    /// Sequence number of the next good chunk; absent if the damage extends to the end.
+    std::optional<std::uint32_t> next_sequence{};
 };
 
 /// Reads one segment, compressed or not, chunk by chunk with bounded memory.  Chunks of an unknown
-/// type are skipped; bytes that are not a chunk end the segment.
+/// type are skipped.  After bytes that are not a good chunk, reading continues with the next one:
+/// the next place where length, type and checksum fit and the sequence number is larger.
 ///
-/// An uncompressed segment needs the memory of one chunk.  A compressed one is unpacked as a whole,
-/// at most 65 MiB, in the constructor.
+/// An uncompressed segment needs the memory of a chunk and of the search for one, 128 KiB.  A
+/// compressed one is unpacked as a whole, at most 65 MiB, in the constructor.
 ///
 /// A segment that is still being written is read up to its size at construction.  Its last chunk
 /// may then be reported as torn; make a new reader later.
 ///
-/// One flipped bit in any byte of a segment is detected.  A tail torn at any byte costs only the
-/// chunks from there on.  journal_reader_test.cpp shows both.
+/// One flipped bit in any byte of a segment is detected, and costs one chunk, unless it is in the
+/// header.  A tail torn at any byte costs only the chunks from there on.  journal_reader_test.cpp
+/// shows both.
 class Reader {
 public:
     /// Opens a segment; `.zst` at the end of the name means that it is compressed.  Nothing is
@@ -60,43 +65,63 @@ public:
     ///         cannot be read or unpacked does not throw: it is damage.
     explicit Reader(std::filesystem::path segment);
 
-    /// Returns the next good chunk; std::nullopt at the end or at the first damage.
+    /// Returns the next good chunk; std::nullopt at the end.
     ///
     /// The first chunk is always the Header, and no later one is.  After std::nullopt every
-    /// call returns std::nullopt; ask damage() which of the two cases it is.
+    /// call returns std::nullopt.
     [[nodiscard]] std::optional<Chunk> next();
 
     /// Returns the sequence number of the last chunk that next() returned.  It has no meaning
-    /// before the first chunk and after std::nullopt.  The header has 0; a skipped chunk leaves a
-    /// gap.
+    /// before the first chunk and after std::nullopt.  The header has 0; a skipped or lost chunk
+    /// leaves a gap.
     [[nodiscard]] std::uint32_t sequence() const noexcept { return sequence_; }
 
-    /// Returns the damage that next() found.  A torn tail is normal: the writer may die at any
-    /// byte.
-    ///
-    /// Without a good header the whole file is damage, and `offset` is 0.  Chunks after the damage
-    /// are not searched for, because there are no marks to find them.
-    [[nodiscard]] const std::optional<Damage>& damage() const noexcept { return damage_; }
+    /// Returns the damage that next() found so far.  A torn tail is normal: the writer may die at
+    /// any byte.  Without a good header the whole file is damage, and `offset` is 0.
+    [[nodiscard]] const std::vector<Damage>& damage() const noexcept { return damage_; }
 
 private:
-    [[nodiscard]] bool read(std::span<std::byte> bytes);
-    std::optional<Chunk> stop(std::string reason);
+    /// The bytes at a place of the segment, taken for a chunk.
+    struct Look {
+        ChunkHeader header;
+        std::optional<Chunk> chunk;      ///< Absent for a type that is unknown.
+        const char* trouble = nullptr;   ///< Null if they are a good chunk.
+    };
+    /// A good chunk found by search.
+    struct Place {
+        std::uint64_t offset = 0;
+        std::uint32_t sequence = 0;
+    };
+
+    [[nodiscard]] bool read(std::uint64_t at, std::span<std::byte> bytes);
+    [[nodiscard]] Look look_at(std::uint64_t at);
+    [[nodiscard]] std::optional<Place> search(std::uint64_t from);
+    std::optional<Chunk> refuse(std::string reason);
 
     std::filesystem::path path_;
     std::unique_ptr<std::istream> in_;
-    std::uint64_t size_ = 0;  ///< Size when the file was opened.
+    std::uint64_t size_ = 0;      ///< Size when the file was opened.
+    std::uint64_t position_ = 0;  ///< Place of the next byte of `in_`.
     std::vector<std::byte> payload_;
-    std::uint64_t offset_ = 0;
+    std::uint64_t offset_ = 0;    ///< End of the last good chunk; 0 before the header.
     std::uint32_t next_sequence_ = 0;
     std::uint32_t sequence_ = 0;
-    std::optional<Damage> damage_;
+    bool is_over_ = false;
+    std::vector<Damage> damage_;
 };
+
+/// Returns true if a chunk that the damage may have cost is repeated by the next segment.  The rest
+/// of the damaged segment must then not be read, because the next one has all of it, in order.
+/// @param header  of the damaged segment.
+/// @param next    of the first readable segment after it.
+[[nodiscard]] bool is_repeated_later(const Damage& damage, const Header& header,
+                                     const Header& next);
 
 /// Recognises chunks that were read before.  A segment whose header has `repeats` begins with the
 /// chunks that followed the last good sync of an earlier segment, because the disk may have lost
 /// them there.  Some or all of them may still exist there, or in further attempts between the two.
 ///
-/// Segments must be read in order, each to its end or its first damage.
+/// Segments must be read in order, each to its end, or to damage that is_repeated_later().
 ///
 /// Sequence uses it.  A program needs it only if it reads the segments by itself:
 ///
@@ -124,8 +149,7 @@ private:
 /// Reads segments one after the other, each chunk once: repeated chunks are skipped.
 ///
 /// Every segment begins with its Header.  If its `session` is that of the header before, the
-/// stream continues.  Damage ends a segment, not the sequence: reading continues with the next
-/// segment.
+/// stream continues.  Damage costs the chunks in it; reading continues with the next good chunk.
 class Sequence {
 public:
     /// Opens no file; next() opens them one by one.
@@ -137,14 +161,17 @@ public:
     ///         or removed after it was listed.  The next call continues with the segment after it.
     [[nodiscard]] std::optional<Chunk> next();
 
-    /// Returns the damage found in the segments read so far, in their order; at most one of each.
+    /// Returns the damage found in the segments read so far, in their order.
     [[nodiscard]] const std::vector<Damage>& damage() const noexcept { return damage_; }
 
 private:
+    [[nodiscard]] bool is_repeated_later(const Damage& damage) const;
+
     std::vector<std::filesystem::path> segments_;
     std::size_t next_segment_ = 0;
     std::uint64_t number_ = 0;
     std::optional<Reader> reader_;
+    std::size_t damage_in_segment_ = 0;  ///< Entries of the reader's damage that were examined.
     Repetitions repetitions_;
     std::vector<Damage> damage_;
 };
@@ -158,8 +185,8 @@ private:
 
 /// Returns the newest MARK of a segment, if there is one.
 ///
-/// The whole segment is read, up to its first damage.  Samples up to a mark are in the archive and
-/// synced; those of earlier sessions are too.
+/// The whole segment is read.  Samples up to a mark are in the archive and synced; those of earlier
+/// sessions are too.
 /// @throws std::system_error  the file cannot be opened.
 [[nodiscard]] std::optional<MarkChunk> newest_mark(const std::filesystem::path& segment);
 
@@ -192,11 +219,12 @@ private:
 /// Call it at start, while no writer is open.  The tail is synced in its new file before it is cut,
 /// so a crash in between loses nothing.  An older `*.torn` of the same segment is replaced.
 ///
-/// If there is no damage, the segment is only synced.  A compressed segment is left as it is.
-/// Damage in older segments is not repaired; a reader skips to the next segment.  Each call treats
-/// one segment: after it was renamed as a whole, a further call examines the one before it.
+/// If its end is not damaged, the segment is only synced.  A compressed segment is left as it is.
+/// Damage with good chunks behind it, and in older segments, is left too; readers continue behind
+/// it.  Each call treats one segment: after it was renamed as a whole, a further call examines the
+/// one before it.
 ///
-/// @return the damage, if there was any.  Positions are those before the repair.
+/// @return the damaged end, if there was one.  Positions are those before the repair.
 /// @throws std::system_error  a file cannot be read or written; call it again.
 std::optional<Damage> repair_newest_segment(files::FileLayer& files,
                                             const std::filesystem::path& directory);

@@ -6,8 +6,7 @@
 ///     const auto end = stream_end(segment_files(directory));
 ///     if (end) listen(end->header.baud);  // Does COUNT continue from end->count, end->arrival?
 ///
-/// Repair the newest segment first (repair_newest_segment()), because frames after damage are not
-/// seen.
+/// Repair the newest segment first (repair_newest_segment()).
 
 #include <cstdint>
 #include <filesystem>

@@ -29,7 +29,7 @@ journal::Header read_header(const std::filesystem::path& file) {
     const auto* header = chunk ? std::get_if<journal::Header>(&*chunk) : nullptr;
     if (header == nullptr) {
         throw InputError(fmt::format("{}: {}; allowed: journal segments with a whole header",
-                                     file.string(), reader.damage()->reason));
+                                     file.string(), reader.damage().front().reason));
     }
     return *header;
 }
@@ -93,10 +93,17 @@ void JournalRecording::open(std::size_t segment) {
     unit_.identity.firmware = header().firmware;
 }
 
+/// Returns true if the next segment repeats what the newest damage of this one may have cost.
+bool JournalRecording::is_repeated_later() const {
+    return !reader_->damage().empty() && at_ + 1 < segments_.size() &&
+           journal::is_repeated_later(reader_->damage().back(), header(), segments_[at_ + 1].header);
+}
+
 /// Loads the session's next chunk with received bytes; returns false if there is none.
 bool JournalRecording::load_chunk() {
     while (true) {
         while (auto chunk = reader_->next()) {
+            if (is_repeated_later()) break;
             const std::uint64_t number = journal::segment_number(segments_[at_].file).value_or(0);
             if (repetitions_.is_repeated(number, reader_->sequence(), *chunk)) continue;
             auto* received = std::get_if<journal::RxChunk>(&*chunk);
@@ -105,7 +112,7 @@ bool JournalRecording::load_chunk() {
             read_ = 0;
             return true;
         }
-        if (const auto& damage = reader_->damage()) damage_.push_back(*damage);
+        for (const journal::Damage& damage : reader_->damage()) damage_.push_back(damage);
         if (at_ + 1 == segments_.size()) return false;
         const journal::Header& next = segments_[at_ + 1].header;
         if (next.session != header().session || !is_same_boot(header(), next)) return false;

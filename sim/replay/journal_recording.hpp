@@ -17,7 +17,7 @@ namespace a351::sim::replay {
 /// clock are not replayed.  A journal does not contain the answers of the recorded handshake.
 /// Segments of one session follow each other without a break.  If the boot differs or raw time runs
 /// back, it is another session even under the same identifier.  Sessions without a byte are
-/// skipped.  A damaged tail is left out and reported by damage().
+/// skipped.  Damaged chunks are left out and reported by damage().
 class JournalRecording final : public Recording {
 public:
     /// @param segments  in the order of replay; headers are read now, the rest while replaying.
@@ -45,6 +45,7 @@ private:
 
     [[nodiscard]] const journal::Header& header() const { return segments_[at_].header; }
     void open(std::size_t segment);
+    [[nodiscard]] bool is_repeated_later() const;
     bool load_chunk();
     void load_piece();
 

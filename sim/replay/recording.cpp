@@ -35,8 +35,8 @@ void add_segments(const fs::path& directory, const std::vector<fs::path>& segmen
     const std::size_t before = expanded.files.size();
     for (const fs::path& segment : segments) {
         journal::Reader reader(segment);
-        if (!reader.next() && reader.damage())
-            expanded.damage.push_back(*reader.damage());
+        if (!reader.next() && !reader.damage().empty())
+            expanded.damage.push_back(reader.damage().front());
         else
             expanded.files.push_back(segment);
     }

@@ -1,9 +1,12 @@
-"""`export`: values on an exact 50 Hz grid of UTC, the same in both formats and with the sensor's mean; bad input is refused."""
+"""`export`: values on an exact 50 Hz grid of UTC, the same in both formats and with the sensor's mean; bad input is refused.
+
+Also the status of `export` and `retime` if their input is damaged.
+"""
 
 import datetime
 import math
 
-from programs import BIN, TOOLS, Scratch, demand, rows, run
+from programs import BIN, TOOLS, TOP, Scratch, demand, rows, run
 
 FROM, TO = "2017-07-15T23:50:00Z", "2017-07-16T00:10:00Z"
 SECONDS = 1200
@@ -51,7 +54,8 @@ with Scratch() as scratch:
     whole = day_file.read_bytes()
     at = len(whole) - 5 * 512
     day_file.write_bytes(whole[:at] + bytes(512) + whole[at + 512:])
-    damaged = export(root, scratch / "damaged.csv", 50, "csv")
+    damaged = export(root, scratch / "damaged.csv", 50, "csv", check=False)
+    demand("an export of a damaged archive ends with status 4", damaged.returncode == 4)
     print(damaged.stderr + damaged.stdout, end="")
     demand("a damaged record is reported once, with its offset", damaged.stderr.count("\n") == 1 and
            damaged.stderr.endswith(f"{day_file.name}: offset {at}: 512 bytes are not a record\n"))
@@ -62,3 +66,18 @@ with Scratch() as scratch:
            0 < len(good) - kept < 1000)
 
     demand("a refused export leaves no file", not list(scratch.glob("refused*")))
+
+# A journal is re-timed as far as it can be read.
+LOG = TOP / "tests" / "golden" / "logs" / "clean_start.a351j"
+with Scratch() as scratch:
+    segment = scratch / "data" / "journal" / "00000001_20260301T130000Z.a351j"
+    segment.parent.mkdir(parents=True)
+    whole = LOG.read_bytes()
+    for title, content, status, is_written in (("whole", whole, 0, True),
+                                               ("flipped", whole[:5000] + bytes([whole[5000] ^ 1]) + whole[5001:], 4, True),
+                                               ("unreadable", bytes(len(whole)), 1, False)):
+        segment.write_bytes(content)
+        retimed = run(BIN / "a351-correct", "retime", scratch / "data", "--out", scratch / title, check=False)
+        print(retimed.stderr + retimed.stdout, end="")
+        demand(f"re-timing a journal that is {title} ends with status {status}", retimed.returncode == status)
+        demand(f"it writes {'an archive' if is_written else 'nothing'}", (scratch / title).exists() == is_written)

@@ -10,18 +10,39 @@ from programs import TOP, demand
 GOLDEN = TOP / "tests" / "golden"
 
 
+def crc(data):
+    """Returns the CRC-32C."""
+    value = 0xFFFFFFFF
+    for byte in data:
+        value ^= byte
+        for _ in range(8):
+            value = value >> 1 ^ 0x82F63B78 * (value & 1)
+    return value ^ 0xFFFFFFFF
+
+
+def chunk(data, at, least):
+    """Returns type, sequence number and payload of the good chunk at this place; None if there is none."""
+    if at + 13 > len(data):
+        return None
+    length, kind, number, check = struct.unpack_from("<IBII", data, at)
+    payload = data[at + 13:at + 13 + length]
+    if length > 65536 or len(payload) < length or not least <= number < least + len(data) or (kind == 1) != (number == 0) or not kind:
+        return None
+    return (kind, number, payload) if crc(data[at:at + 9] + payload) == check else None
+
+
 def journal(file):
-    """Yields (type, payload) of each good chunk: protocol/journal/journal-format.md.  Checksums are not verified."""
-    data, at, sequence = file.read_bytes(), 12, 0
-    if data[:12] != b"A351JRNL\1\0\0\0":
-        return
-    while at + 13 <= len(data):
-        length, kind, number, _ = struct.unpack_from("<IBII", data, at)
-        payload = data[at + 13:at + 13 + length]
-        if length > 65536 or len(payload) < length or number != sequence:
+    """Yields (type, payload) of each good chunk: protocol/journal/journal-format.md."""
+    data = file if isinstance(file, bytes) else file.read_bytes()
+    at, number = 12, -1
+    while data[:12] == b"A351JRNL\1\0\0\0" and at < len(data):
+        good = chunk(data, at, number + 1)
+        if good:
+            kind, number, payload = good
+            yield kind, payload
+        elif number < 0:
             return
-        yield kind, payload
-        at, sequence = at + 13 + length, sequence + 1
+        at += 13 + len(payload) if good else 1
 
 
 def received(payload):
@@ -131,6 +152,10 @@ demand(f"the worked example has chunks {[kind for kind, _ in found]}", [kind for
 demand("the header has the session", json.loads(found[0][1])["session"] == bytes(range(16)).hex())
 demand("the example has two reads, 20 ms apart", received(found[3][1]) ==
        [(1000100000000, b"\x80ABC"), (1000120000000, b"DEF\r")])
+
+damaged = bytearray((GOLDEN / "journal" / "00000001_20260301T130000Z.a351j").read_bytes())
+damaged[0x282] ^= 4  # In the header of the RX chunk.
+demand("behind a damaged chunk the next ones are found", [kind for kind, _ in journal(bytes(damaged))] == [1, 3, 4, 5, 6, 7, 8])
 
 log = GOLDEN / "logs" / "clean_start"
 stream = b"".join(data for kind, payload in journal(log.with_suffix(".a351j")) if kind == 2 for _, data in received(payload))

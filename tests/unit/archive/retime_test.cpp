@@ -1,10 +1,13 @@
 #include "protocol/archive/retime.hpp"
 
+#include <algorithm>
+#include <cstdio>
 #include <random>
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/events/event_log.hpp"
+#include "tests/support/file_bytes.hpp"
 #include "tests/unit/archive/data_root.hpp"
 #include "tests/unit/files/failing_files.hpp"
 
@@ -122,7 +125,7 @@ TEST_CASE("re-timing writes a complete archive or nothing", "[record][retime]") 
     CHECK(first.counts == read_vertical(parent.path() / "again" / "archive").counts);
 }
 
-TEST_CASE("a damaged segment is re-timed up to the damage, which is reported", "[record][retime]") {
+TEST_CASE("a damaged segment is re-timed without the lost chunks, which are reported", "[record][retime]") {
     DataRoot root, parent;
     root.write_journal(badly_timed_session(0));
     const auto segment = journal::segment_files(root.journal()).front();
@@ -131,6 +134,24 @@ TEST_CASE("a damaged segment is re-timed up to the damage, which is reported", "
     REQUIRE(report.damage.size() == 1);
     CHECK(report.damage[0].file == segment);
     CHECK(report.records > 0);
+
+    auto bytes = test::read_bytes(segment);
+    const std::uint64_t frames = report.counters.frames;
+    bytes[bytes.size() / 2] ^= std::byte{8};
+    test::write_bytes(segment, bytes);
+    const RetimeReport flipped = retime(posix_files(), root.path(), parent.path() / "flipped");
+    CHECK(flipped.damage.size() == 2);
+    std::printf("%llu of %llu frames behind a flipped bit\n",
+                static_cast<unsigned long long>(flipped.counters.frames),
+                static_cast<unsigned long long>(frames));
+    CHECK(flipped.counters.frames < frames);
+    CHECK(flipped.counters.frames + 100 > frames);
+    CHECK(flipped.counters.gaps == report.counters.gaps + 1);
+
+    std::ranges::fill(bytes, std::byte{0});
+    test::write_bytes(segment, bytes);
+    CHECK_THROWS_AS(retime(posix_files(), root.path(), parent.path() / "none"), std::runtime_error);
+    CHECK_FALSE(std::filesystem::exists(parent.path() / "none"));
 }
 
 TEST_CASE(
