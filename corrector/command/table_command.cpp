@@ -48,8 +48,8 @@ void correct_table(TableOptions options) {
                   model::kGreatestSd_mgal);
     number_option("--reading-sd", options.survey.priors.reading_sd_mgal, model::kLeastSd_mgal,
                   model::kGreatestSd_mgal);
-    model::SurveyCorrection result = model::correct_survey(rows, options.survey);
-    result.findings = mistake::find_mistakes(result, {rows, sites, nullptr});
+    const model::SurveyCorrection result =
+        mistake::correct_and_search({rows, sites, nullptr}, options.survey);
 
     nlohmann::ordered_json settings;
     settings["command"] = "table";

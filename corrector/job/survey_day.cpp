@@ -4,7 +4,6 @@
 
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/mistake/survey_findings.hpp"
-#include "corrector/model/calibration_use.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/reading/refused.hpp"
 
@@ -25,11 +24,9 @@ model::SurveyCorrection correct_survey_day(const SurveyFile& survey,
                                            reading::OccupationRows& read) {
     const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
     try {
-        model::SurveyCorrection result =
-            model::correct_with_calibration(read.rows, with_sites_of(read, survey.survey), day);
+        model::SurveyCorrection result = mistake::correct_and_search(
+            {read.rows, read.sites, day}, with_sites_of(read, survey.survey), read.findings);
         model::add_left_out(result, read.left_out);
-        result.findings = read.findings;
-        result.findings = mistake::find_mistakes(result, {read.rows, read.sites, day});
         return result;
     } catch (const reading::Refused& refused) {
         throw reading::Refused(refused.code(), in_context(refused, survey, read));

@@ -7,8 +7,10 @@
 
 #include "corrector/mistake/mistake_search.hpp"
 #include "corrector/mistake/mistake_sentences.hpp"
+#include "corrector/mistake/survey_remarks.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/model.hpp"
+#include "corrector/model/survey_correction.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::mistake {
@@ -87,19 +89,11 @@ std::optional<Finding> misfit(const model::SurveyCorrection& result) {
     return std::nullopt;
 }
 
-std::optional<Finding> not_visited(const SearchedSurvey& survey) {
-    constexpr std::size_t kMostNames = 10;
-    std::vector<std::string> names;
-    for (const text::Site& site : survey.sites)
-        if (std::ranges::find(survey.rows, site.name, &SurveyRow::site) == survey.rows.end())
-            names.push_back(site.name);
-    if (names.empty()) return std::nullopt;
-    Finding finding{.kind = "not_visited", .code = "not_visited"};
-    const std::size_t more = names.size() - std::min(names.size(), kMostNames);
-    names.resize(names.size() - more);
-    finding.text = fmt::format("without a reading in this day: {}{}", text::joined(names),
-                               more == 0 ? "" : fmt::format(" and {} more", more));
-    return finding;
+/// Returns the place of a finding in the list: headlines, mistakes, remarks, what was not visited.
+int rank_of(const Finding& finding) {
+    if (finding.is_headline) return 0;
+    if (!reading::is_remark(finding)) return 1;
+    return finding.kind == "not_visited" ? 3 : 2;
 }
 
 /// Says that the day is not usable, if so.
@@ -119,15 +113,18 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
         .is_headline = true};
 }
 
-}  // namespace
+/// Findings of a survey, and the survey without its mistakes.
+struct Search {
+    std::vector<Finding> findings;
+    std::optional<AmendedSurvey> amended;  ///< Absent if there are no mistakes.
+};
 
-std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
-                                   const SearchedSurvey& survey) {
+Search search(const model::SurveyCorrection& result, const SearchedSurvey& survey) {
     std::vector<Finding> findings = result.findings;
+    std::optional<AmendedSurvey> right;
     const model::Model& model = *model::find_model(result.model);
     const std::vector<SurveyRow> rows =
         model::without_known_tilt(survey.rows, result.options.calibration);
-    bool is_mistaken = false;
     if (model.residuals) {
         const model::RowChoice choice =
             model::choose_rows(rows, result.options.datum, result.options.use_flags);
@@ -152,20 +149,60 @@ std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
         for (const Mistake& mistake : mistakes)
             for (Finding& finding : findings_of(mistake, rows, choice, survey.sites))
                 findings.push_back(std::move(finding));
-        is_mistaken = !mistakes.empty();
-        if (is_mistaken) {
-            const AmendedSurvey day = amended(rows, result.options, mistakes);
-            const auto score = model.score({day.rows, day.options, survey.day}, day.choice);
+        if (!mistakes.empty()) {
+            right = amended(rows, result.options, mistakes);
+            const auto score = model.score({right->rows, right->options, survey.day}, right->choice);
             if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
                 findings.insert(findings.begin(), std::move(*finding));
         }
     }
-    std::ranges::stable_partition(findings, &Finding::is_headline);
     // A mistake that was found is a misfit of its own.
-    if (!is_mistaken)
+    if (!right)
         if (auto finding = misfit(result)) findings.push_back(std::move(*finding));
-    if (auto finding = not_visited(survey)) findings.push_back(std::move(*finding));
-    return findings;
+    const auto is_said = [&](const Finding& remark) {  // the sentence has the temperature too
+        return remark.kind == "temperature_moving" &&
+               std::ranges::any_of(findings, [&](const Finding& one) {
+                   return !reading::is_remark(one) && one.site == remark.site &&
+                          one.occupation == remark.occupation;
+               });
+    };
+    for (Finding& remark : survey_remarks(result, survey.rows, survey.sites))
+        if (!is_said(remark)) findings.push_back(std::move(remark));
+    std::ranges::stable_sort(findings, {}, rank_of);
+    return {std::move(findings), std::move(right)};
+}
+
+}  // namespace
+
+std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
+                                   const SearchedSurvey& survey) {
+    return search(result, survey).findings;
+}
+
+model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
+                                           model::SurveyOptions options,
+                                           const std::vector<Finding>& known) {
+    const auto correct = [&] {
+        auto result = model::correct_with_calibration(survey.rows, options, survey.day);
+        result.findings = known;
+        return result;
+    };
+    model::SurveyCorrection result = correct();
+    Search found = search(result, survey);
+    if (options.model == model::kAutomatic && found.amended && result.model != model::kWholeDay) {
+        // The tilt of a calibration is subtracted from the amended rows already.
+        const std::string chosen =
+            model::correct_survey(found.amended->rows, found.amended->options, survey.day).model;
+        if (chosen != result.model) {
+            options.model = chosen;
+            result = correct();
+            result.remarks.push_back(fmt::format(
+                "{} is chosen from the readings without the mistakes that were found", chosen));
+            found = search(result, survey);
+        }
+    }
+    result.findings = std::move(found.findings);
+    return result;
 }
 
 }  // namespace a351::corrector::mistake

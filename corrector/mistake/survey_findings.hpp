@@ -2,8 +2,8 @@
 /// @file
 /// Finds what is wrong with a corrected survey, and says it with a proposal for each.
 ///
-///     SurveyCorrection result = correct_with_calibration(rows, options, day);
-///     result.findings = find_mistakes(result, {rows, sites, day});
+///     const SurveyCorrection result = correct_and_search({rows, sites, day}, options);
+///     result.findings;
 
 #include <vector>
 
@@ -27,9 +27,19 @@ struct SearchedSurvey {
 /// A reading that is off by the difference between two references of the list is said to be of the
 /// other site, if this is within two and a half standard uncertainties.  `paper` is not searched.
 /// @param result  with the findings that are known already, for example moved boxes.
-/// @return these and the new ones, the worst first: an unusable day, headlines, others, benchmarks
-///         that were not visited.
+/// Remarks are added about temperatures that moved by more than the model corrects, a base with one
+/// stay, and benchmarks that were not visited.
+/// @return these and the new ones, the worst first: an unusable day, headlines, other mistakes,
+///         remarks, benchmarks that were not visited.
 [[nodiscard]] std::vector<reading::Finding> find_mistakes(const model::SurveyCorrection& result,
                                                           const SearchedSurvey& survey);
+
+/// Corrects a survey and searches it.  If a mistake is found and `auto` did not take the whole-day
+/// model, the model is chosen again from the readings without the mistakes.
+/// @param known  findings that are known already.
+/// @throws InputError  as model::correct_survey().
+[[nodiscard]] model::SurveyCorrection correct_and_search(
+    const SearchedSurvey& survey, model::SurveyOptions options,
+    const std::vector<reading::Finding>& known = {});
 
 }  // namespace a351::corrector::mistake

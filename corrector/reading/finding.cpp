@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/strict_toml.hpp"
@@ -16,6 +18,17 @@ nlohmann::ordered_json json_or_null(const Value& value, bool is_there) {
 }
 
 }  // namespace
+
+bool is_remark(const Finding& finding) {
+    constexpr std::array<std::string_view, 8> kRemarks{
+        "no_stop",            "early_start",        "missed_set_up", "short_stay",
+        "base_not_revisited", "temperature_moving", "clock",         "not_visited"};
+    return std::ranges::count(kRemarks, finding.kind) > 0;
+}
+
+std::string in_minutes(Nanoseconds time) {
+    return fmt::format("{:.1f} min", std::chrono::duration<double, std::ratio<60>>(time).count());
+}
 
 void set_stay(Finding& finding, const std::string& site, int occupation, const std::string& key,
               UtcTime time) {

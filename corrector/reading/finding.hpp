@@ -19,8 +19,18 @@ namespace a351::corrector::reading {
 /// - step: from `time` on all readings are off by size_mgal, positive if they are too high.
 /// - bad_reading: the reading is off by size_mgal, positive if it is too high; or it has no size.
 /// - misfit: the model does not fit.
-/// - unusable_day: the day is not usable as it stands.
+/// - unusable_day: the day is not usable as it is.
 /// - not_visited: benchmarks of the list have no reading.
+///
+/// Remarks, which are never headlines:
+///
+/// - no_stop: the stay was not stopped.
+/// - early_start: the box was still moved when the stay was started.
+/// - missed_set_up: the box was lifted and set down during the stay, and no set-up was entered.
+/// - short_stay: the set-up is much shorter than the others of the day.
+/// - base_not_revisited: the base has one stay only.
+/// - temperature_moving: the temperature moved by more than the model corrects.
+/// - clock: times are uncertain, or the host's clock was set back.
 struct Finding {
     std::string kind = {};               ///< One of those above.
     std::string code = {};               ///< Which sentence the text is.
@@ -34,6 +44,12 @@ struct Finding {
     std::string amendment = {};  ///< Amendment that carries out the proposal, TOML; may be empty.
     bool is_headline = false;    ///< So certain that it belongs to the first line.
 };
+
+/// Returns true for the remarks above, and for not_visited.
+[[nodiscard]] bool is_remark(const Finding& finding);
+
+/// Returns a duration as "12.3 min".
+[[nodiscard]] std::string in_minutes(Nanoseconds time);
 
 /// Sets the stay of a finding.
 void set_stay(Finding& finding, const std::string& site, int occupation, const std::string& key,

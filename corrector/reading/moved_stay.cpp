@@ -44,8 +44,30 @@ std::vector<signal::MotionSample> motion_of(const OccupationRecord& record,
     return samples;
 }
 
-std::string in_minutes(Nanoseconds time) {
-    return fmt::format("{:.1f} min", std::chrono::duration<double, std::ratio<60>>(time).count());
+/// Says that the box was lifted and set down, with an amendment that divides the set-up there.
+Finding missed_set_up(const OccupationWindow& window,
+                      const std::vector<signal::MotionSample>& samples,
+                      const std::vector<signal::BoxMove>& moves) {
+    Finding finding{.kind = "missed_set_up", .code = "missed_set_up"};
+    const auto time_of = [&](const signal::BoxMove& move) {
+        const UtcTime before = samples[move.before].time;
+        return before + (samples[move.after].time - before) / 2;
+    };
+    set_stay(finding, window.site, window.number, window.key, time_of(moves.front()));
+    std::string times;
+    ListedSetUp listed = window.listed;
+    listed.set_up.reset();  // the instant says which
+    for (const signal::BoxMove& move : moves) {
+        times += (times.empty() ? "" : ", ") + to_rfc3339(time_of(move));
+        finding.amendment += amendment_head("set_up", listed) +
+                             fmt::format("time_utc = \"{}\"\nreason = \"lifted and set down\"\n",
+                                         to_rfc3339(time_of(move), 3));
+    }
+    finding.text = fmt::format(
+        "{} ({}): box lifted or turned and set down at {} without a set-up (its level changed by "
+        "{:.3f} deg); only the part before is used",
+        window.site, window.number, times, moves.front().tilt_deg);
+    return finding;
 }
 
 }  // namespace
@@ -55,7 +77,7 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     for (const char* const seen : {"retimed", "excluded", "included", "divided"})
         if (std::ranges::count(window.notes, seen) > 0) return std::nullopt;
     const auto samples = motion_of(record, axes);
-    const signal::StillPart part = signal::answered_stay(samples, window.not_moved_until).part;
+    const auto [part, moves] = signal::answered_stay(samples, window.not_moved_until);
     if (part == signal::StillPart{0, samples.size()}) return std::nullopt;
     MovedStay moved{window, {}};
     OccupationWindow& still = moved.still;
@@ -76,17 +98,24 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     if (part.behind < samples.size()) still.end = samples[part.behind].time;
 
     Finding& finding = moved.finding;
+    if (signal::was_only_lifted(samples, moves)) {
+        finding = missed_set_up(window, samples, moves);
+        return moved;
+    }
     finding = {.kind = "moved_box", .code = "moved_at_end", .is_headline = true};
     set_stay(finding, window.site, window.number, window.key, still.end);
     std::string what;
     if (still.start != window.start) {
         finding.time = still.start;
-        finding.code = "moved_at_start";
+        finding.kind = finding.code = "early_start";
+        finding.is_headline = false;
         what = fmt::format("moved until {}, {} after its start; the stay begins there",
                            to_rfc3339(still.start), in_minutes(still.start - window.start));
     }
     if (still.end != window.end) {
         finding.time = still.end;
+        finding.kind = "moved_box";
+        finding.is_headline = true;
         finding.code = what.empty() ? "moved_at_end" : "moved_at_both_ends";
         what += fmt::format("{}moved at {}, {} before its end was entered; the stay ends there",
                             what.empty() ? "" : "; ", to_rfc3339(still.end),

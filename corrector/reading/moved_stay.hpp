@@ -13,7 +13,7 @@ struct MovedStay {
     /// The part in which it stood, with the note `moved`; the whole with the note `shaken` if it
     /// was never at rest.
     OccupationWindow still;
-    Finding finding;
+    Finding finding;  ///< moved_box, early_start, missed_set_up or bad_reading.
 };
 
 /// Returns the part of a set-up in which the box stood (protocol/signal/moved_box.hpp), and what

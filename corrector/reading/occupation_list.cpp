@@ -95,9 +95,11 @@ void keep_last_day(std::vector<events::Occupation>& occupations, OccupationList&
         all - occupations.size()));
 }
 
-/// Stops the running occupation at `end`, or at the next later start; returns its key.
-std::string stop_running(events::OccupationReplay& replay, UtcTime end) {
+/// Stops the running occupation at `until`, else after the end of the record, or at the next later
+/// start; returns its key.
+std::string stop_running(events::OccupationReplay& replay, const std::optional<UtcTime>& until) {
     if (!replay.running()) return {};
+    UtcTime end = until.value_or(replay.running()->set_ups.back() + events::kSurveyNight);
     const std::string key = replay.running()->key;
     for (const events::Occupation& other : replay.finished()) {
         const UtcTime start = other.set_ups.front().start;
@@ -158,7 +160,8 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
                                             damage.file.filename().string(), damage.line));
     }
     events::OccupationReplay replay(log.events);
-    if (running_until) list.running_key = stop_running(replay, *running_until);
+    const std::string last_key = stop_running(replay, running_until);
+    if (running_until) list.running_key = last_key;
     auto occupations = replay.finished();
     if (!from && !to) keep_last_day(occupations, list, events);
     for (const events::Occupation& occupation : occupations) {
@@ -167,20 +170,19 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
             list.windows.back().key = occupation.key;
             list.windows.back().not_moved_until = occupation.not_moved_until;
         }
-        if (!occupation.is_stopped) list.windows.back().notes.emplace_back("no-stop");
+        const bool is_last = occupation.key == last_key;
+        list.windows.back().is_last = is_last;
+        if (!occupation.is_stopped || (is_last && !running_until))
+            list.windows.back().notes.emplace_back("no-stop");
     }
     sort_by_start(list.windows);
     keep_between(list.windows, from, to, events);
     for (const OccupationWindow& window : list.windows) {
         if (!window.notes.empty())
-            list.warnings.push_back(named(window) +
-                                    " has no stop: it lasts until the next start, at " +
-                                    to_rfc3339(window.end));
-    }
-    if (replay.running() && !to) {
-        list.warnings.push_back(
-            fmt::format("{}: the last occupation, of {}, has no stop and is left out",
-                        events.string(), replay.running()->site));
+            list.warnings.push_back(
+                named(window) + " has no stop: it lasts until the " +
+                (window.is_last ? "end of the record, six hours at most"
+                                : "next start, at " + to_rfc3339(window.end)));
     }
     return list;
 }

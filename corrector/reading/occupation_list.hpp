@@ -38,14 +38,15 @@ struct OccupationWindow {
     std::optional<MilliGal> given_tide = {};  ///< Effect of the tide on gravity.
     bool is_excluded = false;                 ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
+    bool is_last = false;                     ///< The log ends without its stop.
     std::string key = {};                     ///< Key of the stay in the event log, if any.
     /// The operator says that the box was not moved before this instant.
     std::optional<UtcTime> not_moved_until = {};
     ListedSetUp listed = {};  ///< Names before all amendments.
 };
 
-/// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`.  Exceptions
-/// are those outside the time that was asked for, and a last one without a stop.
+/// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`, except those
+/// outside the time that was asked for.
 struct OccupationList {
     std::vector<OccupationWindow> windows;  ///< Set-ups in order of start.
     std::vector<LeftOut> left_out;          ///< Set-ups that cannot be used, in order of discovery.
@@ -72,11 +73,11 @@ struct OccupationList {
 /// Reads the occupations of a survey from an event log (directory `events` of a data root).
 ///
 /// An occupation that was not stopped lasts until the next start, with the note no-stop and a
-/// warning.  The last occupation of the log is left out with a warning if it was not stopped.
+/// warning.  The last one of the log lasts until the end of the record, at most kSurveyNight.
 ///
 /// Stays are numbered over the whole log, also if only a day of it is used.  Lines that are not
 /// events are skipped with a warning.  A directory that does not exist gives an empty list.  Sites
-/// are not checked here.  With `to` there is no warning about a last occupation without a stop.
+/// are not checked here.
 ///
 /// @param from, to  only occupations that start at or after `from` and before `to`.  If neither is
 ///                  given: the last survey day (events::kSurveyNight), with a warning if there are

@@ -11,6 +11,7 @@
 #include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/on_all_cores.hpp"
 #include "corrector/reading/refused.hpp"
+#include "corrector/reading/stay_remarks.hpp"
 #include "corrector/reading/vertical_axis.hpp"
 #include "protocol/archive/journal_tail.hpp"
 #include "protocol/archive/sds.hpp"
@@ -193,6 +194,15 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     return row;
 }
 
+/// Ends a last stay without a stop at the last sample.
+void end_with_record(std::vector<OccupationWindow>& windows, const archive::ChannelData& axis) {
+    UtcTime end = UtcTime::min();
+    for (const archive::Segment& segment : axis.segments)
+        end = std::max(end, segment.time_of(segment.counts.size()));
+    for (OccupationWindow& window : windows)
+        if (window.is_last && end > window.start) window.end = std::min(window.end, end);
+}
+
 }  // namespace
 
 SurveyStays read_survey_inputs(const SurveySource& source) {
@@ -216,15 +226,17 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     result.serial_number = station.serial_number;
     SurveyChannels channels = channels_of_file;
     SurveySamples samples = read_samples(source, station.codes, channels, list.windows);
-    const VerticalAxis vertical = put_vertical_last(samples, channels, list.windows, metadata);
+    std::vector<OccupationWindow> windows = list.windows;
+    end_with_record(windows, samples.axes.back());
+    const VerticalAxis vertical = put_vertical_last(samples, channels, windows, metadata);
 
-    std::vector<std::optional<SurveyRow>> rows(list.windows.size());
-    std::vector<std::optional<RepresentativeValue>> values(list.windows.size());
-    std::vector<std::string> troubles(list.windows.size());
-    std::vector<std::vector<DayBin>> bins(list.windows.size());
-    std::vector<std::optional<MovedStay>> moved(list.windows.size());
+    std::vector<std::optional<SurveyRow>> rows(windows.size());
+    std::vector<std::optional<RepresentativeValue>> values(windows.size());
+    std::vector<std::string> troubles(windows.size());
+    std::vector<std::vector<DayBin>> bins(windows.size());
+    std::vector<std::optional<MovedStay>> moved(windows.size());
     const auto average = [&](std::size_t i) {
-        const OccupationWindow& given = stays.list.windows[i];
+        const OccupationWindow& given = windows[i];
         auto record = cut_occupation(samples, channels, given.start, given.end);
         if (!record) {
             troubles[i] = "no samples";
@@ -248,9 +260,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
             bins[i] = bin_set_up(0, axes, kDisturbanceThreshold);
         }
     };
-    on_all_cores(list.windows.size(), average, progress);
+    on_all_cores(windows.size(), average, progress);
 
-    if (auto temperature = temperature_of_day(samples, channels, list.windows))
+    if (auto temperature = temperature_of_day(samples, channels, windows))
         result.day = DayRecord{std::move(*temperature), {}};
     result.left_out = list.left_out;
     result.warnings = list.warnings;
@@ -259,15 +271,15 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     result.sites = sites;
     for (const archive::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
     add_damage(result.warnings, samples.temperature);
+    std::vector<OccupationWindow> averaged;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const OccupationWindow& window = list.windows[i];
-        if (moved[i]) {
-            result.findings.push_back(std::move(moved[i]->finding));
-        }
+        const OccupationWindow& window = windows[i];
+        if (moved[i]) result.findings.push_back(std::move(moved[i]->finding));
         if (!rows[i]) {
             leave_out(result.left_out, result.warnings, window, troubles[i]);
             continue;
         }
+        averaged.push_back(moved[i] ? moved[i]->still : window);
         const text::Site& site = *text::find_site(sites, window.site);
         rows[i]->reference = site.gravity;
         rows[i]->u_reference = site.u_gravity;
@@ -288,6 +300,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
                                                 source.path.string(), source.root.string(),
                                                 result.warnings.back()));
     }
+    for (Finding& remark : stay_remarks(averaged, samples.axes.back()))
+        result.findings.push_back(std::move(remark));
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
     for (std::string& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));

@@ -113,7 +113,10 @@ void add_findings(ReadingGrade& reading, const reading::SurveyRow& row,
                   const std::vector<reading::Finding>& findings) {
     for (const reading::Finding& finding : findings) {
         if (finding.site != row.site || finding.occupation != row.occupation) continue;
-        if (finding.kind == "moved_box" || finding.code == "never_at_rest") continue;  // its note
+        // Those that have a note or a reason of their own.
+        if (finding.kind == "moved_box" || finding.code == "never_at_rest" ||
+            finding.kind == "no_stop" || finding.kind == "temperature_moving")
+            continue;
         add(reading, finding.kind == "bad_reading" ? Grade::repeat : Grade::care,
             {finding.code, {}, finding.text});
     }

@@ -40,7 +40,9 @@ void RecordJoiner::take(const DecodedRecord& record) {
     if (first == last) return;
     if (!continues(data_, start, rate_hz)) data_.segments.push_back({rate_hz, {}, {}});
     Segment& segment = data_.segments.back();
-    segment.anchors.push_back({segment.counts.size(), time_of(first)});
+    segment.anchors.push_back({segment.counts.size(), time_of(first),
+                               record.header.is_time_questionable,
+                               record.header.timing_quality_percent});
     segment.counts.insert(segment.counts.end(),
                           record.samples.begin() + static_cast<std::ptrdiff_t>(first),
                           record.samples.begin() + static_cast<std::ptrdiff_t>(last));

@@ -31,6 +31,9 @@ struct Segment {
     struct Anchor {
         std::size_t offset = 0;  ///< Sample within `counts`.
         UtcTime time;            ///< Time of that sample.
+        /// The time is uncertain by more than 10 ms, or the host's clock was not synchronised.
+        bool is_time_questionable = false;
+        int timing_quality_percent = 100;  ///< timing_quality_percent() of its uncertainty.
     };
     double rate_hz = 0.0;              ///< Rate of blockette 100, else of the fixed header, Hz.
     std::vector<std::int32_t> counts;  ///< Raw counts (n), one sample after the other.

@@ -17,6 +17,7 @@ constexpr double kHandledAndMoved_mgal = 10.0;
 constexpr std::size_t kCarried = 30;    // samples: a minute; handling takes up to 25 s
 constexpr std::size_t kLeastStay = 90;  // samples: three minutes
 constexpr std::size_t kWayToCar = 300;  // samples: ten minutes
+constexpr std::chrono::minutes kLift(2);  // lifting, turning and levelling again
 
 bool is_shaken(const MotionSample& sample) { return sample.shake.value() > kShaken_mgal; }
 
@@ -139,6 +140,24 @@ StillPart choose_still_part(std::span<const MotionSample> samples,
         if (begin < end) end = begin + 1;
     }
     return longest;
+}
+
+bool was_only_lifted(std::span<const MotionSample> samples, const std::vector<BoxMove>& moves) {
+    const auto is_lift = [&](const BoxMove& move) {
+        return samples[move.after].time - samples[move.before].time <= kLift &&
+               std::abs(move.norm.value()) < kHandledAndMoved_mgal;
+    };
+    if (moves.empty() || !std::ranges::all_of(moves, is_lift)) return false;
+    const std::vector<bool> rest = at_rest(samples);
+    for (std::size_t k = 0; k <= moves.size(); ++k) {
+        const std::size_t first = k == 0 ? 0 : moves[k - 1].after,
+                          behind = k == moves.size() ? samples.size() : moves[k].before + 1;
+        const auto still = std::count(rest.begin() + static_cast<std::ptrdiff_t>(first),
+                                      rest.begin() + static_cast<std::ptrdiff_t>(behind), true);
+        if (still < static_cast<std::ptrdiff_t>(kLeastStay)) return false;
+        if (shaken_in(samples, first, behind) >= kCarried) return false;
+    }
+    return true;
 }
 
 AnsweredStay answered_stay(std::span<const MotionSample> samples,

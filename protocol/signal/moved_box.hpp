@@ -76,6 +76,16 @@ struct StillPart {
 [[nodiscard]] StillPart choose_still_part(std::span<const MotionSample> samples,
                                           const std::vector<BoxMove>& moves);
 
+/// Returns true if the moves only lifted the box, turned it, or both: after each it is at rest again
+/// within two minutes at the same gravity, and between them it is at rest for three minutes.
+///
+/// The same gravity is one that differs by less than 10 mGal: a placement changes it by 1 to 2 mGal,
+/// a tilt with large axis biases by some more.
+/// @param moves  find_box_moves() of the samples.
+/// @return false without a move, or if the box is shaken for a minute or more between moves.
+[[nodiscard]] bool was_only_lifted(std::span<const MotionSample> samples,
+                                   const std::vector<BoxMove>& moves);
+
 /// The stay as it is after the operator's answer that the box was not moved before an instant.
 struct AnsweredStay {
     StillPart part;              ///< choose_still_part(), without cuts at or before the instant.

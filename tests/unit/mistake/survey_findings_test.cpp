@@ -1,5 +1,7 @@
 #include "corrector/mistake/survey_findings.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
@@ -43,9 +45,11 @@ struct Day {
     }
 };
 
+/// Returns the kinds without temperature_moving: some rates of the day are above its limit.
 std::vector<std::string> kinds(const std::vector<Finding>& findings) {
     std::vector<std::string> list;
-    for (const Finding& finding : findings) list.push_back(finding.kind);
+    for (const Finding& finding : findings)
+        if (finding.kind != "temperature_moving") list.push_back(finding.kind);
     return list;
 }
 
@@ -57,8 +61,8 @@ TEST_CASE("of a good day only the benchmarks that were not visited are said", "[
     for (const std::string model : {"t-rate-drift", "network", "robust", "paper"}) {
         const auto findings = Day().findings(model);
         REQUIRE(kinds(findings) == Kinds{"not_visited"});
-        CHECK(findings[0].text == "without a reading in this day: S9");
-        CHECK_FALSE(findings[0].is_headline);
+        CHECK(findings.back().text == "without a reading in this day: S9");
+        CHECK_FALSE(findings.back().is_headline);
     }
 }
 
@@ -132,6 +136,46 @@ TEST_CASE("a bad reading of a station with others is to be repeated", "[mistake]
     CHECK(bad->amendment.find("[[exclude]]\nsite = \"S2\"\noccupation = 2\n") == 0);
     day.rows[9].is_excluded = true;
     CHECK(kinds(day.findings()) == Kinds{"not_visited"});
+}
+
+TEST_CASE("a temperature that moved is named if the model does not correct it",
+          "[mistake]") {
+    Day day;
+    REQUIRE(day.rows[3].rate_degc_per_h > 0.2);
+    const auto of_row = [&](const std::string& model) {
+        const auto findings = day.findings(model);
+        const auto found = std::ranges::find_if(findings, [&](const Finding& finding) {
+            return finding.kind == "temperature_moving" && finding.site == day.rows[3].site &&
+                   finding.occupation == day.rows[3].occupation;
+        });
+        return found == findings.end() ? Finding() : *found;
+    };
+    CHECK(of_row("paper").text ==
+          fmt::format("S3 (1): its temperature was still moving (rate {:.3f} degC/h; limits: 0.2 "
+                      "degC/h, 0.05 degC), which the model does not correct",
+                      day.rows[3].rate_degc_per_h));
+    CHECK_FALSE(of_row("paper").is_headline);
+    CHECK(of_row("t-rate-drift").text.empty());
+    day.rows[3].is_excluded = true;  // a person has seen it
+    CHECK(of_row("paper").text.empty());
+    day.rows[3].is_excluded = false;
+    day.rows[3].is_flagged = true;
+    CHECK_THAT(of_row("t-rate-drift").text, ContainsSubstring("and it is not in the fit"));
+}
+
+TEST_CASE("a base with one stay is named", "[mistake]") {
+    Day day;
+    for (const std::size_t i : {std::size_t{4}, std::size_t{11}}) {
+        day.rows[i].site = "S1";
+        day.rows[i].occupation = static_cast<int>(i);
+        day.rows[i].acceleration =
+            day.rows[i].acceleration + (*day.rows[1].reference - *day.rows[i].reference);
+        day.rows[i].reference = day.rows[1].reference;
+    }
+    const auto found = day.findings();
+    REQUIRE(kinds(found) == Kinds{"base_not_revisited", "not_visited"});
+    CHECK(found[0].text ==
+          "the base B has 1 stay of 12, at least 2 show a drift without the references");
 }
 
 TEST_CASE("a table has findings, but no amendments", "[mistake]") {

@@ -108,6 +108,34 @@ TEST_CASE("occupations are read from the event log if no table is given", "[surv
     }
 }
 
+TEST_CASE("the last stay of a log without a stop lasts until the end of the record",
+          "[survey][archive]") {
+    Morning morning;
+    const auto events = morning.folder().path() / "data/events";
+    for (std::size_t i = 0; i < kSites.size(); ++i) {
+        events::append_event(files::posix_files(), events,
+                             {"start", Morning::start_of(i), {}, {}, {{"site", kSites[i]}}});
+        if (i + 1 < kSites.size())
+            events::append_event(files::posix_files(), events,
+                                 {"stop", Morning::start_of(i) + kStay, {}, {}, {}});
+    }
+    const auto result = average(morning, "");
+    REQUIRE(result.rows.size() == kSites.size());
+    const UtcTime end = Morning::kBegin + static_cast<int>(kSites.size()) * Morning::kCycle;
+    CHECK(std::chrono::abs(*result.rows.back().end - end) < 30s);
+    CHECK(std::ranges::count(result.rows.back().notes, "gap") == 0);
+    REQUIRE(result.findings.size() == 1);
+    const Finding& finding = result.findings[0];
+    CHECK(finding.kind == "no_stop");
+    CHECK(finding.code == "no_stop_last");
+    CHECK(finding.site == kSites.back());
+    CHECK(finding.key == "20200502T000220Z");
+    CHECK_FALSE(finding.is_headline);
+    CHECK(finding.text == "B (2) has no stop: it lasts until the end of the record, at " +
+                              to_rfc3339(*finding.time));
+    CHECK(std::chrono::abs(*finding.time - end) < 1s);
+}
+
 TEST_CASE("an occupation outside the archive is left out and reported", "[survey][archive]") {
     Morning morning;
     morning.folder().write("late.csv",

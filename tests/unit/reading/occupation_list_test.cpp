@@ -65,10 +65,16 @@ TEST_CASE("a mistake in the field excludes only its own occupation, which is rep
                      "{\"type\":\"start\",\"utc\":\"2020-01-01T02:00:00Z\",\"site\":\"B\"}\n");
     const auto list =
         drop_invalid_occupations(read_logged_occupations(file.parent_path()), kSites, file);
-    REQUIRE(list.windows.size() == 1);
+    REQUIRE(list.windows.size() == 2);
     CHECK(list.windows[0].site == "A");
+    CHECK_FALSE(list.windows[0].is_last);
+    CHECK(list.windows[1].site == "B");
+    CHECK(list.windows[1].is_last);
+    CHECK(list.windows[1].end - list.windows[1].start == std::chrono::hours(6));
     REQUIRE(list.warnings.size() == 2);
-    CHECK_THAT(list.warnings[0], ContainsSubstring("of B, has no stop"));
+    CHECK(list.warnings[0] ==
+          "B (1) at 2020-01-01T02:00:00Z has no stop: it lasts until the end of the record, six "
+          "hours at most");
     CHECK(list.warnings[1] ==
           "AA (1) at 2020-01-01T01:00:00Z is left out: not in the table of sites");
     REQUIRE(list.left_out.size() == 1);

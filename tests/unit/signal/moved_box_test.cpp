@@ -125,6 +125,42 @@ TEST_CASE("a start that was pressed too early is moved to where the box stands",
     CHECK(std::abs(seconds_of(box, part.first) - down_s) <= 14.0);
 }
 
+TEST_CASE("a box that is lifted and set down is told from one that is carried off",
+          "[signal][moved_box]") {
+    constexpr int kEach = 50;
+    int lifted = 0, carried = 0, briefly = 0;
+    for (unsigned seed = 1; seed <= kEach; ++seed) {
+        MadeUpBox box(seed);
+        box.rest(box.between(240.0, 500.0));
+        box.shake(box.between(8.0, 50.0), 20000.0);
+        box.place(box.between(-4.0, 4.0));
+        box.rest(box.between(100.0, 150.0));
+        briefly += was_only_lifted(box.samples(), find_box_moves(box.samples())) ? 1 : 0;
+        box.rest(200.0);
+        lifted += was_only_lifted(box.samples(), find_box_moves(box.samples())) ? 1 : 0;
+
+        MadeUpBox late(1000 + seed);  // driven to a benchmark where gravity is nearly the same
+        late.rest(300.0);
+        late.shake(box.between(130.0, 900.0), 20000.0);
+        late.place(box.between(-4.0, 4.0));
+        late.rest(400.0);
+        carried += was_only_lifted(late.samples(), find_box_moves(late.samples())) ? 1 : 0;
+        MadeUpBox other(2000 + seed);  // gravity changes
+        other.rest(300.0);
+        other.shake(40.0, 20000.0);
+        other.place(box.between(15.0, 60.0));
+        other.rest(400.0);
+        carried += was_only_lifted(other.samples(), find_box_moves(other.samples())) ? 1 : 0;
+    }
+    CAPTURE(lifted, carried, briefly);
+    CHECK(lifted >= 0.95 * kEach);
+    CHECK(carried == 0);
+    CHECK(briefly == 0);
+    MadeUpBox still(1);
+    still.rest(600.0);
+    CHECK_FALSE(was_only_lifted(still.samples(), {}));
+}
+
 TEST_CASE("missing samples and records without a pause for comparison have no moves",
           "[signal][moved_box]") {
     MadeUpBox box(1);

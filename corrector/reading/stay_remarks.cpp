@@ -1,0 +1,144 @@
+#include "corrector/reading/stay_remarks.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace a351::corrector::reading {
+namespace {
+
+/// A stay is short below the median divided by this, and below this length.  Reason: a set-up of 6 min
+/// is about as good as one of 12 (methods.md, "Moved box").
+constexpr int kShortDivisor = 2;
+constexpr std::chrono::minutes kLongEnough(6);
+/// Fewest stays with a median.
+constexpr std::size_t kFewestCompared = 5;
+/// Least step of the clock that is named.  Reason: the ends of a stay are known to a second.
+constexpr std::chrono::seconds kLeastStep(1);
+
+bool has_note(const OccupationWindow& window, const char* note) {
+    return std::ranges::count(window.notes, note) > 0;
+}
+
+Finding remark(const char* kind, const OccupationWindow& window, UtcTime time) {
+    Finding finding{.kind = kind, .code = kind};
+    set_stay(finding, window.site, window.number, window.key, time);
+    return finding;
+}
+
+void add_missing_stops(std::vector<Finding>& findings,
+                       const std::vector<OccupationWindow>& windows) {
+    for (const OccupationWindow& window : windows) {
+        if (!has_note(window, "no-stop")) continue;
+        if (std::ranges::any_of(window.notes, [](const std::string& note) {
+                return note == "moved" || note == "retimed" || note == "excluded";
+            }))
+            continue;
+        Finding& finding = findings.emplace_back(remark("no_stop", window, window.end));
+        if (window.is_last) finding.code = "no_stop_last";
+        finding.text = fmt::format("{} ({}) has no stop: it lasts until the {}, at {}", window.site,
+                                   window.number,
+                                   window.is_last ? "end of the record" : "next start",
+                                   to_rfc3339(window.end));
+    }
+}
+
+void add_short_stays(std::vector<Finding>& findings, const std::vector<OccupationWindow>& windows) {
+    struct Stay {
+        const OccupationWindow* first = nullptr;
+        Nanoseconds length{};
+        bool is_compared = true;
+    };
+    std::vector<Stay> stays;
+    std::map<std::pair<std::string, int>, std::size_t> places;
+    for (const OccupationWindow& window : windows) {
+        const auto [place, is_new] =
+            places.emplace(std::pair(window.site, window.number), stays.size());
+        if (is_new) stays.push_back({&window});
+        Stay& stay = stays[place->second];
+        stay.length += window.end - window.start;
+        if (window.is_last || has_note(window, "excluded") || has_note(window, "divided"))
+            stay.is_compared = false;
+    }
+    std::erase_if(stays, [](const Stay& stay) { return !stay.is_compared; });
+    if (stays.size() < kFewestCompared) return;
+    std::vector<Nanoseconds> lengths;
+    for (const Stay& stay : stays) lengths.push_back(stay.length);
+    std::ranges::sort(lengths);
+    const Nanoseconds median = lengths[lengths.size() / 2];
+    for (const Stay& stay : stays) {
+        if (stay.length >= std::min<Nanoseconds>(kLongEnough, median / kShortDivisor)) continue;
+        Finding& finding =
+            findings.emplace_back(remark("short_stay", *stay.first, stay.first->start));
+        finding.text = fmt::format(
+            "{} ({}) has {}, less than half the day's median of {}: its noise is averaged less",
+            stay.first->site, stay.first->number, in_minutes(stay.length), in_minutes(median));
+    }
+}
+
+/// Returns the uncertainty that a timing quality means, s: the inverse of timing_quality_percent().
+double uncertainty_s(int timing_quality_percent) {
+    constexpr double kPercentPerDecade = 20.0, kBest_s = 1e-3;
+    return kBest_s * std::pow(10.0, (100.0 - timing_quality_percent) / kPercentPerDecade);
+}
+
+std::optional<Finding> uncertain_times(const std::vector<OccupationWindow>& windows,
+                                       const archive::ChannelData& axis) {
+    std::size_t uncertain = 0;
+    int worst_percent = 100;
+    for (const OccupationWindow& window : windows) {
+        std::size_t count = 0, questionable = 0;
+        int percent = 100;
+        for (const archive::Segment& segment : axis.segments)
+            for (const archive::Segment::Anchor& anchor : segment.anchors) {
+                if (anchor.time < window.start || anchor.time >= window.end) continue;
+                ++count;
+                if (!anchor.is_time_questionable) continue;
+                ++questionable;
+                percent = std::min(percent, anchor.timing_quality_percent);
+            }
+        if (2 * questionable <= count) continue;
+        ++uncertain;
+        worst_percent = std::min(worst_percent, percent);
+    }
+    if (uncertain == 0) return std::nullopt;
+    Finding finding{.kind = "clock", .code = "clock_uncertain"};
+    finding.text = fmt::format(
+        "the times of {} of {} set-ups are uncertain by more than 10 ms (up to {:.2g} s), or the "
+        "host's clock was not synchronised",
+        uncertain, windows.size(), uncertainty_s(worst_percent));
+    return finding;
+}
+
+void add_steps_back(std::vector<Finding>& findings, const archive::ChannelData& axis) {
+    if (axis.segments.empty()) return;
+    UtcTime end = axis.segments.front().anchors.front().time;
+    for (const archive::Segment& segment : axis.segments) {
+        const UtcTime start = segment.anchors.front().time;
+        if (start <= end - kLeastStep) {
+            Finding& finding = findings.emplace_back(
+                Finding{.kind = "clock", .code = "clock_set_back", .time = start});
+            finding.text =
+                fmt::format("the host's clock was set back by {:.1f} s: two records are of {}",
+                            seconds_between(start, end), to_rfc3339(start));
+        }
+        end = std::max(end, segment.time_of(segment.counts.size()));
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> stay_remarks(const std::vector<OccupationWindow>& windows,
+                                  const archive::ChannelData& axis) {
+    std::vector<Finding> findings;
+    add_missing_stops(findings, windows);
+    add_short_stays(findings, windows);
+    if (auto finding = uncertain_times(windows, axis)) findings.push_back(std::move(*finding));
+    add_steps_back(findings, axis);
+    return findings;
+}
+
+}  // namespace a351::corrector::reading

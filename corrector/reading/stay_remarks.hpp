@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "corrector/reading/finding.hpp"
+#include "corrector/reading/occupation_list.hpp"
+#include "protocol/archive/archive_reader.hpp"
+
+namespace a351::corrector::reading {
+
+/// Returns what is unusual about the stays of a day and the times of their record, without use of
+/// gravity: no_stop, short_stay and clock, in this order.
+///
+/// - no_stop: a stay without a stop in which no move of the box was found.
+/// - short_stay: all set-ups of a stay together are shorter than half the day's median, and than 6
+///   min.  A stay that still runs, was excluded or was divided by an amendment is not compared.
+/// - clock: most records of a set-up have an uncertain time; or times go back by 1 s or more.
+///   A step forward looks like missing samples, and is not named.
+/// @param windows  set-ups with a reading, as they are averaged: cut where the box was moved.
+/// @param axis     samples of one axis.
+[[nodiscard]] std::vector<Finding> stay_remarks(const std::vector<OccupationWindow>& windows,
+                                                const archive::ChannelData& axis);
+
+}  // namespace a351::corrector::reading
