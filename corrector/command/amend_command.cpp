@@ -48,6 +48,29 @@ std::vector<reading::Finding> chosen_findings(const std::vector<reading::Finding
     return chosen;
 }
 
+/// Carries out what is found in the amended survey, until nothing more is found: a mistake can hide
+/// another one.  A proposal that contradicts an amendment is only printed.
+/// @return the number of amendments.
+std::size_t amend_again(const std::filesystem::path& file) {
+    constexpr int kMostRounds = 5;
+    std::size_t count = 0;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const std::size_t before = count;
+        std::vector<reading::Finding> findings = findings_of(job::read_survey_file(file));
+        std::erase_if(findings,
+                      [](const reading::Finding& finding) { return finding.amendment.empty(); });
+        for (const reading::Finding& finding : findings) try {
+                job::add_amendments(job::read_survey_file(file), {finding}, {});
+                std::cout << finding.text << '\n';
+                ++count;
+            } catch (const InputError&) {
+                std::cout << finding.text << " (contradicts an amendment, not carried out)\n";
+            }
+        if (count == before) break;
+    }
+    return count;
+}
+
 void amend_survey(const AmendOptions& options) {
     const job::SurveyFile survey = job::read_survey_file(options.survey);
     const std::vector<reading::Finding> findings = findings_of(survey);
@@ -65,8 +88,9 @@ void amend_survey(const AmendOptions& options) {
     }
     const std::filesystem::path file = job::add_amendments(survey, chosen, options.out);
     for (const reading::Finding& finding : chosen) std::cout << finding.text << '\n';
-    std::cout << fmt::format("{} amendment{} written to {}; correct the survey again\n",
-                             chosen.size(), chosen.size() == 1 ? "" : "s", file.string());
+    const std::size_t count = chosen.size() + (options.is_all ? amend_again(options.survey) : 0);
+    std::cout << fmt::format("{} amendment{} written to {}; correct the survey again\n", count,
+                             count == 1 ? "" : "s", file.string());
 }
 
 }  // namespace
@@ -76,7 +100,9 @@ void add_amend_command(CLI::App& program) {
         "amend", "Writes what the findings of a survey propose to its amendments file.");
     const auto options = std::make_shared<AmendOptions>();
     add_required(command, "FILE", "", options->survey, "Survey file (TOML)");
-    auto* const all = command.add_flag("--all", options->is_all, "Carry out all proposals");
+    auto* const all = command.add_flag("--all", options->is_all,
+                                       "Carry out all proposals, and those of the amended survey, "
+                                       "until nothing more is found");
     add_option(command, "--finding", "N", options->findings,
                "Carry out this one, by its number in the list; may be given several times. Without "
                "it and without --all the proposals are only printed")

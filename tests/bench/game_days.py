@@ -23,11 +23,10 @@ def game(scratch, seed):
     folder = scratch / str(seed)
     folder.mkdir()
 
-    def scenario(slow_noise):
+    def scenario(sections):
         file = folder / "scenario.toml"
         error = "".join(f"{key} = {value}\n" for key, value in unit_of(seed, 0.25).items())
-        noise = f"[slow_noise]\n{slow_noise}" if slow_noise else ""
-        file.write_text(f'base = "{SCENARIOS[seed % len(SCENARIOS)]}"\nname = "game"\n[temperature_error]\n{error}{noise}')
+        file.write_text(f'base = "{SCENARIOS[seed % len(SCENARIOS)]}"\nname = "game"\n[temperature_error]\n{error}{sections}')
         return file
 
     result = play(folder, scenario, seed)

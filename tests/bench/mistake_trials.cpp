@@ -3,8 +3,8 @@
 ///     mistake-trials SURVEY.toml [MOST]
 ///
 /// Prints one line for each kind of trial: kind, trials, those in which the mistake was named as the
-/// promise demands, and those in which something else was said.  The sites of the survey must all
-/// have a reference.  Ten more sites are in the list, with references within 60 mGal of the others;
+/// promise demands, those in which something else was said, and those in a headline.  `attainable` is
+/// what the best test reaches on the day.  The sites of the survey must all have a reference.  Ten more sites are in the list, with references within 60 mGal of the others;
 /// some are nearer than 5 mGal to a site that was visited.  MOST (default 12) limits the trials of a
 /// kind.
 
@@ -16,9 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_readings.hpp"
-#include "corrector/mistake/survey_findings.hpp"
+#include "corrector/mistake/mistake_search.hpp"
 #include "corrector/model/calibration_use.hpp"
+#include "corrector/model/model.hpp"
 
 namespace {
 
@@ -32,14 +34,19 @@ constexpr std::size_t kMoreSites = 10;
 constexpr double kClear = 5.0;
 
 /// What is said about a survey, without the benchmarks that were not visited.
-std::vector<Finding> findings_of(const corrector::job::SurveyFile& survey, OccupationRows read) {
-    const auto* const day = read.day ? &*read.day : nullptr;
-    const auto result = corrector::model::correct_with_calibration(
-        read.rows, corrector::job::with_sites_of(read, survey.survey), day);
-    auto findings = corrector::mistake::find_mistakes(result, {read.rows, read.sites, day});
+std::vector<Finding> all_findings_of(const corrector::job::SurveyFile& survey,
+                                     OccupationRows read) {
+    auto findings = corrector::job::correct_survey_day(survey, read).findings;
     std::erase_if(findings, [](const Finding& finding) {
         return finding.kind == "not_visited" || finding.kind == "unusable_day";
     });
+    return findings;
+}
+
+/// What is said about a survey, without remarks.
+std::vector<Finding> findings_of(const corrector::job::SurveyFile& survey, OccupationRows read) {
+    auto findings = all_findings_of(survey, std::move(read));
+    std::erase_if(findings, corrector::reading::is_remark);
     return findings;
 }
 
@@ -105,7 +112,7 @@ public:
 
     void clean() {
         Count total;
-        count(total, findings_of(survey_, read_), 0, [](const Finding&) { return false; });
+        count(total, all_findings_of(survey_, read_), 0, [](const Finding&) { return false; });
         print("clean", total);
     }
 
@@ -124,6 +131,50 @@ public:
             });
         }
         print(("reference_" + std::to_string(static_cast<int>(size_mgal))).c_str(), total);
+    }
+
+    /// Counts in simulated residuals how often the best test names a reference that is off: it knows
+    /// the noise of the day and searches references only.  It takes the one with the largest |t|, and
+    /// finds something in kMistakeAlpha of the surveys without a mistake.
+    void attainable(double size_mgal) {
+        namespace model = corrector::model;
+        constexpr int kDraws = 4000;
+        const auto result = model::correct_with_calibration(
+            read_.rows, corrector::job::with_sites_of(read_, survey_.survey), &*read_.day);
+        const auto choice =
+            model::choose_rows(read_.rows, result.options.datum, result.options.use_flags);
+        const model::ChosenSurvey survey{{read_.rows, result.options, &*read_.day}, choice};
+        const model::Model& applied = *model::find_model(result.model);
+        const auto residuals = applied.residuals(survey, applied.noise(survey, nullptr).value());
+        std::vector<corrector::residual::Direction> directions;
+        for (const std::string& site : station_names()) {
+            Eigen::VectorXd effect(std::ssize(read_.rows));
+            for (std::size_t i = 0; i < read_.rows.size(); ++i)
+                effect(static_cast<Eigen::Index>(i)) = read_.rows[i].site == site ? 1.0 : 0.0;
+            directions.push_back(residuals.value().direction(effect));
+        }
+        const auto largest = [&](const Eigen::VectorXd& values) {
+            std::pair<double, std::size_t> most{0.0, 0};
+            for (std::size_t k = 0; k < directions.size(); ++k)
+                most = std::max(most, {std::abs(directions[k].unit.dot(values)), k});
+            return most;
+        };
+        std::mt19937_64 generator(1);
+        std::vector<double> clean;
+        for (int k = 0; k < kDraws; ++k)
+            clean.push_back(largest(residuals->simulated(generator)).first);
+        const auto limit = clean.begin() + static_cast<std::ptrdiff_t>(
+                                               (1.0 - corrector::mistake::kMistakeAlpha) * kDraws);
+        std::nth_element(clean.begin(), limit, clean.end());
+        Count total;
+        for (total.trials = 0; total.trials < kDraws; ++total.trials) {
+            const std::size_t off = draw_() % directions.size();
+            const auto [t, found] =
+                largest(residuals->simulated(generator) +
+                        size_mgal * directions[off].length * directions[off].unit);
+            if (t > *limit && found == off) ++total.named;
+        }
+        print(("attainable_" + std::to_string(static_cast<int>(size_mgal))).c_str(), total);
     }
 
     void swaps() {
@@ -252,6 +303,7 @@ int main(int argc, char** argv) {
                   most);
     trials.clean();
     if (most == 0) return 0;
+    trials.attainable(8.0);
     for (const double size : {8.0, 20.0, 50.0}) trials.references(size);
     trials.swaps();
     trials.other_names();

@@ -2,26 +2,28 @@
 
 import re
 
-from programs import BIN, Scratch, demand, read_json, run
+from programs import BIN, IS_LONG, Scratch, demand, read_json, run
 from tired_operator import MISTAKES, play
 
 MOST_WORSE = 1.5
-DAYS = ((3, "tsukuba", ("late_stop", "other_name", "step")), (1, "hot-afternoon", ("no_stop", "swapped_names", "early_start")),
-        (2, "tilted", ("wrong_reference", "early_stop")))
+# Seed, scenario and mistakes of each day.
+SHORT = ((3, "tsukuba", ("no_last_stop", "late_stop", "other_name", "no_stay", "early_stop")),)
+LONG = ((1, "hot-afternoon", ("no_stop", "swapped_names", "early_start", "late_start")), (2, "tilted", ("wrong_reference", "knocks")),
+        (4, "tsukuba", ("step", "missed_set_up")))
 
 
 def scenario_of(folder, base):
-    def scenario(slow_noise):
+    def scenario(sections):
         file = folder / "scenario.toml"
-        file.write_text(f'base = "{base}"\nname = "game"\n' + (f"[slow_noise]\n{slow_noise}" if slow_noise else ""))
+        file.write_text(f'base = "{base}"\nname = "game"\n{sections}')
         return file
     return scenario
 
 
 with Scratch() as scratch:
     played = set()
-    for seed, base, what in DAYS:
-        folder = scratch / base
+    for seed, base, what in SHORT + (LONG if IS_LONG else ()):
+        folder = scratch / str(seed)
         folder.mkdir()
         game = play(folder, scenario_of(folder, base), seed, names=[one["name"] for one in MISTAKES if one["what"] in what])
         played |= {mistake["what"] for mistake in game["made"]}
@@ -29,16 +31,17 @@ with Scratch() as scratch:
             print("   ", finding["text"])
         for mistake in game["made"]:
             demand(f"{base}: {mistake['name']}: " + ("noticed by the operator" if mistake["is_noticed"] else "said" if
-                   mistake["kinds"] else "a short stay, which is no mistake to name"), mistake["is_said"])
+                   mistake["kinds"] else "nothing that must be named"), mistake["is_said"])
         demand(f"{base}: left-out error {game['raw']:.2f} times that without mistakes as it is, {game['amended']:.2f} times with "
                f"the proposals carried out, at most {MOST_WORSE}", game["amended"] <= MOST_WORSE)
-    demand(f"all mistakes of the file were played: {sorted(played)}", played == {mistake["what"] for mistake in MISTAKES})
+    demand(f"all mistakes {'of the file' if IS_LONG else 'of the short form'} were played: {sorted(played)}",
+           played == ({mistake["what"] for mistake in MISTAKES} if IS_LONG else set(SHORT[0][2])))
 
-    day = scratch / "tilted" / "day"
+    day = scratch / str(SHORT[0][0]) / "day"
     survey = day / "survey.toml"
     amendments = (day / "survey-amendments.toml").read_text()
     demand("the survey file names the amendments", 'amendments = "survey-amendments.toml"' in survey.read_text())
-    result = read_json(scratch / "tilted" / "day" / "amended" / "result.json")
+    result = read_json(day / "amended" / "result.json")
     reasons = {one["reason"] for one in result["settings"]["amendments"]}
     demand(f"the result lists them with their reasons: {reasons}", len(reasons) >= 1)
 

@@ -1,8 +1,8 @@
 """A simulated operator who makes the mistakes of mistakes.toml in a simulated survey day.
 
-A day is simulated twice with the same seed, without and with a step of the instrument if there is one among the mistakes.
-The other mistakes are made in the event log and in the list of sites.  Ten more sites are in the list, so that a name can be
-that of a benchmark that was not visited.
+Most mistakes are made in the event log and in the list of sites.  If one is of the instrument, a step or knocks, the day is
+simulated again with it, with the same seed.  Ten more sites are in the list, so that a name can be that of a benchmark that was
+not visited.
 """
 
 import csv
@@ -11,6 +11,7 @@ import json
 import math
 import pathlib
 import random
+import shutil
 import tomllib
 
 from programs import BIN, read_json, rows, run
@@ -28,9 +29,15 @@ def utc(time):
     return time.strftime("%Y-%m-%dT%H:%M:%S.%fZ")
 
 
+class NoRoom(Exception):
+    """No stay is left with which a mistake could be made."""
+
+
 class Stay:
-    def __init__(self, start, stop):
-        self.start, self.stop = start, stop
+    """The events of a stay; start and stop are None if the operator forgot them."""
+
+    def __init__(self, start, set_ups, stop):
+        self.start, self.set_ups, self.stop = start, set_ups, stop
         self.true_start, self.true_stop, self.true_site = instant(start["utc"]), instant(stop["utc"]), start["site"]
 
 
@@ -43,7 +50,9 @@ class Day:
         self.survey.write_text(self.survey.read_text().replace('occupations = "schedule.csv"', 'occupations = ""'))
         self.log = next((folder / "events").glob("*.jsonl"))
         events = [json.loads(line) for line in self.log.read_text().splitlines()]
-        self.stays = [Stay(start, stop) for start, stop in zip(events[::2], events[1::2])]
+        starts = [i for i, event in enumerate(events) if event["type"] == "start"]
+        self.stays = [Stay(one[0], one[1:-1], one[-1]) for one in
+                      (events[i:k] for i, k in zip(starts, starts[1:] + [len(events)]))]
         self.repairs, self.touched = [], set()
         self.sites = rows(folder / "sites.csv")
         self.truth = {site["site"]: float(site["gravity_mgal"]) for site in self.sites}
@@ -60,7 +69,7 @@ class Day:
         """Draws the number of a stay with which nothing has happened yet, nor with its neighbours."""
         free = [k for k in range(len(self.stays)) if not {k - 1, k, k + 1} & self.touched and condition(k)]
         if not free:
-            return None
+            raise NoRoom
         k = self.draw.choice(free)
         self.touched.add(k)
         return self.stays[k]
@@ -68,8 +77,12 @@ class Day:
     def key_of(self, stay):
         return instant(stay.start["utc"]).strftime("%Y%m%dT%H%M%SZ")
 
+    def is_only(self, k):
+        return sum(stay.true_site == self.stays[k].true_site for stay in self.stays) == 1
+
     def write(self):
-        events = sorted((event for stay in self.stays for event in (stay.start, stay.stop) if event), key=lambda event: event["utc"])
+        events = sorted((event for stay in self.stays for event in (stay.start, *stay.set_ups, stay.stop) if event),
+                        key=lambda event: event["utc"])
         self.log.write_text("".join(json.dumps(event) + "\n" for event in events + self.repairs))
         with open(self.folder / "sites.csv", "w", newline="") as text:
             table = csv.DictWriter(text, self.sites[0].keys(), lineterminator="\n")
@@ -97,28 +110,53 @@ def late_stop(day, mistake, is_noticed):
 def no_stop(day, mistake, is_noticed):
     stay = day.free_stay(is_followed(day))
     stay.stop = None
-    return {"kinds": {"moved_box"}, "sites": {stay.true_site}}
+    return {"kinds": {"moved_box", "no_stop"}, "sites": {stay.true_site}}
+
+
+def no_last_stop(day, mistake, is_noticed):
+    stay = day.free_stay(lambda k: k + 1 == len(day.stays))
+    stay.stop = None
+    return {"kinds": {"no_stop"}, "sites": {stay.true_site}}
 
 
 def early_start(day, mistake, is_noticed):
     stay = day.free_stay(lambda k: k > 0)
     before = instant(day.stays[day.stays.index(stay) - 1].stop["utc"])
-    early = min(datetime.timedelta(seconds=day.draw.uniform(*mistake["early_s"])), (stay.true_start - before) / 2)
-    stay.start["utc"] = utc(stay.true_start - early)
+    stay.start["utc"] = utc(stay.true_start - day.draw.uniform(*mistake["share_of_the_way"]) * (stay.true_start - before))
     if is_noticed:
         day.repairs.append({"type": "retime", "utc": utc(stay.true_stop), "key": day.key_of(stay), "from": utc(stay.true_start),
                             "reason": "early"})
-    return {"kinds": {"moved_box"}, "sites": {stay.true_site}}
+    return {"kinds": {"early_start", "moved_box"}, "sites": {stay.true_site}}
+
+
+def late_start(day, mistake, is_noticed):
+    stay = day.free_stay()
+    stay.start["utc"] = utc(stay.true_start + datetime.timedelta(seconds=day.draw.uniform(*mistake["late_s"])))
+    stay.set_ups = [event for event in stay.set_ups if event["utc"] > stay.start["utc"]]
+    return {"kinds": set(), "sites": {stay.true_site}}
 
 
 def early_stop(day, mistake, is_noticed):
     stay = day.free_stay()
     stay.stop["utc"] = utc(stay.true_start + datetime.timedelta(seconds=day.draw.uniform(*mistake["after_start_s"])))
-    return {"kinds": set(), "sites": {stay.true_site}}
+    stay.set_ups = [event for event in stay.set_ups if event["utc"] < stay.stop["utc"]]
+    return {"kinds": {"short_stay"}, "sites": {stay.true_site}}
 
 
-def is_only(day, k):
-    return sum(stay.true_site == day.stays[k].true_site for stay in day.stays) == 1
+def no_stay(day, mistake, is_noticed):
+    stay = day.free_stay(day.is_only)
+    stay.start, stay.set_ups, stay.stop = None, [], None
+    return {"kinds": {"not_visited"}, "sites": {stay.true_site}}
+
+
+def missed_set_up(day, mistake, is_noticed):
+    stay = day.free_stay()
+    stay.set_ups = []
+    return {"kinds": {"missed_set_up"}, "sites": {stay.true_site}}
+
+
+def knocks(day, mistake, is_noticed):
+    return {"kinds": set(), "sites": set()}  # Made when the day was simulated.
 
 
 def other_name(day, mistake, is_noticed):
@@ -133,11 +171,9 @@ def other_name(day, mistake, is_noticed):
 
 
 def swapped_names(day, mistake, is_noticed):
-    one = day.free_stay(lambda k: is_only(day, k))
-    other = day.free_stay(lambda k: is_only(day, k)
+    one = day.free_stay(day.is_only)
+    other = day.free_stay(lambda k: day.is_only(k)
                           and abs(day.gravity(day.stays[k].true_site) - day.gravity(one.true_site)) > LEAST_APART_MGAL)
-    if other is None:
-        return None
     one.start["site"], other.start["site"] = other.true_site, one.true_site
     if is_noticed:
         for stay in (one, other):
@@ -165,6 +201,8 @@ def is_said(findings, expected):
         if "step" in expected["kinds"] and (finding["kind"] == "step" or finding["code"].endswith("_or_step")) \
                 and abs(abs(finding["size_mgal"]) - expected["off_mgal"]) < 4.0 * finding["u_mgal"]:
             return True
+        if finding["kind"] == "not_visited" in expected["kinds"] and expected["sites"] & set(finding["text"].split(": ")[1].split(", ")):
+            return True
         if finding["kind"] in expected["kinds"] and {finding["site"], finding["other_site"]} & expected["sites"]:
             return True
     return False
@@ -191,31 +229,39 @@ def rms(values):
 def play(folder, scenario_file, seed, count=3, names=None):
     """Plays a game day.
 
-    @param scenario_file  function of the slow_noise keys of the day, which returns a scenario file
+    @param scenario_file  function of further sections of the scenario, which returns a scenario file
     @param names          names of the mistakes; None: `count` are drawn
     @return  the mistakes with what was said, ratio of the left-out errors on the same sites with every proposal carried out to
              those of the day without mistakes, and without a proposal, and the findings
     """
     draw = random.Random(seed)
     chosen = [mistake for mistake in MISTAKES if mistake["name"] in names] if names else draw.sample(MISTAKES, count)
-    steps = [draw.uniform(*mistake["off_mgal"]) for mistake in chosen if mistake["what"] == "step"]
+    step_mgal = sum(draw.uniform(*mistake["off_mgal"]) for mistake in chosen if mistake["what"] == "step")
+    without = "".join(mistake.get("scenario", "") for mistake in chosen)
+    more = "".join(mistake.get("scenario_with", "") for mistake in chosen)
+    if step_mgal:
+        more += f"[slow_noise]\ntransport_step_mgal = {step_mgal}\n"
 
-    def simulated(name, off_mgal):
-        more = f"transport_step_mgal = {off_mgal}\n" if off_mgal else ""
-        run(BIN / "a351-sim", "survey", "--scenario", scenario_file(more), "--seed", seed, "--out", folder / name)
-        return Day(folder / name, seed)
+    def simulate(name, sections):
+        run(BIN / "a351-sim", "survey", "--scenario", scenario_file(sections), "--seed", seed, "--out", folder / name)
 
-    clean = simulated("clean", 0.0)
+    simulate("clean", without)
+    if more:
+        simulate("day", without + more)
+    else:
+        shutil.copytree(folder / "clean", folder / "day")
+    clean, day = Day(folder / "clean", seed), Day(folder / "day", seed)
     clean.write()
     _, clean_errors = corrected(clean, "result")
-    day = simulated("day", sum(steps))
-    day.step_mgal = sum(steps)
+    day.step_mgal = step_mgal
     made = []
     for mistake in chosen:
         is_noticed = mistake.get("can_notice", False) and draw.random() < 0.3
-        expected = globals()[mistake["what"]](day, mistake, is_noticed)
-        if expected is not None:
-            made.append({"name": mistake["name"], "what": mistake["what"], "is_noticed": is_noticed, **expected})
+        try:
+            expected = globals()[mistake["what"]](day, mistake, is_noticed)
+        except NoRoom:
+            continue
+        made.append({"name": mistake["name"], "what": mistake["what"], "is_noticed": is_noticed, **expected})
     day.write()
     findings, raw_errors = corrected(day, "as-it-stands")
     run(BIN / "a351-correct", "amend", day.survey, "--all")
