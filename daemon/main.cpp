@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "daemon/config/config.hpp"
+#include "daemon/gravity/gravity_so_far.hpp"
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/service/service_notice.hpp"
@@ -178,6 +179,33 @@ survey::OccupationOptions occupation_options(const config::Config& config) {
             .sites_file = config.survey.sites_file};
 }
 
+/// Returns what computes the gravity so far: the corrector beside this program, on its data root.
+gravity::GravityOptions gravity_options(const config::Config& config, spdlog::logger& log) {
+    const config::SurveyConfig& survey = config.survey;
+    gravity::GravityOptions options;
+    options.every = survey.gravity_every;
+    options.failed = [&log](const std::string& reason, const std::string& cause) {
+        log.warn("no gravity so far: {}: {}", reason, cause);
+    };
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    options.limits.memory_bytes = 0;  // sanitizers reserve terabytes
+#endif
+    options.reason = survey.gravity_every.count() == 0 ? "off"
+                     : survey.sites_file.empty()       ? "no_sites"
+                                                       : "";
+    if (!options.reason.empty()) return options;
+    const auto self = std::filesystem::read_symlink("/proc/self/exe");
+    options.command = {self.parent_path() / "a351-correct",
+                       "survey",
+                       config.storage.root,
+                       "--sites",
+                       survey.sites_file,
+                       "--json"};
+    if (!survey.calibration_file.empty())
+        options.command.insert(options.command.end(), {"--calibration", survey.calibration_file});
+    return options;
+}
+
 /// Reads the configuration again after SIGHUP, and takes sites, planned length and thresholds from
 /// it.  A file that is refused changes nothing.
 void reload(const std::filesystem::path& config_file, const source::HostClock& clock,
@@ -230,6 +258,9 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     const std::filesystem::path events = config.storage.root / "events";
     survey::Occupations occupations(store, config.survey.sites, events::read_events(events).events,
                                     occupation_options(config));
+    gravity::GravitySoFar gravity(gravity_options(config, log));
+    const auto note_change = [&] { gravity.note_change(occupations.running().has_value()); };
+    if (occupations.running() || !occupations.list().empty()) note_change();
     page::Server page(
         {.listen = config.page.listen, .hosts = config.page.hosts, .token = config.page.token},
         {.status = [&] { return snapshot(config, clock, link, oven, store, live); },
@@ -238,6 +269,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
          .latitude = config.station.latitude,
          .longitude = config.station.longitude,
          .events = [&] { return events::read_events(events).events; },
+         .gravity_so_far = [&] { return gravity.document(); },
+         .changed = note_change,
          .assets = config.page.assets,
          .stale_after = std::max<Nanoseconds>(kStale, clock.instrument_span(kShortestRealStale))});
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
@@ -248,6 +281,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     link.start();
     if (oven) oven->start();
     page.start();
+    gravity.start();
     notice.ready();
 
     constexpr timespec kSecond{1, 0};
@@ -262,6 +296,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     log.info("stopping");
     notice.stopping();
     page.stop();
+    gravity.stop();
     if (oven) oven->stop();
     link.stop();
     const bool is_on_disk = store.stop();

@@ -244,11 +244,13 @@ SurveyConfig read_survey(TomlTable table) {
     };
     survey.sites_file = file_at("sites", "a CSV file of sites, or \"\"");
     if (!survey.sites_file.empty()) survey.sites = text::read_sites(survey.sites_file);
-    if (const auto file =
-            file_at("calibration", "a calibration file written by a351-correct, or \"\"");
-        !file.empty())
-        survey.calibration = unit::read_calibration(file);
+    survey.calibration_file =
+        file_at("calibration", "a calibration file written by a351-correct, or \"\"");
+    if (!survey.calibration_file.empty())
+        survey.calibration = unit::read_calibration(survey.calibration_file);
     survey.planned = from_seconds(60.0 * table.number_or("occupation_min", 10.0, 1.0, 240.0));
+    survey.gravity_every = std::chrono::duration_cast<std::chrono::milliseconds>(
+        from_seconds(60.0 * table.number_or("gravity_every_min", 3.0, 0.0, 240.0)));
     table.require_all_read();
     return survey;
 }

@@ -33,10 +33,12 @@ struct PageConfig {
 };
 
 struct SurveyConfig {
-    std::filesystem::path sites_file;  ///< Empty if none is given.
+    std::filesystem::path sites_file, calibration_file;  ///< Empty if not given.
     std::vector<text::Site> sites;
     std::optional<unit::Calibration> calibration;
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of an occupation.
+    /// Real time between two computations of the gravity so far; 0: it is not computed.
+    std::chrono::milliseconds gravity_every{std::chrono::minutes(3)};
 };
 
 struct Config {

@@ -15,6 +15,7 @@
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/meant_stay.hpp"
 #include "daemon/ctl/screen.hpp"
+#include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/when.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/sites.hpp"
@@ -211,6 +212,7 @@ int run_command(const std::string& command, const Arguments& arguments) {
     if (command == "status") return show_status(client, arguments);
     if (command == "watch") return watch(client);
     if (command == "sites") return show(client, arguments, "/api/sites", site_table);
+    if (command == "survey") return show(client, arguments, "/api/survey", survey_text);
     if (command == "list") return show(client, arguments, "/api/occupations", occupation_table);
     if (command == "target")
         return change(client, arguments, "/api/target",

@@ -146,6 +146,9 @@ int main(int argc, char** argv) {
     add_json(
         app.add_subcommand("sites", "Lists the benchmarks, nearest to the last occupation first."));
     add_json(app.add_subcommand(
+        "survey",
+        "Shows the corrected gravity of each stay so far, and what is wrong with the day."));
+    add_json(app.add_subcommand(
         "list", "Lists the finished stays with their keys, then the discarded ones."));
     auto* site = app.add_subcommand("site", "Changes the list of benchmarks.");
     site->require_subcommand(1);

@@ -18,9 +18,9 @@ using nlohmann::json;
 
 constexpr std::size_t kEventsPerAnswer = 1000;
 
-constexpr std::string_view kReadable[] = {"/api/status",     "/api/events", "/api/sites",
-                                          "/metrics",        "/api/token",  "/api/history",
-                                          "/api/occupations"};
+constexpr std::string_view kReadable[] = {"/api/status",      "/api/events", "/api/sites",
+                                          "/metrics",         "/api/token",  "/api/history",
+                                          "/api/occupations", "/api/survey"};
 constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/stop",
                                             "/api/occupation/setup",
@@ -148,6 +148,7 @@ Response Api::read(std::string_view path, std::string_view query) {
         return {.content_type = kMetricsType, .body = metrics_of(status_now(), use_)};
     if (path == "/api/sites") return sites_around();
     if (path == "/api/occupations") return occupations_so_far();
+    if (path == "/api/survey") return {.body = sources_.gravity_so_far()};
     if (path == "/api/token") {
         if (token_.empty())
             return refusal(403, "the token is not given out here; use that of [page] token");
@@ -237,6 +238,7 @@ Response Api::change(std::string_view path, const std::string& body) {
     } else {
         outcome = change_stay(path.substr(path.rfind('/') + 1), body);
     }
+    if (outcome.kind == survey::Outcome::Kind::done && sources_.changed) sources_.changed();
     return answer_of(outcome, occupations.running());
 }
 

@@ -3,7 +3,7 @@
 /// The HTTP interface: turns a request into a response.  No sockets, no threads.
 ///
 /// GET  / and the other files of the page
-/// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/token
+/// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/survey /api/token
 /// GET  /api/history?channel=NAME&from=UTC&to=UTC&points=N /metrics
 /// POST /api/occupation/start|stop|setup|discard|restore|resume|rename|retime /api/note /api/target
 ///      /api/sites, with a JSON object as body; a change of a stay names it by its key
@@ -39,7 +39,9 @@ struct ApiSources {
     live::Record& live;
     Degrees latitude = {}, longitude = {};  ///< Position of the base, where a day begins.
     std::function<std::vector<events::Event>()> events;  ///< The whole event log, in file order.
-    std::filesystem::path assets = {};  ///< The page's files; empty: the compiled ones.
+    std::function<std::string()> gravity_so_far = {};    ///< Body of GET /api/survey.
+    std::function<void()> changed = {};  ///< Called after each change that is on disk.
+    std::filesystem::path assets = {};   ///< The page's files; empty: the compiled ones.
 
     /// Instrument time without a sample after which the verdict is "no data".  On scaled time it
     /// must be at least 0.5 s of real time.

@@ -70,7 +70,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Api api({.status = [] { return Status(); },
              .occupations = occupations,
              .live = live,
-             .events = [&] { return recorder.log; }},
+             .events = [&] { return recorder.log; },
+             .gravity_so_far = [] { return std::string("{}"); }},
             kToken);
     const Response response = api.answer(request);
     require(std::set{200, 400, 404, 405, 409}.contains(response.status));

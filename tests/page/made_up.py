@@ -47,6 +47,21 @@ def finished(site, number=1, hours_ago=1.0, **changes):
             "set_ups": [{"start": rfc3339(begin), "end": rfc3339(begin + 660)}], "reading": reading(0.42), **changes}
 
 
+def stay(site, occupation=1, gravity_mgal=979861.32, difference_mgal=None, **changes):
+    return {"key": "20260301T013000Z", "site": site, "occupation": occupation, "set_ups": 1, "gravity_mgal": gravity_mgal,
+            "u_mgal": None if gravity_mgal is None else 1.27, "u_evening_mgal": None, "left_out_difference_mgal": difference_mgal,
+            "is_running": False, "remarks": [], **changes}
+
+
+def finding(text, is_headline):
+    return {"kind": "other_name", "code": "other_name", "is_headline": is_headline, "text": text}
+
+
+def survey(stays, findings=(), **changes):
+    return {"as_of_utc": "2026-03-01T12:03:10.000Z", "data_to_utc": "2026-03-01T12:03:09.500Z", "reason": None, "reason_text": None,
+            "model": "day", "stays": list(stays), "findings": list(findings), **changes}
+
+
 def tilt(x_arcmin, y_arcmin, advice=()):
     return {"axes": ["x", "y"], "x_arcmin": x_arcmin, "y_arcmin": y_arcmin, "limit_arcmin": 1.2,
             "is_within": None if x_arcmin is None else not advice, "advice": list(advice),

@@ -3,7 +3,7 @@
 import time
 
 from browser import LAPTOP, PHONE, Browser
-from made_up import VERDICTS, finished, occupation, reading, sites, tilt, verdict
+from made_up import VERDICTS, finding, finished, occupation, reading, sites, stay, survey, tilt, verdict
 from programs import demand
 from stub_daemon import StubDaemon, check
 
@@ -163,6 +163,31 @@ def show_day(stub, browser):
     browser.resize(LAPTOP)
 
 
+def show_gravity(stub, browser):
+    browser.wait_for_text("gravity-state", "No figures: not computed yet.")
+    demand("without stays there is no table", not browser.find("#gravity-table").is_displayed())
+    headline, remark = "No.3 (1) reads like No.7: it is 12.1 mGal too high for No.3", "the readings follow the temperature <b>"
+    stub.survey = survey([stay("No.0", difference_mgal=0.42), stay("No.3", 2, 979873.5, 12.1, set_ups=2),
+                          stay("No.5", remarks=[{"code": "pulse", "numbers": [], "text": "a knock <i>"}], is_running=True),
+                          stay("No.6", gravity_mgal=None, remarks=[{"code": "left_out", "numbers": [], "text": "no samples"}])],
+                         [finding(remark, False), finding(headline, True)])
+    browser.wait_for_text("gravity-state", "As of 12:03:10 UTC, data up to 12:03:09, model day.", seconds=20)
+    rows = [row.replace("\t", " ").strip() for row in browser.text("gravity-rows").splitlines()]
+    demand(f"the stays are listed newest first, with value, u, difference and remarks: {rows}",
+           rows == ["No.6 (1) – – no samples", "No.5 (1) 979861.32 ± 1.27 – running; a knock <i>",
+                    "No.3 (2) 979873.50 ± 1.27 +12.10 2 set-ups", "No.0 (1) 979861.32 ± 1.27 +0.42"])
+    demand("headlines come first, word by word", browser.text("gravity-findings").splitlines() == [headline, remark])
+    browser.demand_readable("gravity so far")
+    browser.shot("gravity-1366", is_whole=True)
+    browser.resize(PHONE)
+    browser.demand_readable("gravity so far at 360 px")
+    browser.resize(LAPTOP)
+    stub.survey = {**stub.survey, "reason": "killed", "reason_text": "signal 9 ended it"}
+    browser.wait_for_text("gravity-state", "These figures are old: signal 9 ended it. As of 12:03:10 UTC", seconds=20)
+    stub.survey = survey([], reason="no_reference", reason_text="no benchmark with known gravity was read yet", model=None)
+    browser.wait_for_text("gravity-state", "No figures: no benchmark with known gravity was read yet.", seconds=20)
+
+
 def show_trouble(stub, browser):
     stub.status["level"] = "fault"
     stub.status["reasons"] = ["the disk of the data root is full", "port: no such device"]
@@ -188,4 +213,5 @@ with Browser() as page:
     show_occupations(daemon, page)
     show_level(daemon, page)
     show_day(daemon, page)
+    show_gravity(daemon, page)
     show_trouble(daemon, page)

@@ -78,6 +78,8 @@ class StubDaemon:
         self.status = first_status()
         self.sites = []
         self.occupations, self.discarded = [], []
+        self.survey = {"as_of_utc": None, "data_to_utc": None, "reason": "not_yet", "reason_text": None, "model": None,
+                       "stays": [], "findings": []}
         self.posts = []
         self.refusal = None  # Reason for which orders are refused.
         self.history_gap = None  # (begin, end) in Unix seconds of a gap in the history.
@@ -169,6 +171,8 @@ class StubDaemon:
             return self.reply(request, {"sites": self.sites})
         if path == "/api/occupations":
             return self.reply(request, {"occupations": self.occupations, "discarded": self.discarded})
+        if path == "/api/survey":
+            return self.reply(request, self.survey)
         if path == "/api/history":
             return self.reply(request, self.history(dict(part.split("=") for part in query.split("&"))))
         name = "index.html" if path == "/" else path[1:]

@@ -3,6 +3,7 @@
 import { Charts } from "./charts.js";
 import { by_id, set_text, show } from "./dom.js";
 import { number, time_of_day, visible } from "./format.js";
+import { refresh_gravity } from "./gravity.js";
 import { show_health } from "./health.js";
 import { OccupationPanel } from "./occupation.js";
 import { Minute } from "./samples.js";
@@ -52,6 +53,7 @@ const stream = {
             if (is_first) advanced_at_ms -= 1000 * status.sample.age_s;
         }
         panel.show(status);
+        refresh_gravity();
         page.connected_s = (performance.now() - connected_at_ms) / 1000;
         show_health(status, page);
         refresh();

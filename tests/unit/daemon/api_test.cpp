@@ -50,6 +50,20 @@ TEST_CASE("a request that breaks a rule is answered 409 with the reason", "[daem
     CHECK(page.recorder.log.empty());
 }
 
+TEST_CASE("the gravity so far is served as it was computed, and every change on disk is reported",
+          "[daemon][page]") {
+    Page page;
+    CHECK(is(page.ask(get("/api/survey")), "/reason", R"("not_yet")"));
+    page.ask(post("/api/survey"), 405);
+    CHECK(page.changes == 0);
+    page.ask(post("/api/occupation/start", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})"));
+    CHECK(page.changes == 1);
+    page.ask(post("/api/occupation/start", R"({"site":"No.7"})"), 409);
+    page.recorder.is_disk_full = true;
+    page.ask(post("/api/occupation/stop"), 500);
+    CHECK(page.changes == 1);
+}
+
 TEST_CASE("a change that cannot be written to disk is answered 500", "[daemon][page]") {
     Page page;
     page.recorder.is_disk_full = true;

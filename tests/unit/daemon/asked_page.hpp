@@ -51,10 +51,13 @@ struct Page {
     survey::Occupations occupations{recorder, two_sites(), {}};
     live::Record live{*wire::find_profile("A351"), 50, {}};
     status::Status status;
+    int changes = 0;  ///< Times that the API said that something changed.
     page::Api api{{.status = [this] { return status; },
                    .occupations = occupations,
                    .live = live,
-                   .events = [this] { return recorder.log; }},
+                   .events = [this] { return recorder.log; },
+                   .gravity_so_far = [] { return R"({"reason":"not_yet","stays":[]})"; },
+                   .changed = [this] { ++changes; }},
                   kToken};
 
     json ask(const page::Request& request, int expected = 200) {

@@ -58,11 +58,14 @@ struct FakeDaemon {
     Occupations occupations{recorder, two_sites(), {}};
     live::Record live{*wire::find_profile("A351"), 50, {}};
     Status status;
-    Server server{{.listen = {.port = 0}},
-                  {.status = [this] { return status; },
-                   .occupations = occupations,
-                   .live = live,
-                   .events = [this] { return recorder.log; }}};
+    Server server{
+        {.listen = {.port = 0}},
+        {.status = [this] { return status; },
+         .occupations = occupations,
+         .live = live,
+         .events = [this] { return recorder.log; },
+         .gravity_so_far =
+             [] { return R"({"as_of_utc":null,"reason":"no_sites","stays":[],"findings":[]})"; }}};
 };
 
 bool has(const Run& result, const std::string& text) {
@@ -114,6 +117,8 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
     CHECK(daemon.ctl("restore 20260314T081000Z").exit == 0);
     CHECK(has(daemon.ctl("note --stay 20260314T081000Z calm"), "for No.0 (stay 1)"));
     CHECK(daemon.ctl("resume").exit == 1);  // stopped half an hour ago
+    CHECK(has(daemon.ctl("survey"), "no new figures: no_sites"));
+    CHECK(nlohmann::json::parse(daemon.ctl("survey --json").text)["reason"] == "no_sites");
     CHECK(nlohmann::json::parse(daemon.ctl("list --json").text)["occupations"].size() == 1);
     CHECK(daemon.ctl("start No.1 --at -10min").exit == 0);
     CHECK(has(daemon.ctl("status"), "since 2026-03-14T08:50:00"));

@@ -5,6 +5,7 @@
 
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/screen.hpp"
+#include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/when.hpp"
 #include "daemon/page/server.hpp"
 #include "protocol/core/input_error.hpp"
@@ -120,4 +121,26 @@ TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago", "[
     setenv("TZ", before.c_str(), 1);
     if (before.empty()) unsetenv("TZ");
     tzset();
+}
+
+TEST_CASE("the gravity so far is a table with findings first and remarks behind", "[daemon][ctl]") {
+    const auto answer = nlohmann::json::parse(R"({
+        "as_of_utc": "2026-03-01T12:03:10.000Z", "data_to_utc": "2026-03-01T12:03:09.500Z",
+        "reason": "killed", "reason_text": "signal 9 ended it", "model": "day",
+        "stays": [
+            {"site": "No.0", "occupation": 1, "set_ups": 1, "gravity_mgal": 979861.324,
+             "u_mgal": 1.266, "left_out_difference_mgal": -0.42, "is_running": false, "remarks": []},
+            {"site": "No.5\u001b", "occupation": 12, "set_ups": 2, "gravity_mgal": null,
+             "u_mgal": null, "left_out_difference_mgal": null, "is_running": true,
+             "remarks": [{"code": "left_out", "numbers": [], "text": "no samples"}]}],
+        "findings": [{"text": "the box moved", "is_headline": true}]})");
+    CHECK(survey_text(answer) ==
+          "! the box moved\n"
+          "stay        gravity_mgal  u_mgal  left_out_difference_mgal  set_ups\n"
+          "No.0 (1)       979861.32    1.27                     -0.42        1\n"
+          "No.5? (12)             -       -                         -        2\n"
+          "  No.5? (12): running\n"
+          "  No.5? (12): no samples\n"
+          "no new figures: killed: signal 9 ended it\n"
+          "as of 2026-03-01T12:03:10.000Z, data up to 2026-03-01T12:03:09.500Z, model day\n");
 }

@@ -1,0 +1,66 @@
+#include "daemon/ctl/survey_text.hpp"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "daemon/ctl/screen.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::daemon::ctl {
+namespace {
+
+using nlohmann::json;
+
+std::string word_of(const json& object, const char* key) {
+    const auto value = object.find(key);
+    return value != object.end() && value->is_string() ? printable(value->get<std::string>()) : "";
+}
+
+std::string mgal_of(const json& stay, const char* key) {
+    const auto value = stay.find(key);
+    return value != stay.end() && value->is_number() ? text::fixed(value->get<double>(), 2) : "-";
+}
+
+std::string stay_name(const json& stay) {
+    return fmt::format("{} ({})", word_of(stay, "site"), stay.value("occupation", 0));
+}
+
+std::string state_of(const json& answer) {
+    std::string state;
+    if (const std::string reason = word_of(answer, "reason"); !reason.empty()) {
+        const std::string cause = word_of(answer, "reason_text");
+        state = fmt::format("no new figures: {}{}{}\n", reason, cause.empty() ? "" : ": ", cause);
+    }
+    const std::string as_of = word_of(answer, "as_of_utc");
+    if (!as_of.empty())
+        state +=
+            fmt::format("as of {}, data up to {}{}{}\n", as_of, word_of(answer, "data_to_utc"),
+                        answer.at("model").is_string() ? ", model " : "", word_of(answer, "model"));
+    return state;
+}
+
+}  // namespace
+
+std::string survey_text(const json& answer) {
+    std::string screen;
+    for (const json& finding : answer.at("findings"))
+        screen += fmt::format("{}{}\n", finding.value("is_headline", false) ? "! " : "  ",
+                              word_of(finding, "text"));
+    std::vector<std::vector<std::string>> rows = {
+        {"stay", "gravity_mgal", "u_mgal", "left_out_difference_mgal", "set_ups"}};
+    std::string remarks;
+    for (const json& stay : answer.at("stays")) {
+        rows.push_back({stay_name(stay), mgal_of(stay, "gravity_mgal"), mgal_of(stay, "u_mgal"),
+                        mgal_of(stay, "left_out_difference_mgal"),
+                        std::to_string(stay.value("set_ups", 0))});
+        if (stay.value("is_running", false)) remarks += "  " + stay_name(stay) + ": running\n";
+        for (const json& remark : stay.at("remarks"))
+            remarks += fmt::format("  {}: {}\n", stay_name(stay), word_of(remark, "text"));
+    }
+    if (rows.size() > 1) screen += text::aligned(rows);
+    return screen + remarks + state_of(answer);
+}
+
+}  // namespace a351::daemon::ctl

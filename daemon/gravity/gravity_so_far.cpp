@@ -1,0 +1,112 @@
+#include "daemon/gravity/gravity_so_far.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace a351::daemon::gravity {
+namespace {
+
+using std::chrono::steady_clock;
+
+/// Returns a document without figures.
+nlohmann::ordered_json empty_document() {
+    nlohmann::ordered_json document;
+    for (const char* const name : {"as_of_utc", "data_to_utc", "reason", "reason_text", "model"})
+        document[name] = nullptr;
+    for (const char* const name : {"stays", "findings"})
+        document[name] = nlohmann::ordered_json::array();
+    return document;
+}
+
+/// Returns true if a text is one JSON object.  It is checked without a copy in memory.
+bool is_object(const std::string& text) {
+    return text.starts_with('{') && nlohmann::json::accept(text);
+}
+
+}  // namespace
+
+GravitySoFar::GravitySoFar(GravityOptions options) : options_(std::move(options)) {
+    if (options_.command.empty()) reason_ = options_.reason;
+}
+
+void GravitySoFar::stop() {
+    std::unique_lock lock(mutex_);
+    stop_ = true;
+    lock.unlock();
+    woken_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void GravitySoFar::note_change(bool is_running) {
+    const std::lock_guard lock(mutex_);
+    is_stay_running_ = is_running;
+    now_ = steady_clock::now();
+    again_ = *now_ + options_.again;
+    woken_.notify_all();
+}
+
+std::string GravitySoFar::document() const {
+    const std::lock_guard lock(mutex_);
+    if (reason_.empty()) return document_;
+    auto document = document_.empty() ? empty_document() : nlohmann::ordered_json::parse(document_);
+    document["reason"] = reason_;
+    document["reason_text"] = nullptr;
+    if (!cause_.empty()) document["reason_text"] = cause_;
+    return document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+std::optional<GravitySoFar::Time> GravitySoFar::next_run() const {
+    std::optional<Time> next;
+    const auto add = [&next](const std::optional<Time>& time) {
+        if (time && (!next || *time < *next)) next = time;
+    };
+    add(now_);
+    add(again_);
+    if (is_stay_running_ && last_run_) add(*last_run_ + options_.every);
+    return next;
+}
+
+void GravitySoFar::run() {
+    std::unique_lock lock(mutex_);
+    while (!stop_ && !options_.command.empty()) {
+        const auto next = next_run();
+        const auto now = steady_clock::now();
+        if (!next) {
+            woken_.wait(lock);
+        } else if (now < *next) {
+            woken_.wait_until(lock, *next);
+        } else {
+            now_.reset();
+            if (again_ && *again_ <= now) again_.reset();
+            last_run_ = now;
+            lock.unlock();
+            ChildEnd end;
+            try {
+                end = run_child(options_.command, options_.limits, stop_);
+            } catch (const std::exception& error) {
+                end = {"failed", {}, error.what()};
+            }
+            if (end.trouble.empty() && !is_object(end.output))
+                end = {"no_document", {}, "its output is not a JSON object"};
+            lock.lock();
+            take(end);
+        }
+    }
+}
+
+void GravitySoFar::take(const ChildEnd& end) {
+    if (end.trouble == "stopped") return;
+    if (end.trouble.empty()) {
+        document_ = end.output;
+        reason_.clear();
+        cause_.clear();
+        return;
+    }
+    const bool is_new = end.trouble != reason_;
+    reason_ = end.trouble;
+    cause_ = end.message;
+    if (is_new && options_.failed) options_.failed(reason_, cause_);
+}
+
+}  // namespace a351::daemon::gravity

@@ -1,0 +1,62 @@
+// The panel with the gravity so far: the corrected value of each stay, and what is wrong with the day.
+
+import { get } from "./api.js";
+import { by_id, make, set_items, set_text, show } from "./dom.js";
+import { number, signed, time_of_day, visible } from "./format.js";
+
+const kRefresh_ms = 5000;
+const kGravityReasons = {
+    not_yet: "not computed yet",
+    off: "switched off by gravity_every_min = 0",
+    no_sites: "the configuration names no table of sites",
+};
+
+let shown = "";
+let next_ms = 0;
+
+function state_text(survey) {
+    const figures = survey.as_of_utc
+        ? `As of ${time_of_day(survey.as_of_utc)} UTC, data up to ${time_of_day(survey.data_to_utc)}${
+            survey.model ? `, model ${visible(survey.model)}` : ""}.` : "";
+    if (!survey.reason) return figures;
+    const reason = kGravityReasons[survey.reason] ?? survey.reason_text ?? survey.reason;
+    const head = survey.stays.some((stay) => stay.gravity_mgal !== null) ? "These figures are old" : "No figures";
+    return `${head}: ${visible(reason)}. ${figures}`;
+}
+
+function row_of(stay) {
+    const row = document.createElement("tr");
+    if (stay.is_running) row.className = "running";
+    const u = Number.isFinite(stay.u_mgal) ? ` ± ${number(stay.u_mgal, 2)}` : "";
+    const value = Number.isFinite(stay.gravity_mgal) ? number(stay.gravity_mgal, 2) + u : "–";
+    const remarks = [stay.is_running && "running", stay.set_ups > 1 && `${stay.set_ups} set-ups`,
+        ...stay.remarks.map((remark) => visible(remark.text))];
+    row.append(make("td", `${visible(stay.site)} (${stay.occupation})`, "foreign"), make("td", value),
+        make("td", signed(stay.left_out_difference_mgal ?? NaN, 2)),
+        make("td", remarks.filter(Boolean).join("; "), "foreign"));
+    return row;
+}
+
+function show_gravity(survey) {
+    const text = JSON.stringify(survey);
+    if (text === shown) return;
+    shown = text;
+    set_text("gravity-state", state_text(survey));
+    const findings = [...survey.findings].sort((one, other) => other.is_headline - one.is_headline);
+    show("gravity-findings", findings.length > 0);
+    set_items("gravity-findings", findings.map((one) => [visible(one.text), one.is_headline ? "headline" : ""]));
+    by_id("gravity-rows").replaceChildren(...survey.stays.map(row_of).reverse()); // The newest first.
+    show("gravity-table", survey.stays.length > 0);
+}
+
+/** Reads and shows the gravity so far, at most once in some seconds; called with each status. */
+export async function refresh_gravity() {
+    if (document.hidden || performance.now() < next_ms) return;
+    next_ms = performance.now() + kRefresh_ms;
+    try {
+        show_gravity(await get("/api/survey"));
+    } catch (error) {
+        set_text("gravity-state", `No figures: ${visible(error.message)}`);
+        shown = "";
+    }
+}

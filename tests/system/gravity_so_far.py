@@ -1,0 +1,104 @@
+"""Gravity at the benchmark: a few stays of an emulated day, and the corrector that the daemon runs beside the recording.
+
+After each stop the value must be there within 15 s of real time.  At the end the daemon's figures must be those of the corrector
+on a copy of the data root, every digit.  The recording must not notice any of it.
+"""
+
+import json
+import math
+import shutil
+import signal
+import time
+import urllib.request
+
+from emulated_session import Session, wait_for
+from programs import BIN, IS_SANITIZED, Scratch, demand, rows, run
+
+SPEED = 60 if IS_SANITIZED else 400
+MOST_S = 15.0
+MOST_MEMORY_MB = 60.0
+DAY = """base = "tsukuba"
+name = "tsukuba-gravity"
+""" + "".join(f'[[occupation]]\nsite = "{site}"\nnumber = {number}\ncentre_utc = "{centre}"\nambient_degc = 25\n'
+              for site, number, centre in (("No.0", 1, "2017-07-15T23:42:00Z"), ("No.12", 1, "2017-07-16T00:20:00Z"),
+                                           ("No.1", 1, "2017-07-16T00:55:00Z"), ("No.0", 2, "2017-07-16T01:30:00Z")))
+
+
+def survey(session):
+    with urllib.request.urlopen(f"http://127.0.0.1:{session.port}/api/survey", timeout=10) as reply:
+        return json.load(reply)
+
+
+def stay_of(document, site, number):
+    return next((stay for stay in document["stays"] if (stay["site"], stay["occupation"]) == (site, number)), None)
+
+
+def is_there(document, site, number, is_running):
+    """Returns True if a stay has a value, or the reason why there is none yet."""
+    stay = stay_of(document, site, number)
+    if stay is None or stay["is_running"] is not is_running:
+        return False
+    return stay["gravity_mgal"] is not None or document["reason"] == "too_few_readings"
+
+
+def told_at(session, utc, *order):
+    """Gives an order at an instant; a daemon that lags has not recorded it yet."""
+    def is_done():
+        return run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", *order, "--at", utc, check=False).returncode == 0
+    wait_for(f"{' '.join(order)} at {utc}", is_done, 120)
+
+
+with Scratch() as scratch:
+    scenario = scratch / "day.toml"
+    scenario.write_text(DAY)
+    session = Session(scratch, speed=SPEED, scenario=scenario,
+                      config='[survey]\nsites = "sites.csv"\ngravity_every_min = 0.02\n')
+    wait_for("the daemon answers", lambda: session.status())
+    before = survey(session)
+    demand(f"before the first start there is a reason and no figure: {before['reason']}",
+           before["reason"] == "not_yet" and before["stays"] == [])
+
+    waited, first = [], {}
+    for stay in rows(scratch / "schedule.csv"):
+        site, number = stay["site"], int(stay["occupation"])
+        told_at(session, stay["start_utc"], "start", site)
+        wait_for(f"{site} ({number}) runs with a value", lambda: is_there(survey(session), site, number, True), 30)
+        told_at(session, stay["end_utc"], "stop")
+        begin = time.monotonic()
+        wait_for(f"{site} ({number}) has a value after its stop", lambda: is_there(survey(session), site, number, False), 60)
+        waited.append(time.monotonic() - begin)
+        first[site, number] = stay_of(survey(session), site, number)
+    print("value after each stop within " + ", ".join(f"{s:.2f}" for s in waited) + " s of real time")
+    demand(f"each value is there within {MOST_S} s", max(waited) < MOST_S)
+
+    demand("the emulator sends the rest of its day and ends cleanly", session.sim.wait(timeout=120) == 0)
+    wait_for("the archive has everything", lambda: session.status()["archived"] == session.status()["received"], 60)
+    session.ctl("note", "end of the test")
+    last = survey(session)["as_of_utc"]
+    wait_for("figures of the silent sensor", lambda: survey(session)["as_of_utc"] != last, 30)
+    shown = survey(session)
+    print(session.ctl("survey"), end="")
+    copy = scratch / "copy"
+    shutil.copytree(scratch / "data", copy)
+    corrected = json.loads(run(BIN / "a351-correct", "survey", copy, "--sites", scratch / "sites.csv", "--json").stdout)
+    for key in ("reason", "model", "stays", "findings"):
+        demand(f"the daemon's {key} are those of the corrector on a copy of its root", shown[key] == corrected[key])
+    demand("the corrector has changed nothing in the root that it read",
+           not (copy / "result").exists() and sorted(p.name for p in copy.iterdir()) == sorted(p.name for p in (scratch / "data").iterdir()))
+
+    truth = {(row["site"], int(row["occupation"])): float(row["gravity_mgal"]) for row in rows(scratch / "truth.csv")}
+    for stay in shown["stays"]:
+        place = stay["site"], stay["occupation"]
+        error = stay["gravity_mgal"] - truth[place]
+        at_stop = first[place]["gravity_mgal"]
+        print(f"{place[0]} ({place[1]}): {error:+.2f} mGal from the truth, u {stay['u_mgal']:.2f}" +
+              ("" if at_stop is None else f"; at its stop {at_stop - truth[place]:+.2f}, u {first[place]['u_mgal']:.2f}"))
+        demand("the value is within four of its uncertainties", math.fabs(error) < 4.0 * stay["u_mgal"])
+    memory_mb = next(int(line.split()[1]) for line in open(f"/proc/{session.daemon.pid}/status") if line.startswith("VmHWM")) / 1000
+    session.daemon.send_signal(signal.SIGTERM)
+    demand("the daemon ends cleanly", session.daemon.wait(timeout=30) == 0)
+    session.archive_is_true(missing=0)
+    if not IS_SANITIZED:
+        demand(f"the daemon needed {memory_mb:.1f} MB, limit {MOST_MEMORY_MB:.0f}", memory_mb < MOST_MEMORY_MB)
+    warnings = [line for line in (scratch / "a351d.log").read_text().splitlines() if "gravity" in line]
+    demand(f"nothing was reported as failed: {warnings}", warnings == [])
