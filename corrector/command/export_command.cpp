@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -7,6 +8,7 @@
 #include "corrector/command/options.hpp"
 #include "corrector/resampling/export.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
 #include "protocol/text/new_file.hpp"
 
 namespace a351::corrector::command {
@@ -15,12 +17,21 @@ namespace {
 struct Texts {
     resampling::ExportOptions options;
     std::string from, to, format, out;
+    double rate_hz = 0.0;
 };
 
 void run(Texts texts) {
     resampling::ExportOptions& options = texts.options;
     options.from = instant_option("--from", texts.from);
     options.to = instant_option("--to", texts.to);
+    constexpr double kMostRate_hz = 1000.0;
+    if (texts.rate_hz != std::floor(texts.rate_hz) || texts.rate_hz < 1.0 ||
+        texts.rate_hz > kMostRate_hz) {
+        throw InputError(
+            fmt::format("--rate = {}: not allowed; allowed: a whole number from 1 to {}",
+                        text::shortest(texts.rate_hz), text::shortest(kMostRate_hz)));
+    }
+    options.rate_hz = static_cast<int>(texts.rate_hz);
     options.format =
         texts.format == "csv" ? resampling::ExportFormat::csv : resampling::ExportFormat::mseed;
     if (options.from >= options.to)
@@ -52,10 +63,13 @@ void add_export_command(CLI::App& program) {
     add_required(command, "--from", "UTC", texts->from, "First instant (RFC 3339)");
     add_required(command, "--to", "UTC", texts->to, "End of the interval, not included (RFC 3339)");
     add_required(command, "--channel", "NAME", texts->options.channel, "Channel, for example BNZ");
-    add_required(command, "--rate", "HZ", texts->options.rate_hz, "Values per second, an integer")
-        ->check(CLI::Range(1, 1000));
+    add_required(command, "--rate", "HZ", texts->rate_hz,
+                 "Values per second, a whole number from 1 to 1000");
     add_required(command, "--format", "NAME", texts->format, "Format of the file")
         ->check(CLI::IsMember({"csv", "mseed"}));
+    add_with_default(command, "--unit", "NAME", texts->options.unit,
+                     "Unit of the values in CSV; mg and mgal for acceleration only")
+        ->check(CLI::IsMember({"counts", "mg", "mgal"}));
     add_required(command, "--out", "FILE", texts->out, "File to write");
     command.callback([texts] { run(*texts); });
 }

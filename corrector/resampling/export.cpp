@@ -11,6 +11,7 @@
 #include "corrector/resampling/utc_grid.hpp"
 #include "protocol/archive/miniseed.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/csv.hpp"
 
@@ -56,8 +57,10 @@ private:
 
 class CsvGrid : public GridWriter {
 public:
-    CsvGrid(const Write& write, int rate_hz) : GridWriter(write, rate_hz) {
-        this->write("time_utc,counts\n");
+    /// @param scale  value of one count in the unit.
+    CsvGrid(const Write& write, int rate_hz, const std::string& unit, double scale)
+        : GridWriter(write, rate_hz), scale_(scale) {
+        this->write("time_utc," + unit + "\n");
     }
     void end_run() override { write("\n"); }
 
@@ -66,10 +69,12 @@ private:
         std::string rows;
         for (std::size_t i = 0; i < run.values.size(); ++i) {
             rows += to_rfc3339(time_of(run.first + static_cast<std::int64_t>(i)), 9) + ',' +
-                    text::shortest(run.values[i]) + '\n';
+                    text::shortest(scale_ * run.values[i]) + '\n';
         }
         write(rows);
     }
+
+    double scale_;
 };
 
 class MiniseedGrid : public GridWriter {
@@ -122,15 +127,34 @@ void note(ExportReport& report, const std::vector<archive::Damage>& damage) {
     }
 }
 
+/// Returns the value of one count in the unit.
+/// @throws InputError  the channel has another kind of unit, or the format has counts only.
+double scale_of(const ExportOptions& options, const station::Metadata& metadata) {
+    if (options.unit == "counts") return 1.0;
+    const auto refuse = [&](std::string_view trouble) {
+        throw InputError(fmt::format("--unit = {}: {}; allowed: counts", options.unit, trouble));
+    };
+    if (options.format == ExportFormat::mseed) refuse("records of miniSEED hold whole counts");
+    const auto channel =
+        std::ranges::find(metadata.channels, options.channel, &station::ChannelScale::code);
+    if (channel == metadata.channels.end() || channel->unit != "m/s**2")
+        refuse(options.channel + " is not a channel of acceleration");
+    const double mgal = kMilliGalPerMps2 * channel->gain;
+    constexpr double kMgPerStandardGravity = 1000.0;
+    return options.unit == "mgal" ? mgal
+                                  : mgal / kMilliGalPerStandardGravity * kMgPerStandardGravity;
+}
+
 }  // namespace
 
 ExportReport export_channel(const ExportOptions& options,
                             const std::function<void(std::string_view)>& write) {
     const auto metadata =
         station::read_station_xml(options.root / "metadata" / "station.xml", options.from);
+    const double scale = scale_of(options, metadata);
     std::unique_ptr<GridWriter> writer;
     if (options.format == ExportFormat::csv) {
-        writer = std::make_unique<CsvGrid>(write, options.rate_hz);
+        writer = std::make_unique<CsvGrid>(write, options.rate_hz, options.unit, scale);
     } else {
         writer =
             std::make_unique<MiniseedGrid>(write, options.rate_hz, metadata.codes, options.channel);

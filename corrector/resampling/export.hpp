@@ -10,7 +10,7 @@
 ///     const ExportReport report =
 ///         export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
 ///
-/// Values are counts of the channel; station.xml of the data root has their scale.
+/// Values are counts of the channel, or acceleration by the scale in station.xml of the data root.
 
 #include <cstdint>
 #include <filesystem>
@@ -28,7 +28,7 @@ namespace a351::corrector::resampling {
 /// - `csv`: for tables and plots; the values keep their fractions of a count.
 /// - `mseed`: for seismological programs; the values are rounded to whole counts.
 enum class ExportFormat {
-    csv,   ///< `time_utc,counts`, shortest exact digits; an empty line at each gap.
+    csv,   ///< `time_utc,counts` or another unit, shortest exact digits; an empty line at each gap.
     mseed  ///< Records as in the archive, whole counts, location code 10.
 };
 
@@ -42,6 +42,8 @@ struct ExportOptions {
     std::string channel;         ///< Channel of the archive, e.g. BNZ.
     int rate_hz = 50;            ///< Values per second, at most the rate of the channel.
     ExportFormat format = ExportFormat::csv;
+    /// Unit of the values: counts, mg (1e-3 of 9.80665 m/s2) or mgal; in miniSEED counts only.
+    std::string unit = "counts";
 };
 
 /// Summary of an export.  A run is a sequence of values without a gap on the grid.  Damaged records
@@ -63,11 +65,12 @@ struct ExportReport {
 /// extrapolated.  Days are joined without a gap.  Nothing in the data root is changed.
 ///
 /// In CSV a time has nine decimals.  The same options and archive give the same bytes.
-/// @param options  see ExportOptions; only a rate that is too high is refused here.
+/// @param options  see ExportOptions; a rate that is too high and a unit that does not fit are
+///                 refused here.
 /// @param write    takes the bytes in order, in pieces of any size; its exceptions are passed on.
 /// @return a summary.
 /// @throws InputError  no metadata, no samples of the channel in this time, a rate above that of
-///                     the samples.  A part of the output may have been written before.
+///                     the samples, a unit that is not that of the channel.  A part of the output may have been written before.
 ExportReport export_channel(const ExportOptions& options,
                             const std::function<void(std::string_view)>& write);
 

@@ -12,9 +12,9 @@ FROM, TO = "2017-07-15T23:50:00Z", "2017-07-16T00:10:00Z"
 SECONDS = 1200
 
 
-def export(root, out, rate, form, channel="BNZ", check=True):
+def export(root, out, rate, form, channel="BNZ", *more, check=True):
     return run(BIN / "a351-correct", "export", root, "--from", FROM, "--to", TO, "--channel", channel, "--rate", rate,
-               "--format", form, "--out", out, check=check)
+               "--format", form, "--out", out, *more, check=check)
 
 
 with Scratch() as scratch:
@@ -36,6 +36,13 @@ with Scratch() as scratch:
     offset = sum(a - b for a, b in zip(slow[1:], means)) / len(means)
     demand(f"values at 1 Hz and means of 50 Hz differ by {offset:+.4f} counts on average, limit 0.05", abs(offset) < 0.05)
 
+    for unit, least, most in (("mg", 950.0, 1050.0), ("mgal", 970000.0, 990000.0)):
+        export(root, scratch / f"{unit}.csv", 1, "csv", "BNZ", "--unit", unit)
+        values = [float(row[unit]) for row in rows(scratch / f"{unit}.csv")]
+        ratios = {value / counts for value, counts in zip(values, slow)}
+        demand(f"in {unit} the vertical axis has {values[0]:.4f}, and every value the same scale",
+               least < values[0] < most and max(ratios) - min(ratios) < 1e-12 * max(ratios))
+
     export(root, scratch / "grid.mseed", 50, "mseed")
     traces = run(TOOLS / "mseed-traces", scratch, "grid.mseed").stdout
     print(traces, end="")
@@ -45,9 +52,11 @@ with Scratch() as scratch:
     raw = (scratch / "grid.mseed").read_bytes()
     demand("the location code is 10 and the rate 50 Hz", raw[13:15] == b"10" and raw[32:36] == b"\0\x32\0\1")
 
-    for rate, channel, form, word in ((60, "BNZ", "csv", "--rate = 60"), (50, "BNX", "csv", "no samples of BNX"),
-                                      (50, "BNZ", "wav", "--format")):
-        refused = export(root, scratch / "refused", rate, form, channel, check=False)
+    for rate, channel, form, unit, word in ((60, "BNZ", "csv", "counts", "--rate = 60"), (50, "BNX", "csv", "counts", "no samples of BNX"),
+                                            (7.5, "BNZ", "csv", "counts", "a whole number from 1 to 1000"),
+                                            (50, "BK1", "csv", "mg", "BK1 is not a channel of acceleration"),
+                                            (50, "BNZ", "mseed", "mgal", "whole counts"), (50, "BNZ", "wav", "counts", "--format")):
+        refused = export(root, scratch / "refused", rate, form, channel, "--unit", unit, check=False)
         demand(f"refused: {refused.stderr.strip()}", refused.returncode == 2 and word in refused.stderr
                and refused.stderr.count("\n") == 1)
     day_file = next(root.rglob("*.BNZ.D.2017.196"))
