@@ -170,7 +170,8 @@ TEST_CASE("a sensor that answers but never sends a frame starts no session",
     link.stop();
 }
 
-TEST_CASE("a port that disappears is searched for until it is back", "[daemon][sensor_link]") {
+TEST_CASE("a port that disappears is named and searched for until it is back",
+          "[daemon][sensor_link]") {
     const test::TemporaryDirectory directory;
     const auto name = directory.path() / "sensor";
     ReadQueue queue;
@@ -178,14 +179,23 @@ TEST_CASE("a port that disappears is searched for until it is back", "[daemon][s
     SensorLink link(options_for(name), clock, queue);
     link.start();
     REQUIRE(eventually([&] { return link.status().state == LinkStatus::State::searching; }));
+    REQUIRE(eventually([&] {
+        return link.status().trouble ==
+               name.string() + ": there is no such port; check the cable, and a351d --list-ports";
+    }));
     {
         FakeSensor sensor;
         std::filesystem::create_symlink(sensor.path(), name);
         REQUIRE(eventually([&] { return sensor.frames_sent >= 5; }));
     }
     REQUIRE(eventually([&] { return link.status().ports_lost == 1; }));
+    const std::string unplugged =
+        "sensor unplugged: the port is gone (" + name.string() + "); plug the cable in again";
+    CHECK(link.status().trouble == unplugged);
+    std::filesystem::remove(name);  // The system then has another reason, which is not shown.
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    CHECK(link.status().trouble == unplugged);
     FakeSensor sensor;
-    std::filesystem::remove(name);
     std::filesystem::create_symlink(sensor.path(), name);
     REQUIRE(eventually([&] { return link.status().sessions == 2; }));
     link.stop();
