@@ -27,6 +27,7 @@ export class OccupationPanel {
         this.sites = [];
         this.list = [];
         this.discarded = [];
+        this.shown_day = null; // The list of stays that is shown, as JSON.
         this.resume_button = null; // Button of the stay that can be resumed.
         this.resume_until_ms = 0;
         this.running = null;
@@ -205,6 +206,10 @@ export class OccupationPanel {
     }
 
     show_day() {
+        // Rows that did not change are kept: a button in them may have the focus.
+        const day = JSON.stringify([this.today(), this.of_today(this.discarded)]);
+        if (day === this.shown_day) return;
+        this.shown_day = day;
         this.resume_button = null;
         const row_of = (one, is_discarded) => ({ start: one.set_ups[0].start, row: this.row(one, is_discarded) });
         const rows = [...this.today().map((one) => row_of(one, false)),
