@@ -81,6 +81,9 @@ struct StillPart {
 ///
 /// The same gravity is one that differs by less than 10 mGal: a placement changes it by 1 to 2 mGal,
 /// a tilt with large axis biases by some more.
+///
+/// Accuracy (moved_box_test.cpp): at least 95 % of 50 made-up lifts are recognised, and none of 100
+/// drives to another benchmark is taken for one.
 /// @param moves  find_box_moves() of the samples.
 /// @return false without a move, or if the box is shaken for a minute or more between moves.
 [[nodiscard]] bool was_only_lifted(std::span<const MotionSample> samples,

@@ -125,7 +125,7 @@ TEST_CASE("a start that was pressed too early is moved to where the box stands",
     CHECK(std::abs(seconds_of(box, part.first) - down_s) <= 14.0);
 }
 
-TEST_CASE("a box that is lifted and set down is told from one that is carried off",
+TEST_CASE("a box that is lifted and set down is distinguished from one that is carried off",
           "[signal][moved_box]") {
     constexpr int kEach = 50;
     int lifted = 0, carried = 0, briefly = 0;
