@@ -1,4 +1,5 @@
-"""Every command in the EXAMPLES of a program's manual pages runs as written and writes the files that it names.
+"""Every command in the EXAMPLES of a program's manual pages runs as written and writes the files that it names; every file
+shown there is accepted.
 
 usage: manual_examples.py a351-correct | a351-sim | a351d
 
@@ -123,6 +124,18 @@ def try_page(page, own, scratch, environment):
         demand(f"  {page.name}: {path.name} is written", path.is_file() or (path.is_dir() and any(path.iterdir())))
 
 
+def write_example(page, scratch):
+    """Writes the file shown in the EXAMPLES of a page of section 5 under the name of the page, without `.5`."""
+    (scratch / page.stem).write_text("\n".join(examples(page)) + "\n")
+
+
+def try_files_of_sim(scratch):
+    for name in ("a351-scenario.toml", "a351-faults.toml"):
+        write_example(TOP / "sim" / "command" / f"{name}.5", scratch)
+    run_to_end("a351-sim plan --scenario a351-scenario.toml --out example", scratch, ENVIRONMENT)
+    end([start("a351-sim device --link example-link --faults a351-faults.toml &", scratch, ENVIRONMENT)])
+
+
 def try_subcommands(program, folder, prepare):
     """Tries the page of each subcommand, then the overview."""
     commands_folder = TOP / folder / "command"
@@ -133,6 +146,8 @@ def try_subcommands(program, folder, prepare):
         for page in pages:
             own = page.stem.replace(program + "-", program + " ")
             try_page(page, (own, "printf"), scratch, ENVIRONMENT)
+        if program == "a351-sim":
+            try_files_of_sim(scratch)
 
 
 def try_changes(scratch, environment, port):
@@ -159,6 +174,8 @@ def try_daemon():
     port = unused_port()
     environment = {**ENVIRONMENT, "A351_URL": f"http://127.0.0.1:{port}"}
     with Scratch() as scratch:
+        write_example(TOP / "daemon" / "a351d.toml.5", scratch)
+        run_to_end("a351d --config a351d.toml --check-config", scratch, environment)
         (scratch / "a351d.toml").write_text(daemon_config(port) + '[survey]\nsites = "sites.csv"\n')
         shutil.copy(TOP / "tests" / "golden" / "tsukuba" / "sites.csv", scratch)
         try_page(TOP / "daemon" / "a351d.1", ("a351d", "a351-sim device"), scratch, environment)
