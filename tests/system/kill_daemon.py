@@ -15,6 +15,7 @@ A kill loses nothing that was handed to the kernel, so the data may be in memory
 
 import collections
 import datetime
+import json
 import random
 import signal
 import threading
@@ -44,7 +45,15 @@ class Killed(Session):
 
     def __init__(self, scratch, speed):
         self.speed, self.lives, self.published = speed, [], set()
-        super().__init__(scratch, speed=speed)
+        # A stay runs from the start, so that most lives have a corrector beside the recording.
+        super().__init__(scratch, speed=speed, prepare_port=lambda _: self.log_start(),
+                         config='[survey]\nsites = "sites.csv"\ngravity_every_min = 0.01\n')
+
+    def log_start(self):
+        start = self.clock.split("@")[1].split(",")[0]
+        events = self.scratch / "data" / "events"
+        events.mkdir(parents=True)
+        (events / f"{start[:7]}.jsonl").write_text(json.dumps({"type": "start", "utc": start, "site": "No.0"}) + "\n")
 
     def simulated_ns(self):
         start, host = (datetime.datetime.fromisoformat(part) for part in self.clock.split("@")[1].split(","))
