@@ -47,7 +47,7 @@ reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Pro
         warnings = check_calibration(survey, stays.station.serial_number, stays.list.windows);
     reading::OccupationRows read = reading::average_occupations(source, stays, progress);
     read.warnings.insert(read.warnings.begin(), warnings.begin(), warnings.end());
-    tide::apply_tide(read.rows, read.sites, survey.tide);
+    tide::apply_tide(read.rows, read.sites, survey.tide, read.day ? &*read.day : nullptr);
     add_inputs(read.inputs, survey);
     return read;
 }

@@ -78,7 +78,7 @@ std::vector<whole_day::DayStation> stations_of(const SurveyProblem& problem,
         const reading::SurveyRow& row = rows[i];
         const std::string name =
             choice.accepted[i] ? "station " + row.site : fmt::format("row {}", i);
-        whole_day::DayStation station{row.tide, std::nullopt,
+        whole_day::DayStation station{std::nullopt,
                                       numbers.emplace(name, numbers.size()).first->second,
                                       row.u_reference.value_or(MilliGal(0.0))};
         if (choice.in_use[i] && row.site != left_out) station.gravity = row.reference;

@@ -135,8 +135,8 @@ TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::str
         read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
     std::vector<whole_day::DayStation> stations;
     for (std::size_t i = 0; i < read.rows.size(); ++i) {
-        whole_day::DayStation station{read.rows[i].tide, gravity, 0};
-        if (!is_in_series(read.rows[i])) station = {read.rows[i].tide, std::nullopt, i + 1};
+        whole_day::DayStation station{gravity, 0};
+        if (!is_in_series(read.rows[i])) station = {std::nullopt, i + 1};
         stations.push_back(station);
     }
     double mean = 0.0;

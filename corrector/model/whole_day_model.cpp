@@ -92,6 +92,7 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
     out.row.start = averaged.front();
     out.row.end = averaged.back();
     out.row.acceleration = set_up.reading;
+    out.row.tide = set_up.tide;
     out.row.temperature = set_up.temperature;
     out.temperature_correction =
         -(effect(whole_day::DayTerm::constant) + effect(whole_day::DayTerm::level) +

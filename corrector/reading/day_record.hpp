@@ -33,6 +33,7 @@ struct DayBin {
     std::vector<UtcTime> times;  ///< Times of the 2 s samples that it averages.
     MilliGal reading;            ///< Mean norm of the decimated axes.
     StandardGravity x, y;        ///< Means of the horizontal axes.
+    MilliGal tide;               ///< Effect of the tide on gravity at `time`; to be subtracted.
 };
 
 /// Number of 2 s samples in a complete bin, 50 s.  Reason: the ripple averages out over its period.

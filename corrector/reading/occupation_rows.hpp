@@ -8,7 +8,7 @@
 ///
 ///     const SurveyStays stays = read_survey_inputs(source);
 ///     OccupationRows result = average_occupations(source, stays, progress);
-///     apply_tide(result.rows, result.sites, choice);                     // tide_choice.hpp
+///     apply_tide(result.rows, result.sites, choice, &*result.day);       // tide_choice.hpp
 ///
 /// The same files give the same bits on any number of cores (archive_survey_test.cpp: two runs).
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "corrector/tide/tide_series.hpp"
 #include "protocol/core/input_error.hpp"
@@ -16,30 +17,49 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 5> kNames{"given", "direct", "catalogue", "longman", "none"};
 
-void set_series_tide(std::vector<reading::SurveyRow>& rows, const std::filesystem::path& file) {
-    const Series series = Series::read(file);
-    for (reading::SurveyRow& row : rows) {
-        const auto tide = series.at(row.time);
-        if (!tide)
-            throw InputError(fmt::format(
-                "{}: time = {}, site {}: outside the series, or in one of its gaps; "
-                "allowed: {} to {} in steps of at most {} s",
-                file.string(), to_rfc3339(row.time), row.site, to_rfc3339(series.first()),
-                to_rfc3339(series.last()), kLongestTideStep.count()));
-        row.tide = *tide;
+/// The chosen tide at any instant.
+class ChosenTide {
+public:
+    ChosenTide(const std::vector<text::Site>& sites, const Choice& choice)
+        : sites_(sites), choice_(choice) {
+        if (!choice.series.empty()) series_ = Series::read(choice.series);
     }
-}
 
-void set_given_tide(std::vector<reading::SurveyRow>& rows) {
-    for (reading::SurveyRow& row : rows) {
-        if (!row.given_tide)
+    /// Returns the tide at the site of a row.
+    [[nodiscard]] MilliGal at(const reading::SurveyRow& row, UtcTime time) const {
+        if (series_) return of_series(row, time);
+        if (choice_.source == "given") return given(row);
+        const Model model = tide_model(choice_.source);
+        const text::Site* const site = text::find_site(sites_, row.site);
+        if (site == nullptr)
             throw InputError(
-                fmt::format("tide = given: {} has no earth_tide_mgal; allowed: direct, catalogue, "
-                            "longman, none, or a CSV time,tide_mgal",
-                            row.site));
-        row.tide = *row.given_tide;
+                fmt::format("site {}: unknown; allowed: a name of the table of sites", row.site));
+        return earth_tide(model, time, {site->latitude, site->longitude, site->altitude},
+                          choice_.factors);
     }
-}
+
+private:
+    [[nodiscard]] MilliGal of_series(const reading::SurveyRow& row, UtcTime time) const {
+        if (const auto tide = series_->at(time)) return *tide;
+        throw InputError(fmt::format(
+            "{}: time = {}, site {}: outside the series, or in one of its gaps; "
+            "allowed: {} to {} in steps of at most {} s",
+            choice_.series.string(), to_rfc3339(time), row.site, to_rfc3339(series_->first()),
+            to_rfc3339(series_->last()), kLongestTideStep.count()));
+    }
+
+    static MilliGal given(const reading::SurveyRow& row) {
+        if (row.given_tide) return *row.given_tide;
+        throw InputError(
+            fmt::format("tide = given: {} has no earth_tide_mgal; allowed: direct, catalogue, "
+                        "longman, none, or a CSV time,tide_mgal",
+                        row.site));
+    }
+
+    const std::vector<text::Site>& sites_;
+    const Choice& choice_;
+    std::optional<Series> series_;
+};
 
 std::string_view model_text(const Choice& choice) {
     if (!choice.series.empty()) return "series of the file, cubic between its rows";
@@ -77,18 +97,11 @@ Model tide_model(const std::string& source) {
 }
 
 void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
-                const Choice& choice) {
-    if (!choice.series.empty()) return set_series_tide(rows, choice.series);
-    if (choice.source == "given") return set_given_tide(rows);
-    const Model model = tide_model(choice.source);
-    for (reading::SurveyRow& row : rows) {
-        const text::Site* const site = text::find_site(sites, row.site);
-        if (site == nullptr)
-            throw InputError(
-                fmt::format("site {}: unknown; allowed: a name of the table of sites", row.site));
-        row.tide = earth_tide(model, row.time, {site->latitude, site->longitude, site->altitude},
-                              choice.factors);
-    }
+                const Choice& choice, reading::DayRecord* day) {
+    const ChosenTide tide(sites, choice);
+    for (reading::SurveyRow& row : rows) row.tide = tide.at(row, row.time);
+    if (day == nullptr) return;
+    for (reading::DayBin& bin : day->bins) bin.tide = tide.at(rows[bin.set_up], bin.time);
 }
 
 void describe_tide(Json& settings, const Choice& choice) {

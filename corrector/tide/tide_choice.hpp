@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corrector/reading/day_record.hpp"
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/tide/earth_tide.hpp"
 
@@ -64,20 +65,21 @@ void set_tide_option(Choice& choice, const std::string& text);
 /// @throws InputError  if the source is another one; names those allowed.
 [[nodiscard]] Model tide_model(const std::string& source);
 
-/// Sets the tide of every row from the chosen source.
+/// Sets the tide of every row, and of every bin of the day, from the chosen source.
 ///
-/// The tide is that at the row's `time`, the middle of its averaging interval.  An earlier tide is
-/// overwritten.  A series serves all sites alike, and `given` is the row's given_tide.  The other
+/// The tide is that at the row's `time`, the middle of its averaging interval, or at the bin's
+/// `time`.  An earlier tide is overwritten.  A series serves all sites alike, and `given` is the row's given_tide.  The other
 /// sources need the position of each site; also `none` refuses a site that is not in the table.
 ///
 /// If an exception is thrown, the rows before the one at fault may have their new tide already.
 ///
 /// @param rows  any order; may be empty.
 /// @param sites  table of the sites; not used for a series or for `given`.
+/// @param day  record of these rows; null: there are only averages.
 /// @throws InputError  as tide_model() or Series::read(); if a row's site is not in `sites`, a
-///                     row has no given tide, or the series does not cover a row.
+///                     row has no given tide, or the series does not cover a row or bin.
 void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
-                const Choice& choice);
+                const Choice& choice, reading::DayRecord* day = nullptr);
 
 /// Adds source, model, sign and factors of the tide to the settings of a result.  The factors are
 /// null if the tide is not computed.

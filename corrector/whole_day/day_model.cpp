@@ -144,6 +144,7 @@ std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const reading:
         const auto row = static_cast<Index>(i);
         const double weight = static_cast<double>(bin.times.size()) / counts[bin.set_up];
         mean.reading = mean.reading + MilliGal(weight * problem.readings_mgal()(row));
+        mean.tide = mean.tide + MilliGal(weight * bin.tide.value());
         mean.temperature = mean.temperature + DegC(weight * temperature(row));
         mean.rate_degc_per_h += weight * x(row, static_cast<Index>(DayTerm::fast));
         for (std::size_t k = 0; k < kDayTerms; ++k) {
@@ -245,12 +246,12 @@ std::optional<DayFit> fit_day(const reading::DayRecord& record,
         DaySetUp& set_up = fit.set_ups[s];
         const DayStation& station = stations[s];
         set_up.reading =
-            MilliGal(problem.base_mgal()[station.number]) + set_up.reading + station.tide;
+            MilliGal(problem.base_mgal()[station.number]) + set_up.reading + set_up.tide;
         set_up.corrected = MilliGal(fit.gravity_mgal[station.number].value +
                                     estimates.placement_mgal(static_cast<Index>(s)));
         double effects = 0.0;
         for (const double effect : set_up.effect_mgal) effects += effect;
-        set_up.flicker = set_up.reading - station.tide - MilliGal(effects) - set_up.corrected;
+        set_up.flicker = set_up.reading - set_up.tide - MilliGal(effects) - set_up.corrected;
     }
     return fit;
 }

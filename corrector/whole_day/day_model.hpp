@@ -29,7 +29,7 @@
 ///
 ///     std::vector<DayStation> stations;
 ///     for (const SurveyRow& row : rows)  // one row per set-up
-///         stations.push_back({row.tide, row.reference, stations.size()});
+///         stations.push_back({row.reference, stations.size()});
 ///     stations[3].gravity.reset();       // to be found
 ///     const auto fit = fit_day(record, stations);
 ///     fit->gravity_mgal[3].value;        // its gravity
@@ -126,7 +126,6 @@ struct DayPriors {
 
 /// The station of a set-up: its gravity is held or unknown.
 struct DayStation {
-    MilliGal tide;                    ///< Effect on gravity; subtracted.
     std::optional<MilliGal> gravity;  ///< Reference that is held; absent: unknown.
     /// Number of the station from 0.  Set-ups of one number share gravity; it is held if
     /// one of them has a reference.
@@ -172,6 +171,7 @@ struct GravityEstimate : Estimate {
 /// contains the steps.
 struct DaySetUp {
     MilliGal reading;                             ///< Mean reading, the full value.
+    MilliGal tide;                                ///< Mean effect of the tide on gravity.
     DegC temperature;                             ///< Mean temperature.
     double rate_degc_per_h = 0.0;                 ///< (T - lag(T, tF)) / tF.
     std::array<double, kDayTerms> effect_mgal{};  ///< Effects in the order of DayTerm.

@@ -100,7 +100,7 @@ void DayProblem::set_readings() {
     for (Index i = 0; i < count; ++i) {
         const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
         const DayStation& station = stations_[bin.set_up];
-        readings_mgal_(i) = (bin.reading - station.tide).value();
+        readings_mgal_(i) = (bin.reading - bin.tide).value();
         if (is_held_[station.number]) {
             held_sum += readings_mgal_(i) - base_mgal_[station.number];
             held_count += 1.0;

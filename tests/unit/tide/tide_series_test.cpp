@@ -120,6 +120,24 @@ TEST_CASE("a row that the series does not cover is refused by name", "[survey][t
     CHECK(rows[2].tide.value() == Approx(0.05));
 }
 
+TEST_CASE("the tide of a row is that of its middle, the tide of a bin that of the bin",
+          "[survey][tide_series]") {
+    const text::Site site{"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)};
+    SurveyRow row;
+    row.site = "A";
+    row.time = kStart;
+    std::vector<SurveyRow> rows{row};
+    DayRecord day{{TimeSeries<DegC>(kStart, Hertz(1.0), {}), {}}, {}};
+    DayBin bin;
+    bin.time = kStart + 6min;
+    day.bins = {bin};
+    apply_tide(rows, {site}, {}, &day);
+    const tide::Station station{site.latitude, site.longitude, site.altitude};
+    CHECK(rows[0].tide == direct_tide(kStart, station));
+    CHECK(day.bins[0].tide == direct_tide(kStart + 6min, station));
+    CHECK(rows[0].tide != day.bins[0].tide);
+}
+
 TEST_CASE("the settings name the tide's source, model, factors and sign", "[survey][tide_series]") {
     nlohmann::ordered_json settings;
     tide::Choice choice;

@@ -83,7 +83,7 @@ struct MadeUpDay {
     [[nodiscard]] static std::vector<DayStation> stations() {
         std::vector<DayStation> all;
         for (std::size_t s = 0; s < kSetUps; ++s)
-            all.push_back({MilliGal(0.0), MilliGal(gravity_mgal(s)), s % kSites});
+            all.push_back({MilliGal(gravity_mgal(s)), s % kSites});
         return all;
     }
 };
