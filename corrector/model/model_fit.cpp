@@ -75,7 +75,6 @@ std::optional<double> left_out_paper_error_mgal(std::vector<reading::SurveyRow> 
 
 bool takes_part(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
                 std::string_view base) {
-    constexpr std::size_t kFewestBaseStays = 3;
     constexpr std::size_t kEnoughRows = 12;
     if (!(model.has_rate && model.has_time)) return true;
     std::set<int> base_stays;

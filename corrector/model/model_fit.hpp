@@ -264,6 +264,9 @@ struct Choice {
 /// standard error of a third (1 / sqrt(2 x 5)), and a line does not follow single readings.
 inline constexpr std::size_t kFewestChoiceDof = 5;
 
+/// Least number of occupations of the base that separate drift from a bad reading.
+inline constexpr std::size_t kFewestBaseStays = 3;
+
 /// Chooses one of kLinearModels by its LOSO.
 ///
 /// The limit is the least LOSO plus its standard error, LOSO / sqrt(2 (n - p)).  Among the models

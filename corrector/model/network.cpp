@@ -198,8 +198,7 @@ std::optional<bool> NetworkAdjustment::passes_global_test() const {
 
 std::optional<double> NetworkAdjustment::studentised(std::size_t reading) const {
     const NetworkRow& row = rows[reading];
-    // An uncontrolled row has redundancy 0 except for rounding.
-    if (dof < 2 || row.redundancy < 1e-9) return std::nullopt;
+    if (dof < 2 || row.redundancy < kLeastRedundancy) return std::nullopt;
     // s_i^2 = (v^T W v - w_i v_i^2 / r_i) / (dof - 1)
     const double own = std::pow(row.residual / row.sd, 2) / row.redundancy;
     const double variance = (weighted_square - own) / static_cast<double>(dof - 1);

@@ -53,6 +53,9 @@ inline constexpr double kGlobalTestAlpha = 0.05;
 /// row's own residual.
 inline constexpr double kControlledRedundancy = 0.1;
 
+/// Least redundancy of a row that v / r predicts without itself.  Reason: below it v / r is rounding.
+inline constexpr double kLeastRedundancy = 1e-9;
+
 /// Options of the adjustment.
 struct NetworkOptions {
     /// Standard deviation of a reference that has none of its own, mGal.  Default: typical of gravity
@@ -105,7 +108,7 @@ struct NetworkAdjustment {
     [[nodiscard]] std::optional<bool> passes_global_test() const;
     /// Returns the external studentised residual v / (sd s_i sqrt(r)) of a reading, where
     /// s_i^2 = (v^T W v - (v / sd)^2 / r) / (dof - 1) comes from the other rows.  Positive: the
-    /// reading is too low.  Absent if r < 1e-9, if dof < 2, or if s_i is not positive.
+    /// reading is too low.  Absent if r < kLeastRedundancy, if dof < 2, or if s_i is not positive.
     /// @param reading  number of the reading, below reading_count.
     [[nodiscard]] std::optional<double> studentised(std::size_t reading) const;
     /// Returns the contribution of a term to the reading of a survey row, mGal.  To correct the

@@ -11,8 +11,6 @@
 namespace a351::corrector::model {
 namespace {
 
-constexpr double kLeastRedundancy = 1e-9;  // below it the prediction v / r is rounding
-
 Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     Score score;
     score.model = kNetwork;
@@ -29,10 +27,10 @@ Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     squares = 0.0;
     for (std::size_t k = 0; k < network.datum_count; ++k) {
         const NetworkRow& datum = network.rows[network.reading_count + k];
+        if (datum.redundancy < kLeastRedundancy) return score;
         squares += std::pow(datum.residual / datum.redundancy, 2);
     }
     score.loso_mgal = std::sqrt(squares / static_cast<double>(network.datum_count));
-    if (!std::isfinite(*score.loso_mgal)) score.loso_mgal.reset();
     return score;
 }
 

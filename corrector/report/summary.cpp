@@ -10,6 +10,7 @@
 
 #include "corrector/figure/reading_name.hpp"
 #include "corrector/model/model.hpp"
+#include "corrector/model/model_fit.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -168,13 +169,12 @@ std::vector<std::string> actions(const model::SurveyCorrection& result,
 }
 
 std::vector<std::string> limits_of(const model::SurveyCorrection& result) {
-    constexpr std::size_t kFewestBaseReadings = 3;  // two cannot separate drift from a bad reading
     const auto base_count = static_cast<std::size_t>(
         std::ranges::count_if(result.rows, [&](const model::CorrectedRow& row) {
             return row.row.site == result.options.base && row.is_used;
         }));
     std::vector<std::string> limits;
-    if (base_count < kFewestBaseReadings) {
+    if (base_count < model::kFewestBaseStays) {
         limits.push_back(fmt::format(
             "The base {} has {} in the fit; three readings spread over the day separate drift from "
             "a bad reading.",
