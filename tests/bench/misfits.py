@@ -1,13 +1,15 @@
 """Measures how often the whole-day model says that it does not fit a day.
 
-usage: misfits.py [FIRST_SEED]    (A351_BIN, A351_TOOLS)
-FIRST_SEED: default 10601.  The first 200 seeds have ordinary days; from each of the first 40 the days with a misfit are made,
-too.  None of them was used while the tests were developed.  Each seed draws a unit within +-25 % and a day of tsukuba, whose
-stations are all known.
+usage: misfits.py [FIRST_SEED [ORDINARY [MISFIT]]]    (A351_BIN, A351_TOOLS)
+FIRST_SEED: default 10601.  The first 200 seeds (ORDINARY) have ordinary days; from each of the first 40 (MISFIT) the days with
+a misfit are made, too.  None of them was used while the tests were developed.  Each seed draws a unit within +-25 % and a day
+of tsukuba, whose stations are all known.
 - quadratic: the reading changes by 60 mGal/degC^2 times the square of the temperature.
 - step: all readings after one drive, which is drawn, are off by 8 mGal.
 - heavy tails: one set-up in five has a placement that is ten times as large.
+A day is said not to fit by one of the three tests.  Days on which the search for mistakes finds something are counted too.
 e/u is the rms of error divided by stated uncertainty, at stations left out in turn.
+The bound is the share of steps that the best possible test would find in the first ordinary days (step_bound.cpp).
 """
 
 import concurrent.futures
@@ -16,38 +18,52 @@ import shutil
 import sys
 
 from simulated_units import correct, rms, simulate
-from programs import Scratch, read_json, rows
+from programs import TOOLS, Scratch, read_json, rows, run
 
-ORDINARY, MISFIT = 200, 40
+FALSE_ALARMS = 0.025  # of the bound: about those of the test for a step.
 DAYS = {"ordinary": ("", None), "quadratic": ("crystal_quadratic_mgal_per_degc2 = 60.0\n", 0.9),
-        "step": ("[slow_noise]\ntransport_step_mgal = 8.0\n", 0.9),
+        "step": ("[slow_noise]\ntransport_step_mgal = 8.0\n", None),  # 90 % are above the bound.
         "heavy tails": ("[slow_noise]\nplacement_gross_share = 0.2\nplacement_gross_factor = 10.0\n", 0.9)}
 MOST_FALSE = 0.05
+NO_MISTAKES = ("misfit", "not_visited", "unusable_day")  # Kinds of findings that do not come from the search.
 
 
 def look_at(scratch, name, seed):
-    """Returns the misfits that are found in a day, and [[error, u]] of the stations left out."""
+    """Returns the misfits of a day, if it has a mistake, [[error, u]] of the stations left out, the bound of an ordinary day."""
     folder = scratch / f"{name}-{seed}"
     folder.mkdir()
     day = simulate(folder, "day", "tsukuba", seed, 0.25, DAYS[name][0])
     out = correct(folder, day / "survey.toml", "result", "--model", "day")
-    found = {test["misfit"] for test in read_json(out / "result.json")["goodness_of_fit"]["tests"] if test["is_found"]}
+    result = read_json(out / "result.json")
+    found = {test["misfit"] for test in result["goodness_of_fit"]["tests"] if test["is_found"]}
+    is_mistaken = any(finding["kind"] not in NO_MISTAKES for finding in result["findings"])
     errors = [(float(row["left_out_mgal"]) - float(row["reference_mgal"]), float(row["u_left_out_mgal"]))
               for row in rows(out / "stations.csv")]
+    bound = None
+    if name == "ordinary" and seed < first + misfit:
+        bound = float(run(TOOLS / "step-bound", day / "survey.toml", "8", FALSE_ALARMS).stdout)
     shutil.rmtree(folder)
-    return found, errors
+    return found, is_mistaken, errors, bound
 
 
-first, failures = int(sys.argv[1]) if len(sys.argv) > 1 else 10601, []
+first, ordinary, misfit = (int(sys.argv[k + 1]) if len(sys.argv) > k + 1 else default
+                           for k, default in enumerate((10601, 200, 40)))
+failures = []
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     for name, (_, promised) in DAYS.items():
-        count = ORDINARY if name == "ordinary" else MISFIT
+        count = ordinary if name == "ordinary" else misfit
         days = list(pool.map(lambda seed: look_at(scratch, name, seed), range(first, first + count)))
-        share = sum(bool(found) for found, _ in days) / count
-        kinds = {kind: sum(kind in found for found, _ in days) for kind in ("curvature", "step", "tails")}
-        errors = [one for _, day in days for one in day]
-        print(f"{name}: said on {100.0 * share:.1f} % of {count} days {kinds}, error {rms(e for e, _ in errors):.2f} mGal, "
-              f"e/u {rms(e / u for e, u in errors):.2f}", flush=True)
+        share = sum(bool(found) for found, *_ in days) / count
+        kinds = {kind: sum(kind in found for found, *_ in days) for kind in ("curvature", "step", "tails")}
+        mistaken = sum(is_mistaken for _, is_mistaken, *_ in days)
+        either = sum(bool(found) or is_mistaken for found, is_mistaken, *_ in days)
+        errors = [one for *_, day, _ in days for one in day]
+        print(f"{name}: said on {100.0 * share:.1f} % of {count} days {kinds}, mistakes on {mistaken}, either on {either}, "
+              f"error {rms(e for e, _ in errors):.2f} mGal, e/u {rms(e / u for e, u in errors):.2f}", flush=True)
+        bounds = [bound for *_, bound in days if bound is not None]
+        if bounds:
+            print(f"the best possible test with {100.0 * FALSE_ALARMS} % false alarms would find a step of 8 mGal on "
+                  f"{100.0 * sum(bounds) / len(bounds):.1f} % of {len(bounds)} days", flush=True)
         if name == "ordinary" and share > MOST_FALSE:
             failures.append(f"said on {100.0 * share:.1f} % of ordinary days, promised at most {100.0 * MOST_FALSE:.0f} %")
         if promised is not None and share < promised:
