@@ -66,15 +66,20 @@ void fit_without_record(Chosen& chosen, const SurveyProblem& problem, const RowC
     chosen.fit = chosen.model->fit({problem.rows, options, problem.day}, rows);
 }
 
-/// Returns the reason if stations left out are predicted worse by the whole-day model than by the
-/// linear model that `auto` would choose.
+/// Comparison of the whole-day model with the linear model that `auto` would choose.
+struct Comparison {
+    bool is_linear_better = false;
+    std::string errors;  ///< Errors of both, in words.
+};
+
+/// Compares both models by the errors at stations left out; nullopt if these are not known.
 ///
 /// Both errors of a row contain the same placement, so they are compared in pairs: the whole-day
 /// model is worse if the 95 % interval of the mean difference of the squares, by station, is above
 /// 0.  With few stations the interval is only a rough one.
-std::optional<std::string> simpler_model_is_better(const SurveyProblem& problem, const Fit& day,
-                                                   const std::optional<Choice>& choice,
-                                                   const RowChoice& rows) {
+std::optional<Comparison> compare_with_linear(const SurveyProblem& problem, const Fit& day,
+                                              const std::optional<Choice>& choice,
+                                              const RowChoice& rows) {
     const SurveyOptions& options = problem.options;
     if (!day.score.loso_mgal || !choice) return std::nullopt;
     const auto errors =
@@ -93,11 +98,22 @@ std::optional<std::string> simpler_model_is_better(const SurveyProblem& problem,
         squares += linear * linear;
     }
     const auto interval = bootstrap_mean_interval(differences, stations, options.seed);
-    if (!interval || interval->low <= 0.0) return std::nullopt;
+    return Comparison{
+        interval && interval->low > 0.0,
+        fmt::format("it predicts stations left out with an error of {} mGal, {} with {}",
+                    text::fixed(*day.score.loso_mgal, 2), choice->model,
+                    text::fixed(std::sqrt(squares / static_cast<double>(differences.size())), 2))};
+}
+
+/// Says that no other model was compared, and what the fit was tested with.
+std::string without_comparison(const Fit& day) {
+    const bool is_tested = !day.as<WholeDayPart>()->fit_tests.empty();
     return fmt::format(
-        "it predicts stations left out with an error of {} mGal, {} with {}",
-        text::fixed(*day.score.loso_mgal, 2), choice->model,
-        text::fixed(std::sqrt(squares / static_cast<double>(differences.size())), 2));
+        "the whole-day model is used without a comparison with others, which needs enough readings "
+        "at {} or more known stations; {}",
+        kFewestComparedStations,
+        is_tested ? "its fit was tested at repeated and known stations"
+                  : "its fit could not be tested either");
 }
 
 /// Returns true if the survey asks for the network and nothing that only the adjustment has.
@@ -146,15 +162,18 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     chosen.fit = chosen.model->fit(problem, rows);
     const std::optional<Choice> choice = is_automatic ? choose_linear(problem, rows) : std::nullopt;
     std::optional<std::string> trouble;
+    std::optional<Comparison> comparison;
     if (const auto* const refusal = std::get_if<Refusal>(&chosen.fit))
         trouble = refusal->trouble;
     else
-        trouble = simpler_model_is_better(problem, std::get<Fit>(chosen.fit), choice, rows);
+        comparison = compare_with_linear(problem, std::get<Fit>(chosen.fit), choice, rows);
+    if (comparison && comparison->is_linear_better) trouble = comparison->errors;
     if (!trouble) {
-        if (!is_automatic)
-            chosen.remarks.emplace_back(
-                "network: the whole-day model is used, because it makes the same adjustment and "
-                "knows the temperature between the readings");
+        chosen.remarks.push_back(
+            !is_automatic ? "network: the whole-day model is used, because it makes the same "
+                            "adjustment and knows the temperature between the readings"
+            : comparison  ? "the whole-day model is used: " + comparison->errors
+                          : without_comparison(std::get<Fit>(chosen.fit)));
         return chosen;
     }
     if (problem.day != nullptr) chosen.remarks.push_back("not the whole-day model: " + *trouble);

@@ -185,6 +185,23 @@ TEST_CASE("the reason why auto does not use the whole-day model is reported", "[
                ContainsSubstring("not the whole-day model: the temperature"));
 }
 
+TEST_CASE("auto says what the whole-day model was compared with, or that nothing was",
+          "[survey][day]") {
+    const DayRecord day = kScattered.record();
+    auto rows = rows_of(day);
+    const auto all = correct_survey(rows, with_model("auto"), &day);
+    REQUIRE(all.model == "day");
+    CHECK_THAT(all.remarks.at(0), ContainsSubstring("the whole-day model is used: it predicts "
+                                                    "stations left out with an error of"));
+    for (SurveyRow& row : rows)
+        if (row.site != "S0") row.reference.reset();
+    const auto one = correct_survey(rows, with_model("auto"), &day);
+    REQUIRE(one.model == "day");
+    CHECK_THAT(one.remarks.at(0),
+               ContainsSubstring("without a comparison with others, which needs enough readings at "
+                                 "3 or more known stations; its fit"));
+}
+
 TEST_CASE("a day that the model does not fit is named, and its uncertainties are enlarged",
           "[survey][day]") {
     DayRecord day = kScattered.record();
