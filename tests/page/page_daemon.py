@@ -98,6 +98,11 @@ def work_an_occupation(session, browser):
     browser.click("#confirm-stop-yes")
     browser.wait_for_text("answer", "stopped No.1 (stay 1)")
     browser.wait_for_text("answer", "not stable: ")
+    browser.wait_for_text("resume-last", "Undo the stop of No.1")
+    browser.click("#resume-last")
+    browser.wait_for_text("answer", "resumed No.1 (stay 1)")
+    browser.wait_for_text("run-site", "No.1")
+    session.ctl("stop")
     browser.wait_for_text("day-rows", "2 set-ups")
     browser.shot("real-stopped-1366")
 

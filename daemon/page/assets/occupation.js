@@ -58,6 +58,10 @@ export class OccupationPanel {
         by_id("moved-setup").addEventListener("click", () => this.order("/api/occupation/setup",
             { ...this.named(), at: this.running.moved.utc }));
         by_id("moved-not").addEventListener("click", () => this.change("/api/occupation/not_moved", this.named()));
+        by_id("resume-last").addEventListener("click", () => {
+            const { key, site } = this.list.at(-1);
+            this.change("/api/occupation/resume", { key, site });
+        });
         for (const kind of ["discard", "rename", "times"]) {
             by_id(`run-${kind}`).addEventListener("click", () => this.dialogs.open(kind, this.running));
         }
@@ -256,7 +260,12 @@ export class OccupationPanel {
         return row;
     }
 
+    /** Offers to undo the last stop, as long as the daemon allows it. */
     show_resume() {
+        const last = this.list.at(-1);
+        const until_ms = last ? Date.parse(last.set_ups.at(-1).end) + kResume_ms : 0;
+        show("resume-last", this.running === null && this.now_ms <= until_ms);
+        if (last) set_text("resume-last", `Undo the stop of ${visible(last.site).slice(0, 40)}`);
         if (this.resume_button) {
             this.resume_button.hidden = this.running !== null || this.now_ms > this.resume_until_ms;
         }
