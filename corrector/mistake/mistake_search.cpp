@@ -45,6 +45,8 @@ std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings
     return best->mistake;
 }
 
+double alpha_of(bool needs_trial) { return needs_trial ? kTrialAlpha : kMistakeAlpha; }
+
 std::vector<Mistake> without(std::vector<Mistake> mistakes, std::size_t k) {
     mistakes.erase(mistakes.begin() + static_cast<std::ptrdiff_t>(k));
     return mistakes;
@@ -76,7 +78,7 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
         const bool is_known_sure = mistakes.size() == sure.size();
         auto found = next_mistake(readings, residuals_of, mistakes, is_known_sure);
         if (!found) break;
-        const bool is_sure = found->p <= kMistakeAlpha;
+        const bool is_sure = found->p <= alpha_of(!is_known_sure);
         mistakes.push_back(std::move(*found));
         if (mistakes.size() > 1) refine(mistakes, readings, residuals_of);
         if (!is_sure) continue;
@@ -97,8 +99,10 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
             mistakes[k].size_mgal = mistake.size_mgal;
             mistakes[k].u_mgal = mistake.u_mgal;
         }
-        const auto worst = std::ranges::max_element(mistakes, {}, &Mistake::p);
-        if (worst->p <= kMistakeAlpha) break;
+        const auto worst = std::ranges::max_element(mistakes, {}, [](const Mistake& one) {
+            return one.p / alpha_of(one.needed_trial);
+        });
+        if (worst->p <= alpha_of(worst->needed_trial)) break;
         mistakes.erase(worst);
     }
     return mistakes;

@@ -67,7 +67,10 @@ using ResidualsOf = std::function<std::optional<residual::Residuals>(
 
 /// Probability that a mistake of one class is found where there is none.  There are three classes:
 /// readings, swaps, steps.
-inline constexpr double kMistakeAlpha = 0.01;
+inline constexpr double kMistakeAlpha = 0.009;
+/// The same for one that is sure only when another one was put right on trial.  Reason: up to three
+/// searches have a chance to find it.
+inline constexpr double kTrialAlpha = kMistakeAlpha / 3.0;
 
 /// Returns the mistakes that were found, in the order in which they were.
 ///

@@ -189,10 +189,17 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
     };
     model::SurveyCorrection result = correct();
     Search found = search(result, survey);
-    if (options.model == model::kAutomatic && found.amended && result.model != model::kWholeDay) {
+    if (options.model == model::kAutomatic && result.model != model::kWholeDay) {
+        // The mistakes may be the reason why the whole-day model looks worse; it sees more of them.
+        model::SurveyCorrection of_day = result;
+        of_day.model = model::kWholeDay;
+        std::optional<AmendedSurvey> right;
+        if (survey.day != nullptr) right = search(of_day, survey).amended;
+        if (!right) right = found.amended;
         // The tilt of a calibration is subtracted from the amended rows already.
         const std::string chosen =
-            model::correct_survey(found.amended->rows, found.amended->options, survey.day).model;
+            right ? model::correct_survey(right->rows, right->options, survey.day).model
+                  : result.model;
         if (chosen != result.model) {
             options.model = chosen;
             result = correct();

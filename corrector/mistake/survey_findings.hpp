@@ -34,8 +34,9 @@ struct SearchedSurvey {
 [[nodiscard]] std::vector<reading::Finding> find_mistakes(const model::SurveyCorrection& result,
                                                           const SearchedSurvey& survey);
 
-/// Corrects a survey and searches it.  If a mistake is found and `auto` did not take the whole-day
-/// model, the model is chosen again from the readings without the mistakes.
+/// Corrects a survey and searches it.  If `auto` did not take the whole-day model, mistakes are
+/// searched with that model too.  If one is found, the model is chosen again from the readings
+/// without the mistakes.
 /// @param known  findings that are known already.
 /// @throws InputError  as model::correct_survey().
 [[nodiscard]] model::SurveyCorrection correct_and_search(

@@ -64,7 +64,7 @@ Finding missed_set_up(const OccupationWindow& window,
                                          to_rfc3339(time_of(move), 3));
     }
     finding.text = fmt::format(
-        "{} ({}): box lifted or turned and set down at {} without a set-up (its level changed by "
+        "{} ({}): box lifted and set down at {} without a set-up (its level changed by "
         "{:.3f} deg); only the part before is used",
         window.site, window.number, times, moves.front().tilt_deg);
     return finding;
@@ -98,7 +98,9 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     if (part.behind < samples.size()) still.end = samples[part.behind].time;
 
     Finding& finding = moved.finding;
-    if (signal::was_only_lifted(samples, moves)) {
+    // Without a stop the stay lasts until the box is at the next benchmark.
+    if (std::ranges::count(window.notes, "no-stop") == 0 &&
+        signal::was_only_lifted(samples, moves)) {
         finding = missed_set_up(window, samples, moves);
         return moved;
     }

@@ -18,6 +18,7 @@ constexpr std::size_t kCarried = 30;    // samples: a minute; handling takes up 
 constexpr std::size_t kLeastStay = 90;  // samples: three minutes
 constexpr std::size_t kWayToCar = 300;  // samples: ten minutes
 constexpr std::chrono::minutes kLift(2);  // lifting, turning and levelling again
+constexpr double kSamePlace_mgal = 5.0;   // three standard deviations of two placements
 
 bool is_shaken(const MotionSample& sample) { return sample.shake.value() > kShaken_mgal; }
 
@@ -145,7 +146,8 @@ StillPart choose_still_part(std::span<const MotionSample> samples,
 bool was_only_lifted(std::span<const MotionSample> samples, const std::vector<BoxMove>& moves) {
     const auto is_lift = [&](const BoxMove& move) {
         return samples[move.after].time - samples[move.before].time <= kLift &&
-               std::abs(move.norm.value()) < kHandledAndMoved_mgal;
+               shaken_in(samples, move.before, move.after) >= kHandled &&
+               std::abs(move.norm.value()) < kSamePlace_mgal;
     };
     if (moves.empty() || !std::ranges::all_of(moves, is_lift)) return false;
     const std::vector<bool> rest = at_rest(samples);

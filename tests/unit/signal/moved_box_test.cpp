@@ -133,7 +133,7 @@ TEST_CASE("a box that is lifted and set down is distinguished from one that is c
         MadeUpBox box(seed);
         box.rest(box.between(240.0, 500.0));
         box.shake(box.between(8.0, 50.0), 20000.0);
-        box.place(box.between(-4.0, 4.0));
+        box.place(box.between(-3.0, 3.0));
         box.rest(box.between(100.0, 150.0));
         briefly += was_only_lifted(box.samples(), find_box_moves(box.samples())) ? 1 : 0;
         box.rest(200.0);
@@ -156,6 +156,11 @@ TEST_CASE("a box that is lifted and set down is distinguished from one that is c
     CHECK(lifted >= 0.95 * kEach);
     CHECK(carried == 0);
     CHECK(briefly == 0);
+    MadeUpBox jumped(1);  // at another level without a hand at it
+    jumped.rest(300.0);
+    jumped.place(0.0);
+    jumped.rest(300.0);
+    CHECK_FALSE(was_only_lifted(jumped.samples(), find_box_moves(jumped.samples())));
     MadeUpBox still(1);
     still.rest(600.0);
     CHECK_FALSE(was_only_lifted(still.samples(), {}));
