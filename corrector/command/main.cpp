@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
     command::add_amend_command(program);
     command::add_calibrate_command(program);
     command::add_decimate_command(program);
+    command::add_design_command(program);
     command::add_emd_command(program);
     command::add_export_command(program);
     command::add_record_command(program);

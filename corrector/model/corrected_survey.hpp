@@ -32,6 +32,7 @@
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/whole_day/day_model.hpp"
 #include "corrector/whole_day/goodness_of_fit.hpp"
+#include "corrector/whole_day/unit_posterior.hpp"
 #include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector::model {
@@ -240,6 +241,7 @@ struct WholeDayPart {
     /// Factor by which the uncertainties of stations and differences are multiplied; 1 unless the
     /// model does not fit.
     double uncertainty_factor = 1.0;
+    whole_day::UnitPosterior unit;  ///< Parameters of the unit, as the day has found them.
 };
 
 /// A model fitted to a survey.

@@ -236,7 +236,9 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     const whole_day::DayPriors priors = day_priors_of(options.calibration);
     const DayFits fits = fit_with_and_without(problem, choice, priors);
     Fit result;
-    result.own = WholeDayPart{};
+    WholeDayPart part;
+    part.unit = whole_day::unit_posterior(day, fits.all.stations, fits.all.fit, priors);
+    result.own = std::move(part);
     result.rows = uncorrected(problem, choice);
     result.score = score_of(rows, choice.in_use, fits);
     std::vector<std::vector<UtcTime>> averaged(rows.size());  // times of the samples in the bins

@@ -20,12 +20,16 @@ Json interval_json(const std::optional<model::Interval>& interval) {
     return interval ? Json{interval->low, interval->high} : Json(nullptr);
 }
 
+Json matrix_json(const Eigen::MatrixXd& matrix) {
+    Json rows = Json::array();
+    for (const auto& row : matrix.rowwise())
+        rows.push_back(std::vector<double>(row.begin(), row.end()));
+    return rows;
+}
+
 Json covariance_json(const std::optional<model::StationCovariance>& covariance) {
     if (!covariance) return nullptr;
-    Json rows = Json::array();
-    for (const auto& row : covariance->mgal2.rowwise())
-        rows.push_back(std::vector<double>(row.begin(), row.end()));
-    return {{"sites", covariance->sites}, {"mgal2", rows}};
+    return {{"sites", covariance->sites}, {"mgal2", matrix_json(covariance->mgal2)}};
 }
 
 /// Returns what a test's place means: temperature or time, or a reading.
@@ -47,6 +51,19 @@ Json fit_tests_json(const model::SurveyCorrection& result) {
              {"is_found", test.is_misfit()},
              {"at", place_of(result, test)}});
     return {{"tests", tests}, {"uncertainty_factor", day->uncertainty_factor}};
+}
+
+Json unit_json(const model::SurveyCorrection& result) {
+    const auto* const day = result.as<model::WholeDayPart>();
+    if (day == nullptr) return nullptr;
+    const whole_day::UnitPosterior& unit = day->unit;
+    return {{"parameters", whole_day::kUnitNames},
+            {"values", std::vector<double>(unit.values.begin(), unit.values.end())},
+            {"covariance", matrix_json(unit.covariance)},
+            {"noise",
+             {{"placement_mgal", unit.noise.placement_mgal},
+              {"flicker_mgal", unit.noise.flicker_mgal},
+              {"white_mgal", unit.noise.white_mgal}}}};
 }
 
 Json priors_json(const model::SurveyCorrection& result) {
@@ -128,6 +145,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);
     json["network"] = network_json(result);
     json["goodness_of_fit"] = fit_tests_json(result);
+    json["unit"] = unit_json(result);
     json["calibration"] = model::calibration_json(result);
     json["findings"] = reading::findings_json(result.findings);
     json["remarks"] = result.remarks;

@@ -87,7 +87,7 @@ void set_gravities(const DayProblem& problem, const reading::DayRecord& record,
 }
 
 /// Returns values by least squares at the fit's point, and errors with the lags as two more terms
-/// and with the expected noise; sets the shift and its covariance.
+/// and with the expected noise; sets gravities, the shift and its covariance.
 Estimates estimate(const DayProblem& problem, const reading::DayRecord& record, std::size_t set_ups,
                    DayFit& fit) {
     const DayFit::Point& u = fit.point;
@@ -103,7 +103,6 @@ Estimates estimate(const DayProblem& problem, const reading::DayRecord& record, 
     Estimates result;
     result.values = problem.unscaled(u, scaled);
 
-    fit.expected = problem.expected(u);
     const Eigen::MatrixXd all = problem.linearised(fit.expected, result.values);
     const Eigen::MatrixXd covariance =
         linear_algebra::Cholesky(linear_algebra::normal_matrix(all)).inverse();
@@ -165,6 +164,49 @@ std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const reading:
     return means;
 }
 
+/// Returns true if a set-up whose gravity is held has a bin.
+bool is_any_held(const reading::DayRecord& record, const std::vector<DayStation>& stations) {
+    return std::ranges::any_of(record.bins, [&stations](const reading::DayBin& bin) {
+        return stations[bin.set_up].gravity.has_value();
+    });
+}
+
+/// Returns the fit at a point, with the errors of the expected noise; noise_log_errors is not set.
+DayFit fit_at(const DayProblem& problem, const reading::DayRecord& record,
+              const std::vector<DayStation>& stations, const DayPriors& priors,
+              const DayFit::Point& point, const DayFit::Point& expected) {
+    DayFit fit;
+    fit.point = point;
+    fit.expected = expected;
+    fit.noise = problem.noise(point);
+    const Estimates estimates = estimate(problem, record, stations.size(), fit);
+    fit.fast_lag_s = problem.lag_s(point, kFastLag);
+    fit.slow_lag_s = problem.lag_s(point, kSlowLag);
+    const DayPriors::Matrix covariance =
+        priors.factor * fit.shift_covariance * priors.factor.transpose();
+    fit.lag_log_errors = {std::sqrt(covariance(kFastLag, kFastLag)),
+                          std::sqrt(covariance(kSlowLag, kSlowLag))};
+    for (std::size_t k = 0; k < kDayTerms; ++k) {
+        const auto term = static_cast<Index>(k);
+        fit.coefficients.at(k) = {estimates.values(term), estimates.standard_errors(term)};
+    }
+    for (Index k = problem.steps_begin(); k < problem.states_begin(); ++k)
+        fit.steps_mgal.push_back({estimates.values(k), estimates.standard_errors(k)});
+    fit.set_ups = means_of_set_ups(problem, record, stations.size(), point, estimates.values);
+    for (std::size_t s = 0; s < stations.size(); ++s) {
+        DaySetUp& set_up = fit.set_ups[s];
+        const DayStation& station = stations[s];
+        set_up.reading =
+            MilliGal(problem.base_mgal()[station.number]) + set_up.reading + set_up.tide;
+        set_up.corrected = MilliGal(fit.gravity_mgal[station.number].value +
+                                    estimates.placement_mgal(static_cast<Index>(s)));
+        double effects = 0.0;
+        for (const double effect : set_up.effect_mgal) effects += effect;
+        set_up.flicker = set_up.reading - set_up.tide - MilliGal(effects) - set_up.corrected;
+    }
+    return fit;
+}
+
 }  // namespace
 
 void DayPriors::observe(const std::vector<Eigen::Index>& places, const Eigen::VectorXd& values,
@@ -217,43 +259,31 @@ DayPriors usual_day_priors() {
 std::optional<DayFit> fit_day(const reading::DayRecord& record,
                               const std::vector<DayStation>& stations, const DayFit* nearby,
                               const DayPriors& priors) {
-    const auto is_held = [&](const reading::DayBin& bin) {
-        return stations[bin.set_up].gravity.has_value();
-    };
-    if (std::ranges::none_of(record.bins, is_held)) return std::nullopt;
+    if (!is_any_held(record, stations)) return std::nullopt;
     const DayProblem problem(record, stations, priors);
-    DayFit fit;
-    fit.point =
+    const DayFit::Point point =
         problem.most_likely(nearby != nullptr ? std::optional(nearby->point) : std::nullopt);
-    const DayFit::Point& u = fit.point;
-    fit.noise = problem.noise(u);
-    fit.noise_log_errors = problem.noise_log_errors(u);
-    const Estimates estimates = estimate(problem, record, stations.size(), fit);
-    fit.fast_lag_s = problem.lag_s(u, kFastLag);
-    fit.slow_lag_s = problem.lag_s(u, kSlowLag);
-    const DayPriors::Matrix covariance =
-        priors.factor * fit.shift_covariance * priors.factor.transpose();
-    fit.lag_log_errors = {std::sqrt(covariance(kFastLag, kFastLag)),
-                          std::sqrt(covariance(kSlowLag, kSlowLag))};
-    for (std::size_t k = 0; k < kDayTerms; ++k) {
-        const auto term = static_cast<Index>(k);
-        fit.coefficients.at(k) = {estimates.values(term), estimates.standard_errors(term)};
-    }
-    for (Index k = problem.steps_begin(); k < problem.states_begin(); ++k)
-        fit.steps_mgal.push_back({estimates.values(k), estimates.standard_errors(k)});
-    fit.set_ups = means_of_set_ups(problem, record, stations.size(), u, estimates.values);
-    for (std::size_t s = 0; s < stations.size(); ++s) {
-        DaySetUp& set_up = fit.set_ups[s];
-        const DayStation& station = stations[s];
-        set_up.reading =
-            MilliGal(problem.base_mgal()[station.number]) + set_up.reading + set_up.tide;
-        set_up.corrected = MilliGal(fit.gravity_mgal[station.number].value +
-                                    estimates.placement_mgal(static_cast<Index>(s)));
-        double effects = 0.0;
-        for (const double effect : set_up.effect_mgal) effects += effect;
-        set_up.flicker = set_up.reading - set_up.tide - MilliGal(effects) - set_up.corrected;
-    }
+    DayFit fit = fit_at(problem, record, stations, priors, point, problem.expected(point));
+    fit.noise_log_errors = problem.noise_log_errors(point);
     return fit;
+}
+
+std::optional<DayFit> fit_planned_day(reading::DayRecord& record,
+                                      const std::vector<DayStation>& stations,
+                                      const DayNoise& noise, const DayPriors& priors) {
+    if (!is_any_held(record, stations)) return std::nullopt;
+    for (reading::DayBin& bin : record.bins)
+        bin.reading = bin.tide + stations[bin.set_up].gravity.value_or(MilliGal{});
+    const DayProblem bare(record, stations, priors);
+    const Eigen::VectorXd effects =
+        bare.design({}) * bare.unscaled({}, Eigen::VectorXd::Zero(bare.estimated()));
+    for (std::size_t i = 0; i < record.bins.size(); ++i) {
+        MilliGal& reading = record.bins[i].reading;
+        reading = reading + MilliGal(effects(static_cast<Index>(i)));
+    }
+    const DayProblem problem(record, stations, priors);
+    const DayFit::Point point = problem.point_of(noise);
+    return fit_at(problem, record, stations, priors, point, point);
 }
 
 }  // namespace a351::corrector::whole_day

@@ -249,4 +249,20 @@ struct DayFit {
                                             const DayFit* nearby = nullptr,
                                             const DayPriors& priors = usual_day_priors());
 
+/// Returns the fit to be expected of a day that is only planned, with a noise that is known.
+///
+/// The readings of the record are replaced by those that the priors' means give without noise.  Lags
+/// and size of the axis biases are the medians of the priors.  Values are the priors' means; the
+/// standard errors and their sources are those of a day with this noise.  noise_log_errors is absent.
+///
+/// Accuracy (day_model_test.cpp): if priors and noise are those that a day has found, the standard
+/// errors agree with those of its fit within 0.1 %.
+/// @param record  planned bins with their times and tilts; the readings are set.
+/// @param stations, priors  as fit_day(); a value of gravity that is held does not matter.
+/// @param noise   each part > 0.
+/// @return std::nullopt if no set-up that is held has a bin.
+[[nodiscard]] std::optional<DayFit> fit_planned_day(reading::DayRecord& record,
+                                                    const std::vector<DayStation>& stations,
+                                                    const DayNoise& noise, const DayPriors& priors);
+
 }  // namespace a351::corrector::whole_day

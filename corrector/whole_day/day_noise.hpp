@@ -29,6 +29,12 @@ struct DayNoise {
     double white_mgal = 0.0;    ///< White noise of a complete bin (kBinSamples samples).
 };
 
+/// Noise of a unit that nobody has measured.
+///
+/// Placement and flicker are what the publication's survey day leaves room for
+/// (corrector/methods.md, "The whole-day model"); white is its long record's 0.4 mGal per 20 s.
+inline constexpr DayNoise kUsualNoise{1.2, 1.2, 0.25};
+
 /// Corner periods, s, of the first-order (Ornstein-Uhlenbeck) processes of equal variance whose sum
 /// is the flicker.  Reason: steps of sqrt(10) from a bin to half a day; the sum is within 5 % of
 /// 1/f from 120 s to 13000 s (day_noise_test.cpp).  The correlation of a process at the lag dt is

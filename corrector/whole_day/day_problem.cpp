@@ -18,7 +18,8 @@ using Index = Eigen::Index;
 constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
 
 // fit_day() lists the priors; corrector/methods.md gives their origin.
-constexpr LogNormalPrior kPlacementPrior_mgal{1.2, 2.0}, kFlickerPrior_mgal{1.2, 2.0};
+constexpr LogNormalPrior kPlacementPrior_mgal{kUsualNoise.placement_mgal, 2.0},
+    kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
 constexpr double kWhiteFactor = 2.0;
 
 /// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
@@ -178,6 +179,14 @@ Eigen::MatrixXd DayProblem::unscaling(const Point& u) const {
 DayNoise DayProblem::noise(const Point& u) const {
     return {kPlacementPrior_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
             white_mgal_.at(u[kWhite])};
+}
+
+DayProblem::Point DayProblem::point_of(const DayNoise& noise) const {
+    Point u{};
+    u[kPlacement] = kPlacementPrior_mgal.place_of(noise.placement_mgal);
+    u[kFlicker] = kFlickerPrior_mgal.place_of(noise.flicker_mgal);
+    u[kWhite] = white_mgal_.place_of(noise.white_mgal);
+    return u;
 }
 
 DayProblem::Point DayProblem::expected(const Point& u) const {

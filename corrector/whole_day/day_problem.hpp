@@ -45,6 +45,10 @@ struct LogNormalPrior {
     double median = 0.0, factor = 1.0;  ///< Median, mGal; factor of one deviation, > 1.
     /// Returns median x factor^u.
     [[nodiscard]] double at(double u) const { return median * std::pow(factor, u); }
+    /// Returns the u of a value > 0.
+    [[nodiscard]] double place_of(double value) const {
+        return std::log(value / median) / std::log(factor);
+    }
 };
 
 /// Places in DayFit::Point.  kFastLag and kSlowLag are also places in DayPriors.
@@ -97,6 +101,10 @@ public:
     /// Returns the noise at a point.  The median of white noise is the scatter between neighbouring
     /// bins of a set-up, at least 1e-3 mGal; 1 mGal if no set-up has two bins.
     [[nodiscard]] DayNoise noise(const Point& u) const;
+
+    /// Returns the point with this noise, and with the medians of lags and size of the biases.
+    /// @param noise  each part > 0.
+    [[nodiscard]] Point point_of(const DayNoise& noise) const;
 
     /// Returns the point with the roots of the expected variances of placement, flicker and axis
     /// biases; the rest as in `u`.

@@ -19,7 +19,7 @@ import time
 from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_status, demand, os, run, unused_port
 
 # Subcommands whose results the examples of other pages read.
-FIRST = ("calibrate", "record", "export")
+FIRST = ("calibrate", "record", "export", "survey")
 SITES = ("No.0", "No.12", "No.1", "No.2", "No.4", "No.0")
 LONGEST_START_S = 60
 USUAL_ADDRESS = "http://127.0.0.1:8351"
@@ -45,6 +45,10 @@ def prepare_correct(scratch):
         run(BIN / "a351-sim", "survey", "--scenario", scenario, "--out", root, cwd=scratch)
     for table in ("sites.csv", "observations.csv"):
         shutil.copy(TOP / "tests" / "golden" / "tsukuba" / table, scratch)
+    (scratch / "plan.csv").write_text("site,start_utc,set_ups,minutes_each\n"
+                                      "No.0,2026-05-01T00:00:00Z,1,12\nNo.1,2026-05-01T00:35:00Z,1,12\n")
+    (scratch / "plan-sites.csv").write_text("site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n"
+                                            "No.0,140.1,36.2,530,979860.2\nNo.1,140.1,36.2,185,\n")
     survey = (TOP / "config" / "survey.toml").read_text()
     for name in ("day", "monday", "tuesday"):
         (scratch / f"{name}.toml").write_text(survey.replace('name = "tsukuba"', f'name = "{name}"'))

@@ -2,6 +2,7 @@
 
 #include "tests/support/catch.hpp"
 
+#include "corrector/whole_day/unit_posterior.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;
@@ -95,6 +96,64 @@ TEST_CASE("the tide is taken off every bin, and a set-up has the mean of its bin
         CHECK(with->set_ups[s].corrected.value() ==
               Approx(without->set_ups[s].corrected.value()).epsilon(0.0).margin(1e-3));
     }
+}
+
+TEST_CASE("a planned day has the uncertainties of a measured one of the same unit and noise",
+          "[day]") {
+    auto stations = MadeUpDay::stations();
+    for (const std::size_t s : {3U, 9U}) stations[s].gravity.reset();
+    stations[14].gravity.reset();  // at the site of set-up 3
+    const DayRecord measured = MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record();
+    const DayPriors usual = usual_day_priors();
+    const DayFit fit = fit_day(measured, stations, nullptr, usual).value();
+
+    // The plan knows what the day has found: the means of the priors and the size of the biases.
+    const UnitPosterior found = unit_posterior(measured, stations, fit, usual);
+    DayPriors priors = usual;
+    priors.mean = found.priors().mean;
+    for (std::size_t k = 0; k < kDayTerms; ++k)
+        priors.mean(DayPriors::place_of(static_cast<DayTerm>(k))) = fit.coefficients.at(k).value;
+    for (const DayTerm axis : {DayTerm::x, DayTerm::y})
+        priors.factor.row(DayPriors::place_of(axis)) *=
+            std::pow(usual.bias_factor, fit.expected[5]);
+    priors.bias_factor = 1.0;
+    DayRecord plan = measured;
+    for (DayBin& bin : plan.bins) bin.reading = MilliGal(0.0);
+    const DayFit planned = fit_planned_day(plan, stations, found.noise, priors).value();
+    for (const std::size_t number : {3U, 9U}) {
+        const GravityEstimate &one = planned.gravity_mgal[number],
+                              &other = fit.gravity_mgal[number];
+        CHECK(one.standard_error == Approx(other.standard_error).epsilon(1e-3));
+        for (std::size_t k = 0; k < kErrorSources; ++k)
+            CHECK(one.parts_mgal.at(k) == Approx(other.parts_mgal.at(k)).margin(2e-3));
+    }
+    for (std::size_t k = 0; k < kDayTerms; ++k)
+        CHECK(planned.coefficients.at(k).value ==
+              Approx(priors.mean(DayPriors::place_of(static_cast<DayTerm>(k)))).margin(1e-3));
+}
+
+TEST_CASE("what a day has found of its unit is the prior of the next", "[day]") {
+    const DayRecord record = MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record();
+    const DayPriors usual = usual_day_priors();
+    const DayFit fit = fit_day(record, MadeUpDay::stations(), nullptr, usual).value();
+    const UnitPosterior found = unit_posterior(record, MadeUpDay::stations(), fit, usual);
+    const DayPriors next = found.priors();
+    const DayPriors::Matrix covariance = next.factor * next.factor.transpose();
+    for (const DayTerm term :
+         {DayTerm::level, DayTerm::slow, DayTerm::fast, DayTerm::x, DayTerm::y}) {
+        const Estimate& estimate = fit.coefficients.at(static_cast<std::size_t>(term));
+        const auto place = DayPriors::place_of(term);
+        CHECK(next.mean(place) == Approx(estimate.value));
+        CHECK(std::sqrt(covariance(place, place)) == Approx(estimate.standard_error).epsilon(1e-6));
+    }
+    for (const std::size_t lag : {0U, 1U}) {
+        const auto place = static_cast<Eigen::Index>(lag);
+        CHECK(std::sqrt(covariance(place, place)) ==
+              Approx(fit.lag_log_errors.at(lag)).epsilon(1e-6));
+    }
+    CHECK(std::exp(next.mean(0)) == Approx(fit.fast_lag_s));
+    CHECK(found.noise.placement_mgal > fit.noise.placement_mgal);  // the expected variance
+    CHECK(found.noise.white_mgal == Approx(fit.noise.white_mgal));
 }
 
 TEST_CASE("set-ups of one unknown station share its value", "[day]") {

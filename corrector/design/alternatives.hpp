@@ -1,0 +1,45 @@
+#pragma once
+/// @file
+/// Changes of a plan, and what each of them brings.
+///
+///     for (const Alternative& one : alternatives(plan, sites, unit, errors.u_unknown))
+///         std::cout << one.text << '\n';
+///
+/// A visit that is added has the set-ups of the visit before it, and the drives to it take as long as
+/// the median of the plan's drives.  All later visits are delayed.
+
+#include <string>
+#include <vector>
+
+#include "corrector/design/plan.hpp"
+#include "corrector/design/planned_unit.hpp"
+
+namespace a351::corrector::design {
+
+/// A changed plan with its uncertainty.
+struct Alternative {
+    std::string text;  ///< Change and effect in one sentence.
+    Plan plan;
+    MilliGal u;                  ///< ExpectedErrors::u_unknown of the changed plan.
+    double extra_minutes = 0.0;  ///< Additional time, drives included; can be 0.
+};
+
+/// Least improvement of an alternative, as a part of u.  Less is below the accuracy of a prediction.
+inline constexpr double kLeastGain = 0.01;
+
+/// Returns the changes that improve a plan by kLeastGain or more, the best first:
+///
+/// - twice as many set-ups of half the length; only if each keeps three minutes,
+/// - one more set-up at each visit, or at those of known stations only,
+/// - stays twice as long,
+/// - a return to the first known station at the end or in the middle,
+/// - each of the three nearest known stations of the table that is not visited,
+/// - all visits once more in reverse order.
+///
+/// @param plan  as read_plan() gives it.
+/// @param u     its own ExpectedErrors::u_unknown.
+[[nodiscard]] std::vector<Alternative> alternatives(const Plan& plan,
+                                                    const std::vector<text::Site>& sites,
+                                                    const PlannedUnit& unit, MilliGal u);
+
+}  // namespace a351::corrector::design

@@ -1,0 +1,127 @@
+#include "corrector/design/design_files.hpp"
+
+#include <fmt/core.h>
+
+#include "corrector/result/column.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::design {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using result::Cell;
+using result::Column;
+using result::of;
+
+Column<ExpectedStation> part_column(std::string_view key, std::string_view heading,
+                                    whole_day::ErrorSource source) {
+    return {key,
+            [source](const ExpectedStation& station) -> Cell {
+                return station.parts_mgal.at(static_cast<std::size_t>(source));
+            },
+            {heading, 2}};
+}
+
+std::vector<Column<ExpectedStation>> station_columns() {
+    using whole_day::ErrorSource;
+    return {
+        {"site", of(&ExpectedStation::site), {"Station", 0, 'n'}},
+        {"is_known", of(&ExpectedStation::is_known), {"Known", 0, 'l'}},
+        {"set_ups", of(&ExpectedStation::set_ups), {"Set-ups"}},
+        {"u_mgal", of(&ExpectedStation::u), {"u mGal", 2}},
+        part_column("u_placement_mgal", "Placement", ErrorSource::placement),
+        part_column("u_flicker_mgal", "Flicker", ErrorSource::flicker),
+        part_column("u_white_mgal", "White", ErrorSource::white),
+        part_column("u_levelling_mgal", "Levelling", ErrorSource::levelling),
+        part_column("u_thermal_mgal", "Thermal", ErrorSource::thermal),
+        part_column("u_drift_mgal", "Drift", ErrorSource::drift),
+        part_column("u_datum_mgal", "Datum", ErrorSource::datum),
+    };
+}
+
+std::vector<Column<ExpectedDifference>> difference_columns() {
+    return {{"from", of(&ExpectedDifference::from)},
+            {"to", of(&ExpectedDifference::to)},
+            {"u_difference_mgal", of(&ExpectedDifference::u)}};
+}
+
+std::vector<Column<Alternative>> alternative_columns() {
+    return {{"text", of(&Alternative::text), {"What would improve it", 0, 'l'}},
+            {"plan_change", [](const Alternative& one) { return plan_csv(one.plan); }},
+            {"u_mgal", of(&Alternative::u), {"u mGal", 2}},
+            {"extra_minutes", of(&Alternative::extra_minutes), {"Extra min", 0}}};
+}
+
+std::size_t count_known(const Design& design) {
+    return static_cast<std::size_t>(
+        std::ranges::count(design.errors.stations, true, &ExpectedStation::is_known));
+}
+
+std::size_t count_set_ups(const Design& design) {
+    std::size_t count = 0;
+    for (const ExpectedStation& station : design.errors.stations) count += station.set_ups;
+    return count;
+}
+
+}  // namespace
+
+Design make_design(const Plan& plan, const std::vector<text::Site>& sites,
+                   const PlannedUnit& unit) {
+    Design design{plan, unit, expected_errors(plan, sites, unit), {}};
+    design.alternatives = alternatives(plan, sites, unit, design.errors.u_unknown);
+    return design;
+}
+
+std::vector<text::NamedText> design_files(const Design& design,
+                                          const std::vector<text::InputFile>& inputs) {
+    return {{"design.csv", result::csv_table(station_columns(), design.errors.stations)},
+            {"differences.csv", result::csv_table(difference_columns(), design.errors.differences)},
+            {"design.json", design_json(design, inputs)}};
+}
+
+std::string design_json(const Design& design, const std::vector<text::InputFile>& inputs) {
+    Json json;
+    json["program"] = "a351-correct";
+    json["version"] = A351_VERSION;
+    json["inputs"] = Json::array();
+    for (const text::InputFile& input : inputs)
+        json["inputs"].push_back({{"role", input.role},
+                                  {"name", input.name},
+                                  {"byte_count", input.byte_count},
+                                  {"crc32", input.crc32}});
+    const PlannedUnit& unit = design.unit;
+    json["unit"] = {{"origin", unit.origin},
+                    {"placement_mgal", unit.noise.placement_mgal},
+                    {"flicker_mgal", unit.noise.flicker_mgal},
+                    {"white_mgal", unit.noise.white_mgal},
+                    {"walk_degc_per_sqrt_h", unit.walk_degc_per_sqrt_h},
+                    {"tilt_g", unit.tilt_g}};
+    json["hours"] = duration_h(design.plan);
+    json["u_mgal"] = design.errors.u_unknown.value();
+    json["stations"] = result::json_array(station_columns(), design.errors.stations);
+    json["differences"] = result::json_array(difference_columns(), design.errors.differences);
+    json["alternatives"] = result::json_array(alternative_columns(), design.alternatives);
+    // Names of sites may be in any encoding, but JSON is UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string design_text(const Design& design) {
+    const whole_day::DayNoise& noise = design.unit.noise;
+    std::string text = fmt::format(
+        "{} visits of {} stations ({} known), {} set-ups, {} h\n"
+        "unit: {}; placement {}, flicker {}, white noise {} mGal\n\n",
+        design.plan.size(), design.errors.stations.size(), count_known(design),
+        count_set_ups(design), text::fixed(duration_h(design.plan), 1), design.unit.origin,
+        text::fixed(noise.placement_mgal, 2), text::fixed(noise.flicker_mgal, 2),
+        text::fixed(noise.white_mgal, 2));
+    text += result::aligned_text(result::table_of(station_columns(), design.errors.stations));
+    text += fmt::format("\nexpected standard uncertainty of the unknown stations (rms): {} mGal\n",
+                        text::fixed(design.errors.u_unknown.value(), 2));
+    if (design.alternatives.empty())
+        return text + "\nno change that was tried improves it by 1 % or more\n";
+    text += "\nwhat would improve it, the best first:\n";
+    for (const Alternative& one : design.alternatives) text += "  " + one.text + '\n';
+    return text;
+}
+
+}  // namespace a351::corrector::design

@@ -1,0 +1,50 @@
+#pragma once
+/// @file
+/// What a day has found of its unit, for another day of the same unit.
+///
+///     const UnitPosterior unit = unit_posterior(record, stations, fit, priors);
+///     const DayPriors next = unit.priors();     // of a later day
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_noise.hpp"
+#include "protocol/unit/calibration.hpp"
+
+namespace a351::corrector::whole_day {
+
+/// Names of the parameters that all days of a unit have in common, in the order of
+/// GravityEstimate::shared_mgal.
+inline constexpr std::array<std::string_view, kSharedErrors> kUnitNames{
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::fast_lag)],
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::slow_lag)],
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::level)],
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::slow)],
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::fast)],
+    unit::kAxisBiasNames[0],
+    unit::kAxisBiasNames[1]};
+
+/// Response and axis biases of a unit with their joint covariance, and its noise.
+struct UnitPosterior {
+    using Vector = Eigen::Matrix<double, kSharedErrors, 1>;
+    using Matrix = Eigen::Matrix<double, kSharedErrors, kSharedErrors>;
+
+    Vector values = Vector::Zero();          ///< In the order and units of kUnitNames.
+    Matrix covariance = Matrix::Identity();  ///< Positive definite.
+    DayNoise noise;                          ///< Roots of the expected variances.
+
+    /// Returns the usual priors with these parameters instead of those of another unit; the axis
+    /// biases have a known size.
+    [[nodiscard]] DayPriors priors() const;
+};
+
+/// Returns the posterior of a day's unit.
+/// @param record, stations, priors  those of the fit.
+[[nodiscard]] UnitPosterior unit_posterior(const reading::DayRecord& record,
+                                           const std::vector<DayStation>& stations,
+                                           const DayFit& fit, const DayPriors& priors);
+
+}  // namespace a351::corrector::whole_day

@@ -1,0 +1,129 @@
+"""Compares the uncertainty that `a351-correct design` expects with errors and uncertainties of simulated days of the same plan.
+
+usage: design_bench.py [SEEDS [FOLDER]]    (A351_BIN, A351_TOOLS)
+SEEDS: default 12001-12040, which were not used while the command was developed.  FOLDER: keeps the results of each day; days
+with results are not computed again.  Each seed draws a unit within +-25 % and a day of tsukuba's weather for every plan.  Nothing
+is fitted to the days: the design knows the plan and a usual unit only.
+
+Errors are those of gravity_mgal in stations.csv at the stations without a reference, u is u_gravity_mgal there.  Promised: the
+expected uncertainty is within 15 % of the rms error.  The limits of the ratios are 95 % bootstrap intervals, drawn by day.
+"""
+
+import concurrent.futures
+import datetime
+import json
+import os
+import pathlib
+import random
+import shutil
+import sys
+import tomllib
+
+from simulated_units import correct, hide_references, rms, seeds_of, simulate
+from programs import BIN, TOP, Scratch, read_json, rows, run
+
+START, EVERY_MIN = "2017-07-15T23:30:00Z", 35
+ROUND = ("No.0", "No.1", "No.2", "No.3", "No.4", "No.7", "No.5", "No.6", "No.8", "No.9", "No.0")
+LOOP = ("No.0", "No.1", "No.2", "No.3", "No.0", "No.1", "No.2", "No.3", "No.0")
+# Name: visits, set-ups, minutes each, known stations.
+PLANS = {"1 x 12 min": (ROUND, 1, 12.0, ("No.0", "No.7")), "2 x 6 min": (ROUND, 2, 6.0, ("No.0", "No.7")),
+         "4 x 3 min": (ROUND, 4, 3.0, ("No.0", "No.7")), "one datum, two loops": (LOOP, 1, 12.0, ("No.0",))}
+PROMISED = 0.85, 1.15
+DRAWS = 1000
+
+
+def instants(count):
+    first = datetime.datetime.fromisoformat(START.replace("Z", "+00:00"))
+    return [first + datetime.timedelta(minutes=EVERY_MIN * k) for k in range(count)]
+
+
+def text_of(time):
+    return time.strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def ambient_at(time):
+    """Returns the air temperature in the box at a time of tsukuba, a straight line between its stays."""
+    stays = tomllib.loads((TOP / "config" / "scenarios" / "tsukuba.toml").read_text())["occupation"]
+    knots = [(datetime.datetime.fromisoformat(stay["centre_utc"].replace("Z", "+00:00")), stay["ambient_degc"]) for stay in stays]
+    if time <= knots[0][0]:
+        return knots[0][1]
+    for (before, low), (after, high) in zip(knots, knots[1:]):
+        if time <= after:
+            return low + (high - low) * (time - before) / (after - before)
+    return knots[-1][1]
+
+
+def scenario_of(visits, set_ups, minutes_each):
+    """Returns the schedule of a plan in the form of a scenario."""
+    lines = ["[schedule]", "lead_in_h = 8.0", "jitter_s = 0.0", f"setups = {set_ups}"]
+    for k, (site, start) in enumerate(zip(visits, instants(len(visits)))):
+        centre = start + datetime.timedelta(minutes=set_ups * minutes_each / 2.0)
+        lines += ["[[occupation]]", f'site = "{site}"', f"number = {visits[:k].count(site) + 1}",
+                  f'centre_utc = "{text_of(centre)}"', f"length_s = {60.0 * set_ups * minutes_each}",
+                  f"ambient_degc = {ambient_at(centre):.2f}"]
+    return "\n".join(lines) + "\n"
+
+
+def expected_u(folder, plan):
+    """Returns the uncertainty that the design of a plan gives, rms over the unknown stations."""
+    visits, set_ups, minutes_each, known = PLANS[plan]
+    lines = ["site,start_utc,set_ups,minutes_each"]
+    lines += [f"{site},{text_of(start)},{set_ups},{minutes_each}" for site, start in zip(visits, instants(len(visits)))]
+    (folder / "plan.csv").write_text("\n".join(lines) + "\n")
+    sites = ["site,longitude_deg,latitude_deg,altitude_m,gravity_mgal"]
+    for row in rows(TOP / "tests" / "golden" / "tsukuba" / "sites.csv"):
+        gravity = row["gravity_mgal"] if row["site"] in known else ""
+        sites.append(",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], gravity]))
+    (folder / "sites.csv").write_text("\n".join(sites) + "\n")
+    return json.loads(run(BIN / "a351-correct", "design", "plan.csv", "--sites", "sites.csv", "--json", cwd=folder).stdout)["u_mgal"]
+
+
+def look_at(scratch, seed, plan):
+    """Returns model and [error, u] of each unknown station of a day."""
+    visits, set_ups, minutes_each, known = PLANS[plan]
+    folder = scratch / f"{seed}-{list(PLANS).index(plan)}"
+    folder.mkdir()
+    day = simulate(folder, "day", "tsukuba", seed, 0.25, scenario_of(visits, set_ups, minutes_each))
+    survey, truth = hide_references(day, known, "known")
+    out = correct(folder, survey, "result")
+    found = [read_json(out / "result.json")["model"],
+             [[float(row["gravity_mgal"]) - truth[row["site"]], float(row["u_gravity_mgal"])]
+              for row in rows(out / "stations.csv") if row["site"] not in known]]
+    shutil.rmtree(folder)
+    return found
+
+
+def kept(store, scratch, seed, plan):
+    """Returns the result of look_at(), computed now or read from an earlier run."""
+    file = store / f"{seed}-{list(PLANS).index(plan)}.json"
+    if not file.exists():
+        file.write_text(json.dumps(look_at(scratch, seed, plan)))
+        print(f"{plan}: day {seed} done", flush=True)
+    return read_json(file)
+
+
+def ratio_with_limits(expected, days, place):
+    """Returns expected / rms of a column of the days' rows, with its bootstrap limits."""
+    draw = random.Random(1)
+    several = sorted(expected / rms(row[place] for day in draw.choices(days, k=len(days)) for row in day) for _ in range(DRAWS))
+    return expected / rms(row[place] for day in days for row in day), several[DRAWS // 40], several[-DRAWS // 40]
+
+
+seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "12001-12040")
+failures = []
+with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(int(os.environ.get("A351_JOBS", os.cpu_count()))) as pool:
+    store = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else scratch
+    store.mkdir(parents=True, exist_ok=True)
+    for plan in PLANS:
+        expected = expected_u(scratch, plan)
+        results = list(pool.map(lambda seed: kept(store, scratch, seed, plan), seeds))
+        days = [day for _, day in results]
+        error, low, high = ratio_with_limits(expected, days, 0)
+        stated, stated_low, stated_high = ratio_with_limits(expected, days, 1)
+        print(f"{plan}: expected {expected:.2f} mGal, {len(days)} days: rms error {expected / error:.2f} mGal, expected / error "
+              f"{error:.2f} ({low:.2f} to {high:.2f}), promised {PROMISED[0]} to {PROMISED[1]}; rms of u {expected / stated:.2f} mGal, "
+              f"expected / u {stated:.2f} ({stated_low:.2f} to {stated_high:.2f}); models {sorted({model for model, _ in results})}")
+        if not PROMISED[0] <= error <= PROMISED[1]:
+            failures.append(plan)
+print(f"NOT REACHED: {', '.join(failures)}" if failures else "all promises kept")
+sys.exit(bool(failures))
