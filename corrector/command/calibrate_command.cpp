@@ -14,7 +14,8 @@
 #include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_readings.hpp"
-#include "corrector/model/tilt_series.hpp"
+#include "corrector/series/placement_series.hpp"
+#include "corrector/series/tilt_series.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/write_together.hpp"
@@ -23,7 +24,7 @@ namespace a351::corrector::command {
 namespace {
 
 struct CalibrateOptions {
-    std::vector<std::string> tilt, records;
+    std::vector<std::string> tilt, placement, records;
     std::string out, merge, valid_from, valid_to, power_on;
     double within_mgal = unit::WarmUpGuidance{}.within_mgal;
     bool is_within_given = false;
@@ -72,7 +73,7 @@ private:
     std::map<std::string, std::vector<Counted>> of_archive_file_;
 };
 
-std::string series_text(const model::TiltSeries& series, const std::string& name) {
+std::string series_text(const series::TiltSeries& series, const std::string& name) {
     std::string lines =
         fmt::format("{}: {} set-ups, temperature within {} degC, set-ups scatter by {} mGal\n",
                     name, series.set_ups, text::fixed(series.temperature_range_degc, 3),
@@ -97,13 +98,17 @@ void take_over(unit::Calibration& calibration, const std::string& file) {
     if (!calibration.axis_bias) calibration.axis_bias = other.axis_bias;
     if (!calibration.thermal) calibration.thermal = other.thermal;
     if (!calibration.warm_up) calibration.warm_up = other.warm_up;
+    if (!calibration.placement) calibration.placement = other.placement;
     for (const unit::CalibrationData& data : other.data) list_data(calibration, data);
     calibration.valid_from = std::max(calibration.valid_from, other.valid_from);
     calibration.valid_to = other.valid_to;
 }
 
-void calibrate_from_tilt(unit::Calibration& calibration, const std::vector<std::string>& files) {
-    std::vector<model::TiltSeries> all;
+/// Reads the series of an option one by one; each reading counts once.
+/// @param measure  takes the readings, the name of the series and its file as the user gave it.
+template <class Measure>
+void read_series(unit::Calibration& calibration, const std::vector<std::string>& files,
+                 Measure measure) {
     CountedReadings counted;
     for (const std::string& file : files) {
         const job::SurveyFile survey = series_file(file);
@@ -111,13 +116,45 @@ void calibrate_from_tilt(unit::Calibration& calibration, const std::vector<std::
         const reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
         for (const std::string& warning : read.warnings)
             std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
-        all.push_back(model::measure_axis_bias(read, file));
+        measure(read, survey.name, file);
         const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
         counted.add(read.rows,
                     note_origin(calibration, read.serial_number, start, read.inputs, file), file);
-        std::cout << series_text(all.back(), survey.name);
     }
-    calibration.axis_bias = model::combine(all);
+}
+
+void calibrate_from_tilt(unit::Calibration& calibration, const std::vector<std::string>& files) {
+    std::vector<series::TiltSeries> all;
+    read_series(calibration, files,
+                [&all](const reading::OccupationRows& read, const std::string& name,
+                       const std::string& file) {
+                    all.push_back(series::measure_axis_bias(read, file));
+                    std::cout << series_text(all.back(), name);
+                });
+    calibration.axis_bias = series::combine(all);
+}
+
+std::string placement_text(const unit::Placement& placement) {
+    return fmt::format("{} mGal (95 %: {} to {})", text::fixed(placement.mgal, 2),
+                       text::fixed(placement.low_mgal, 2), text::fixed(placement.high_mgal, 2));
+}
+
+void calibrate_from_placement(unit::Calibration& calibration,
+                              const std::vector<std::string>& files) {
+    std::vector<series::PlacementSeries> all;
+    read_series(
+        calibration, files,
+        [&](const reading::OccupationRows& read, const std::string& name, const std::string& file) {
+            all.push_back(series::measure_placement(read, calibration, file));
+            const series::PlacementSeries& series = all.back();
+            std::cout << fmt::format(
+                "{}: {} set-ups, placement {}; flicker {}, white noise {} mGal\n", name,
+                series.set_ups, placement_text(series.placement),
+                text::fixed(series.noise.flicker_mgal, 2), text::fixed(series.noise.white_mgal, 2));
+        });
+    calibration.placement = series::combine(all);
+    if (all.size() > 1)
+        std::cout << "all series: placement " << placement_text(*calibration.placement) << '\n';
 }
 
 RecordCalibrationOptions record_options(const CalibrateOptions& options) {
@@ -131,14 +168,17 @@ RecordCalibrationOptions record_options(const CalibrateOptions& options) {
 }
 
 void calibrate(const CalibrateOptions& options) {
-    if (options.tilt.empty() && options.records.empty())
-        throw InputError("no record and no tilt series; allowed: FILE..., --tilt FILE... or both");
+    if (options.tilt.empty() && options.placement.empty() && options.records.empty())
+        throw InputError(
+            "no record and no series; allowed: FILE..., --tilt FILE..., --placement FILE...");
     require_file_option("--out", options.out);
     unit::Calibration calibration;
     calibration.program = "a351-correct " A351_VERSION;
     if (!options.tilt.empty()) calibrate_from_tilt(calibration, options.tilt);
     if (!options.records.empty())
         std::cout << calibrate_from_records(calibration, record_options(options));
+    // Last, because the other parts are the priors of its fit.
+    if (!options.placement.empty()) calibrate_from_placement(calibration, options.placement);
     if (!options.merge.empty()) take_over(calibration, options.merge);
     if (!options.valid_from.empty())
         calibration.valid_from = instant_option("--valid-from", options.valid_from);
@@ -169,6 +209,10 @@ void add_calibrate_command(CLI::App& program) {
     add_option(command, "--tilt", "FILE", options->tilt,
                "Tilt series at one point, for the biases of the horizontal axes: survey files "
                "(TOML) or data roots with a sites.csv");
+    add_option(
+        command, "--placement", "FILE", options->placement,
+        "Repeated set-ups at one point, for their scatter: survey files (TOML) or data roots "
+        "with a sites.csv");
     CLI::Option* within = add_with_default(command, "--within", "MGAL", options->within_mgal,
                                            "The unit counts as warmed up when its reading is "
                                            "within this many mGal of the final value (0.001-1000)");

@@ -106,6 +106,9 @@ PlannedUnit planned_unit(const std::filesystem::path& file) {
     const unit::Calibration calibration = unit::read_calibration(file);
     PlannedUnit unit = usual_unit();
     unit.priors = model::day_priors_of(calibration);
+    // The root of the expected variance: the logarithm is normal.
+    if (const auto& placement = calibration.placement)
+        unit.noise.placement_mgal = placement->mgal * std::exp(std::pow(placement->log_error(), 2));
     unit.origin = "calibration of unit " + calibration.serial_number;
     return unit;
 }

@@ -69,7 +69,8 @@ Json part_json(bool is_there, const char* use, const std::optional<Disagreement>
 }  // namespace
 
 bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration) {
-    return calibration && (calibration->axis_bias || calibration->thermal);
+    return calibration &&
+           (calibration->axis_bias || calibration->thermal || calibration->placement);
 }
 
 whole_day::DayPriors day_priors_of(const std::optional<unit::Calibration>& calibration) {
@@ -82,6 +83,8 @@ whole_day::DayPriors day_priors_of(const std::optional<unit::Calibration>& calib
     if (const auto& thermal = calibration->thermal)
         priors.observe(kThermalPlaces, thermal->values,
                        unit::kThermalErrorFactor * unit::kThermalErrorFactor * thermal->covariance);
+    if (const auto& placement = calibration->placement)
+        priors.placement_mgal = {placement->mgal, std::exp(placement->log_error())};
     return priors;
 }
 
@@ -130,10 +133,13 @@ void report_prior_use(Fit& result, const unit::Calibration& calibration,
         squares += std::pow((fit.set_ups[i].corrected - without.set_ups[i].corrected).value(), 2);
     use.effect_rms_mgal = std::sqrt(squares / static_cast<double>(fit.set_ups.size()));
     result.remarks.push_back(fmt::format(
-        "{} as prior: {}{}; it changes the corrected values by {} mGal rms{}", name_of(calibration),
-        calibration.axis_bias ? "axis biases" : "no axis biases",
+        "{} as prior: {}{}{}; it changes the corrected values by {} mGal rms{}",
+        name_of(calibration), calibration.axis_bias ? "axis biases" : "no axis biases",
         calibration.thermal ? ", thermal response with its errors doubled"
                             : ", no thermal response",
+        calibration.placement
+            ? fmt::format(", placement {} mGal", text::fixed(calibration.placement->mgal, 2))
+            : "",
         text::fixed(use.effect_rms_mgal, 2),
         calibration.axis_bias
             ? "; for the scores of other models axis bias x tilt was subtracted from the readings"
@@ -216,6 +222,8 @@ Json calibration_json(const SurveyCorrection& result) {
                                     use.is_prior ? "prior" : "fixed", use.axis_bias)},
             {"thermal", part_json(calibration.thermal.has_value(), use.is_prior ? "prior" : "none",
                                   use.thermal)},
+            {"placement", part_json(calibration.placement.has_value(),
+                                    use.is_prior ? "prior" : "none", std::nullopt)},
             {"effect_rms_mgal", use.effect_rms_mgal},
             {"loso_without_mgal", is_compared ? Json(*use.loso_without_mgal) : Json(nullptr)},
             {"worse_with_it", is_compared ? Json(is_harmful(use, result.score)) : Json(nullptr)}};

@@ -27,12 +27,13 @@ namespace a351::corrector::model {
 /// chance once in a hundred surveys.
 inline constexpr double kContradictionP = 0.01;
 
-/// Returns true if the calibration has axis biases or a thermal response.  A warm-up time alone
-/// does not help to correct a day.
+/// Returns true if the calibration has axis biases, a thermal response or a placement.  A warm-up time
+/// alone does not help to correct a day.
 [[nodiscard]] bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration);
 
 /// Returns the usual priors, combined with the calibration: axis biases with their covariance, the
-/// thermal response with kThermalErrorFactor^2 times its covariance.
+/// thermal response with kThermalErrorFactor^2 times its covariance.  A placement replaces the usual
+/// prior, which it contains.
 ///
 /// The result is narrower than either: for a single coefficient the inverse variances add up.
 /// Without a calibration it is usual_day_priors().

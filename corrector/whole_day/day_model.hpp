@@ -93,6 +93,7 @@ struct DayPriors {
     /// `factor` are medians, and the day decides how much larger or smaller both are.  1: they are
     /// known.
     double bias_factor = 1.0;
+    LogNormalPrior placement_mgal = kUsualPlacement_mgal;  ///< Prior of the placement.
 
     /// Gives bx and by independent deviations of 2000 mGal/g, the limit of the data sheet, whatever
     /// the day says about their size.  Call it before observe() of an axis.
@@ -222,8 +223,8 @@ struct DayFit {
 /// - rA -12, 7.2 mGal/degC; rS -20, 12 mGal/degC; rF 11.3, 6.8 mGal/(degC/h)
 /// - d 0, 1 mGal/h; w 0, 36 mGal; c, unknowns and steps free (0, 1e4 mGal)
 ///
-/// Log-normal priors, median and factor: lags 43 s and 2700 s, 1.5; placement and flicker 1.2 mGal,
-/// 2; white the scatter of the bins, 2; common standard deviation of bx and by, whose mean is 0,
+/// Log-normal priors, median and factor: lags 43 s and 2700 s, 1.5; placement, if it was not measured,
+/// and flicker 1.2 mGal, 2; white the scatter of the bins, 2; common standard deviation of bx and by, whose mean is 0,
 /// 300 mGal/g, 3.  The means explain the long record and the survey day of the publication
 /// (corrector/methods.md).
 ///

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "corrector/reading/day_record.hpp"
@@ -34,6 +35,22 @@ struct DayNoise {
 /// Placement and flicker are what the publication's survey day leaves room for
 /// (corrector/methods.md, "The whole-day model"); white is its long record's 0.4 mGal per 20 s.
 inline constexpr DayNoise kUsualNoise{1.2, 1.2, 0.25};
+
+/// Log-normal prior of a standard deviation: median x factor^u with u normal, of variance 1.
+///
+/// About two thirds of the probability are between median / factor and median x factor.
+struct LogNormalPrior {
+    double median = 0.0, factor = 1.0;  ///< Median, mGal; factor of one deviation, > 1.
+    /// Returns median x factor^u.
+    [[nodiscard]] double at(double u) const { return median * std::pow(factor, u); }
+    /// Returns the u of a value > 0.
+    [[nodiscard]] double place_of(double value) const {
+        return std::log(value / median) / std::log(factor);
+    }
+};
+
+/// Placement of a unit that nobody has measured.
+inline constexpr LogNormalPrior kUsualPlacement_mgal{kUsualNoise.placement_mgal, 2.0};
 
 /// Corner periods, s, of the first-order (Ornstein-Uhlenbeck) processes of equal variance whose sum
 /// is the flicker.  Reason: steps of sqrt(10) from a bin to half a day; the sum is within 5 % of

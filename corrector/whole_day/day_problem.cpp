@@ -18,8 +18,7 @@ using Index = Eigen::Index;
 constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
 
 // fit_day() lists the priors; corrector/methods.md gives their origin.
-constexpr LogNormalPrior kPlacementPrior_mgal{kUsualNoise.placement_mgal, 2.0},
-    kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
+constexpr LogNormalPrior kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
 constexpr double kWhiteFactor = 2.0;
 
 /// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
@@ -177,13 +176,13 @@ Eigen::MatrixXd DayProblem::unscaling(const Point& u) const {
 }
 
 DayNoise DayProblem::noise(const Point& u) const {
-    return {kPlacementPrior_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
+    return {priors_.placement_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
             white_mgal_.at(u[kWhite])};
 }
 
 DayProblem::Point DayProblem::point_of(const DayNoise& noise) const {
     Point u{};
-    u[kPlacement] = kPlacementPrior_mgal.place_of(noise.placement_mgal);
+    u[kPlacement] = priors_.placement_mgal.place_of(noise.placement_mgal);
     u[kFlicker] = kFlickerPrior_mgal.place_of(noise.flicker_mgal);
     u[kWhite] = white_mgal_.place_of(noise.white_mgal);
     return u;
@@ -201,7 +200,7 @@ DayProblem::Point DayProblem::expected(const Point& u) const {
         // the mean square of x is exp(m + v), with v = (ln factor)^2 / curvature.
         expected.at(place) += std::log(factor) / std::max(curvature, 1.0);
     };
-    grow(kPlacement, kPlacementPrior_mgal.factor);
+    grow(kPlacement, priors_.placement_mgal.factor);
     grow(kFlicker, kFlickerPrior_mgal.factor);
     grow(kBiasSize, priors_.bias_factor);
     return expected;
@@ -285,7 +284,7 @@ std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u
     const linear_algebra::Cholesky factor(curvature);
     if (!factor.is_positive_definite()) return std::nullopt;
     const Eigen::MatrixXd covariance = factor.inverse();
-    const std::array<double, 3> factors{kPlacementPrior_mgal.factor, kFlickerPrior_mgal.factor,
+    const std::array<double, 3> factors{priors_.placement_mgal.factor, kFlickerPrior_mgal.factor,
                                         kWhiteFactor};
     std::array<double, 3> errors{};
     for (std::size_t i = 0; i < errors.size(); ++i)

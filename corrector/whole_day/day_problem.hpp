@@ -20,7 +20,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -37,19 +36,6 @@ inline constexpr double kFreeGravity_mgal = 1e4;
 /// kDayLags and kDayTerms as sizes of matrices.
 inline constexpr auto kLags = static_cast<Eigen::Index>(kDayLags);
 inline constexpr auto kTerms = static_cast<Eigen::Index>(kDayTerms);
-
-/// Log-normal prior of a standard deviation: median x factor^u with u normal, of variance 1.
-///
-/// About two thirds of the probability are between median / factor and median x factor.
-struct LogNormalPrior {
-    double median = 0.0, factor = 1.0;  ///< Median, mGal; factor of one deviation, > 1.
-    /// Returns median x factor^u.
-    [[nodiscard]] double at(double u) const { return median * std::pow(factor, u); }
-    /// Returns the u of a value > 0.
-    [[nodiscard]] double place_of(double value) const {
-        return std::log(value / median) / std::log(factor);
-    }
-};
 
 /// Places in DayFit::Point.  kFastLag and kSlowLag are also places in DayPriors.
 enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite, kBiasSize };

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -69,6 +70,24 @@ using ThermalResponse = CalibratedCoefficients<static_cast<int>(kThermalTerms)>;
 /// multiplies it by the square of this factor.
 inline constexpr double kThermalErrorFactor = 2.0;
 
+/// Placement: standard deviation of the scatter of set-ups at one point.
+///
+/// Range in a file: 0.001 to 1000 mGal, low < standard deviation < high.
+struct Placement {
+    double mgal = 0.0;                       ///< Standard deviation.
+    double low_mgal = 0.0, high_mgal = 0.0;  ///< Its 95 % limits.
+
+    bool operator==(const Placement&) const = default;
+
+    /// Returns the standard error of ln(standard deviation), if that is normal.
+    [[nodiscard]] double log_error() const {
+        return std::log(high_mgal / low_mgal) / (2.0 * kNormal95);
+    }
+
+    /// Half width of the limits in standard errors: 97.5 % of a normal distribution are below it.
+    static constexpr double kNormal95 = 1.96;
+};
+
 /// Time to wait after power-on: from then on the reading, corrected for temperature, is within
 /// `within_mgal` of its final value, with 95 % confidence.
 struct WarmUpGuidance {
@@ -88,7 +107,7 @@ struct CalibrationData {
 
 /// Calibration of one unit.
 ///
-/// A file has at least one of axis_bias, thermal and warm_up.  A default-constructed object is not
+/// A file has at least one of axis_bias, thermal, warm_up and placement.  A default-constructed object is not
 /// a valid calibration: to_toml() writes it, but parse_calibration() refuses the text.
 struct Calibration {
     std::string serial_number;  ///< Serial number of the unit; not empty.
@@ -99,6 +118,7 @@ struct Calibration {
     std::optional<AxisBias> axis_bias;       ///< Absent: not measured.
     std::optional<ThermalResponse> thermal;  ///< Absent: not measured.
     std::optional<WarmUpGuidance> warm_up;   ///< Absent: not measured.
+    std::optional<Placement> placement;      ///< Absent: not measured.
 
     bool operator==(const Calibration&) const = default;
 };

@@ -17,6 +17,8 @@ namespace {
 /// information.
 constexpr double kGreatestCovariance = 1e12;
 constexpr double kLongestWarmUp_h = 1000.0;
+/// Range of the placement, mGal: from the resolution of a mean to a thousand times the observed one.
+constexpr double kLeastPlacement_mgal = 1e-3, kGreatestPlacement_mgal = 1e3;
 
 struct Range {
     double low, high;
@@ -100,6 +102,19 @@ std::optional<CalibratedCoefficients<kCount>> coefficients_of(
     return part;
 }
 
+std::optional<Placement> placement_of(text::TomlTable& document) {
+    if (!document.has("placement")) return std::nullopt;
+    text::TomlTable table = document.table("placement");
+    const double mgal = required_number(table, "standard_deviation_mgal", kLeastPlacement_mgal,
+                                        kGreatestPlacement_mgal);
+    const auto limits = table.numbers("limits_mgal", kLeastPlacement_mgal, kGreatestPlacement_mgal);
+    table.require_all_read();
+    if (limits.size() != 2 || !(limits[0] < mgal && mgal < limits[1]))
+        table.refuse("limits_mgal", "not the limits of standard_deviation_mgal",
+                     "two numbers, one below and one above it");
+    return Placement{mgal, limits[0], limits[1]};
+}
+
 std::vector<CalibrationData> data_of(text::TomlTable& document) {
     constexpr std::size_t kDigits = 64;
     std::vector<CalibrationData> list;
@@ -139,10 +154,12 @@ Calibration parse_calibration(std::string_view text, std::filesystem::path origi
                                required_number(table, "after_power_on_h", 0.0, kLongestWarmUp_h)};
         table.require_all_read();
     }
+    calibration.placement = placement_of(document);
     document.require_all_read();
-    if (!calibration.axis_bias && !calibration.thermal && !calibration.warm_up)
-        document.refuse("axis_bias", "missing, and so are thermal and warm_up",
-                        "at least one of axis_bias, thermal or warm_up");
+    if (!calibration.axis_bias && !calibration.thermal && !calibration.warm_up &&
+        !calibration.placement)
+        document.refuse("axis_bias", "missing, and so are thermal, warm_up and placement",
+                        "at least one of axis_bias, thermal, warm_up or placement");
     return calibration;
 }
 

@@ -47,6 +47,12 @@ std::string to_toml(const Calibration& calibration) {
         text += "\n[warm_up]\n" + number_line("within_mgal", calibration.warm_up->within_mgal) +
                 number_line("after_power_on_h", calibration.warm_up->after_power_on_h);
     }
+    if (calibration.placement) {
+        const Placement& placement = *calibration.placement;
+        text += "\n[placement]\n" + number_line("standard_deviation_mgal", placement.mgal) +
+                fmt::format("limits_mgal = [{}, {}]\n", text::shortest(placement.low_mgal),
+                            text::shortest(placement.high_mgal));
+    }
     for (const CalibrationData& data : calibration.data)
         text += fmt::format("\n[[data]]\nname = {}\nsha256 = {}\n", text::toml_string(data.name),
                             text::toml_string(data.sha256));

@@ -1,4 +1,4 @@
-"""Axis biases of a unit, measured on a simulated tilt series and used on a survey day of the same unit."""
+"""Axis biases and placement of a unit, measured on simulated series and used on a survey day of the same unit."""
 
 import math
 import shutil
@@ -35,7 +35,7 @@ def keys(value):
 
 
 with Scratch() as scratch:
-    for scenario in ("tilt-series", "tilted"):
+    for scenario in ("tilt-series", "placement", "tilted"):
         run(BIN / "a351-sim", "survey", "--scenario", scenario, "--seed", SEED, "--out", scratch / scenario)
     print(correct("calibrate", "--tilt", "tilt-series", "--out", "c.toml", cwd=scratch).stdout)
     text = (scratch / "c.toml").read_text()
@@ -101,6 +101,23 @@ with Scratch() as scratch:
     (scratch / "late.toml").write_text(text.replace("valid_from_utc = \"2017", "valid_from_utc = \"2018"))
     demand("a day before the validity gives a warning",
            "validity of the calibration" in correct(*survey, "late.toml", cwd=scratch).stderr)
+
+    print(correct("calibrate", "--placement", "placement", "--merge", "c.toml", "--out", "both.toml", cwd=scratch).stdout)
+    both = tomllib.loads((scratch / "both.toml").read_text())
+    placement = both["placement"]
+    lacking = sorted(key for key in keys(placement) if f"`{key}`" not in page)
+    demand(f"the format page names all keys of the placement but {lacking or 'none'}", not lacking)
+    low, high = placement["limits_mgal"]
+    print(f"placement {placement['standard_deviation_mgal']:.2f} mGal, 95 % limits {low:.2f} to {high:.2f}, true 1.2")
+    demand("the true placement is within the limits, which are at most a factor of 4 apart", low < 1.2 < high < 4.0 * low)
+    demand("the biases are merged", both["axis_bias"]["values"] == unit["axis_bias"]["values"])
+    correct(*survey, "both.toml", cwd=scratch)
+    demand("the placement is a prior of the survey",
+           read_json(scratch / "result" / "result.json")["calibration"]["placement"]["use"] == "prior")
+    refused = correct("calibrate", "--placement", "tilted/survey.toml", "--out", "no.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("a survey day given as repeated set-ups is refused", refused.returncode == 2 and "one point" in refused.stderr and
+           not (scratch / "no.toml").exists())
 
     (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
     refused = correct("survey", "tilted/survey.toml", "--out", "other", "--calibration", "other.toml", check=False, cwd=scratch)

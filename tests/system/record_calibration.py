@@ -91,7 +91,7 @@ with Scratch() as scratch:
             (("night", "--valid-from", "2018-05-01T00:00:00Z", "--valid-to", "2018-05-01T00:00:00Z"), "--valid-to = "),
             (("night", "--merge", "another.toml"), "serial_number = 00000002: another unit"),
             (("night", "another"), "allowed: one unit"),
-            ((), "no record and no tilt series")):
+            ((), "no record and no series")):
         bad = calibrate(scratch, *arguments, "--out", "bad.toml", check=False)
         print(bad.stderr.strip())
         demand(f"{arguments}: one line, status 2, nothing written", bad.returncode == 2 and

@@ -1,4 +1,4 @@
-#include "corrector/model/tilt_series.hpp"
+#include "corrector/series/tilt_series.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 #include "protocol/core/input_error.hpp"
 
 using namespace a351;
-using namespace a351::corrector::model;
+using namespace a351::corrector::series;
 using namespace a351::corrector::reading;
 using namespace a351::unit;
 

@@ -1,4 +1,4 @@
-#include "corrector/model/tilt_series.hpp"
+#include "corrector/series/tilt_series.hpp"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector::model {
+namespace a351::corrector::series {
 namespace {
 
 // Number of set-ups: level, four tilts, level again.
@@ -96,7 +96,8 @@ void require_tilt_series(const reading::OccupationRows& read, const TiltSeries& 
                            text::fixed(series.temperature_range_degc, 2)),
                text::fixed(kGreatestRange_degc, 1) + " degC");
     const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
-    const auto refusal = day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day);
+    const auto refusal =
+        model::day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day);
     if (refusal) refuse(origin, *refusal, "a record without this");
     require_both_axes(tilts_deg(read), origin);
 }
@@ -182,4 +183,4 @@ unit::AxisBias combine(const std::vector<TiltSeries>& series) {
     return bias;
 }
 
-}  // namespace a351::corrector::model
+}  // namespace a351::corrector::series

@@ -16,7 +16,7 @@
 #include "corrector/reading/occupation_rows.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector::model {
+namespace a351::corrector::series {
 
 /// Axis biases from one series, and the facts about the series.  Tilts and temperatures are those
 /// of the set-ups used.
@@ -45,7 +45,7 @@ struct TiltSeries {
 /// @param read    rows and record of the series.  Flagged set-ups need bins too.
 /// @param origin  name of the series, for messages.
 /// @throws InputError  if set-ups are at several points or fewer than six, if the temperature
-///                     between set-ups varies by more than 0.3 degC, if day_refusal() has a reason,
+///                     between set-ups varies by more than 0.3 degC, if model::day_refusal() has a reason,
 ///                     if an axis is not tilted by 0.5 deg to both sides, or if both axes are only
 ///                     tilted together.
 [[nodiscard]] TiltSeries measure_axis_bias(const reading::OccupationRows& read,
@@ -62,4 +62,4 @@ struct TiltSeries {
 /// @throws std::invalid_argument  one of several covariances is not positive definite.
 [[nodiscard]] unit::AxisBias combine(const std::vector<TiltSeries>& series);
 
-}  // namespace a351::corrector::model
+}  // namespace a351::corrector::series

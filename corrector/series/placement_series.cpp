@@ -1,0 +1,90 @@
+#include "corrector/series/placement_series.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/model/calibration_use.hpp"
+#include "corrector/model/whole_day_model.hpp"
+#include "corrector/whole_day/day_model.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::series {
+namespace {
+
+// Eight set-ups give the placement within a factor of 1.7 (95 %), twenty within 1.4.
+constexpr std::size_t kFewestPlacements = 8;
+// Largest error of ln(placement): that of the prior alone is 0.69.
+constexpr double kGreatestLogError = 0.5;
+
+bool is_in_placement(const reading::SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
+
+[[noreturn]] void refuse_placement(const std::string& origin, const std::string& trouble,
+                                   const std::string& allowed) {
+    throw InputError(fmt::format("{}: placement: {}; allowed: {}", origin, trouble, allowed));
+}
+
+void require_placement_series(const reading::OccupationRows& read, std::size_t set_ups,
+                              const std::string& origin) {
+    for (const reading::SurveyRow& row : read.rows)
+        if (row.site != read.rows.front().site)
+            refuse_placement(origin,
+                             fmt::format("set-ups at {} and {}", read.rows.front().site, row.site),
+                             "one point");
+    if (set_ups < kFewestPlacements)
+        refuse_placement(origin, fmt::format("{} set-ups", set_ups),
+                         fmt::format("{} or more, about 20 are good", kFewestPlacements));
+    const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
+    const auto refusal =
+        model::day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day);
+    if (refusal) refuse_placement(origin, *refusal, "a record without this");
+}
+
+unit::Placement with_limits(double mgal, double log_error) {
+    const double factor = std::exp(unit::Placement::kNormal95 * log_error);
+    return {mgal, mgal / factor, mgal * factor};
+}
+
+}  // namespace
+
+PlacementSeries measure_placement(const reading::OccupationRows& read,
+                                  const unit::Calibration& known, const std::string& origin) {
+    PlacementSeries series;
+    series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_placement));
+    require_placement_series(read, series.set_ups, origin);
+    // Gravity only shifts the constant.
+    const MilliGal gravity =
+        read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
+    std::vector<whole_day::DayStation> stations;
+    for (std::size_t i = 0; i < read.rows.size(); ++i) {
+        whole_day::DayStation station{gravity, 0};
+        if (!is_in_placement(read.rows[i])) station = {std::nullopt, i + 1};
+        stations.push_back(station);
+    }
+    const whole_day::DayFit fit =
+        whole_day::fit_day(*read.day, stations, nullptr, model::day_priors_of(known)).value();
+    if (!fit.noise_log_errors || fit.noise_log_errors->front() > kGreatestLogError)
+        refuse_placement(origin, "the set-ups do not determine it",
+                         "more set-ups, or a quieter place");
+    series.noise = fit.noise;
+    series.placement = with_limits(fit.noise.placement_mgal, fit.noise_log_errors->front());
+    return series;
+}
+
+unit::Placement combine(const std::vector<PlacementSeries>& series) {
+    const whole_day::LogNormalPrior prior = whole_day::kUsualPlacement_mgal;
+    const double prior_information = 1.0 / std::pow(std::log(prior.factor), 2);
+    if (series.size() == 1) return series.front().placement;
+    double information = prior_information, weighted = prior_information * std::log(prior.median);
+    for (const PlacementSeries& one : series) {
+        const double own = 1.0 / std::pow(one.placement.log_error(), 2);
+        information += own - prior_information;
+        weighted += own * std::log(one.placement.mgal) - prior_information * std::log(prior.median);
+    }
+    return with_limits(std::exp(weighted / information), 1.0 / std::sqrt(information));
+}
+
+}  // namespace a351::corrector::series
