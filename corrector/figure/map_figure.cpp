@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/survey_figures.hpp"
@@ -14,12 +16,12 @@ namespace a351::corrector::figure {
 namespace {
 
 // Position of the plot within the SVG, from which the position of a label in pixels is computed.
-constexpr int kMapWidth_px = 640, kMapHeight_px = 560;
-constexpr double kLeft = 0.14, kRight = 0.97, kBottom = 0.10, kTop = 0.97;
+constexpr int kMapWidth_px = 820, kMapHeight_px = 600;
+constexpr double kLeft = 0.12, kRight = 0.84, kBottom = 0.10, kTop = 0.97;
 constexpr double kPlotWidth_px = (kRight - kLeft) * kMapWidth_px;
 constexpr double kPlotHeight_px = (kTop - kBottom) * kMapHeight_px;
-constexpr double kLetter_px = 6.0;  // width of the labels' 11 px letters, that of the widest digits
-constexpr double kLine_px = 13.0;
+constexpr double kLetter_px = 7.0;  // width of the labels' 11 px letters, that of the widest digits
+constexpr double kLine_px = 15.0, kLabel_px = 2.0 * kLine_px;
 constexpr double kKilometresPerDegree = 111.2;  // degree of latitude on a sphere of 6371 km radius
 
 struct Range {
@@ -83,14 +85,20 @@ struct LabelPlace {
     double x_px, y_px;  ///< Position of the label's near end relative to the point.
     bool is_left;       ///< The label is left of its near end.
 };
-constexpr std::array<LabelPlace, 8> kPlaces{{{9, 0, false},
-                                             {-9, 0, true},
-                                             {7, 12, false},
-                                             {7, -12, false},
-                                             {-7, 12, true},
-                                             {-7, -12, true},
-                                             {5, 26, false},
-                                             {-5, -26, true}}};
+constexpr std::array<LabelPlace, 14> kPlaces{{{9, 0, false},
+                                              {-9, 0, true},
+                                              {7, 22, false},
+                                              {7, -22, false},
+                                              {-7, 22, true},
+                                              {-7, -22, true},
+                                              {5, 46, false},
+                                              {-5, -46, true},
+                                              {5, -46, false},
+                                              {-5, 46, true},
+                                              {5, 70, false},
+                                              {5, -70, false},
+                                              {-5, 70, true},
+                                              {-5, -70, true}}};
 
 /// Finds for each label the first place where it touches no other label and no point.  If none is
 /// free, it takes the first place.
@@ -125,8 +133,8 @@ private:
         const double x = frame_.x_px(site.longitude.value()) + place.x_px;
         const double y = frame_.y_px(site.latitude.value()) + place.y_px;
         const double width = kLetter_px * static_cast<double>(letter_count);
-        return {place.is_left ? x - width : x, y - kLine_px / 2, place.is_left ? x : x + width,
-                y + kLine_px / 2};
+        return {place.is_left ? x - width : x, y - kLabel_px / 2, place.is_left ? x : x + width,
+                y + kLabel_px / 2};
     }
 
     Frame frame_;
@@ -146,81 +154,140 @@ std::string bar(const Frame& frame) {
         text::fixed(0.04 + share, 5), title, text::fixed(0.04 + share / 2, 5));
 }
 
-/// Returns the positions and heights of the stations with a reference, or of those without.
-std::string station_lines(const std::vector<const text::Site*>& stations, bool is_known) {
+/// A station of the survey on the map.
+struct MapStation {
+    const text::Site* site = nullptr;
+    double gravity_mgal = 0.0;
+    std::vector<std::string> visits;  ///< Numbers of its stays in the order of the day.
+};
+
+/// Returns the site of each stay in the order of time, stays without a value too.
+std::vector<std::string> visited_sites(const model::SurveyCorrection& result) {
+    std::map<UtcTime, std::pair<std::string, int>> stays;
+    for (const model::CorrectedRow& row : result.rows)
+        stays[row.row.time] = {row.row.site, row.row.occupation};
+    for (const reading::LeftOut& stay : result.left_out)
+        stays[stay.start] = {stay.site, stay.occupation};
+    std::vector<std::string> sites;
+    const std::pair<std::string, int>* before = nullptr;
+    for (const auto& [time, stay] : stays) {
+        if (before == nullptr || *before != stay) sites.push_back(stay.first);
+        before = &stay;
+    }
+    return sites;
+}
+
+/// Returns the data of the stations with a reference, or of those without.
+std::string station_lines(const std::vector<MapStation>& stations, bool is_known) {
     std::string lines;
-    for (const text::Site* site : stations) {
-        if (site->gravity.has_value() != is_known) continue;
+    for (const MapStation& station : stations) {
+        const text::Site& site = *station.site;
+        if (site.gravity.has_value() != is_known) continue;
         const double altitude_m =
-            site->has_altitude ? site->altitude.value() : std::numeric_limits<double>::quiet_NaN();
-        lines += fmt::format("{}{}{}# {}\n", datum(site->longitude.value(), 6),
-                             datum(site->latitude.value(), 6), datum(altitude_m, 2),
-                             clean_utf8(site->name));
+            site.has_altitude ? site.altitude.value() : std::numeric_limits<double>::quiet_NaN();
+        lines += fmt::format("{}{}{}{}# {}\n", datum(site.longitude.value(), 6),
+                             datum(site.latitude.value(), 6), datum(altitude_m, 2),
+                             datum(station.gravity_mgal, 3), clean_utf8(site.name));
     }
     return lines;
+}
+
+/// Returns the two lines of a station's label as a text of gnuplot, and their greatest length.
+std::pair<std::string, std::size_t> label_of(const MapStation& station) {
+    const std::string visits =
+        station.visits.empty() ? "" : fmt::format(" [{}]", text::joined(station.visits));
+    const std::string name = short_label(station.site->name) + visits;
+    std::string value = text::fixed(station.gravity_mgal, 2) + " mGal";
+    if (station.site->has_altitude)
+        value += fmt::format(", {} m", text::fixed(station.site->altitude.value(), 0));
+    return {fmt::format("{}.\"\\n\".{}", gnuplot_string(name), gnuplot_string(value)),
+            std::max(name.size(), value.size())};
 }
 
 }  // namespace
 
 std::optional<Figure> map_figure(const model::SurveyCorrection& result,
                                  const std::vector<text::Site>& sites) {
-    std::vector<const text::Site*> stations;
+    std::vector<MapStation> stations;
+    std::vector<const text::Site*> places;
     std::string absent;
     for (const model::StationValue& station : result.stations) {
         const text::Site* const site = text::find_site(sites, station.site);
         if (site != nullptr && site->is_placed) {
-            stations.push_back(site);
+            stations.push_back({site, station.gravity.value(), {}});
+            places.push_back(site);
         } else {
             absent += (absent.empty() ? " Not shown, because they have no position: " : ", ") +
                       station.site;
         }
     }
     if (stations.empty()) return std::nullopt;
-    const Frame frame = frame_around(stations);
+    const Frame frame = frame_around(places);
+    std::string route;
+    std::size_t visit = 0;
+    for (const std::string& name : visited_sites(result)) {
+        ++visit;
+        const auto station = std::ranges::find(
+            stations, name, [](const MapStation& candidate) { return candidate.site->name; });
+        if (station == stations.end()) continue;
+        station->visits.push_back(std::to_string(visit));
+        route += fmt::format("{}{}{}\n", datum(station->site->longitude.value(), 6),
+                             datum(station->site->latitude.value(), 6), visit);
+    }
 
     FigureData data("map");
     std::vector<std::string> clauses;
+    if (const std::string source = data.add("visits: longitude_deg latitude_deg number", route);
+        !source.empty())
+        clauses.push_back(source + " using 1:2 with lines lw 1 lc rgb '#bbbbbb' notitle");
     for (const bool is_known : {true, false}) {
         const std::string source =
-            data.add(fmt::format("{} reference: longitude_deg latitude_deg altitude_m",
+            data.add(fmt::format("{} reference: longitude_deg latitude_deg altitude_m gravity_mgal",
                                  is_known ? "with" : "without"),
                      station_lines(stations, is_known));
         if (source.empty()) continue;
-        clauses.push_back(fmt::format(
-            "{} using 1:2 with points {} title '{} gravity'", source,
-            is_known ? "pt 9 ps 0.7 lc rgb " + kBlue : "pt 8 ps 0.8 lw 1.5 lc rgb " + kVermilion,
-            is_known ? "known" : "unknown"));
+        clauses.push_back(fmt::format("{} using 1:2:4 with points {} palette title '{} gravity'",
+                                      source, is_known ? "pt 7 ps 0.9" : "pt 9 ps 1.1",
+                                      is_known ? "known" : "unknown"));
     }
-    LabelPlacer placer(frame, stations);
+    LabelPlacer placer(frame, places);
     std::string labels;
-    for (const text::Site* site : stations) {
-        std::string label = short_label(site->name);
-        if (site->has_altitude) label += ", " + text::fixed(site->altitude.value(), 0) + " m";
-        const LabelPlace place = placer.place(*site, label.size());
-        const double x = frame.x_px(site->longitude.value()) + place.x_px;
-        const double y = frame.y_px(site->latitude.value()) + place.y_px;
-        labels += fmt::format("set label {} at graph {},{} {} font ',11' front\n",
-                              gnuplot_string(label), text::fixed(x / kPlotWidth_px, 5),
-                              text::fixed(y / kPlotHeight_px, 5), place.is_left ? "right" : "left");
+    for (const MapStation& station : stations) {
+        const auto [label, letter_count] = label_of(station);
+        const LabelPlace place = placer.place(*station.site, letter_count);
+        const double x = frame.x_px(station.site->longitude.value()) + place.x_px;
+        const double y =
+            frame.y_px(station.site->latitude.value()) + place.y_px + kLine_px / 2;  // first line
+        labels += fmt::format("set label {} at graph {},{} {} font ',11' front\n", label,
+                              text::fixed(x / kPlotWidth_px, 5), text::fixed(y / kPlotHeight_px, 5),
+                              place.is_left ? "right" : "left");
     }
+    const auto [least, greatest] = std::ranges::minmax(stations, {}, &MapStation::gravity_mgal);
     const double step_deg = round_step(frame.longitude.length() / 4.0);
     const int decimals = static_cast<int>(std::clamp(-std::floor(std::log10(step_deg)), 0.0, 6.0));
     const auto range = [](const Range& r) {
         return fmt::format("[{}:{}]", text::fixed(r.least, 7), text::fixed(r.greatest, 7));
     };
     return data.figure(
-        fmt::format("Stations with their heights; the scale is the same in both directions.{}{}",
+        fmt::format("Stations with the order of the visits in brackets, gravity and height; the "
+                    "scale is the same in both directions. Gravity of known stations is in sample; "
+                    "its uncertainty u is in the table.{}{}",
                     absent, absent.empty() ? "" : "."),
         kMapWidth_px, kMapHeight_px,
         fmt::format(
             "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
             "set tmargin at screen {}\nset xrange {}\nset yrange {}\nset xtics {}\nset ytics {}\n"
             "set format '%.{}f'\nset xlabel 'Longitude (° east)'\nset ylabel 'Latitude (° north)'\n"
-            "set key inside bottom right\n{}{}{}",
+            "set key inside bottom right\nset cblabel 'Gravity (mGal)'\nset cbrange [{}:{}]\n"
+            "set format cb '%.0f'\n"
+            "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 "
+            "'#fde725')\n"
+            "{}{}{}",
             text::fixed(kLeft, 2), text::fixed(kRight, 2), text::fixed(kBottom, 2),
             text::fixed(kTop, 2), range(frame.longitude), range(frame.latitude),
-            text::fixed(step_deg, 7), text::fixed(step_deg, 7), decimals, bar(frame), labels,
-            plot_command(clauses)));
+            text::fixed(step_deg, 7), text::fixed(step_deg, 7), decimals,
+            text::fixed(least.gravity_mgal - 0.5, 3), text::fixed(greatest.gravity_mgal + 0.5, 3),
+            bar(frame), labels, plot_command(clauses)));
 }
 
 }  // namespace a351::corrector::figure

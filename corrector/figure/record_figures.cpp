@@ -5,8 +5,8 @@
 
 #include "corrector/eemd/extrema.hpp"
 #include "corrector/figure/escaping.hpp"
-#include "corrector/figure/reading_name.hpp"
-#include "corrector/figure/survey_figures.hpp"
+#include "corrector/figure/record_figures.hpp"
+#include "corrector/grade/reading_name.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::figure {
@@ -18,8 +18,6 @@ double length_min(const reading::RepresentativeValue& value) {
     const auto end = value.series.time_of(static_cast<double>(value.series.size()));
     return minutes_between(value.series.start(), end);
 }
-
-std::string figure_name(std::size_t row) { return fmt::format("reading-{:02}", row + 1); }
 
 /// Returns the index of the series' sample at which the trend begins.
 std::size_t curve_begin(const reading::RepresentativeValue& value) {
@@ -83,20 +81,25 @@ double spread(const std::vector<double>& values, double centre, double share) {
 /// knock does not flatten the rest.
 double half_range(double spread_of_98) { return std::max(1.2 * spread_of_98, 1e-3); }
 
-/// Returns a text on the part of the record that was averaged.
+/// Returns a text on the part of the record that was averaged, with its standard error.
 std::string averaged_text(const model::CorrectedRow& row, double mean_mgal) {
     const auto* const day = row.as<model::WholeDayRow>();
+    const auto error = row.row.record ? row.row.record->standard_error : std::nullopt;
+    const std::string samples =
+        error ? fmt::format("; standard error by the scatter of the samples alone {} mGal",
+                            text::fixed(error->value(), 2))
+              : "";
     if (day == nullptr)
-        return fmt::format("mean over the interval {} mGal.", text::fixed(mean_mgal, 3));
+        return fmt::format("mean over the interval {} mGal{}.", text::fixed(mean_mgal, 3), samples);
     return fmt::format(
-        "the model day averages {} s of it to {} mGal; trend and interval apply to the other "
+        "the model day averages {} s of it to {} mGal{}; trend and interval apply to the other "
         "models.",
-        text::fixed(day->averaged_s, 0), text::fixed(row.row.acceleration.value(), 3));
+        text::fixed(day->averaged_s, 0), text::fixed(row.row.acceleration.value(), 3), samples);
 }
 
 Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord& record) {
     const reading::RepresentativeValue& value = *record.value;
-    FigureData data(figure_name(record.row));
+    FigureData data(reading_figure_name(record.row));
     const std::string series =
         data.add("minutes acceleration_mgal trend_mgal temperature_degc", series_lines(value));
     const std::string limits =
@@ -122,7 +125,7 @@ Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord
             "set arrow from first {0},graph 0 to first {0},graph 1 nohead dt 2 lw 1 lc rgb {1}\n",
             text::fixed(minutes_between(value.series.start(), limit), 4), kVermilion);
     }
-    const std::string reading = reading_name(result.rows, record.row);
+    const std::string reading = grade::reading_name(result.rows, record.row);
     return data.figure(
         fmt::format("{}, from {}: {}", reading, to_rfc3339(value.series.start()),
                     averaged_text(result.rows[record.row], mean_mgal)),
@@ -184,9 +187,9 @@ Figure panels_figure(const model::SurveyCorrection& result,
             "set label 4 {} at graph 0.96,0.09 right font ',10' front\n"
             "plot '{}.dat' index 0 using 1:(${}-{}) with lines {}\n",
             k + kColumns >= n ? "%g" : "", k % kColumns == 0 ? "%g" : "",
-            gnuplot_string(short_label(reading_name(result.rows, records[k].row))),
+            gnuplot_string(short_label(grade::reading_name(result.rows, records[k].row))),
             gnuplot_string("mean " + text::fixed(panels.means[k], panels.label_decimals)),
-            figure_name(records[k].row), panels.column, text::fixed(panels.means[k], 5),
+            reading_figure_name(records[k].row), panels.column, text::fixed(panels.means[k], 5),
             panels.style);
         if (k == 0) script += "unset label 1\nunset label 2\n";
     }
@@ -195,6 +198,18 @@ Figure panels_figure(const model::SurveyCorrection& result,
 }
 
 }  // namespace
+
+std::string reading_figure_name(std::size_t row) { return fmt::format("reading-{:02}", row + 1); }
+
+double half_range_of_samples(const model::SurveyCorrection& result,
+                             const std::vector<ReadingRecord>& records) {
+    double half_mgal = 0.0;
+    for (const ReadingRecord& record : records)
+        half_mgal = std::max(
+            half_mgal, half_range(spread(record.value->series.values(),
+                                         result.rows[record.row].row.acceleration.value(), 0.98)));
+    return half_mgal;
+}
 
 std::vector<ReadingRecord> find_records(const model::SurveyCorrection& result,
                                         const std::vector<reading::RepresentativeValue>& values) {
@@ -227,7 +242,7 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
                         "Acceleration - mean (mGal)",
                         "2",
                         "lw 0.7 lc rgb " + kBlue,
-                        0.0,
+                        half_range_of_samples(result, records),
                         {},
                         1};
     Panels temperature{"records-temperature",
@@ -244,9 +259,6 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
         const reading::SurveyRow& row = result.rows[record.row].row;
         acceleration.means.push_back(row.acceleration.value());
         temperature.means.push_back(row.temperature.value());
-        acceleration.half =
-            std::max(acceleration.half,
-                     half_range(spread(value.series.values(), row.acceleration.value(), 0.98)));
         temperature.half = std::max(
             temperature.half,
             half_range(spread(value.temperature_series.values(), row.temperature.value(), 0.98)));

@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// Figures of a survey: figures 10 to 14 of the publication, the residuals and the temperature in
-/// time, and a map.
+/// Figures of a survey: figures 10 to 14 of the publication, the day on one axis of time, and a map.
 ///
 /// Each function returns scripts and data; draw() of drawing.hpp makes the pictures.  Rows have
 /// three marks: in the fit, marked by the operator but in the fit, and left out of the fit.  In the
@@ -42,22 +41,6 @@ namespace a351::corrector::figure {
 /// Returns the figure of corrected value over reference, with the line y = x.  R2 is that of the
 /// rows in the fit about their own line, and is in sample.
 [[nodiscard]] std::optional<Figure> corrected_figure(const model::SurveyCorrection& result);
-
-/// Returns the figure of residual over time, with the standard uncertainty of a new station.
-///
-/// The bars are CorrectedRow::u_corrected, 0 if there is none.  For `day` they belong to the
-/// prediction without the row's station, for `network` to a single reading; the caption says so.
-/// @return std::nullopt if no row has a residual.
-[[nodiscard]] std::optional<Figure> residual_figure(const model::SurveyCorrection& result);
-
-/// Returns the figure of the day's temperature with the readings; without a course, of the readings
-/// only.
-///
-/// Averaged intervals are shaded.  The curve is interrupted between minutes that are not neighbours
-/// (figures_test.cpp).
-/// @param course  in order of time; may be empty.
-[[nodiscard]] Figure temperature_figure(const model::SurveyCorrection& result,
-                                        const std::vector<reading::MinuteTemperature>& course);
 
 /// Returns a map of the stations in longitude and latitude with their heights.  The scale is the
 /// same in both directions (by the cosine of the mean latitude) and is shown by a bar of a round
@@ -104,5 +87,16 @@ struct ReadingRecord {
 /// common to all panels, each about the value of its own reading.  No records give no figures.
 [[nodiscard]] std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
                                                 const std::vector<ReadingRecord>& records);
+
+/// Returns the figure of the day: errors of the readings, their samples and the temperature of the
+/// sensor on one axis of time, with the stays.
+///
+/// The errors are those of grade::error_of(), with u_corrected as bars (0 if there is none).  A panel
+/// without data is left out.  The curve of the temperature is interrupted between minutes that are
+/// not neighbours (day_figure_test.cpp).  It plots the data of reading_figures().
+/// @param course  in order of time; may be empty.
+[[nodiscard]] Figure day_figure(const model::SurveyCorrection& result,
+                                const std::vector<ReadingRecord>& records,
+                                const std::vector<reading::MinuteTemperature>& course);
 
 }  // namespace a351::corrector::figure

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "corrector/report/reading_grade.hpp"
+#include "corrector/grade/reading_grade.hpp"
 
 namespace a351::corrector::report {
 namespace {
@@ -99,11 +99,11 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
         json["left_out_difference_mgal"] = (*station->left_out - *reference).value();
 }
 
-Json remarks_of(const Stay& stay, const std::vector<ReadingGrade>& grades,
+Json remarks_of(const Stay& stay, const std::vector<grade::ReadingGrade>& grades,
                 const std::vector<reading::LeftOut>& left_out) {
     Json remarks = Json::array();
     std::set<std::string> texts;
-    const auto add = [&](const Reason& reason) {
+    const auto add = [&](const grade::Reason& reason) {
         if (texts.insert(reason.text).second)
             remarks.push_back(
                 {{"code", reason.code}, {"numbers", reason.numbers}, {"text", reason.text}});
@@ -111,7 +111,7 @@ Json remarks_of(const Stay& stay, const std::vector<ReadingGrade>& grades,
     for (const std::size_t i : stay.left_out) add({"left_out", {}, left_out[i].reason});
     if (!grades.empty())
         for (const std::size_t i : stay.rows)
-            for (const Reason& reason : grades[i].reasons) add(reason);
+            for (const grade::Reason& reason : grades[i].reasons) add(reason);
     return remarks;
 }
 
@@ -145,7 +145,7 @@ Json to_json(const GravitySoFar& so_far) {
     std::vector<reading::LeftOut> left_out;
     if (so_far.read) left_out = so_far.result ? so_far.result->left_out : so_far.read->left_out;
     const auto grades =
-        so_far.result ? grade_readings(*so_far.result) : std::vector<ReadingGrade>();
+        so_far.result ? grade::grade_readings(*so_far.result) : std::vector<grade::ReadingGrade>();
     for (const Stay& stay : stays_of(rows_of(so_far), left_out)) {
         Json one;
         one["key"] = text_or_null(stay.key);

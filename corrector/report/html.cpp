@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "corrector/figure/escaping.hpp"
@@ -14,23 +15,21 @@ namespace {
 constexpr const char* kStyle = R"(
 @page { size: A4; margin: 14mm 13mm; }
 body { font: 15px/1.45 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111;
-  max-width: 62em; margin: 2em auto; padding: 0 1em; }
+  max-width: 70em; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; margin: 0 0 .2em; }
 h2 { font-size: 1.2em; margin: 1.8em 0 .4em; border-bottom: 1px solid #999; }
 h3 { font-size: 1em; margin: 1.2em 0 .3em; }
 p { margin: .4em 0; }
-ul { margin: .4em 0; padding-left: 1.4em; }
-table { border-collapse: collapse; margin: .5em 0; font-size: .85em;
+ul, ol { margin: .4em 0; padding-left: 1.4em; }
+nav ul { display: flex; flex-wrap: wrap; gap: 0 1.2em; list-style: none; padding: 0; }
+table { border-collapse: collapse; margin: .3em 0 .5em; font-size: .85em;
   font-variant-numeric: tabular-nums; }
 th, td { padding: .12em .55em; border-bottom: 1px solid #ddd; vertical-align: top; }
 th { border-bottom: 1px solid #555; text-align: left; vertical-align: bottom; }
 .r { text-align: right; }
 td.r, .n { white-space: nowrap; }
-.wide { overflow-x: auto; }
-.many { margin: 0 min(0px, (66em - 100vw) / 2); }
-.many table { margin-left: auto; margin-right: auto; }
-.many th, .many td { padding: .12em .35em; }
 figure { margin: 1em 0; break-inside: avoid; }
+figure.table { overflow-x: auto; break-inside: auto; }
 figure svg { display: block; width: 100%; height: auto; max-height: 235mm; }
 figcaption { font-size: .85em; color: #333; }
 .small { display: grid; grid-template-columns: 1fr 1fr; gap: 0 1em; }
@@ -47,16 +46,21 @@ pre { font-size: .85em; white-space: pre-wrap; border-left: 3px solid #999; padd
 }
 @media print {
   body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; }
-  h2, h3 { break-after: avoid; }
-  section.first { break-after: page; }
+  h2, h3, figure.table figcaption { break-after: avoid; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
-  .wide { overflow: visible; }
-  .many { margin: 0; }
-  .many table { font-size: 6.4pt; margin: .5em 0; }
-  .many th, .many td { padding: .1em .25em; }
+  figure.table { overflow: visible; }
+  table { font-size: 7pt; }
+  th, td { padding: .1em .3em; }
 }
 )";
+
+/// Returns the name of a section for links.
+std::string anchor(std::string title) {
+    std::ranges::replace_if(
+        title, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '-');
+    return "section-" + title;
+}
 
 void add_line(pugi::xml_node part, const char* tag, std::string_view alignment,
               const HtmlCells& cells) {
@@ -94,7 +98,17 @@ Page::Page(const std::string& title) {
     viewport.append_attribute("content") = "width=device-width";
     add(head, "title", title);
     head.append_child("style").text().set(kStyle);
-    html.append_child("body");
+    body_ = html.append_child("body");
+    add(body_, "h1", title);
+    contents_ = add_part(add_part(body_, "nav"), "ul");
+}
+
+pugi::xml_node Page::add_section(const std::string& title) {
+    const std::string name = anchor(title);
+    add(add_part(contents_, "li"), "a", title).append_attribute("href") = ('#' + name).c_str();
+    const pugi::xml_node section = add_part(body_, "section");
+    add(section, "h2", title).append_attribute("id") = name.c_str();
+    return section;
 }
 
 std::string Page::text() const {
@@ -119,28 +133,22 @@ pugi::xml_node add(pugi::xml_node parent, const char* tag, const std::string& te
     return element;
 }
 
-pugi::xml_node add_section(pugi::xml_node parent, const std::string& title) {
-    const pugi::xml_node section = add_part(parent, "section");
-    add(section, "h2", title);
-    return section;
-}
-
-void add_table(pugi::xml_node parent, std::string_view alignment, const HtmlCells& header,
-               const std::vector<HtmlCells>& rows) {
-    constexpr std::size_t kMany = 12;  // more columns do not fit on A4 at the normal text size
-    const pugi::xml_node table =
-        add_part(add_part(parent, "div", alignment.size() > kMany ? "wide many" : "wide"), "table");
+void add_table(pugi::xml_node parent, const std::string& caption, std::string_view alignment,
+               const HtmlCells& header, const std::vector<HtmlCells>& rows) {
+    const pugi::xml_node node = add_part(parent, "figure", "table");
+    add(node, "figcaption", caption);
+    const pugi::xml_node table = add_part(node, "table");
     add_line(add_part(table, "thead"), "th", alignment, header);
     const pugi::xml_node body = add_part(table, "tbody");
     for (const HtmlCells& row : rows) add_line(body, "td", alignment, row);
 }
 
-void add_table(pugi::xml_node parent, const result::Table& table) {
+void add_table(pugi::xml_node parent, const std::string& caption, const result::Table& table) {
     HtmlCells headings = table.headings;
     for (std::string& heading : headings)
         if (const auto at = heading.find("degC"); at != std::string::npos)
             heading.replace(at, 4, "\u00B0C");
-    add_table(parent, table.alignment, headings, table.rows);
+    add_table(parent, caption, table.alignment, headings, table.rows);
 }
 
 void add_list(pugi::xml_node parent, const std::vector<std::string>& items) {

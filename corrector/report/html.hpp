@@ -4,10 +4,9 @@
 ///
 /// Texts are nodes, which pugixml escapes when it writes the page.  They may have any bytes:
 ///
-///     const Page page(title);
-///     add(page.body(), "h1", title);
-///     const pugi::xml_node stations = add_section(page.body(), "Stations");
-///     add_table(stations, table_of(station_columns(), values));
+///     Page page(title);
+///     const pugi::xml_node stations = page.add_section("Stations");
+///     add_table(stations, "u is a standard uncertainty.", table_of(station_columns(), values));
 ///     const std::string html = page.text();
 ///
 /// A page needs no other file: style and pictures are in it, and there is no script.
@@ -23,20 +22,26 @@
 
 namespace a351::corrector::report {
 
-/// A page.  Its nodes are valid as long as the page.
+/// A page: its title, a list of contents with links, and sections.  Its nodes are valid as long as
+/// the page.
 class Page {
 public:
-    /// @param title  title of the window; the page shows a heading only if its body has one.
+    /// @param title  title of the window and heading of the page.
     explicit Page(const std::string& title);
 
-    [[nodiscard]] pugi::xml_node body() const {
-        return document_.first_element_by_path("html/body");
-    }
+    /// Returns the place for what is before the first section.
+    [[nodiscard]] pugi::xml_node body() const { return body_; }
+
+    /// Adds a section with its title, lists it in the contents and returns it.
+    /// @param title  different from those of the other sections; ASCII.
+    pugi::xml_node add_section(const std::string& title);
+
     /// Returns the whole page in UTF-8.
     [[nodiscard]] std::string text() const;
 
 private:
     pugi::xml_document document_;
+    pugi::xml_node body_, contents_;
 };
 
 /// Cells of a line of a table, as plain text.
@@ -49,20 +54,18 @@ void add_text(pugi::xml_node parent, const std::string& text);
 /// Adds an element without a text and returns it.  Its class is left out if it is empty.
 pugi::xml_node add_part(pugi::xml_node parent, const char* tag, const char* name_of_class = "");
 
-/// Adds a section of a page, with its title as a heading of second order, and returns it.
-pugi::xml_node add_section(pugi::xml_node parent, const std::string& title);
-
-/// Adds a table.  One of more than twelve columns has smaller letters in print, to fit on A4.
+/// Adds a table with its caption.
+/// @param caption    says which kind of error the table shows: in sample, left out, u.
 /// @param alignment  a letter per column: l left, n left without line breaks, r right (numbers).
 /// @param header     one cell per letter, like every row.
 /// @param rows       lines in order; may be empty.  Cells beyond the letters are left out.
 /// @throws std::out_of_range  the header or a row has fewer cells than there are letters.
-void add_table(pugi::xml_node parent, std::string_view alignment, const HtmlCells& header,
-               const std::vector<HtmlCells>& rows);
+void add_table(pugi::xml_node parent, const std::string& caption, std::string_view alignment,
+               const HtmlCells& header, const std::vector<HtmlCells>& rows);
 
 /// Adds a table for people, with degC as the degree sign and C.  This change concerns headings
 /// only, once in each.
-void add_table(pugi::xml_node parent, const result::Table& table);
+void add_table(pugi::xml_node parent, const std::string& caption, const result::Table& table);
 
 /// Adds a list with bullets; nothing without items.
 void add_list(pugi::xml_node parent, const std::vector<std::string>& items);

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "corrector/grade/reading_grade.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -51,7 +53,10 @@ void add_days(pugi::xml_node parent, const std::vector<JointDay>& days) {
         cells[5] = text::fixed_or(result.score.rms_mgal, 3, "-");
         cells[6] = text::fixed_or(result.score.loso_mgal, 3, "-");
     }
-    add_table(parent, "nnnlrrr",
+    add_table(parent,
+              "The days. The RMS of the residuals is in sample, that of stations left out is "
+              "cross-validated.",
+              "nnnnrrr",
               {"Day", "First reading UTC", "Last reading UTC", "Model", "In the fit",
                "RMS mGal (in sample)", "RMS mGal (cross-validated, leave-one-station-out)"},
               rows);
@@ -72,8 +77,8 @@ void add_links(pugi::xml_node parent, const std::vector<JointDay>& days) {
     if (line) add_text(line, ".");
 }
 
-void add_stations(pugi::xml_node parent, const std::vector<JointDay>& days,
-                  const std::vector<model::SurveyCorrection>& results) {
+void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days,
+                        const std::vector<model::SurveyCorrection>& results) {
     const std::vector<result::JointStation> stations = result::join_days(results);
     result::Table table = result::table_of(result::joint_columns(), stations);
     for (const JointDay& day : days) {
@@ -92,7 +97,98 @@ void add_stations(pugi::xml_node parent, const std::vector<JointDay>& days,
                           (value->is_flagged_only ? " *" : ""));
         }
     }
-    add_table(parent, table);
+    add_table(
+        parent,
+        "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no u), with "
+        "its standard uncertainty u. The value of a day does not use the station's own reference "
+        "(left out); in sample: a day gives only a value that does. u contains what the days share "
+        "of the instrument's uncertainty, but not that of shared references. NAME - joint: the "
+        "day's value minus the mean. *: only readings that were left out of the day's fit.",
+        table);
+}
+
+/// A grade of a station over all days, with its reasons.
+struct Advice {
+    grade::Grade grade = grade::Grade::repeat;
+    std::vector<std::string> reasons;
+};
+
+/// Adds a reason if two days disagree about a station by more than their uncertainties explain.
+void compare_days(Advice& advice, const JointDay& a, const JointDay& b, const std::string& site) {
+    const model::StationValue* const of_a = find_station(*a.result, site);
+    const model::StationValue* const of_b = find_station(*b.result, site);
+    if (of_a == nullptr || of_b == nullptr) return;
+    const result::DayValue value_a = result::day_value(*of_a), value_b = result::day_value(*of_b);
+    if (!value_a.u || !value_b.u) return;
+    const double variance_mgal2 = std::pow(value_a.u->value(), 2) +
+                                  std::pow(value_b.u->value(), 2) -
+                                  2.0 * result::covariance_mgal2(*of_a, *of_b);
+    if (!(variance_mgal2 > 0.0)) return;
+    const double difference_mgal = std::abs((value_a.gravity - value_b.gravity).value());
+    const double ratio = difference_mgal / std::sqrt(variance_mgal2);
+    if (ratio <= grade::kCareRatio) return;
+    advice.grade = std::max(
+        advice.grade, ratio > grade::kRepeatRatio ? grade::Grade::repeat : grade::Grade::care);
+    advice.reasons.push_back(
+        fmt::format("{} and {} differ by {} mGal, {} times the uncertainty of the difference",
+                    a.name, b.name, text::fixed(difference_mgal, 1), text::fixed(ratio, 1)));
+}
+
+/// Returns the best grade of a station on a day, or a worse one if the days disagree.
+/// @param days  those with a result.
+Advice advice_on(const std::string& site, const std::vector<JointDay>& days) {
+    Advice advice;
+    std::vector<std::string> reasons;
+    for (const JointDay& day : days) {
+        if (find_station(*day.result, site) == nullptr) continue;
+        const grade::ReadingGrade of_day =
+            grade::grade_of_station(*day.result, grade::grade_readings(*day.result), site);
+        advice.grade = std::min(advice.grade, of_day.grade);
+        if (!of_day.reasons.empty())
+            reasons.push_back(fmt::format("{}, {}", day.name, grade::reason_text(of_day)));
+    }
+    if (advice.grade != grade::Grade::trust) advice.reasons = reasons;
+    for (auto a = days.begin(); a != days.end(); ++a)
+        for (auto b = a + 1; b != days.end(); ++b) compare_days(advice, *a, *b, site);
+    return advice;
+}
+
+/// Adds the mistakes found with certainty, and the stations to trust and to repeat.
+/// @param days  those with a result.
+void add_joint_actions(pugi::xml_node parent, const std::vector<JointDay>& days,
+                       const std::vector<model::SurveyCorrection>& results) {
+    std::vector<std::string> items;
+    for (const JointDay& day : days)
+        for (const reading::Finding& finding : day.result->findings)
+            if (finding.is_headline) items.push_back(fmt::format("{}: {}", day.name, finding.text));
+    std::array<std::vector<std::string>, 3> sites;  // by grade
+    std::array<std::vector<HtmlCells>, 3> reasons;
+    for (const result::JointStation& station : result::join_days(results)) {
+        const Advice advice = advice_on(station.site, days);
+        const auto grade = static_cast<std::size_t>(advice.grade);
+        sites.at(grade).push_back(station.site);
+        if (!advice.reasons.empty())
+            reasons.at(grade).push_back({station.site, std::string(grade::grade_name(advice.grade)),
+                                         text::joined(advice.reasons, "; ")});
+    }
+    const auto add_group = [&](grade::Grade grade, const char* what) {
+        const auto& group = sites.at(static_cast<std::size_t>(grade));
+        if (!group.empty()) items.push_back(fmt::format("{}: {}.", what, text::joined(group)));
+    };
+    add_group(grade::Grade::repeat, "Repeat, no day has a value to trust or the days disagree");
+    if (items.empty()) items.emplace_back("No station needs to be repeated.");
+    add_group(grade::Grade::care, "Use with care");
+    add_group(grade::Grade::trust, "Trust");
+    add_list(parent, items);
+    std::vector<HtmlCells> rows;
+    for (const auto& group : {reasons[2], reasons[1]})
+        rows.insert(rows.end(), group.begin(), group.end());
+    if (!rows.empty())
+        add_table(
+            parent,
+            "Stations with remarks. Differences between days are of values that do not use the "
+            "station's own reference (left out), with their standard uncertainty u.",
+            "nnl", {"Station", "Grade", "Why"}, rows);
 }
 
 std::string scatter_sentence(const std::vector<model::SurveyCorrection>& results) {
@@ -144,33 +240,28 @@ std::optional<DayScatter> scatter_of_days(const std::vector<model::SurveyCorrect
 }
 
 std::string joint_html(const std::vector<JointDay>& days) {
+    std::vector<JointDay> corrected;
     std::vector<model::SurveyCorrection> results;
     std::vector<std::string> troubles;
     for (const JointDay& day : days) {
         if (day.result != nullptr) {
+            corrected.push_back(day);
             results.push_back(*day.result);
         } else {
             troubles.push_back(fmt::format("{}: {}", day.name, day.trouble));
         }
     }
     const std::string title = fmt::format("Gravity survey of {} days", days.size());
-    const Page page(title);
-    const pugi::xml_node body = page.body();
-    add(body, "h1", title);
-    if (!troubles.empty()) add(body, "p", "Not corrected, and not included below:");
-    add_list(body, troubles);
-    add(body, "h2", "Days");
-    add_days(body, days);
-    add_links(body, days);
-    add(body, "h2", "Stations");
-    add_stations(body, days, results);
-    add(body, "p",
-        "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no u). The "
-        "value of a day does not use the station's own reference; in sample: a day gives only a "
-        "value that does. u contains what the days share of the instrument's uncertainty, but not "
-        "that of shared references. NAME - joint: the day's value minus the mean. *: only readings "
-        "that were left out of the day's fit.");
-    add(body, "p", scatter_sentence(results));
+    Page page(title);
+    if (!troubles.empty()) add(page.body(), "p", "Not corrected, and not included below:");
+    add_list(page.body(), troubles);
+    add_joint_actions(page.add_section("What to do"), corrected, results);
+    const pugi::xml_node stations = page.add_section("Stations");
+    add_joint_stations(stations, days, results);
+    add(stations, "p", scatter_sentence(results));
+    const pugi::xml_node section = page.add_section("Days");
+    add_days(section, days);
+    add_links(section, days);
     return page.text();
 }
 

@@ -45,8 +45,11 @@ struct DayScatter {
 [[nodiscard]] std::optional<DayScatter> scatter_of_days(
     const std::vector<model::SurveyCorrection>& days);
 
-/// Returns the page: days with their scores and links to their reports, and the joint stations with
-/// the difference of each day.  It needs no other file.
+/// Returns the page: what to do about each station, the joint stations with the difference of each
+/// day, and the days with their scores and links to their reports.  It needs no other file.
+///
+/// A station has the best grade of its days.  It gets `care` or `repeat` if two days disagree by more
+/// than 2 or 3 times the uncertainty of their difference.
 ///
 /// Days without a result are listed first, with their reasons, and are in no mean.  The links lead
 /// to FOLDER/report.html.  All texts are escaped, and the page is well-formed XML

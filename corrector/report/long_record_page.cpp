@@ -12,18 +12,15 @@
 namespace a351::corrector::report {
 namespace {
 
-constexpr const char* kTitle = "A long record at one point";
-
-void add_text_table(pugi::xml_node parent, std::string_view alignment,
+void add_text_table(pugi::xml_node parent, const std::string& caption, std::string_view alignment,
                     const long_record::TextTable& table) {
-    add_table(parent, alignment, table.front(), {table.begin() + 1, table.end()});
+    add_table(parent, caption, alignment, table.front(), {table.begin() + 1, table.end()});
 }
 
-void add_head(pugi::xml_node parent, const long_record::RecordResult& result) {
+void add_record_head(pugi::xml_node parent, const long_record::RecordResult& result) {
     const long_record::RecordSegment& segment = result.segment();
     const double hours = static_cast<double>(segment.size()) * result.record.step_s / 3600.0;
     const std::string& unit = segment.serial_number;
-    add(parent, "h1", kTitle);
     add(parent, "p",
         fmt::format("Analysed: {}{} h from {}, a sample every {} s{}.",
                     unit.empty() ? "" : fmt::format("sensor {}, ", unit), text::fixed(hours, 1),
@@ -37,9 +34,11 @@ void add_head(pugi::xml_node parent, const long_record::RecordResult& result) {
 void add_applied(pugi::xml_node parent, const long_record::AppliedCalibration& applied,
                  const std::vector<figure::Figure>& figures, const figure::Drawing& drawing) {
     add_list(parent, long_record::applied_sentences(applied));
-    add_text_table(parent, "lrrr", long_record::applied_bands_table(applied));
+    add_text_table(parent, "Scatter of the record by period, rms in mGal, before and after.",
+                   "lrrr", long_record::applied_bands_table(applied));
     add_figures(parent, figures, drawing);
-    add_text_table(parent, "lrrr", long_record::allan_table(applied));
+    add_text_table(parent, "Allan deviation of the record by averaging time, before and after.",
+                   "lrrr", long_record::allan_table(applied));
 }
 
 }  // namespace
@@ -58,28 +57,33 @@ Report make_long_record_page(const long_record::RecordResult& result,
     Report page;
     page.warnings = missing_lines(drawing.troubles);
 
-    const Page document(kTitle);
-    const pugi::xml_node body = document.body();
-    const pugi::xml_node first = add_part(body, "section", "first");
-    add_head(first, result);
-    add_list(first, page.warnings);
+    Page document("A long record at one point");
+    add_record_head(document.body(), result);
+    add_list(document.body(), page.warnings);
     if (result.applied)
-        add_applied(add_section(body, "With the calibration"), *result.applied, applied, drawing);
-    pugi::xml_node section = add_section(body, "Response by period");
-    add_text_table(section, "lrrrrrr", long_record::response_table(result));
+        add_applied(document.add_section("With the calibration"), *result.applied, applied,
+                    drawing);
+    pugi::xml_node section = document.add_section("Response by period");
+    add_text_table(
+        section, "Response of the acceleration to the temperature by period, with limits of 95 %.",
+        "lrrrrrr", long_record::response_table(result));
     add_figures(section, response, drawing);
     add_list(section, long_record::refused_bands(result));
-    add_text_table(add_section(body, "Two paths"), "lrrll", long_record::two_paths_table(result));
-    section = add_section(body, "The publication's statistics");
-    add_text_table(section, "lrll", long_record::statistics_table(result));
+    add_text_table(document.add_section("Two paths"),
+                   "Parameters of the two paths with their standard errors, from the fit (in "
+                   "sample).",
+                   "lrrll", long_record::two_paths_table(result));
+    section = document.add_section("The publication's statistics");
+    add_text_table(section, "Statistics of this record beside the published ones.", "lrll",
+                   long_record::statistics_table(result));
     add(section, "p", long_record::chosen_modes(result));
-    add_figures(add_section(body, "The publication's figures"), figures, drawing);
-    section = add_section(body, "Segments");
-    add_text_table(section, "llrrrl", long_record::segments_table(result));
-    add(section, "p", "* analysed");
+    add_figures(document.add_section("The publication's figures"), figures, drawing);
+    section = document.add_section("Segments");
+    add_text_table(section, "Parts of the record without gaps; * analysed.", "llrrrl",
+                   long_record::segments_table(result));
     add_list(section, long_record::refused_parts(result));
-    add_provenance(add_section(body, "Settings, inputs, warnings"), settings, result.record.inputs,
-                   result.record.warnings);
+    add_provenance(document.add_section("Settings, inputs, warnings"), settings,
+                   result.record.inputs, result.record.warnings);
     page.files.emplace_back("record.html", document.text());
     add_figure_files(page.files, all, drawing);
     return page;

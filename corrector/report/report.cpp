@@ -11,27 +11,30 @@
 namespace a351::corrector::report {
 namespace {
 
-/// Returns the figures of the results, not of the records.
-std::vector<figure::Figure> result_figures(const model::SurveyCorrection& result,
-                                           const ReportSources& sources) {
-    std::vector<figure::Figure> figures;
-    for (auto& figure :
-         {figure::corrected_figure(result), figure::residual_figure(result),
-          figure::difference_figure(result), figure::acceleration_figure(result),
-          figure::map_figure(result, sources.sites),
-          std::optional(figure::temperature_figure(result, sources.temperature_course))}) {
-        if (figure) figures.push_back(*figure);
-    }
-    return figures;
-}
+/// The figures of a survey by their places in the page.
+struct SurveyFigures {
+    std::vector<figure::Figure> day, map, publication, records;
 
-std::vector<figure::Figure> record_figures(const model::SurveyCorrection& result,
-                                           const ReportSources& sources) {
+    [[nodiscard]] std::vector<figure::Figure> all() const {
+        std::vector<figure::Figure> figures;
+        for (const auto* const part : {&day, &map, &publication, &records})
+            figures.insert(figures.end(), part->begin(), part->end());
+        return figures;
+    }
+};
+
+SurveyFigures figures_of(const model::SurveyCorrection& result, const ReportSources& sources) {
     const std::vector<figure::ReadingRecord> records =
         figure::find_records(result, sources.records);
-    std::vector<figure::Figure> figures = figure::panel_figures(result, records);
+    SurveyFigures figures;
+    figures.day = {figure::day_figure(result, records, sources.temperature_course)};
+    if (const auto map = figure::map_figure(result, sources.sites)) figures.map = {*map};
+    for (const auto& figure : {figure::corrected_figure(result), figure::difference_figure(result),
+                               figure::acceleration_figure(result)})
+        if (figure) figures.publication.push_back(*figure);
+    figures.records = figure::panel_figures(result, records);
     for (figure::Figure& figure : figure::reading_figures(result, records))
-        figures.push_back(std::move(figure));
+        figures.records.push_back(std::move(figure));
     return figures;
 }
 
@@ -39,29 +42,36 @@ std::vector<figure::Figure> record_figures(const model::SurveyCorrection& result
 
 Report make_report(const model::SurveyCorrection& result, const nlohmann::ordered_json& settings,
                    const ReportSources& sources) {
-    const std::vector<figure::Figure> of_results = result_figures(result, sources);
-    const std::vector<figure::Figure> of_records = record_figures(result, sources);
-    std::vector<figure::Figure> all = of_results;
-    all.insert(all.end(), of_records.begin(), of_records.end());
+    const SurveyFigures figures = figures_of(result, sources);
+    const std::vector<figure::Figure> all = figures.all();
     figure::Drawing drawing = figure::draw(all, sources.picture_formats);
     Report report;
     report.warnings = missing_lines(drawing.troubles);
-
     std::vector<std::string> warnings = sources.warnings;
     warnings.insert(warnings.end(), result.remarks.begin(), result.remarks.end());
-    const std::string title = "Gravity survey " + sources.title;
-    const Page page(title);
-    const pugi::xml_node body = page.body();
-    const pugi::xml_node first = add_part(body, "section", "first");
-    add(first, "h1", title);
-    add_summary(first, result, warnings, report.warnings);
-    add_stations(add_section(body, "Stations"), result);
-    add_figures(add_section(body, "Figures"), of_results, drawing);
-    add_closures(add_section(body, "Repeated stations"), result);
-    add_occupations(add_section(body, "Readings"), result);
-    add_models(add_section(body, "Models"), result);
-    if (!of_records.empty()) add_figures(add_section(body, "Records"), of_records, drawing);
-    add_provenance(add_section(body, "Settings, inputs, warnings"), settings, sources.inputs,
+
+    Page page("Gravity survey " + sources.title);
+    add_head(page.body(), result, warnings, report.warnings);
+    if (!result.findings.empty())
+        add_findings(page.add_section("Found in this day"), result.findings);
+    add_figures(page.add_section("The day"), figures.day, drawing);
+    add_actions(page.add_section("What to do"), result);
+    const pugi::xml_node stations = page.add_section("Stations");
+    add_stations(stations, result);
+    add_figures(stations, figures.map, drawing);
+    const pugi::xml_node accuracy = page.add_section("Accuracy");
+    add_accuracy(accuracy, result);
+    add_budget(accuracy, result);
+    add_readings(page.add_section("Readings"), result);
+    add_corrections(page.add_section("Corrections"), result);
+    add_closures(page.add_section("Repeated stations"), result);
+    add_models(page.add_section("Models"), result);
+    if (!figures.publication.empty())
+        add_figures(page.add_section("Comparison with the references"), figures.publication,
+                    drawing);
+    if (!figures.records.empty())
+        add_figures(page.add_section("Records"), figures.records, drawing);
+    add_provenance(page.add_section("Settings, inputs, warnings"), settings, sources.inputs,
                    warnings);
     report.files.emplace_back("report.html", page.text());
     add_figure_files(report.files, all, drawing);

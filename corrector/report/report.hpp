@@ -53,8 +53,9 @@ struct Report {
 
 /// Makes the report.
 ///
-/// The first page says what to do about each reading.  Then there are stations, figures, repeated
-/// stations, readings, models, records, and settings with inputs and warnings.
+/// The order is: what is wrong with the day, the day in one figure, what to do about each reading,
+/// stations with a map, accuracy, readings, corrections, repeated stations, models, comparison with
+/// the references, records, and settings with inputs and warnings.
 ///
 /// gnuplot draws the figures.  If it is missing or fails, the page has its text and says which
 /// reason there is (page_test.cpp).

@@ -3,10 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corrector/figure/reading_name.hpp"
-#include "corrector/report/closure.hpp"
+#include "corrector/grade/closure.hpp"
+#include "corrector/grade/reading_name.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/table_text.hpp"
@@ -38,76 +39,85 @@ HtmlCells averaged(const reading::SurveyRow& row) {
     return {between(*row.start, *row.end), text::fixed(seconds_between(*row.start, *row.end), 0)};
 }
 
-/// Returns the columns that follow the name and the time of a reading.
-std::vector<result::Column<model::CorrectedRow>> columns_of(const model::SurveyCorrection& result) {
-    const bool is_day = result.as<model::WholeDayPart>() != nullptr;
+/// Returns the columns of a result that follow the name of a reading and its times.
+std::vector<result::Column<model::CorrectedRow>> reading_columns(
+    const model::SurveyCorrection& result) {
     return result::with_keys(
         result::occupation_columns(result),
-        {"used", "acceleration_mgal", "temperature_degc",
-         is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal",
-         "temperature_correction_mgal", "rate_correction_mgal", "drift_correction_mgal",
-         "tilt_correction_mgal", "flicker_correction_mgal", "corrected_mgal", "reference_mgal",
-         "residual_mgal", "left_out_mgal", "u_corrected_mgal", "studentised_residual", "flags"});
+        {"used", "corrected_mgal", "reference_mgal", "residual_mgal", "left_out_mgal",
+         "u_corrected_mgal", "studentised_residual", "grade", "flags"});
 }
 
-std::string explanation(const model::SurveyCorrection& result) {
+std::string reading_caption(const model::SurveyCorrection& result) {
     const std::string text =
-        "Accelerations, gravity, corrections, residuals and u in mGal. Corrected = acceleration - "
-        "tide + corrections; residual = reference - corrected (in sample where the reading is in "
-        "the fit). ";
+        "Gravity of the readings in mGal, with all corrections. Residual = reference - corrected, "
+        "in sample where the reading is in the fit. ";
     if (result.as<model::WholeDayPart>() == nullptr)
-        return fmt::format("{}u is that of a {}; t is the studentised residual.", text,
+        return fmt::format("{}u: standard uncertainty of a {}; t: studentised residual.", text,
                            result.as<model::NetworkAdjustment>() != nullptr
                                ? "single reading, a priori"
-                               : "new station");
+                               : "new station, from the scatter in sample");
     return text +
            "The model day averages all undisturbed samples between the two instants; column s is "
-           "their duration in seconds. °C/h is the rate that its fast term uses. The residual is "
-           "the error of placing the box, one value for each set-up. Left out: the value of the "
-           "reading if the reference of its station is not used; u is the uncertainty of this "
-           "value, and t = (reference - left out) / u.";
+           "their duration in seconds. The residual is the error of placing the box, one value for "
+           "each set-up. Left out: the value of the reading if the reference of its station is not "
+           "used (cross-validated); u is the standard uncertainty of this value, and t = "
+           "(reference "
+           "- left out) / u.";
 }
 
-void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result) {
-    const result::Table table = result::budget_table(result);
-    if (table.rows.empty()) return;
-    add(parent, "h3", "Sources of the uncertainty");
-    add_table(parent, table);
-    add(parent, "p",
-        "Standard uncertainties in mGal; the sum of their squares is u squared. Placement becomes "
-        "smaller with further set-ups. Levelling: unknown biases of the horizontal axes; smaller "
-        "if the box is level, or with a tilt series. Thermal: the unit's response to temperature; "
-        "smaller with a calibration or more known stations. Datum: the references.");
+std::string station_caption(const model::SurveyCorrection& result, const result::Table& table) {
+    const auto has = [&table](std::string_view heading) {
+        return std::ranges::find(table.headings, heading) != table.headings.end();
+    };
+    return fmt::format(
+        "Residuals are in sample.{} u is a standard uncertainty, {}.{}{}",
+        has("Left out mGal")
+            ? " Left out: value without the station's own reference (cross-validated)."
+            : "",
+        result.as<model::WholeDayPart>() != nullptr        ? "as if the station were unknown"
+        : result.as<model::NetworkAdjustment>() != nullptr ? "a priori"
+                                                           : "from the scatter in sample",
+        has("U 95 % mGal")
+            ? " Gravity of an unknown station is within ± U of the value with a probability of "
+              "95 %."
+            : "",
+        has("Flagged only") ? " Flagged only: only readings that were left out of the fit." : "");
+}
+
+/// Returns the mean of the temperature corrections, rounded as they are shown.  It contains the
+/// constant of the model with the bias of the sensor.
+MilliGal constant_of(const model::SurveyCorrection& result) {
+    double sum_mgal = 0.0;
+    for (const model::CorrectedRow& row : result.rows)
+        sum_mgal += row.temperature_correction.value();
+    constexpr double kSteps = 1e3;
+    return MilliGal(std::round(kSteps * sum_mgal / static_cast<double>(result.rows.size())) /
+                    kSteps);
 }
 
 }  // namespace
 
 void add_stations(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const result::Table table = result::stations_table(result);
-    const auto has = [&table](std::string_view heading) {
-        return std::ranges::find(table.headings, heading) != table.headings.end();
-    };
-    add_table(parent, table);
-    add(parent, "p",
-        fmt::format(
-            "Residuals are in sample.{} u is a standard uncertainty, {}.{}{}",
-            has("Left out mGal")
-                ? " Left out: value without the station's own reference (cross-validated)."
-                : "",
-            result.as<model::WholeDayPart>() != nullptr        ? "as if the station were unknown"
-            : result.as<model::NetworkAdjustment>() != nullptr ? "a priori"
-                                                               : "from the scatter in sample",
-            has("U 95 % mGal") ? " Gravity of an unknown station is within ± U of the value with a "
-                                 "probability of 95 %."
-                               : "",
-            std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only)
-                ? " Flagged only: only readings that were left out of the fit."
-                : ""));
-    add_budget(parent, result);
+    add_table(parent, station_caption(result, table), table);
 }
 
-void add_occupations(pugi::xml_node parent, const model::SurveyCorrection& result) {
-    const std::vector<result::Column<model::CorrectedRow>> columns = columns_of(result);
+void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    const result::Table table = result::budget_table(result);
+    if (table.rows.empty()) return;
+    add(parent, "h3", "Sources of the uncertainty");
+    add_table(parent,
+              "Standard uncertainties in mGal; the sum of their squares is u squared. Placement "
+              "becomes smaller with further set-ups. Levelling: unknown biases of the horizontal "
+              "axes; smaller if the box is level, or with a tilt series. Thermal: the unit's "
+              "response to temperature; smaller with a calibration or more known stations. Datum: "
+              "the references.",
+              table);
+}
+
+void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    const std::vector<result::Column<model::CorrectedRow>> columns = reading_columns(result);
     const bool is_recorded = result.rows.front().row.start.has_value();
     const std::size_t first = is_recorded ? 3 : 2;  // columns before those of the declaration
     result::Table table = result::empty_table(columns);
@@ -117,14 +127,17 @@ void add_occupations(pugi::xml_node parent, const model::SurveyCorrection& resul
     table.alignment.insert(0, is_recorded ? "nnr" : "nn");
     const auto add_row = [&](std::size_t i) {
         const model::CorrectedRow& row = result.rows[i];
-        HtmlCells cells{figure::reading_name(result.rows, i), to_rfc3339(row.row.time)};
+        HtmlCells cells{grade::reading_name(result.rows, i), to_rfc3339(row.row.time)};
         if (is_recorded) {
             const HtmlCells times = averaged(row.row);
             cells[1] = times[0];
             const auto* const day = row.as<model::WholeDayRow>();
             cells.push_back(day != nullptr ? text::fixed(day->averaged_s, 0) : times[1]);
         }
-        const HtmlCells rest = result::shown_row(columns, row);
+        HtmlCells rest = result::shown_row(columns, row);
+        for (auto at = rest.back().find(';'); at != std::string::npos;
+             at = rest.back().find(';', at + 1))
+            rest.back().insert(at + 1, " ");  // so that the line can break
         cells.insert(cells.end(), rest.begin(), rest.end());
         table.rows.push_back(std::move(cells));
     };
@@ -134,12 +147,40 @@ void add_occupations(pugi::xml_node parent, const model::SurveyCorrection& resul
         cells[1] = is_recorded ? between(stay.start, stay.end) : to_rfc3339(stay.start);
         cells.back() = stay.reason;
     });
-    add_table(parent, table);
-    add(parent, "p", explanation(result));
+    add_table(parent, reading_caption(result), table);
+}
+
+void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    const bool is_day = result.as<model::WholeDayPart>() != nullptr;
+    const MilliGal constant = constant_of(result);
+    std::vector<result::Column<model::CorrectedRow>> columns = result::with_keys(
+        result::occupation_columns(result),
+        {"acceleration_mgal", "temperature_degc",
+         is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal",
+         "temperature_correction_mgal", "rate_correction_mgal", "drift_correction_mgal",
+         "tilt_correction_mgal", "flicker_correction_mgal", "corrected_mgal"});
+    for (result::Column<model::CorrectedRow>& column : columns)
+        if (column.key == "temperature_correction_mgal")
+            column.value = [constant](const model::CorrectedRow& row) {
+                return result::cell(row.temperature_correction - constant);
+            };
+    result::Table table = result::table_of(columns, result.rows);
+    table.headings.insert(table.headings.begin(), "Reading");
+    table.alignment.insert(0, "n");
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+        table.rows[i].insert(table.rows[i].begin(), grade::reading_name(result.rows, i));
+    add_table(
+        parent,
+        fmt::format(
+            "From acceleration to gravity, in mGal: corrected = acceleration - tide + constant "
+            "+ the other columns. The constant of {} contains the bias of the sensor and the "
+            "mean effect of its temperature; T corr. is the rest of this effect.{}",
+            number(constant), is_day ? " °C/h is the rate that the model's fast term uses." : ""),
+        table);
 }
 
 void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) {
-    const std::vector<Closure> closures = close_stations(result);
+    const std::vector<grade::Closure> closures = grade::close_stations(result);
     if (closures.empty()) {
         add(parent, "p",
             "No station was read twice, so there are no closures; drift is visible only against "
@@ -147,33 +188,34 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
         return;
     }
     std::vector<HtmlCells> rows;
-    for (const Closure& pair : closures) {
-        rows.push_back({figure::reading_name(result.rows, pair.earlier),
-                        figure::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2),
+    for (const grade::Closure& pair : closures) {
+        rows.push_back({grade::reading_name(result.rows, pair.earlier),
+                        grade::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2),
                         number(pair.before), number(pair.after_tide),
                         number(pair.after_temperature), number(pair.after_rate),
                         number(pair.after_all), cell(pair.drift_mgal_per_h, 3)});
     }
-    const ClosureRms rms = rms_of(closures).value();
+    const grade::ClosureRms rms = grade::rms_of(closures).value();
     rows.push_back({fmt::format("RMS of {}", closures.size()), "", "", number(rms.before),
                     number(rms.after_tide), number(rms.after_temperature), number(rms.after_rate),
                     number(rms.after_all), ""});
-    add_table(parent, "nnrrrrrrr",
+    add_table(parent,
+              "Later minus earlier reading of one station, in mGal. Drift: the drift that this "
+              "pair alone would mean, the difference after rate divided by the time between the "
+              "readings. The last differences are in sample, "
+              "because the coefficients were fitted to the same readings.",
+              "nnrrrrrrr",
               {"Earlier", "Later", "Hours", "As read", "After tide", "After temperature",
                "After rate, tilt", "After drift (all)", "Drift mGal/h"},
               rows);
-    add(parent, "p",
-        "Later minus earlier reading of one station, in mGal. Drift: the drift that this pair "
-        "alone would mean, the difference after rate divided by the time between the readings. "
-        "The last differences are in sample, because the coefficients were fitted to the same "
-        "readings.");
 }
 
 void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {
-    add_table(parent, result::models_table(result));
-    add(parent, "p",
-        "LOO: RMS error of a reading predicted without it (leave-one-out). LOSO: RMS error of the "
-        "readings of a station predicted without them (leave-one-station-out).");
+    add_table(parent,
+              "Errors of all models. RMS and s: in sample. LOO: RMS error of a reading predicted "
+              "without it (leave-one-out). LOSO: RMS error of the readings of a station predicted "
+              "without them (leave-one-station-out).",
+              result::models_table(result));
     if (result.choice)
         add(parent, "p",
             fmt::format("Chosen: among the models within one standard error of the least "
@@ -184,7 +226,8 @@ void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {
     for (const model::Coefficient& c : result.coefficients)
         coefficients.push_back({c.name, text::fixed(c.value, 4), cell(c.standard_error, 4)});
     add(parent, "h3", "Coefficients of " + result.model);
-    add_table(parent, "lrr", {"Coefficient", "Value", "Standard error"}, coefficients);
+    add_table(parent, "Standard errors are those of the fit (in sample).", "lrr",
+              {"Coefficient", "Value", "Standard error"}, coefficients);
 }
 
 void add_provenance(pugi::xml_node parent, const nlohmann::ordered_json& settings,
@@ -203,13 +246,13 @@ void add_provenance(pugi::xml_node parent, const nlohmann::ordered_json& setting
     }
     rows.push_back({"program", "a351-correct " A351_VERSION});
     add(parent, "h3", "Settings");
-    add_table(parent, "ll", {"Setting", "Value"}, rows);
+    add_table(parent, "Options of the run.", "ll", {"Setting", "Value"}, rows);
     std::vector<HtmlCells> files;
     for (const text::InputFile& input : inputs)
         files.push_back({input.role, input.name, std::to_string(input.byte_count),
                          fmt::format("{:08x}", input.crc32)});
     add(parent, "h3", "Inputs");
-    add_table(parent, "llrr", {"Role", "File", "Bytes", "CRC-32"}, files);
+    add_table(parent, "Files that were read.", "llrr", {"Role", "File", "Bytes", "CRC-32"}, files);
 }
 
 }  // namespace a351::corrector::report

@@ -3,7 +3,8 @@
 /// The tables of a report.
 ///
 /// Each function adds its tables to a section of a page (html.hpp).
-/// "-" means that there is no value.  Text below a table explains its columns.  The values of
+/// "-" means that there is no value.  The caption of a table explains its columns and says which
+/// kind of error they have.  The values of
 /// stations, readings and models are in result.json with all digits.
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,18 +17,27 @@
 
 namespace a351::corrector::report {
 
-/// Adds the values of the stations.  The text below the table says which kind of uncertainty u
-/// is, because that depends on the model.
+/// Adds the values of the stations.  The caption says which kind of uncertainty u is, because that
+/// depends on the model.
 void add_stations(pugi::xml_node parent, const model::SurveyCorrection& result);
 
-/// Adds the table of all readings with every correction, and an explanation of its columns.  The
-/// columns are those of the model.  Occupations without a value have a row too.
+/// Adds the sources of the stations' uncertainties; nothing unless `day` is applied.
+void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result);
+
+/// Adds the table of all readings with their errors and grades.  The columns are those of the model.
+/// Occupations without a value have a row too.
 ///
 /// Rows are in order of time.  With records the table has the first and the last averaged sample
 /// and the averaged duration in s; for `day` it is the duration of the undisturbed samples
 /// (reading_table_test.cpp).
 /// @param result  at least one row; rows in ascending time, left_out sorted by start.
-void add_occupations(pugi::xml_node parent, const model::SurveyCorrection& result);
+void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result);
+
+/// Adds the table of all corrections of the readings.
+///
+/// The temperature correction contains the constant of the model, hundreds or thousands of mGal.
+/// The table therefore shows it about its mean, which the caption gives.
+void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& result);
 
 /// Adds a table of the difference between readings of one station, before and after each
 /// correction; a sentence if no station was read twice.  The last line has the root mean squares of

@@ -3,12 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
-#include "corrector/figure/reading_name.hpp"
+#include "corrector/grade/reading_name.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/model_fit.hpp"
 #include "corrector/report/html.hpp"
@@ -16,19 +15,11 @@
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::report {
+
+using grade::Grade;
+using grade::ReadingGrade;
+
 namespace {
-
-constexpr std::array<const char*, 3> kGradeTexts{"trust", "with care", "repeat"};
-
-/// Returns the error of the value to which u belongs.  For the model day this is the value without
-/// the reading's station, which does not exist if only this station is held.
-std::optional<double> error_of(const model::CorrectedRow& row) {
-    if (!row.residual) return std::nullopt;
-    const auto* const day = row.as<model::WholeDayRow>();
-    if (day == nullptr) return row.residual->value();
-    if (!day->left_out) return std::nullopt;
-    return (*row.row.reference - *day->left_out).value();
-}
 
 /// Returns the occupations without a value for each reason, in order of time.
 std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason(
@@ -44,30 +35,30 @@ std::vector<std::pair<std::string, std::vector<std::string>>> left_out_by_reason
 }
 
 /// Adds the table of readings with reasons, the doubtful ones first.
-void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result,
-                  const std::vector<ReadingGrade>& grades) {
+void add_reasons(pugi::xml_node parent, const model::SurveyCorrection& result,
+                 const std::vector<ReadingGrade>& grades) {
     const bool is_day = result.as<model::WholeDayPart>() != nullptr;
     std::vector<HtmlCells> rows;
-    for (const Grade grade : {Grade::repeat, Grade::care, Grade::trust}) {
+    for (const Grade wanted : {Grade::repeat, Grade::care, Grade::trust}) {
         for (std::size_t i = 0; i < grades.size(); ++i) {
-            if (grades[i].grade != grade || grades[i].reasons.empty()) continue;
-            std::vector<std::string> reasons;
-            for (const Reason& reason : grades[i].reasons) reasons.push_back(reason.text);
-            rows.push_back({figure::reading_name(result.rows, i),
-                            kGradeTexts.at(static_cast<std::size_t>(grade)),
-                            text::fixed_or(error_of(result.rows[i]), 2, "-"),
+            if (grades[i].grade != wanted || grades[i].reasons.empty()) continue;
+            rows.push_back({grade::reading_name(result.rows, i),
+                            std::string(grade::grade_name(wanted)),
+                            text::fixed_or(grade::error_of(result.rows[i]), 2, "-"),
                             text::fixed_or(result.rows[i].u_corrected, 2, "-"),
-                            text::joined(reasons, "; ")});
+                            grade::reason_text(grades[i])});
         }
     }
     if (rows.empty()) return;
-    add_table(parent, "nnrrl",
-              {"Reading", "Verdict", is_day ? "Error mGal (station left out)" : "Residual mGal",
-               "u mGal", "Why"},
-              rows);
+    add_table(parent,
+              is_day ? "Readings with remarks. Error: reference minus value if the station is left "
+                       "out (cross-validated); u: standard uncertainty of this value."
+                     : "Readings with remarks. Error: residual, reference minus corrected (in "
+                       "sample); u: standard uncertainty.",
+              "nnrrl", {"Reading", "Grade", "Error mGal", "u mGal", "Why"}, rows);
 }
 
-void add_accuracy(pugi::xml_node parent, const model::SurveyCorrection& result) {
+void add_scores(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const model::Score& score = result.score;
     std::vector<HtmlCells> rows;
     const auto add = [&rows](const std::string& quantity, const std::optional<double>& value,
@@ -83,33 +74,11 @@ void add_accuracy(pugi::xml_node parent, const model::SurveyCorrection& result) 
         "cross-validated (leave-one-station-out)");
     add("the same, with the model chosen again each time", result.choice_loso_mgal, "",
         "cross-validated (leave-one-station-out)");
-    add_table(parent, "lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
-}
-
-/// Adds what is wrong with the day, with the amendments to paste.
-void add_findings(pugi::xml_node parent, const std::vector<reading::Finding>& findings) {
-    if (findings.empty()) return;
-    add(parent, "h2", "Found in this day");
-    const pugi::xml_node list = add_part(parent, "ol");
-    std::string amendments;
-    for (const reading::Finding& finding : findings) {
-        if (finding.is_headline) {
-            add(add_part(list, "li"), "b", finding.text);
-        } else {
-            add(list, "li", finding.text);
-        }
-        amendments += finding.amendment;
-    }
-    if (amendments.empty()) return;
-    add(parent, "p",
-        "To carry out the proposals: a351-correct amend SURVEY.toml --all, or paste into the "
-        "amendments file what is right:");
-    pugi::xml_node block = add_part(parent, "pre");
-    std::istringstream lines(amendments);
-    for (std::string line; std::getline(lines, line);) {
-        add_text(block, line);
-        block.append_child(pugi::node_pcdata).set_value("\n");
-    }
+    add_table(
+        parent,
+        "Errors of the model. In sample: the fit has seen the references; cross-validated: it "
+        "has not.",
+        "lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
 }
 
 bool is_unusable(const model::SurveyCorrection& result) {
@@ -142,12 +111,13 @@ std::vector<std::string> actions(const model::SurveyCorrection& result,
                                  const std::vector<ReadingGrade>& grades) {
     std::vector<std::string> urgent, optional, care, trusted;
     for (std::size_t i = 0; i < grades.size(); ++i) {
-        const std::string name = figure::reading_name(result.rows, i);
+        const std::string name = grade::reading_name(result.rows, i);
         if (grades[i].grade == Grade::trust) {
             trusted.push_back(name);
         } else if (grades[i].grade == Grade::care) {
             care.push_back(name);
-        } else if (has_trusted_reading(result, grades, result.rows[i].row.site)) {
+        } else if (grade::grade_of_station(result, grades, result.rows[i].row.site).grade ==
+                   Grade::trust) {
             optional.push_back(name);
         } else {
             urgent.push_back(name);
@@ -230,27 +200,52 @@ std::string scatter_sentence(const model::Score& score) {
     return fmt::format("n = {}: {} For a new station quote {}", score.row_count, scatter, quote);
 }
 
-void add_summary(pugi::xml_node parent, const model::SurveyCorrection& result,
-                 const std::vector<std::string>& warnings,
-                 const std::vector<std::string>& missing) {
-    const std::vector<ReadingGrade> grades = grade_readings(result);
+void add_head(pugi::xml_node parent, const model::SurveyCorrection& result,
+              const std::vector<std::string>& warnings, const std::vector<std::string>& missing) {
     add(parent, "p", headline(result));
-    add_findings(parent, result.findings);
-    add(parent, "h2", "What to do");
+    std::vector<std::string> remarks = missing;
+    if (!warnings.empty())
+        remarks.push_back(
+            fmt::format("Warnings about the input: {}, see the last section.", warnings.size()));
+    add_list(parent, remarks);
+}
+
+void add_findings(pugi::xml_node parent, const std::vector<reading::Finding>& findings) {
+    const pugi::xml_node list = add_part(parent, "ol");
+    std::string amendments;
+    for (const reading::Finding& finding : findings) {
+        if (finding.is_headline) {
+            add(add_part(list, "li"), "b", finding.text);
+        } else {
+            add(list, "li", finding.text);
+        }
+        amendments += finding.amendment;
+    }
+    if (amendments.empty()) return;
+    add(parent, "p",
+        "To carry out the proposals: a351-correct amend SURVEY.toml --all, or paste into the "
+        "amendments file what is right:");
+    pugi::xml_node block = add_part(parent, "pre");
+    std::istringstream lines(amendments);
+    for (std::string line; std::getline(lines, line);) {
+        add_text(block, line);
+        block.append_child(pugi::node_pcdata).set_value("\n");
+    }
+}
+
+void add_actions(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    const std::vector<ReadingGrade> grades = grade::grade_readings(result);
     add_list(parent, actions(result, grades));
-    add_readings(parent, result, grades);
-    add(parent, "h2", "Accuracy");
-    add_accuracy(parent, result);
+    add_reasons(parent, result, grades);
+}
+
+void add_accuracy(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    add_scores(parent, result);
     add(parent, "p",
         is_unusable(result) ? "Correct the mistakes of this day before you use any of its values."
                             : scatter_sentence(result.score));
-    std::vector<std::string> limits = limits_of(result);
-    if (!warnings.empty())
-        limits.push_back(
-            fmt::format("Warnings about the input: {}, see the last section.", warnings.size()));
-    limits.insert(limits.end(), missing.begin(), missing.end());
-    if (limits.empty()) return;
-    add(parent, "h2", "Limits");
+    const std::vector<std::string> limits = limits_of(result);
+    if (!limits.empty()) add(parent, "h3", "Limits");
     add_list(parent, limits);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The first page of a report: what to do next.
+/// The first sections of a report: what to do next, and how accurate the survey is.
 ///
 /// It is for the operator who is still in the field, and for a reader who wants one number for the
 /// accuracy.  Every root mean square is marked as in sample or cross-validated (summary_test.cpp).
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "corrector/grade/reading_grade.hpp"
 #include "corrector/model/corrected_survey.hpp"
-#include "corrector/report/reading_grade.hpp"
 
 namespace a351::corrector::report {
 
@@ -24,7 +24,7 @@ namespace a351::corrector::report {
 /// @param grades  from grade_readings() of this result.
 /// @return sentences in plain text; they name each reading once.
 [[nodiscard]] std::vector<std::string> actions(const model::SurveyCorrection& result,
-                                               const std::vector<ReadingGrade>& grades);
+                                               const std::vector<grade::ReadingGrade>& grades);
 
 /// Returns the limits of the survey as a whole: too few readings of the base, stations that nothing
 /// checks.
@@ -45,14 +45,23 @@ namespace a351::corrector::report {
 /// the leave-one-station-out error, if the model has one.
 [[nodiscard]] std::string scatter_sentence(const model::Score& score);
 
-/// Adds the content of the page: headline, findings with amendments to paste, actions, readings with reasons, accuracy, limits.
-///
-/// The readings are graded here.  A reading without a reason is not in the table.  For `day` the
-/// table has the error of the prediction without the reading's station, else the residual.
+/// Adds what the survey is, missing figures, and the number of warnings about the input.
 /// @param result    at least one row.
-/// @param warnings  about the input; only their number is shown, with a hint to the last section.
+/// @param warnings  only their number is shown, with a hint to the last section.
 /// @param missing   lines on missing figures.
-void add_summary(pugi::xml_node parent, const model::SurveyCorrection& result,
-                 const std::vector<std::string>& warnings, const std::vector<std::string>& missing);
+void add_head(pugi::xml_node parent, const model::SurveyCorrection& result,
+              const std::vector<std::string>& warnings, const std::vector<std::string>& missing);
+
+/// Adds what is wrong with the day, headlines in bold, with the amendments to paste.
+void add_findings(pugi::xml_node parent, const std::vector<reading::Finding>& findings);
+
+/// Adds the actions, and the readings that have a reason.
+///
+/// The readings are graded here.  A reading without a reason is not in the table.  The error is that
+/// of grade::error_of().
+void add_actions(pugi::xml_node parent, const model::SurveyCorrection& result);
+
+/// Adds the errors of the applied model, the sentence on them and the limits of the survey.
+void add_accuracy(pugi::xml_node parent, const model::SurveyCorrection& result);
 
 }  // namespace a351::corrector::report

@@ -1,6 +1,11 @@
 #include "corrector/result/columns.hpp"
 
+#include <algorithm>
+#include <map>
+
+#include "corrector/grade/reading_grade.hpp"
 #include "corrector/model/calibration_use.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -65,6 +70,22 @@ Columns columns_of_records() {
 
 Column<model::CorrectedRow> tilt_column() {
     return {"tilt_correction_mgal", of(&model::CorrectedRow::tilt_correction), {"Tilt corr."}};
+}
+
+/// Returns the last columns of occupations.csv.  Cells of CSV have no comma.
+Columns columns_of_grades(const model::SurveyCorrection& result) {
+    std::map<UtcTime, grade::ReadingGrade> grades;  // the rows have different times
+    const std::vector<grade::ReadingGrade> of_rows = grade::grade_readings(result);
+    for (std::size_t i = 0; i < of_rows.size(); ++i) grades[result.rows[i].row.time] = of_rows[i];
+    const auto name = [grades](const model::CorrectedRow& row) {
+        return std::string(grade::grade_name(grades.at(row.row.time).grade));
+    };
+    const auto reason = [grades](const model::CorrectedRow& row) {
+        std::string text = grade::reason_text(grades.at(row.row.time));
+        std::replace(text.begin(), text.end(), ',', ';');
+        return text;
+    };
+    return {{"grade", name, {"Grade", 0, 'n'}}, {"grade_reason", reason}};
 }
 
 /// Returns the half width of the interval that contains 95 %.
@@ -134,6 +155,7 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
     append(columns, {of_model("weight", &model::RobustRow::weight),
                      {"doubt_physical", of(&model::CorrectedRow::doubt_physical)},
                      {"doubt_statistical", of(&model::CorrectedRow::doubt_statistical)}});
+    append(columns, columns_of_grades(result));
     return columns;
 }
 

@@ -19,7 +19,7 @@
 namespace a351::corrector::result {
 
 /// Returns the columns of occupations.csv.  An occupation without a value has only the first seven,
-/// from the site to the flags.  Rows from records and rows of the whole-day model have more
+/// from the site to the flags, and the last two, its grade.  Rows from records and rows of the whole-day model have more
 /// columns.
 ///
 /// The first row of the result decides which columns there are (columns_test.cpp).  All rows must

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "corrector/grade/reading_grade.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::result {
@@ -27,7 +28,8 @@ Json mgal(const std::optional<MilliGal>& value) {
     return value ? Json(std::round(value->value() * kSteps) / kSteps) : Json(nullptr);
 }
 
-Json feature(const model::StationValue& station, const text::Site& site) {
+Json feature(const model::StationValue& station, const text::Site& site,
+             const grade::ReadingGrade& grade) {
     Json json;
     json["type"] = "Feature";
     json["geometry"] = nullptr;
@@ -44,7 +46,9 @@ Json feature(const model::StationValue& station, const text::Site& site) {
                           {"u_gravity_mgal", mgal(station.u_gravity)},
                           {"reference_mgal", mgal(station.reference)},
                           {"residual_mgal", mgal(station.residual)},
-                          {"flagged_only", station.is_flagged_only}};
+                          {"flagged_only", station.is_flagged_only},
+                          {"grade", grade::grade_name(grade.grade)},
+                          {"grade_reason", grade::reason_text(grade)}};
     return json;
 }
 
@@ -66,11 +70,13 @@ std::string duration_s(const reading::SurveyRow& row) {
 std::string stations_geojson(const model::SurveyCorrection& result,
                              const std::vector<text::Site>& sites) {
     std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
+    const std::vector<grade::ReadingGrade> grades = grade::grade_readings(result);
     for (const model::StationValue& station : result.stations) {
         const text::Site* const site = text::find_site(sites, station.site);
         if (site == nullptr) continue;
         text += (text.back() == '[' ? "\n" : ",\n") +
-                feature(station, *site).dump(-1, ' ', false, Json::error_handler_t::replace);
+                feature(station, *site, grade::grade_of_station(result, grades, station.site))
+                    .dump(-1, ' ', false, Json::error_handler_t::replace);
     }
     return text + "\n]}\n";
 }

@@ -23,8 +23,9 @@ namespace a351::corrector::result {
 /// Coordinates are longitude and latitude in degrees, rounded to 1e-9, and altitude in m.  The
 /// longitude is -180 to 180 also if the table has 0 to 360 (export_files_test.cpp).
 ///
-/// Properties are site, n, gravity_mgal, u_gravity_mgal, reference_mgal, residual_mgal and
-/// flagged_only, rounded to 1e-6 mGal; null if there is no value.  The text is UTF-8 with one line
+/// Properties are site, n, gravity_mgal, u_gravity_mgal, reference_mgal, residual_mgal,
+/// flagged_only, grade and grade_reason (grade_of_station()).  Values are rounded to 1e-6 mGal; null
+/// if there is none.  The text is UTF-8 with one line
 /// per feature.  Bytes of a name that are not UTF-8 become U+FFFD.
 /// @param sites  position of each station; Site::is_placed false: without geometry.
 [[nodiscard]] std::string stations_geojson(const model::SurveyCorrection& result,

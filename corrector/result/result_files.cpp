@@ -81,13 +81,13 @@ Json priors_json(const model::SurveyCorrection& result) {
 std::string occupations_csv(const model::SurveyCorrection& result) {
     const auto columns = occupation_columns(result);
     std::string csv = csv_header(columns);
-    const std::string rest(columns.size() - 7, ',');
+    const std::string rest(columns.size() - 9, ',');
     in_order_of_time(
         result, [&](std::size_t i) { csv += csv_line(columns, result.rows[i]); },
         [&](const reading::LeftOut& stay) {
-            csv += fmt::format("{},{},,{},{},0,{}{}\n", stay.site, stay.occupation,
+            csv += fmt::format("{},{},,{},{},0,{}{},repeat,{}\n", stay.site, stay.occupation,
                                to_rfc3339(stay.start, 3), to_rfc3339(stay.end, 3), flag_of(stay),
-                               rest);
+                               rest, stay.reason);
         });
     return csv;
 }

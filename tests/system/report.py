@@ -36,8 +36,8 @@ with Scratch() as scratch:
     print(f"report.html: {len(text)} bytes, {len(elements)} elements")
     pictures = [element for element in elements if element.tag == SVG + "svg"]
     scripts = sorted(file.stem for file in (scratch / "out" / "figures").glob("*.gp"))
-    demand(f"{len(pictures)} figures are in the report, one for each script (19 readings, 8 others)",
-           len(pictures) == len(scripts) == 27)
+    demand(f"{len(pictures)} figures are in the report, one for each script (19 readings, 7 others)",
+           len(pictures) == len(scripts) == 26)
     ids = collections.Counter(element.get("id") for element in elements if element.get("id"))
     demand(f"the {len(ids)} ids are unique", max(ids.values()) == 1)
     wanted = {element.get(XLINK) for element in elements if element.get(XLINK)}
@@ -53,6 +53,15 @@ with Scratch() as scratch:
     actions = text.split("What to do</h2>")[1].split("</ul>")[0]
     named = re.findall(r"[^,:>]+ \(\d+\)", actions)
     demand("every reading is listed once under What to do", sorted(name.strip() for name in named) == sorted(readings))
+    grades = {f"{row['site']} ({row['occupation']})": row["grade"] for row in table}
+    trusted = re.search(r"Trust: ([^<]*)\.<", actions)[1].split(", ")
+    demand(f"occupations.csv trusts the {len(trusted)} readings that the report trusts",
+           sorted(trusted) == sorted(name for name, grade in grades.items() if grade == "trust"))
+    order = ["trust", "care", "repeat"]
+    best = {row["site"]: min((other["grade"] for other in table if other["site"] == row["site"]), key=order.index) for row in table}
+    stations = json.loads((scratch / "out" / "stations.geojson").read_text())["features"]
+    demand("stations.geojson gives each station the best grade of its readings",
+           {station["properties"]["site"]: station["properties"]["grade"] for station in stations} == best)
     result = json.loads((scratch / "out" / "result.json").read_text())
     validated = {name: value for name, value in result["cross_validated"].items()
                  if name in ("loo_mgal", "loso_mgal") and value is not None}

@@ -80,8 +80,6 @@ TEST_CASE("every row is in a block of its kind, and an empty block is not plotte
           "[report][figures]") {
     auto rows = made_up::day();
     rows[1].reference.reset();
-    CHECK(count(residual_figure(corrected(rows)).value().script, "index 0") == 2);
-    CHECK(count(residual_figure(corrected(rows)).value().script, "index 1") == 0);
     rows[2].is_flagged = true;
     const Figure figure = corrected_figure(corrected(rows)).value();
     CHECK(count(figure.data, "\n\n\n") == 1);
@@ -96,23 +94,6 @@ TEST_CASE("every row is in a block of its kind, and an empty block is not plotte
         unknown.rows.push_back(out);
     }
     CHECK_FALSE(acceleration_figure(unknown).has_value());
-    CHECK_FALSE(residual_figure(unknown).has_value());
-}
-
-TEST_CASE("the time axis names each stay once, and shows dates if the survey lasts several days",
-          "[report][figures]") {
-    auto rows = made_up::day();
-    rows[1].site = "B";
-    rows[1].occupation = 1;
-    std::string script = residual_figure(corrected(rows)).value().script;
-    CHECK(count(script, "'B (1)'") == 1);
-    CHECK(count(script, "'B (2)'") == 1);
-    CHECK_THAT(script,
-               ContainsSubstring("set format x '%H:%M'") && ContainsSubstring("'UTC, 2020-05-01'"));
-    rows.back().time += std::chrono::days(2);
-    script = residual_figure(corrected(rows)).value().script;
-    CHECK_THAT(script, ContainsSubstring("%m-%d\"") &&
-                           ContainsSubstring("'UTC, 2020-05-01 to 2020-05-03'"));
 }
 
 TEST_CASE("a record belongs to the row with the same interval", "[report][figures]") {
@@ -191,20 +172,6 @@ TEST_CASE("the figure of a reading has its series, trend, extrema and interval",
     CHECK(panels[0].data.empty());
 }
 
-TEST_CASE("the curve of the day's temperature is interrupted where nothing was recorded",
-          "[report][figures]") {
-    SurveyCorrection result;
-    result.rows.resize(1);
-    result.rows[0].row = row_behind(record_at(made_up::kMorning), "B");
-    std::vector<MinuteTemperature> course;
-    for (const int minute : {0, 1, 5}) {
-        course.push_back({made_up::kMorning + std::chrono::minutes(minute), DegC(42.0 + minute)});
-    }
-    CHECK_THAT(temperature_figure(result, course).data,
-               ContainsSubstring("00:01:00Z 43.0000 \n\n2020-05-01T00:05:00Z 47.0000 \n"));
-    CHECK_THAT(temperature_figure(result, {}).data, StartsWith("# readings"));
-}
-
 TEST_CASE(
     "on the map a degree of longitude is shorter than one of latitude by the cosine of the "
     "latitude",
@@ -222,16 +189,30 @@ TEST_CASE(
     std::smatch x, y;
     REQUIRE(std::regex_search(script, x, std::regex("xrange \\[(.*):(.*)\\]")));
     REQUIRE(std::regex_search(script, y, std::regex("yrange \\[(.*):(.*)\\]")));
-    // The plot is 0.83 x 640 by 0.87 x 560 pixels.
+    // The plot is 0.72 x 820 by 0.87 x 600 pixels.
     const double width_deg = std::stod(x[2]) - std::stod(x[1]);
     const double height_deg = std::stod(y[2]) - std::stod(y[1]);
-    CHECK(width_deg / (0.83 * 640) * 0.5 == Approx(height_deg / (0.87 * 560)).epsilon(1e-5));
+    CHECK(width_deg / (0.72 * 820) * 0.5 == Approx(height_deg / (0.87 * 600)).epsilon(1e-5));
     CHECK(std::stod(x[1]) < 10.0);
     CHECK(std::stod(x[2]) > 10.2);
-    CHECK_THAT(script, ContainsSubstring("'A, 100 m'") && ContainsSubstring("unknown gravity") &&
+    CHECK_THAT(script, ContainsSubstring("'0.00 mGal, 100 m'") &&
+                           ContainsSubstring("unknown gravity") &&
                            ContainsSubstring("set label '2 km'"));
     CHECK(count(figure.value().data, "elsewhere") == 0);
     CHECK_FALSE(map_figure(result, {}).has_value());
+}
+
+TEST_CASE("the map shows gravity and the order of the visits, those without a value too",
+          "[report][figures]") {
+    SurveyCorrection result = corrected(made_up::day());
+    const UtcTime start = result.rows[0].row.time + std::chrono::minutes(5);
+    add_left_out(result, {{"S5", 7, start, start, "no samples"}});
+    const Figure figure =
+        map_figure(result, {site("B", 10.0, 60.0), site("S5", 10.2, 60.01)}).value();
+    // B is read first, fifth and last of 12; the stay without a value is the second.
+    CHECK_THAT(figure.script, ContainsSubstring("'B [1, 6, 13]'.\"\\n\".'") &&
+                                  ContainsSubstring("'S5 [2, ") && ContainsSubstring(" palette "));
+    CHECK_THAT(figure.data, ContainsSubstring("10.000000 60.000000 1\n10.200000 60.010000 2\n"));
 }
 
 TEST_CASE("stations that are all at one place still give a map", "[report][figures]") {
@@ -243,7 +224,8 @@ TEST_CASE("stations that are all at one place still give a map", "[report][figur
     }
     const Figure figure =
         map_figure(result, {site("A", 10.0, 45.0), site("B", 10.0, 45.0)}).value();
-    CHECK_THAT(figure.script, ContainsSubstring("'A, 100 m'") && ContainsSubstring("'B, 100 m'") &&
+    CHECK_THAT(figure.script, ContainsSubstring("set label 'A'") &&
+                                  ContainsSubstring("set label 'B'") &&
                                   ContainsSubstring("set label '20 m'"));
 }
 
@@ -257,11 +239,11 @@ TEST_CASE("a station without coordinates is not on the map", "[report][figures]"
     std::vector<text::Site> sites{site("A", 10.0, 45.0), site("B", 10.0, 45.0)};
     sites[1].has_altitude = false;
     CHECK_THAT(map_figure(result, sites).value().script,
-               ContainsSubstring("'A, 100 m'") && ContainsSubstring("'B'"));
+               ContainsSubstring("'0.00 mGal, 100 m'") && ContainsSubstring("'0.00 mGal' at"));
     sites[1].is_placed = false;
     const auto figure = map_figure(result, sites);
     CHECK_THAT(figure.value().script,
-               ContainsSubstring("'A, 100 m'") && !ContainsSubstring("'B, 100 m'"));
+               ContainsSubstring("set label 'A'") && !ContainsSubstring("set label 'B'"));
     CHECK_THAT(figure.value().caption, EndsWith("Not shown, because they have no position: B."));
     sites[0].is_placed = false;
     CHECK_FALSE(map_figure(result, sites));

@@ -66,8 +66,8 @@ TEST_CASE("the joint page lists every day, the differences, and the reason for a
     const pugi::xml_parse_result parsed = document.load_string(html.c_str());
     INFO(parsed.description());
     REQUIRE(parsed);
-    CHECK(document.select_nodes("//a").size() == 2);
-    CHECK(document.select_node("//a").node().attribute("href").value() ==
+    CHECK(document.select_nodes("//p/a").size() == 2);
+    CHECK(document.select_node("//p/a").node().attribute("href").value() ==
           std::string("mon%20%3C1%3E-a/report.html"));
     CHECK_THAT(html, ContainsSubstring("<li>tue: day.toml: no &lt;occupation&gt;</li>") &&
                          ContainsSubstring("<td class=\"n\">not corrected</td>") &&
@@ -76,7 +76,9 @@ TEST_CASE("the joint page lists every day, the differences, and the reason for a
     bool is_found = false;
     for (const auto& row : document.select_nodes("//tr")) {
         const auto cells = row.node().children("td");
-        if (std::string(row.node().child_value("td")) != "S4") continue;
+        if (std::string(row.node().child_value("td")) != "S4" ||
+            row.node().child("td").next_sibling().text().as_int() != 2)
+            continue;
         std::vector<std::string> texts;
         for (const auto& cell : cells) texts.emplace_back(cell.child_value());
         REQUIRE(texts.size() == 10);
@@ -86,4 +88,29 @@ TEST_CASE("the joint page lists every day, the differences, and the reason for a
         is_found = true;
     }
     CHECK(is_found);
+}
+
+TEST_CASE("the joint page says which stations to trust and to repeat over the days",
+          "[report][joint]") {
+    SurveyCorrection first = day_with("S4", 0.0);
+    SurveyCorrection second = day_with("S4", 7.0);  // 7 / (1.5 sqrt(2)) = 3.3
+    const auto to_repeat = [](SurveyCorrection& day, const std::string& site) {
+        for (CorrectedRow& row : day.rows)
+            if (row.row.site == site) row.row.notes = {"excluded"};
+    };
+    to_repeat(first, "S1");
+    to_repeat(first, "S5");
+    to_repeat(second, "S5");
+    Finding finding;
+    finding.text = "The box was moved.";
+    finding.is_headline = true;
+    first.findings = {finding};
+    const std::string html = joint_html({{"mon", "mon", &first}, {"tue", "tue", &second}});
+    CHECK_THAT(
+        html,
+        ContainsSubstring("<li>mon: The box was moved.</li>") &&
+            ContainsSubstring("days disagree: S4, S5.</li>") &&
+            ContainsSubstring("<li>Trust: B, S1, S2, S3, S6, S7.</li>") &&
+            ContainsSubstring("mon and tue differ by 7.0 mGal, 3.3 times the uncertainty") &&
+            ContainsSubstring("mon, S5 (1): excluded by an amendment; tue, S5 (1): excluded"));
 }

@@ -1,4 +1,5 @@
 #include <pugixml.hpp>
+#include <regex>
 #include <set>
 #include "tests/support/catch.hpp"
 
@@ -44,13 +45,51 @@ TEST_CASE("the same survey gives the same report", "[report][page]") {
     CHECK(report().files == report().files);
 }
 
+TEST_CASE("the contents link to every section of the page", "[report][page]") {
+    pugi::xml_document document;
+    REQUIRE(document.load_string(file(report(), "report.html").c_str()));
+    std::vector<std::string> links, sections;
+    for (const auto& link : document.select_nodes("//nav//a"))
+        links.emplace_back(link.node().attribute("href").value());
+    for (const auto& title : document.select_nodes("//h2"))
+        sections.push_back('#' + std::string(title.node().attribute("id").value()));
+    CHECK(links == sections);
+    CHECK(links.size() > 8);
+}
+
+TEST_CASE("the caption of each table and figure with errors says of which kind they are",
+          "[report][page]") {
+    pugi::xml_document document;
+    REQUIRE(document.load_string(file(report(), "report.html").c_str()));
+    const std::regex errors(
+        "(Residual|Error|RMS|LOO|LOSO|s mGal|Standard error|u|u mGal|t|Kind).*");
+    const std::regex kinds(".*(in sample|left out|[Cc]ross-validated|\\bu\\b).*");
+    std::size_t checked = 0;
+    for (const auto& found : document.select_nodes("//table|//*[local-name()='svg']")) {
+        const pugi::xml_node figure = found.node().parent();
+        const std::string caption = figure.child("figcaption").text().get();
+        CAPTURE(caption);
+        REQUIRE(figure.name() == std::string("figure"));
+        CHECK_FALSE(caption.empty());
+        bool has_errors = false;
+        for (const auto& cell : found.node().select_nodes("thead//th"))
+            has_errors =
+                has_errors || std::regex_match(std::string(cell.node().child_value()), errors);
+        if (!has_errors) continue;
+        CHECK(std::regex_match(caption, kinds));
+        ++checked;
+    }
+    CHECK(checked >= 5);
+}
+
 TEST_CASE("an HTML table has one column for each alignment letter and escapes its cells",
           "[report][page]") {
     const Page page("");
-    add_table(page.body(), "lr", {"a", "b"}, {{"<1>", ""}});
+    add_table(page.body(), "u & v", "lr", {"a", "b"}, {{"<1>", ""}});
     CHECK_THAT(
         page.text(),
         ContainsSubstring(
-            "<div class=\"wide\">\n<table>\n<thead>\n<tr>\n<th>a</th>\n<th class=\"r\">b</th>\n"
+            "<figure class=\"table\">\n<figcaption>u &amp; "
+            "v</figcaption>\n<table>\n<thead>\n<tr>\n<th>a</th>\n<th class=\"r\">b</th>\n"
             "</tr>\n</thead>\n<tbody>\n<tr>\n<td>&lt;1&gt;</td>\n<td class=\"r\"></td>\n</tr>\n"));
 }

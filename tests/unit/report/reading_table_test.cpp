@@ -2,6 +2,7 @@
 
 #include <map>
 #include <pugixml.hpp>
+#include <regex>
 #include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
@@ -16,15 +17,15 @@ using namespace a351::corrector::whole_day;
 
 namespace {
 
-/// Returns the cells of each line by the title of their column.
-std::vector<std::map<std::string, std::string>> lines_of(const SurveyCorrection& result) {
-    pugi::xml_document document;
-    add_occupations(document.append_child("body"), result);
-    const auto table = document.select_node("//table").node();
+using Lines = std::vector<std::map<std::string, std::string>>;
+
+/// Returns the cells of each line of the first table by the title of their column.
+Lines lines_of(const pugi::xml_node& page) {
+    const auto table = page.select_node("//table").node();
     std::vector<std::string> titles;
     for (const auto& cell : table.select_nodes("thead//th"))
         titles.emplace_back(cell.node().child_value());
-    std::vector<std::map<std::string, std::string>> lines;
+    Lines lines;
     for (const auto& row : table.select_nodes("tbody/tr")) {
         auto title = titles.begin();
         auto& line = lines.emplace_back();
@@ -32,6 +33,12 @@ std::vector<std::map<std::string, std::string>> lines_of(const SurveyCorrection&
         CHECK(title == titles.end());
     }
     return lines;
+}
+
+Lines readings_of(const SurveyCorrection& result) {
+    pugi::xml_document document;
+    add_readings(document.append_child("body"), result);
+    return lines_of(document);
 }
 
 SurveyCorrection corrected_by_day(const DayRecord& day) {
@@ -53,16 +60,33 @@ SurveyCorrection corrected_by_day(const DayRecord& day) {
 
 }  // namespace
 
-TEST_CASE("the table of the whole-day model shows all its corrections", "[report][readings]") {
+TEST_CASE("the corrections of the whole-day model add up to the corrected value, with the constant",
+          "[report][readings]") {
     const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
-    const auto lines = lines_of(corrected_by_day(made.record()));
+    pugi::xml_document document;
+    add_corrections(document.append_child("body"), corrected_by_day(made.record()));
+    const std::string caption = document.select_node("//figcaption").node().child_value();
+    std::smatch constant;
+    REQUIRE(std::regex_search(caption, constant, std::regex("constant of (-?[0-9.]+) ")));
+    const Lines lines = lines_of(document);
     REQUIRE(lines.size() == MadeUpDay::kSetUps);
+    double mean = 0.0;
     for (auto line : lines) {
         const auto value = [&line](const char* title) { return std::stod(line.at(title)); };
-        const double sum = value("Acceleration") - value("Tide") + value("T corr.") +
-                           value("Rate corr.") + value("Drift corr.") + value("Tilt corr.") +
-                           value("Flicker corr.");
+        const double sum = value("Acceleration") - value("Tide") + std::stod(constant[1]) +
+                           value("T corr.") + value("Rate corr.") + value("Drift corr.") +
+                           value("Tilt corr.") + value("Flicker corr.");
         CHECK(sum == Approx(value("Corrected")).epsilon(0).margin(0.004));  // eight roundings
+        mean += value("T corr.") / static_cast<double>(lines.size());
+    }
+    CHECK(mean == Approx(0.0).margin(0.001));
+}
+
+TEST_CASE("t of the whole-day model is the error with the station left out over its u",
+          "[report][readings]") {
+    const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
+    for (auto line : readings_of(corrected_by_day(made.record()))) {
+        const auto value = [&line](const char* title) { return std::stod(line.at(title)); };
         // Both are rounded to 0.01, t to three digits at least.
         CHECK((value("Reference") - value("Left out")) / value("u") ==
               Approx(value("t")).epsilon(0.01).margin(0.02));
@@ -75,7 +99,7 @@ TEST_CASE("the table of the whole-day model shows which time it averages", "[rep
     std::erase_if(day.bins, [](const DayBin& bin) {
         return bin.set_up == 2 && bin.time < MadeUpDay::start() + std::chrono::minutes(183);
     });
-    const auto lines = lines_of(corrected_by_day(day));
+    const auto lines = readings_of(corrected_by_day(day));
     // 14 bins of 25 samples, 2 s apart, from 02:00 on every half hour.
     CHECK(lines[0].at("Averaged UTC") == "2026-05-01 02:00:00\u201302:11:38");
     CHECK(lines[0].at("s") == "700");
@@ -86,9 +110,9 @@ TEST_CASE("the table of the whole-day model shows which time it averages", "[rep
 TEST_CASE("a table of given averages has no columns of records", "[report][readings]") {
     SurveyOptions options;
     options.model = "t";
-    const auto lines = lines_of(correct_survey(made_up::day(), options));
+    const auto lines = readings_of(correct_survey(made_up::day(), options));
     REQUIRE(lines.size() == 12);
-    for (const char* const title : {"Averaged UTC", "s", "Tilt corr.", "Left out"})
+    for (const char* const title : {"Averaged UTC", "s", "Left out"})
         CHECK_FALSE(lines[0].contains(title));
 }
 
@@ -98,7 +122,7 @@ TEST_CASE("an occupation without a value is listed in time order", "[report][rea
     SurveyCorrection result = correct_survey(made_up::day(), options);
     const UtcTime start = result.rows[2].row.time - std::chrono::minutes(9);
     add_left_out(result, {{"S9", 2, start, start, "no samples"}});
-    const auto lines = lines_of(result);
+    const auto lines = readings_of(result);
     REQUIRE(lines.size() == 13);
     CHECK(lines[2].at("Reading") == "S9 (2)");
     CHECK(lines[2].at("Time UTC") == to_rfc3339(start));

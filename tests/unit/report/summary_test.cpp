@@ -8,6 +8,7 @@
 
 using namespace a351::corrector;
 using namespace a351;
+using namespace a351::corrector::grade;
 using namespace a351::corrector::model;
 using namespace a351::corrector::reading;
 using namespace a351::corrector::report;
@@ -29,11 +30,14 @@ std::vector<SurveyRow> scattered_day() {
     return rows;
 }
 
-/// Returns the summary as it is in the page.
+/// Returns the first sections as they are in the page.
 std::string summary_text(const SurveyCorrection& result, const std::vector<std::string>& warnings,
                          const std::vector<std::string>& missing) {
     const Page page("");
-    add_summary(page.body(), result, warnings, missing);
+    add_head(page.body(), result, warnings, missing);
+    add_findings(page.body(), result.findings);
+    add_actions(page.body(), result);
+    add_accuracy(page.body(), result);
     return page.text();
 }
 
@@ -159,9 +163,9 @@ TEST_CASE(
     SurveyCorrection result = corrected(scattered_day());
     CorrectedRow& row = result.rows[0];
     row.row.notes = {"gap"};
-    CHECK_THAT(summary_text(result, {}, {}), ContainsSubstring("Residual mGal"));
+    CHECK_THAT(summary_text(result, {}, {}), ContainsSubstring("corrected (in sample); u:"));
     row.own.emplace<WholeDayRow>().left_out = *row.row.reference - MilliGal(7.77);
     result.own = WholeDayPart{};
-    CHECK_THAT(summary_text(result, {}, {}), ContainsSubstring("Error mGal (station left out)") &&
+    CHECK_THAT(summary_text(result, {}, {}), ContainsSubstring("left out (cross-validated); u:") &&
                                                  ContainsSubstring("<td class=\"r\">7.77</td>"));
 }

@@ -61,9 +61,11 @@ TEST_CASE(
           R"({"type": "FeatureCollection", "features": [
 {"type":"Feature","geometry":{"type":"Point","coordinates":[-77.8586,40.7914,370.0]},"properties":)"
           R"({"site":"A/1","n":1,"gravity_mgal":979900.25,"u_gravity_mgal":1.25,"reference_mgal":)"
-          R"(979900.0,"residual_mgal":-0.25,"flagged_only":false}},
+          R"(979900.0,"residual_mgal":-0.25,"flagged_only":false,"grade":"trust",)"
+          R"("grade_reason":""}},
 {"type":"Feature","geometry":null,"properties":{"site":"B","n":1,"gravity_mgal":979800.1,)"
-          R"("u_gravity_mgal":null,"reference_mgal":null,"residual_mgal":null,"flagged_only":true}}
+          R"("u_gravity_mgal":null,"reference_mgal":null,"residual_mgal":null,"flagged_only":true,)"
+          R"("grade":"repeat","grade_reason":"B (1): marked by the operator as not to be used"}}
 ]}
 )");
     CHECK(nlohmann::json::parse(text)["features"].size() == 2);

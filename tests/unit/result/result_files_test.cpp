@@ -63,6 +63,10 @@ TEST_CASE("the tables have the documented columns and one line per item", "[surv
     CHECK(occupations.has_column("doubt_statistical"));
     CHECK(occupations.cell(3, "flags") == "outlier;fallback");
     CHECK(occupations.cell(3, "used") == "0");
+    CHECK(occupations.cell(3, "grade") == "repeat");
+    CHECK_THAT(occupations.cell(3, "grade_reason"),
+               StartsWith("marked by the operator as not to be used; "));
+    CHECK(occupations.cell(0, "grade") == "trust");
     CHECK(occupations.cell(4, "flags") == "no-reference");
     CHECK(occupations.cell(4, "residual_mgal").empty());
     CHECK(occupations.number(0, "residual_mgal") ==
@@ -96,6 +100,18 @@ TEST_CASE("the tables have the documented columns and one line per item", "[surv
             models.cell(row, "model") == "t-rate" && models.cell(row, "rows") == "used";
         CHECK(models.cell(row, "selected") == (is_it ? "1" : "0"));
     }
+}
+
+TEST_CASE("an occupation without a value is listed with the grade repeat", "[survey][result]") {
+    SurveyCorrection result = corrected("t-rate");
+    const UtcTime start = result.rows[2].row.time - std::chrono::minutes(9);
+    add_left_out(result, {{"S9", 2, start, start, "no samples"}});
+    const auto occupations = text::CsvTable::parse(occupations_csv(result), "occupations.csv");
+    REQUIRE(occupations.row_count() == 13);
+    CHECK(occupations.cell(2, "site") == "S9");
+    CHECK(occupations.cell(2, "flags") == "no-samples");
+    CHECK(occupations.cell(2, "grade") == "repeat");
+    CHECK(occupations.cell(2, "grade_reason") == "no samples");
 }
 
 TEST_CASE("the text says for every RMS whether it is in sample", "[survey][result]") {

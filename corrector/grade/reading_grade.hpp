@@ -10,12 +10,14 @@
 ///         if (grades[i].grade == Grade::repeat)
 ///             show(reading_name(result.rows, i), grades[i].reasons);
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector::report {
+namespace a351::corrector::grade {
 
 /// Advice on a reading, from the best to the worst.  The grade of a reading is the worst that any
 /// of its reasons gives.
@@ -35,11 +37,26 @@ struct Reason {
     std::string text;             ///< The reason in words, without the reading's name.
 };
 
+/// Limits of |error| / u above which a value gets `care` and `repeat`.  Reason: one in 22 Gaussian
+/// errors is above the first, one in 370 above the second.
+inline constexpr double kCareRatio = 2.0, kRepeatRatio = 3.0;
+
+/// Returns the grade's name in tables, which is that in the enumeration.
+/// @param grade  one of the enumerators; another value is not checked.
+[[nodiscard]] std::string_view grade_name(Grade grade) noexcept;
+
 /// The grade of one reading.  Some reasons only inform: `trust` can have reasons too.
 struct ReadingGrade {
     Grade grade = Grade::trust;
     std::vector<Reason> reasons;
 };
+
+/// Returns the reasons as one text, joined by "; ".
+[[nodiscard]] std::string reason_text(const ReadingGrade& reading);
+
+/// Returns the error to which u_corrected belongs, mGal: reference - corrected, or for `day`
+/// reference - left_out.  Absent without a reference, and for `day` if only this station is held.
+[[nodiscard]] std::optional<double> error_of(const model::CorrectedRow& row);
 
 /// Returns one grade per row.
 ///
@@ -61,10 +78,14 @@ struct ReadingGrade {
 /// @return (n) in the order of the rows; an empty list without rows.
 [[nodiscard]] std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result);
 
-/// Returns true if a reading of this station is graded `trust`.
+/// Returns the grade of a station, which is the best of its readings.
+///
+/// `trust` has no reasons here.  Otherwise they are those of its readings with this grade; the first
+/// of a reading begins with its name (reading_name.hpp).
 /// @param grades  from grade_readings() of this result.
-[[nodiscard]] bool has_trusted_reading(const model::SurveyCorrection& result,
-                                       const std::vector<ReadingGrade>& grades,
-                                       const std::string& site);
+/// @param site    has at least one row.
+[[nodiscard]] ReadingGrade grade_of_station(const model::SurveyCorrection& result,
+                                            const std::vector<ReadingGrade>& grades,
+                                            const std::string& site);
 
-}  // namespace a351::corrector::report
+}  // namespace a351::corrector::grade

@@ -1,10 +1,10 @@
-#include "corrector/report/closure.hpp"
+#include "corrector/grade/closure.hpp"
 
 #include <cmath>
 
 #include "protocol/core/units.hpp"
 
-namespace a351::corrector::report {
+namespace a351::corrector::grade {
 namespace {
 
 Closure close_pair(const std::vector<model::CorrectedRow>& rows, std::size_t earlier,
@@ -60,4 +60,4 @@ std::optional<ClosureRms> rms_of(const std::vector<Closure>& closures) {
                       rms_of(closures, &Closure::after_all)};
 }
 
-}  // namespace a351::corrector::report
+}  // namespace a351::corrector::grade

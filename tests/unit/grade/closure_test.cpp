@@ -1,10 +1,10 @@
-#include "corrector/report/closure.hpp"
+#include "corrector/grade/closure.hpp"
 
 #include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::corrector::model;
-using namespace a351::corrector::report;
+using namespace a351::corrector::grade;
 
 namespace {
 

@@ -1,8 +1,8 @@
-#include "corrector/figure/reading_name.hpp"
+#include "corrector/grade/reading_name.hpp"
 
 #include <fmt/core.h>
 
-namespace a351::corrector::figure {
+namespace a351::corrector::grade {
 
 std::string reading_name(const std::vector<model::CorrectedRow>& rows, std::size_t index) {
     const reading::SurveyRow& row = rows[index].row;
@@ -22,4 +22,4 @@ std::string reading_name(const std::vector<model::CorrectedRow>& rows, std::size
     return fmt::format("{} ({}{})", row.site, row.occupation, set_up);
 }
 
-}  // namespace a351::corrector::figure
+}  // namespace a351::corrector::grade

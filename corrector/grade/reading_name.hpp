@@ -9,14 +9,14 @@
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector::figure {
+namespace a351::corrector::grade {
 
 /// Returns "SITE (OCCUPATION)"; if the stay has several set-ups, with a letter: "SITE (2b)".
 ///
 /// Letters count the rows of the stay in the order of `rows`; after z there are numbers: "SITE (2-27)".
-/// The name of the site is not escaped; see escaping.hpp.  O(n) for n rows.
+/// The name of the site is as given.  O(n) for n rows.
 /// @param index  below rows.size(); not checked.
 [[nodiscard]] std::string reading_name(const std::vector<model::CorrectedRow>& rows,
                                        std::size_t index);
 
-}  // namespace a351::corrector::figure
+}  // namespace a351::corrector::grade

@@ -1,4 +1,4 @@
-#include "corrector/report/reading_grade.hpp"
+#include "corrector/grade/reading_grade.hpp"
 
 #include <fmt/core.h>
 
@@ -6,19 +6,15 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
-#include "corrector/figure/reading_name.hpp"
+#include "corrector/grade/closure.hpp"
+#include "corrector/grade/reading_name.hpp"
 #include "corrector/model/outlier_tests.hpp"
-#include "corrector/report/closure.hpp"
 #include "protocol/text/aligned_text.hpp"
 
-namespace a351::corrector::report {
+namespace a351::corrector::grade {
 namespace {
-
-// Limits of |error| / u.  Reason: one in 22 Gaussian errors is above the first, one in 370 above
-// the second.
-constexpr double kCareRatio = 2.0;
-constexpr double kRepeatRatio = 3.0;
 
 // Largest difference between the two trends of one record.  Reason: a quarter of the 2 mGal by
 // which good readings scatter.
@@ -181,7 +177,7 @@ void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrect
                 {std::abs(pair.after_all.value()), ratio},
                 fmt::format("differs by {} mGal from {}, {} times the value expected from {}",
                             text::fixed(std::abs(pair.after_all.value()), 1),
-                            figure::reading_name(result.rows, other), text::fixed(ratio, 1),
+                            reading_name(result.rows, other), text::fixed(ratio, 1),
                             scatter->name)};
         };
         add(readings[pair.earlier], Grade::care, reason(pair.later));
@@ -190,6 +186,25 @@ void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrect
 }
 
 }  // namespace
+
+std::string reason_text(const ReadingGrade& reading) {
+    std::vector<std::string> texts;
+    for (const Reason& reason : reading.reasons) texts.push_back(reason.text);
+    return text::joined(texts, "; ");
+}
+
+std::string_view grade_name(Grade grade) noexcept {
+    constexpr std::array<std::string_view, 3> kNames{"trust", "care", "repeat"};
+    return kNames[static_cast<std::size_t>(grade)];
+}
+
+std::optional<double> error_of(const model::CorrectedRow& row) {
+    if (!row.residual) return std::nullopt;
+    const auto* const day = row.as<model::WholeDayRow>();
+    if (day == nullptr) return row.residual->value();
+    if (!day->left_out) return std::nullopt;
+    return (*row.row.reference - *day->left_out).value();
+}
 
 std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) {
     const bool corrects_rate = std::ranges::any_of(result.rows, [](const model::CorrectedRow& row) {
@@ -217,12 +232,21 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
     return readings;
 }
 
-bool has_trusted_reading(const model::SurveyCorrection& result,
-                         const std::vector<ReadingGrade>& grades, const std::string& site) {
+ReadingGrade grade_of_station(const model::SurveyCorrection& result,
+                              const std::vector<ReadingGrade>& grades, const std::string& site) {
+    ReadingGrade station{Grade::repeat, {}};
+    for (std::size_t i = 0; i < grades.size(); ++i)
+        if (result.rows[i].row.site == site)
+            station.grade = std::min(station.grade, grades[i].grade);
+    if (station.grade == Grade::trust) return station;
     for (std::size_t i = 0; i < grades.size(); ++i) {
-        if (result.rows[i].row.site == site && grades[i].grade == Grade::trust) return true;
+        if (result.rows[i].row.site != site || grades[i].grade != station.grade) continue;
+        std::string name = reading_name(result.rows, i) + ": ";
+        for (const Reason& reason : grades[i].reasons)
+            station.reasons.push_back(
+                {reason.code, reason.numbers, std::exchange(name, "") + reason.text});
     }
-    return false;
+    return station;
 }
 
-}  // namespace a351::corrector::report
+}  // namespace a351::corrector::grade

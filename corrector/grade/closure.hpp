@@ -17,7 +17,7 @@
 
 #include "corrector/model/corrected_survey.hpp"
 
-namespace a351::corrector::report {
+namespace a351::corrector::grade {
 
 /// The difference `later` minus `earlier` of two readings of one station, after each correction.
 ///
@@ -54,4 +54,4 @@ struct ClosureRms {
 /// share readings, so a station that was read often has a large weight.
 [[nodiscard]] std::optional<ClosureRms> rms_of(const std::vector<Closure>& closures);
 
-}  // namespace a351::corrector::report
+}  // namespace a351::corrector::grade

@@ -1,14 +1,13 @@
-#include "corrector/report/reading_grade.hpp"
+#include "corrector/grade/reading_grade.hpp"
 
 #include "tests/support/catch.hpp"
 
-#include "corrector/figure/reading_name.hpp"
+#include "corrector/grade/reading_name.hpp"
 
 using namespace a351;
-using namespace a351::corrector::figure;
 using namespace a351::corrector::model;
 using namespace a351::corrector::reading;
-using namespace a351::corrector::report;
+using namespace a351::corrector::grade;
 
 namespace {
 
@@ -47,7 +46,7 @@ TEST_CASE("a reading at its limits is trusted", "[report][grade]") {
     const SurveyCorrection result = quiet(2);
     CHECK(first_grade(result) == Grade::trust);
     CHECK(first_reasons(result).empty());
-    CHECK(has_trusted_reading(result, grade_readings(result), "B"));
+    CHECK(grade_of_station(result, grade_readings(result), "B").grade == Grade::trust);
 }
 
 TEST_CASE("a moving temperature is graded repeat, or care if the model has a rate term",
@@ -55,7 +54,6 @@ TEST_CASE("a moving temperature is graded repeat, or care if the model has a rat
     SurveyCorrection result = quiet(2);
     result.rows[0].row.rate_degc_per_h = -0.21;
     CHECK(first_grade(result) == Grade::repeat);
-    CHECK_FALSE(has_trusted_reading(result, grade_readings(result), "A"));
     CHECK(first_reasons(result) ==
           "temperature not steady: rate -0.210 degC/h, which the model does not correct|");
     result.rows[0].rate_correction = MilliGal(5.25);
@@ -185,6 +183,21 @@ TEST_CASE("readings of one station that disagree are both graded care", "[report
           "differs by 5.7 mGal from A (1), 2.0 times the value expected from s");
     result.rows[1].row.rate_degc_per_h = 0.3;  // it must be repeated and is not used for comparison
     CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("a station has the best grade of its readings, with their reasons", "[report][grade]") {
+    SurveyCorrection result = quiet(3);
+    result.rows[2].row.site = "A";
+    result.rows[2].row.occupation = 2;
+    result.stations.pop_back();
+    const Reason x{"x", {}, "x"}, y{"y", {}, "y"};
+    std::vector<ReadingGrade> grades{{Grade::repeat, {x}}, {Grade::repeat, {x, y}}, {}};
+    CHECK(grade_of_station(result, grades, "A").grade == Grade::trust);
+    CHECK(grade_of_station(result, grades, "A").reasons.empty());
+    CHECK(reason_text(grade_of_station(result, grades, "B")) == "B (1): x; y");
+    grades[2] = {Grade::care, {y}};
+    CHECK(grade_of_station(result, grades, "A").grade == Grade::care);
+    CHECK(reason_text(grade_of_station(result, grades, "A")) == "A (2): y");
 }
 
 TEST_CASE("set-ups of one stay are distinguished by letters", "[report][grade]") {

@@ -1,0 +1,21 @@
+#pragma once
+/// @file
+/// What the figures of the records and the figure of the day have in common.
+
+#include <string>
+#include <vector>
+
+#include "corrector/figure/survey_figures.hpp"
+
+namespace a351::corrector::figure {
+
+/// Returns the name of a reading's figure, in whose data are its samples.
+[[nodiscard]] std::string reading_figure_name(std::size_t row);
+
+/// Returns half the range of an axis for the samples of all records, each about the value of its
+/// reading, mGal.  98 of 100 samples of every record are within, so that a knock does not flatten
+/// the rest.
+[[nodiscard]] double half_range_of_samples(const model::SurveyCorrection& result,
+                                           const std::vector<ReadingRecord>& records);
+
+}  // namespace a351::corrector::figure

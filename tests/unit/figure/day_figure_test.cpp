@@ -1,0 +1,91 @@
+#include <cmath>
+#include "tests/support/catch.hpp"
+
+#include "corrector/figure/survey_figures.hpp"
+#include "corrector/model/survey_correction.hpp"
+#include "tests/unit/model/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+using namespace a351::corrector::figure;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
+
+namespace {
+
+SurveyCorrection corrected(const std::vector<SurveyRow>& rows) {
+    SurveyOptions options;
+    options.model = "t";
+    return correct_survey(rows, options);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("the axis of the day names each stay once, and shows dates if there are several",
+          "[report][figures]") {
+    auto rows = made_up::day();
+    rows[1].site = "B";
+    rows[1].occupation = 1;
+    std::string script = day_figure(corrected(rows), {}, {}).script;
+    CHECK(count(script, "'B (1)'") == 1);
+    CHECK(count(script, "'B (2)'") == 1);
+    CHECK_THAT(script,
+               ContainsSubstring("set format x '%H:%M'") && ContainsSubstring("'UTC, 2020-05-01'"));
+    rows.back().time += std::chrono::days(2);
+    script = day_figure(corrected(rows), {}, {}).script;
+    CHECK_THAT(script, ContainsSubstring("%m-%d\"") &&
+                           ContainsSubstring("'UTC, 2020-05-01 to 2020-05-03'"));
+}
+
+TEST_CASE("the day shows errors with their u only for readings with a reference",
+          "[report][figures]") {
+    auto rows = made_up::day();
+    rows[1].reference.reset();
+    const Figure figure = day_figure(corrected(rows), {}, {});
+    CHECK(count(figure.script, "yerrorbars") == 1);
+    const std::string errors = figure.data.substr(0, figure.data.find("\n\n\n"));
+    CHECK(count(errors, "\n2020") == 11);
+    CHECK_THAT(figure.caption, ContainsSubstring("in sample") &&
+                                   ContainsSubstring("standard uncertainty u as of a new station"));
+    SurveyCorrection unknown;
+    for (const SurveyRow& row : rows) unknown.rows.emplace_back().row = row;
+    CHECK(count(day_figure(unknown, {}, {}).script, "yerrorbars") == 0);
+}
+
+TEST_CASE("the day shows the whole-day model's errors with the station left out",
+          "[report][figures]") {
+    SurveyCorrection result = corrected(made_up::day());
+    result.own = WholeDayPart{};
+    for (CorrectedRow& row : result.rows)
+        row.own.emplace<WholeDayRow>().left_out = *row.row.reference - MilliGal(7.77);
+    const Figure figure = day_figure(result, {}, {});
+    CHECK(count(figure.data, "Z 7.7700 ") == 12);
+    CHECK_THAT(figure.caption, ContainsSubstring("left out (cross-validated)"));
+}
+
+TEST_CASE("a stay without a value is on the axis of the day", "[report][figures]") {
+    SurveyCorrection result = corrected(made_up::day());
+    const UtcTime end = result.rows[0].row.time - std::chrono::minutes(5);
+    add_left_out(result, {{"S9", 2, end - std::chrono::hours(1), end, "no samples"}});
+    const std::string script = day_figure(result, {}, {}).script;
+    CHECK_THAT(script, ContainsSubstring("'S9 (2)' '") &&
+                           ContainsSubstring("from '" + to_rfc3339(end - std::chrono::hours(1)) +
+                                             "',graph 0 to '" + to_rfc3339(end) + "'"));
+}
+
+TEST_CASE("the curve of the day's temperature is interrupted where nothing was recorded",
+          "[report][figures]") {
+    const SurveyCorrection result = corrected(made_up::day());
+    std::vector<MinuteTemperature> course;
+    for (const int minute : {0, 1, 5})
+        course.push_back({made_up::kMorning + std::chrono::minutes(minute), DegC(42.0 + minute)});
+    CHECK_THAT(day_figure(result, {}, course).data,
+               ContainsSubstring("00:01:00Z 43.0000 \n\n2020-05-01T00:05:00Z 47.0000 \n"));
+    CHECK_THAT(day_figure(result, {}, {}).data, !ContainsSubstring("means of a minute"));
+}
