@@ -93,6 +93,8 @@ status::Status snapshot(const config::Config& config, const source::HostClock& c
     status.version = A351_VERSION;
     const timing::ClockReading reading = clock.read();
     status.now = reading.realtime;
+    constexpr std::chrono::seconds kSecond{1};
+    status.is_in_real_time = clock.instrument_span(kSecond) == kSecond;
     status.leap = reading.leap;
     status.verdict = live.verdict(status.now);
     status.profile = config.station.profile;

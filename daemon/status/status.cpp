@@ -64,6 +64,8 @@ void assess_rate(Status& status) {
 /// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later
 /// only if more of them come per second than the sensor's rate, or if the clock was set back.
 void assess_clock(Status& status) {
+    // A delay of 16 ms is 16 s of simulated time at 1000x, and says nothing about the host's clock.
+    if (!status.is_in_real_time) return;
     constexpr std::chrono::seconds kAhead{5};     // above the uncertainty of a locked clock
     constexpr std::chrono::seconds kUnknown{15};  // the kernel's bound of a clock never set is 16 s
     if (status.last_sample && *status.last_sample > status.now + kAhead) {

@@ -36,8 +36,9 @@ struct Status {
     Level level = Level::good;
     std::vector<std::string> reasons;  ///< Reasons why the level is not good; empty if it is.
 
-    std::string session;  ///< Hexadecimal; empty before the first session.
-    UtcTime now;          ///< Instrument time of the snapshot.
+    std::string session;          ///< Hexadecimal; empty before the first session.
+    UtcTime now;                  ///< Instrument time of the snapshot.
+    bool is_in_real_time = true;  ///< False if instrument time is faster or slower than the host's.
     // Index of the last sample of the session that was parsed (received), survives a power cut
     // (journaled), is in a synced record (archived).
     std::optional<std::int64_t> received, journaled, archived;
