@@ -13,7 +13,7 @@ PAGES = {
     "a351d": ("daemon/a351d.1", []),
     "a351ctl": ("daemon/ctl/a351ctl.1",
                 ["status", "watch", "start", "stop", "setup", "discard", "restore", "resume", "not-moved", "rename", "retime", "note", "target",
-                 "sites", "site add", "list"]),
+                 "sites", "site add", "list", "survey"]),
 }
 OPTION = r"(?<![\w-])--[a-z][a-z0-9-]*"
 INSTALLED = (TOP / "config" / "CMakeLists.txt").read_text()
