@@ -77,18 +77,28 @@ std::optional<std::size_t> content_size(std::span<const std::byte> packed) {
 }
 
 /// Unpacks a frame into `content`, up to its first damage.
-void unpack(std::span<const std::byte> packed, std::span<std::byte> content) {
+/// @return the size of the packed frame if it is whole.
+std::optional<std::size_t> unpack(std::span<const std::byte> packed, std::span<std::byte> content) {
     const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> stream(ZSTD_createDCtx(),
                                                                       &ZSTD_freeDCtx);
     if (!stream) throw std::bad_alloc();
     ZSTD_inBuffer in{packed.data(), packed.size(), 0};
     ZSTD_outBuffer out{content.data(), content.size(), 0};
-    std::size_t left = 1;
-    while (left != 0 && !ZSTD_isError(left)) {
+    while (true) {
         const std::size_t before = in.pos + out.pos;
-        left = ZSTD_decompressStream(stream.get(), &out, &in);
-        if (in.pos + out.pos == before) return;  // The frame is cut off.
+        const std::size_t left = ZSTD_decompressStream(stream.get(), &out, &in);
+        if (left == 0 && out.pos == content.size()) return in.pos;
+        const bool is_cut_off = in.pos + out.pos == before;
+        if (left == 0 || ZSTD_isError(left) || is_cut_off) return std::nullopt;
     }
+}
+
+/// Returns the size of a damaged frame, if another one or the end of the file is behind it.
+std::optional<std::size_t> damaged_size(std::span<const std::byte> packed) {
+    const std::size_t size = ZSTD_findFrameCompressedSize(packed.data(), packed.size());
+    if (ZSTD_isError(size)) return std::nullopt;
+    if (size != packed.size() && !content_size(packed.subspan(size))) return std::nullopt;
+    return size;
 }
 
 }  // namespace
@@ -101,28 +111,25 @@ std::vector<std::byte> decompress_segment(const std::filesystem::path& segment) 
     bool is_searching = false;  // The bytes of the frame before are in `bytes`, as far as known.
     for (std::size_t at = stated ? kSizeFrameBytes : 0; at < packed.size();) {
         const auto rest = std::span(packed).subspan(at);
-        const auto size = content_size(rest);
+        auto size = content_size(rest);
+        if (stated && size > kFrame) size.reset();  // A damaged size.
         const std::size_t begin = bytes.size();
         if (size || (stated && !is_searching)) bytes.resize(begin + size.value_or(kFrame));
         if (bytes.size() > kLargest)
             throw std::runtime_error(segment.string() + ": larger than any segment");
-        is_searching = true;
-        std::size_t length = 1;
+        std::optional<std::size_t> length;
         if (size) {
             has_frame = true;
-            unpack(rest, std::span(bytes).subspan(begin));
-            const std::size_t found = ZSTD_findFrameCompressedSize(rest.data(), rest.size());
-            // Damage may have changed the length too.
-            if (!ZSTD_isError(found) &&
-                (found == rest.size() || content_size(rest.subspan(found)))) {
-                length = found;
-                is_searching = false;
-            }
+            length = unpack(rest, std::span(bytes).subspan(begin));
+            if (!length) length = damaged_size(rest);
         }
-        at += length;
+        is_searching = !length;
+        at += length.value_or(1);
     }
-    if (!has_frame) throw std::runtime_error(segment.string() + ": not a compressed segment");
-    if (stated) bytes.resize(*stated);
+    if (!has_frame && stated.value_or(1) != 0)
+        throw std::runtime_error(segment.string() + ": not a compressed segment");
+    // The stated size may be damaged too, so that nothing that was unpacked is cut off.
+    if (stated) bytes.resize(std::max(bytes.size(), *stated));
     return bytes;
 }
 

@@ -165,20 +165,25 @@ bool Repetitions::is_repeated(std::uint64_t segment, std::uint32_t sequence, con
 
 Sequence::Sequence(std::vector<std::filesystem::path> segments) : segments_(std::move(segments)) {}
 
+void Sequence::open_next() {
+    const auto& segment = segments_[next_segment_++];
+    number_ = segment_number(segment).value_or(0);
+    damage_in_segment_ = 0;
+    header_.reset();
+    next_header_.reset();
+    reader_.emplace(segment);
+}
+
 std::optional<Chunk> Sequence::next() {
     while (true) {
         if (!reader_) {
             if (next_segment_ == segments_.size()) return std::nullopt;
-            const auto& segment = segments_[next_segment_++];
-            number_ = segment_number(segment).value_or(0);
-            reader_.emplace(segment);
-            damage_in_segment_ = 0;
+            open_next();
         }
         while (auto chunk = reader_->next()) {
-            const auto& damage = reader_->damage();
-            if (std::exchange(damage_in_segment_, damage.size()) != damage.size() &&
-                is_repeated_later(damage.back()))
-                break;
+            if (const auto* header = std::get_if<Header>(&*chunk)) header_ = *header;
+            const std::size_t damages = reader_->damage().size();
+            if (std::exchange(damage_in_segment_, damages) != damages && is_repeated_later()) break;
             if (!repetitions_.is_repeated(number_, reader_->sequence(), *chunk)) return chunk;
         }
         damage_.insert(damage_.end(), reader_->damage().begin(), reader_->damage().end());
@@ -186,12 +191,19 @@ std::optional<Chunk> Sequence::next() {
     }
 }
 
-bool Sequence::is_repeated_later(const Damage& damage) const {
-    const auto header = segment_header(segments_[next_segment_ - 1]);
-    for (std::size_t k = next_segment_; k < segments_.size(); ++k)
-        if (const auto next = segment_header(segments_[k]))
-            return header && journal::is_repeated_later(damage, *header, *next);
-    return false;
+bool Sequence::is_repeated_later() {
+    if (!next_header_) {
+        next_header_.emplace();
+        for (std::size_t k = next_segment_; k < segments_.size() && !*next_header_; ++k) {
+            try {
+                *next_header_ = segment_header(segments_[k]);
+            } catch (const std::system_error&) {
+                // next() reports it when it comes to this segment.
+            }
+        }
+    }
+    return header_ && *next_header_ &&
+           journal::is_repeated_later(reader_->damage().back(), *header_, **next_header_);
 }
 
 std::optional<Header> segment_header(const std::filesystem::path& segment) {

@@ -165,13 +165,17 @@ public:
     [[nodiscard]] const std::vector<Damage>& damage() const noexcept { return damage_; }
 
 private:
-    [[nodiscard]] bool is_repeated_later(const Damage& damage) const;
+    void open_next();
+    [[nodiscard]] bool is_repeated_later();
 
     std::vector<std::filesystem::path> segments_;
     std::size_t next_segment_ = 0;
     std::uint64_t number_ = 0;
     std::optional<Reader> reader_;
     std::size_t damage_in_segment_ = 0;  ///< Entries of the reader's damage that were examined.
+    std::optional<Header> header_;       ///< Header of the segment.
+    /// Header of the next segment that has one; read at the first damage only.
+    std::optional<std::optional<Header>> next_header_;
     Repetitions repetitions_;
     std::vector<Damage> damage_;
 };
