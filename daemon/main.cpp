@@ -298,10 +298,10 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     log.info("stopping");
     notice.stopping();
     page.stop();
-    gravity.stop();
     if (oven) oven->stop();
     link.stop();
     const bool is_on_disk = store.stop();
+    gravity.stop();  // It waits for its child, which a failing disk may hold.
     if (!is_recovered)
         log.warn(
             "the archive is incomplete; the next start adds the missing data from the journal");

@@ -136,20 +136,35 @@ json order(const Client& client, const Arguments& arguments) {
     return body;
 }
 
+/// Longest difference between the last samples of several daemons, s.  Reason: a box that records
+/// is a second late at most; the instant of one that does not would lie in the drive before.
+constexpr double kMostApart_s = 10.0;
+
 /// Sends start, stop or setup to several daemons, at one instant that all of them have recorded.
+/// Without a given instant nothing is sent if a daemon gets no samples.
 int change_all(const Arguments& arguments, const std::string& command) {
     std::vector<Client> clients;
     for (const std::string& url : arguments.urls) clients.emplace_back(parse_url(url));
-    json body;
-    std::optional<UtcTime> common;
-    for (const Client& client : clients) {
-        const auto status = parsed(client.get("/api/status"));
+    std::vector<std::pair<UtcTime, std::string>> last;  // Last sample and address of each.
+    for (std::size_t i = 0; i < clients.size(); ++i) {
+        const auto status = parsed(clients[i].get("/api/status"));
         const json sample = status.value("sample", json());
-        const auto last = parse_rfc3339(sample.is_object() ? sample.value("utc", "") : "");
-        if (last) common = common ? std::min(*common, *last) : *last;
+        const auto utc = parse_rfc3339(sample.is_object() ? sample.value("utc", "") : "");
+        if (utc) last.emplace_back(*utc, printable(arguments.urls[i]));
     }
-    body = order(clients.front(), arguments);
-    if (!body.contains("at") && common) body["at"] = to_rfc3339(*common, 9);
+    json body = order(clients.front(), arguments);
+    if (!body.contains("at") && !last.empty()) {
+        const auto [first, newest] = std::ranges::minmax_element(last);
+        const double apart_s = seconds_between(first->first, newest->first);
+        if (apart_s > kMostApart_s) {
+            complain(fmt::format(
+                "{}: its last sample is {:.0f} s older than that of {}; nothing was changed; "
+                "allowed: {:.0f} s, or an instant by --at",
+                first->second, apart_s, newest->second, kMostApart_s));
+            return kRefused;
+        }
+        body["at"] = to_rfc3339(first->first, 9);
+    }
     int worst = kDone;
     for (std::size_t i = 0; i < clients.size(); ++i)
         worst = std::max(worst, change(clients[i], arguments, "/api/occupation/" + command, body,

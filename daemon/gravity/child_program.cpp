@@ -61,8 +61,8 @@ struct Pipe {
     }
 };
 
-void limit(__rlimit_resource resource, rlim_t most) {
-    const rlimit both{most, most};
+void limit(__rlimit_resource resource, rlim_t most, rlim_t at_last) {
+    const rlimit both{most, at_last};
     setrlimit(resource, &both);
 }
 
@@ -85,9 +85,9 @@ void limit(__rlimit_resource resource, rlim_t most) {
     const sched_param lowest{};
     sched_setscheduler(0, SCHED_IDLE, &lowest);
     syscall(SYS_ioprio_set, kIoWhoProcess, 0, kIoClassIdle << kIoClassShift);
-    if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
-    limit(RLIMIT_CPU, limits.cpu_s);
-    limit(RLIMIT_CORE, 0);
+    if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes);
+    limit(RLIMIT_CPU, limits.cpu_s, limits.cpu_s + 1);  // SIGXCPU, and SIGKILL a second later.
+    limit(RLIMIT_CORE, 0, 0);
     const int oom = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
     if (oom >= 0 && write(oom, kOomScore, sizeof kOomScore - 1) > 0) close(oom);
     execv(command[0], command);

@@ -84,28 +84,28 @@ void GravitySoFar::run() {
             ChildEnd end;
             try {
                 end = run_child(options_.command, options_.limits, stop_);
+                if (end.trouble.empty() && !is_object(end.output))
+                    end = {"no_document", {}, "its output is not a JSON object"};
             } catch (const std::exception& error) {
                 end = {"failed", {}, error.what()};
             }
-            if (end.trouble.empty() && !is_object(end.output))
-                end = {"no_document", {}, "its output is not a JSON object"};
             lock.lock();
-            take(end);
+            take(std::move(end));
         }
     }
 }
 
-void GravitySoFar::take(const ChildEnd& end) {
+void GravitySoFar::take(ChildEnd end) {
     if (end.trouble == "stopped") return;
     if (end.trouble.empty()) {
-        document_ = end.output;
+        document_ = std::move(end.output);
         reason_.clear();
         cause_.clear();
         return;
     }
     const bool is_new = end.trouble != reason_;
-    reason_ = end.trouble;
-    cause_ = end.message;
+    reason_ = std::move(end.trouble);
+    cause_ = std::move(end.message);
     if (is_new && options_.failed) options_.failed(reason_, cause_);
 }
 

@@ -60,7 +60,7 @@ private:
 
     void run();
     [[nodiscard]] std::optional<Time> next_run() const;
-    void take(const ChildEnd& end);
+    void take(ChildEnd end);
 
     const GravityOptions options_;
     std::atomic<bool> stop_{false};

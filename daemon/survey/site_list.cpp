@@ -6,6 +6,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
@@ -71,7 +72,8 @@ std::vector<text::Site> append_site(files::FileLayer& files, const std::filesyst
     auto sites = text::parse_sites(list, file);
     const fs::perms permissions = fs::status(target).permissions();
     files::replace_file(files, target, std::as_bytes(std::span(list)));
-    fs::permissions(target, permissions);
+    std::error_code refused;  // The row is in the list, also where permissions cannot be set.
+    fs::permissions(target, permissions, refused);
     return sites;
 }
 

@@ -44,10 +44,10 @@ Run run(const std::string& arguments) {
 
 /// The HTTP interface of a daemon without the rest of the daemon.
 struct FakeDaemon {
-    explicit FakeDaemon(Status::Level level = Status::Level::good, int last = 60) {
-        recorder.last = minute(last);
+    explicit FakeDaemon(Status::Level level = Status::Level::good, UtcTime last = minute(60)) {
+        recorder.last = last;
         status.level = level;
-        status.now = status.last_sample.emplace(minute(last));
+        status.now = status.last_sample.emplace(last);
         server.start();
     }
     Run ctl(const std::string& arguments) const {
@@ -144,7 +144,7 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
 }
 
 TEST_CASE("several daemons start, set up and stop at one common instant", "[daemon][ctl]") {
-    FakeDaemon one, other(Status::Level::good, 50);
+    FakeDaemon one, other(Status::Level::good, minute(60) - std::chrono::seconds(4));
     const auto address = [](const FakeDaemon& daemon) {
         return "http://127.0.0.1:" + std::to_string(daemon.server.port());
     };
@@ -158,13 +158,17 @@ TEST_CASE("several daemons start, set up and stop at one common instant", "[daem
     const auto stopped = run(both + "stop");
     CHECK(stopped.exit == 1);
     CHECK(has(stopped, "a351ctl: " + address(one) + ": no occupation is running"));
-    CHECK(has(stopped, address(other) + ": stopped No.0 (stay 1) at 2026-03-14T08:50:00.0Z"));
+    CHECK(has(stopped, address(other) + ": stopped No.0 (stay 1) at 2026-03-14T08:59:56.0Z"));
     CHECK(run(both + "list").exit == 2);
     CHECK(run("--url " + address(one) + " --url http://127.0.0.1:1 start No.0").exit == 3);
+    const FakeDaemon unplugged(Status::Level::good, minute(50));
+    const auto refused = run(both + "--url " + address(unplugged) + " start No.0");
+    CHECK(refused.exit == 1);
+    CHECK(has(refused, address(unplugged) + ": its last sample is 600 s older than that of"));
     one.server.stop();
     other.server.stop();
     CHECK(one.recorder.log.size() == 3);  // Nothing is sent if one of them does not answer.
-    CHECK(other.recorder.log[2].utc == minute(50));  // The last sample that both have.
+    CHECK(other.recorder.log[2].utc == minute(60) - std::chrono::seconds(4));  // The last sample that both have.
 }
 
 TEST_CASE("a site is added in the terminal, and a refusal is one line", "[daemon][ctl]") {
