@@ -56,7 +56,13 @@ std::size_t amend_again(const std::filesystem::path& file) {
     std::size_t count = 0;
     for (int round = 0; round < kMostRounds; ++round) {
         const std::size_t before = count;
-        std::vector<reading::Finding> findings = findings_of(job::read_survey_file(file));
+        std::vector<reading::Finding> findings;
+        try {
+            findings = findings_of(job::read_survey_file(file));
+        } catch (const InputError& error) {
+            std::cout << "the amended survey cannot be corrected: " << error.what() << '\n';
+            break;
+        }
         std::erase_if(findings,
                       [](const reading::Finding& finding) { return finding.amendment.empty(); });
         for (const reading::Finding& finding : findings) try {

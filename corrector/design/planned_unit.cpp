@@ -17,31 +17,33 @@
 namespace a351::corrector::design {
 namespace {
 
-using Json = nlohmann::json;
+using nlohmann::json;
 
 /// Returns the root of the mean square of `step` over neighbours; `usual` without neighbours.
 template <class Step>
-double rms_of_neighbours(const Json& rows, double usual, Step step) {
+double rms_of_neighbours(const json& rows, double usual, Step step) {
     double squares = 0.0;
     for (std::size_t i = 1; i < rows.size(); ++i)
         squares += std::pow(step(rows[i - 1], rows[i]), 2);
     return rows.size() < 2 ? usual : std::sqrt(squares / static_cast<double>(rows.size() - 1));
 }
 
-double walk_of(const Json& occupations) {
+double walk_of(const json& occupations) {
     return rms_of_neighbours(
-        occupations, kUsualWalk_degc_per_sqrt_h, [](const Json& before, const Json& after) {
-            const auto time = [](const Json& row) {
+        occupations, kUsualWalk_degc_per_sqrt_h, [](const json& before, const json& after) {
+            const auto time = [](const json& row) {
                 return parse_rfc3339(row.at("time_utc").get<std::string>()).value();
             };
             const double change = after.at("temperature_degc").get<double>() -
                                   before.at("temperature_degc").get<double>();
-            return change / std::sqrt(seconds_between(time(before), time(after)) / kSecondsPerHour);
+            const double later_s = seconds_between(time(before), time(after));
+            if (!(later_s > 0.0)) throw std::invalid_argument("occupations: not in order of time");
+            return change / std::sqrt(later_s / kSecondsPerHour);
         });
 }
 
-double tilt_of(const Json& occupations) {
-    return rms_of_neighbours(occupations, kUsualTilt_g, [](const Json& before, const Json& after) {
+double tilt_of(const json& occupations) {
+    return rms_of_neighbours(occupations, kUsualTilt_g, [](const json& before, const json& after) {
         const auto step = [&](const char* key) {
             return after.at(key).get<double>() - before.at(key).get<double>();
         };
@@ -50,10 +52,10 @@ double tilt_of(const Json& occupations) {
     });
 }
 
-whole_day::UnitPosterior posterior_of(const Json& json) {
+whole_day::UnitPosterior posterior_of(const json& found) {
     whole_day::UnitPosterior unit;
-    const Json& values = json.at("values");
-    const Json& covariance = json.at("covariance");
+    const json& values = found.at("values");
+    const json& covariance = found.at("covariance");
     for (std::size_t k = 0; k < whole_day::kUnitNames.size(); ++k) {
         const auto row = static_cast<Eigen::Index>(k);
         unit.values(row) = values.at(k).get<double>();
@@ -61,7 +63,7 @@ whole_day::UnitPosterior posterior_of(const Json& json) {
             unit.covariance(row, static_cast<Eigen::Index>(l)) =
                 covariance.at(k).at(l).get<double>();
     }
-    const Json& noise = json.at("noise");
+    const json& noise = found.at("noise");
     unit.noise = {noise.at("placement_mgal").get<double>(), noise.at("flicker_mgal").get<double>(),
                   noise.at("white_mgal").get<double>()};
     for (const double part :
@@ -77,11 +79,11 @@ PlannedUnit unit_of_result(const std::filesystem::path& file) {
                         file.string(), trouble));
     };
     try {
-        const Json json = Json::parse(text::read_text_file(file));
-        const std::string model = json.at("model").get<std::string>();
+        const json result = json::parse(text::read_text_file(file));
+        const std::string model = result.at("model").get<std::string>();
         if (model != model::kWholeDay) throw refuse("model = " + model);
-        const whole_day::UnitPosterior found = posterior_of(json.at("unit"));
-        const Json& occupations = json.at("occupations");
+        const whole_day::UnitPosterior found = posterior_of(result.at("unit"));
+        const json& occupations = result.at("occupations");
         PlannedUnit unit{found.priors(), found.noise, walk_of(occupations), tilt_of(occupations),
                          ""};
         unit.origin = fmt::format(

@@ -11,6 +11,7 @@
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
+#include "corrector/reading/refused.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::mistake {
@@ -172,6 +173,17 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     return {std::move(findings), std::move(right)};
 }
 
+/// Returns the model that `auto` chooses without the mistakes; `present` if there is none.
+std::string model_without_mistakes(const AmendedSurvey& right, const SearchedSurvey& survey,
+                                   const std::string& present) {
+    try {
+        // The tilt of a calibration is subtracted from the amended rows already.
+        return model::correct_survey(right.rows, right.options, survey.day).model;
+    } catch (const reading::Refused&) {
+        return present;
+    }
+}
+
 }  // namespace
 
 std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
@@ -196,10 +208,8 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         std::optional<AmendedSurvey> right;
         if (survey.day != nullptr) right = search(of_day, survey).amended;
         if (!right) right = found.amended;
-        // The tilt of a calibration is subtracted from the amended rows already.
-        const std::string chosen =
-            right ? model::correct_survey(right->rows, right->options, survey.day).model
-                  : result.model;
+        const std::string chosen = right ? model_without_mistakes(*right, survey, result.model)
+                                         : result.model;
         if (chosen != result.model) {
             options.model = chosen;
             result = correct();

@@ -38,6 +38,9 @@ public:
                           choice_.factors);
     }
 
+    /// Returns false if the tide comes from a series that does not have this time.
+    [[nodiscard]] bool covers(UtcTime time) const { return !series_ || series_->at(time); }
+
 private:
     [[nodiscard]] MilliGal of_series(const reading::SurveyRow& row, UtcTime time) const {
         if (const auto tide = series_->at(time)) return *tide;
@@ -101,7 +104,10 @@ void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::S
     const ChosenTide tide(sites, choice);
     for (reading::SurveyRow& row : rows) row.tide = tide.at(row, row.time);
     if (day == nullptr) return;
-    for (reading::DayBin& bin : day->bins) bin.tide = tide.at(rows[bin.set_up], bin.time);
+    for (reading::DayBin& bin : day->bins) {
+        const reading::SurveyRow& row = rows[bin.set_up];
+        bin.tide = tide.covers(bin.time) ? tide.at(row, bin.time) : row.tide;
+    }
 }
 
 void describe_tide(Json& settings, const Choice& choice) {

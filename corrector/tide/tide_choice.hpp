@@ -68,8 +68,9 @@ void set_tide_option(Choice& choice, const std::string& text);
 /// Sets the tide of every row, and of every bin of the day, from the chosen source.
 ///
 /// The tide is that at the row's `time`, the middle of its averaging interval, or at the bin's
-/// `time`.  An earlier tide is overwritten.  A series serves all sites alike, and `given` is the row's given_tide.  The other
-/// sources need the position of each site; also `none` refuses a site that is not in the table.
+/// `time`.  An earlier tide is overwritten.  A series serves all sites alike; a bin that it does not
+/// cover gets the tide of its row.  `given` is the row's given_tide.  The other sources need the
+/// position of each site; also `none` refuses a site that is not in the table.
 ///
 /// If an exception is thrown, the rows before the one at fault may have their new tide already.
 ///
@@ -77,7 +78,7 @@ void set_tide_option(Choice& choice, const std::string& text);
 /// @param sites  table of the sites; not used for a series or for `given`.
 /// @param day  record of these rows; null: there are only averages.
 /// @throws InputError  as tide_model() or Series::read(); if a row's site is not in `sites`, a
-///                     row has no given tide, or the series does not cover a row or bin.
+///                     row has no given tide, or the series does not cover a row.
 void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
                 const Choice& choice, reading::DayRecord* day = nullptr);
 
