@@ -99,9 +99,8 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
             mistakes[k].size_mgal = mistake.size_mgal;
             mistakes[k].u_mgal = mistake.u_mgal;
         }
-        const auto worst = std::ranges::max_element(mistakes, {}, [](const Mistake& one) {
-            return one.p / alpha_of(one.needed_trial);
-        });
+        const auto worst = std::ranges::max_element(
+            mistakes, {}, [](const Mistake& one) { return one.p / alpha_of(one.needed_trial); });
         if (worst->p <= alpha_of(worst->needed_trial)) break;
         mistakes.erase(worst);
     }

@@ -152,7 +152,8 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
                 findings.push_back(std::move(finding));
         if (!mistakes.empty()) {
             right = amended(rows, result.options, mistakes);
-            const auto score = model.score({right->rows, right->options, survey.day}, right->choice);
+            const auto score =
+                model.score({right->rows, right->options, survey.day}, right->choice);
             if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
                 findings.insert(findings.begin(), std::move(*finding));
         }
@@ -208,8 +209,8 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         std::optional<AmendedSurvey> right;
         if (survey.day != nullptr) right = search(of_day, survey).amended;
         if (!right) right = found.amended;
-        const std::string chosen = right ? model_without_mistakes(*right, survey, result.model)
-                                         : result.model;
+        const std::string chosen =
+            right ? model_without_mistakes(*right, survey, result.model) : result.model;
         if (chosen != result.model) {
             options.model = chosen;
             result = correct();

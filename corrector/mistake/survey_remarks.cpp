@@ -47,13 +47,14 @@ std::vector<Finding> moving_temperatures(const model::SurveyCorrection& result) 
         set_stay(finding, row.row.site, row.row.occupation, row.row.key, row.row.time);
         finding.text = fmt::format(
             "{} ({}): its temperature was still moving ({}; limits: {} degC/h, {} degC), {}",
-            row.row.site, row.row.occupation, doubt, text::fixed(model::kGreatestRate_degc_per_h, 1),
+            row.row.site, row.row.occupation, doubt,
+            text::fixed(model::kGreatestRate_degc_per_h, 1),
             text::fixed(model::kGreatestRange_degc, 2),
-            !row.is_used       ? "and it is not in the fit"
-            : !corrects_rate   ? "which the model does not correct"
-                               : fmt::format("and its u is {} mGal, {} in the middle of the day's",
-                                             text::fixed(row.u_corrected->value(), 1),
-                                             text::fixed(usual_mgal, 1)));
+            !row.is_used     ? "and it is not in the fit"
+            : !corrects_rate ? "which the model does not correct"
+                             : fmt::format("and its u is {} mGal, {} in the middle of the day's",
+                                           text::fixed(row.u_corrected->value(), 1),
+                                           text::fixed(usual_mgal, 1)));
     }
     return findings;
 }
@@ -69,9 +70,9 @@ std::optional<Finding> base_not_revisited(const model::SurveyCorrection& result)
     if (stays.size() < kFewestStays || std::ranges::count_if(stays, is_base) != 1)
         return std::nullopt;
     Finding finding{.kind = "base_not_revisited", .code = "base_not_revisited", .site = base};
-    finding.text = fmt::format(
-        "the base {} has 1 stay of {}, at least 2 show a drift without the references", base,
-        stays.size());
+    finding.text =
+        fmt::format("the base {} has 1 stay of {}, at least 2 show a drift without the references",
+                    base, stays.size());
     return finding;
 }
 

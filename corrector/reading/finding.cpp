@@ -21,8 +21,9 @@ nlohmann::ordered_json json_or_null(const Value& value, bool is_there) {
 
 bool is_remark(const Finding& finding) {
     constexpr std::array<std::string_view, 8> kRemarks{
-        "no_stop",            "early_start",        "missed_set_up", "short_stay",
-        "base_not_revisited", "temperature_moving", "clock",         "not_visited"};
+        "no_stop",    "early_start",        "missed_set_up",
+        "short_stay", "base_not_revisited", "temperature_moving",
+        "clock",      "not_visited"};
     return std::ranges::count(kRemarks, finding.kind) > 0;
 }
 

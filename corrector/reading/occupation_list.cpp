@@ -179,10 +179,9 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     keep_between(list.windows, from, to, events);
     for (const OccupationWindow& window : list.windows) {
         if (!window.notes.empty())
-            list.warnings.push_back(
-                named(window) + " has no stop: it lasts until the " +
-                (window.is_last ? "end of the record, six hours at most"
-                                : "next start, at " + to_rfc3339(window.end)));
+            list.warnings.push_back(named(window) + " has no stop: it lasts until the " +
+                                    (window.is_last ? "end of the record, six hours at most"
+                                                    : "next start, at " + to_rfc3339(window.end)));
     }
     return list;
 }

@@ -39,10 +39,9 @@ void add_missing_stops(std::vector<Finding>& findings,
             continue;
         Finding& finding = findings.emplace_back(remark("no_stop", window, window.end));
         if (window.is_last) finding.code = "no_stop_last";
-        finding.text = fmt::format("{} ({}) has no stop: it lasts until the {}, at {}", window.site,
-                                   window.number,
-                                   window.is_last ? "end of the record" : "next start",
-                                   to_rfc3339(window.end));
+        finding.text = fmt::format(
+            "{} ({}) has no stop: it lasts until the {}, at {}", window.site, window.number,
+            window.is_last ? "end of the record" : "next start", to_rfc3339(window.end));
     }
 }
 

@@ -33,12 +33,13 @@ namespace a351::archive {
 /// Damage that was found and repaired at start.
 struct RecoveryReport {
     std::optional<journal::Damage> journal;  ///< RecoveryPlan::cut; the caller sets it.
-    std::vector<journal::Damage> damage;     ///< Places of the replayed segments whose chunks are lost.
-    std::vector<TornTail> archive;           ///< Parts of day files that were cut.
-    std::uint64_t records_added = 0;         ///< Records that the archive lacked.
-    std::uint64_t records_confirmed = 0;     ///< Records that the archive already held.
-    std::uint64_t records_conflicting = 0;   ///< Skipped: the archive holds others at their time.
-    std::uint64_t chunks_lost = 0;           ///< Journal chunks that could not be interpreted.
+    std::vector<journal::Damage>
+        damage;                       ///< Places of the replayed segments whose chunks are lost.
+    std::vector<TornTail> archive;    ///< Parts of day files that were cut.
+    std::uint64_t records_added = 0;  ///< Records that the archive lacked.
+    std::uint64_t records_confirmed = 0;    ///< Records that the archive already held.
+    std::uint64_t records_conflicting = 0;  ///< Skipped: the archive holds others at their time.
+    std::uint64_t chunks_lost = 0;          ///< Journal chunks that could not be interpreted.
 };
 
 /// Part of the journal that goes into one archive: successive segments with the same station codes.

@@ -65,12 +65,12 @@ void gather(const Segments& segments, Retiming& retiming) {
     std::string reason;
     if (!chunks.damage().empty()) {
         const journal::Damage& damage = chunks.damage().front();
-        reason = fmt::format("; {}: offset {}: {}", damage.file.string(), damage.offset,
-                             damage.reason);
+        reason =
+            fmt::format("; {}: offset {}: {}", damage.file.string(), damage.offset, damage.reason);
     }
-    throw std::runtime_error(fmt::format("{}: no frame of the sensor can be read from {} segments{}",
-                                         segments.front().parent_path().string(), segments.size(),
-                                         reason));
+    throw std::runtime_error(
+        fmt::format("{}: no frame of the sensor can be read from {} segments{}",
+                    segments.front().parent_path().string(), segments.size(), reason));
 }
 
 void write(const Segments& segments, Retiming& retiming, Archives& archives, RetimeReport& report) {

@@ -36,8 +36,9 @@ namespace a351::journal {
 /// unpacked at all, `offset` is 0 and `byte_count` is the size of the compressed file.
 struct Damage {
     std::filesystem::path file;
-    std::uint64_t offset = 0;      ///< First byte after the last good chunk.
-    std::uint64_t byte_count = 0;  ///< From there to the next good chunk, or to the end of the file.
+    std::uint64_t offset = 0;  ///< First byte after the last good chunk.
+    std::uint64_t byte_count =
+        0;  ///< From there to the next good chunk, or to the end of the file.
     /// Reason as text, "wrong checksum" or "torn chunk" for example, without file and position.
     std::string reason;
     /// Sequence number of the next good chunk; absent if the damage extends to the end.
@@ -84,8 +85,8 @@ private:
     /// The bytes at a place of the segment, taken for a chunk.
     struct Look {
         ChunkHeader header;
-        std::optional<Chunk> chunk;      ///< Absent for a type that is unknown.
-        const char* trouble = nullptr;   ///< Null if they are a good chunk.
+        std::optional<Chunk> chunk;     ///< Absent for a type that is unknown.
+        const char* trouble = nullptr;  ///< Null if they are a good chunk.
     };
     /// A good chunk found by search.
     struct Place {
@@ -103,7 +104,7 @@ private:
     std::uint64_t size_ = 0;      ///< Size when the file was opened.
     std::uint64_t position_ = 0;  ///< Place of the next byte of `in_`.
     std::vector<std::byte> payload_;
-    std::uint64_t offset_ = 0;    ///< End of the last good chunk; 0 before the header.
+    std::uint64_t offset_ = 0;  ///< End of the last good chunk; 0 before the header.
     std::uint32_t next_sequence_ = 0;
     std::uint32_t sequence_ = 0;
     bool is_over_ = false;

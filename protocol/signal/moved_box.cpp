@@ -14,9 +14,9 @@ constexpr std::size_t kCompared = 10;           // samples: 20 s, the ripple of 
 constexpr double kMoved_deg = 0.02;             // beyond what soft ground gives way in 20 s
 constexpr double kHandledAndMoved_deg = 0.005;  // a placement is levelled to 0.1 deg
 constexpr double kHandledAndMoved_mgal = 10.0;
-constexpr std::size_t kCarried = 30;    // samples: a minute; handling takes up to 25 s
-constexpr std::size_t kLeastStay = 90;  // samples: three minutes
-constexpr std::size_t kWayToCar = 300;  // samples: ten minutes
+constexpr std::size_t kCarried = 30;      // samples: a minute; handling takes up to 25 s
+constexpr std::size_t kLeastStay = 90;    // samples: three minutes
+constexpr std::size_t kWayToCar = 300;    // samples: ten minutes
 constexpr std::chrono::minutes kLift(2);  // lifting, turning and levelling again
 constexpr double kSamePlace_mgal = 5.0;   // three standard deviations of two placements
 

@@ -96,7 +96,8 @@ void JournalRecording::open(std::size_t segment) {
 /// Returns true if the next segment repeats what the newest damage of this one may have cost.
 bool JournalRecording::is_repeated_later() const {
     return !reader_->damage().empty() && at_ + 1 < segments_.size() &&
-           journal::is_repeated_later(reader_->damage().back(), header(), segments_[at_ + 1].header);
+           journal::is_repeated_later(reader_->damage().back(), header(),
+                                      segments_[at_ + 1].header);
 }
 
 /// Loads the session's next chunk with received bytes; returns false if there is none.

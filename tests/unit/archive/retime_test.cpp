@@ -125,7 +125,8 @@ TEST_CASE("re-timing writes a complete archive or nothing", "[record][retime]") 
     CHECK(first.counts == read_vertical(parent.path() / "again" / "archive").counts);
 }
 
-TEST_CASE("a damaged segment is re-timed without the lost chunks, which are reported", "[record][retime]") {
+TEST_CASE("a damaged segment is re-timed without the lost chunks, which are reported",
+          "[record][retime]") {
     DataRoot root, parent;
     root.write_journal(badly_timed_session(0));
     const auto segment = journal::segment_files(root.journal()).front();

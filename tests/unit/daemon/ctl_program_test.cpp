@@ -168,7 +168,8 @@ TEST_CASE("several daemons start, set up and stop at one common instant", "[daem
     one.server.stop();
     other.server.stop();
     CHECK(one.recorder.log.size() == 3);  // Nothing is sent if one of them does not answer.
-    CHECK(other.recorder.log[2].utc == minute(60) - std::chrono::seconds(4));  // The last sample that both have.
+    CHECK(other.recorder.log[2].utc ==
+          minute(60) - std::chrono::seconds(4));  // The last sample that both have.
 }
 
 TEST_CASE("a site is added in the terminal, and a refusal is one line", "[daemon][ctl]") {

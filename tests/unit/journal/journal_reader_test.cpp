@@ -157,7 +157,8 @@ TEST_CASE_METHOD(Fixture, "a chunk length above 64 KiB is damage", "[record][jou
     CHECK(reading.damage->reason == "impossible length");
 }
 
-TEST_CASE_METHOD(Fixture, "a chunk with the sequence number of the one before is damage", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "a chunk with the sequence number of the one before is damage",
+                 "[record][journal]") {
     auto bytes = encode_preamble();
     append(bytes, encode_chunk(test::journal_header(), 0));
     append(bytes, encode_chunk(test::rx_chunk("a", "b"), 1));
@@ -288,8 +289,9 @@ TEST_CASE_METHOD(Fixture, "a flipped bit in a compressed segment costs at most o
     constexpr std::size_t kSizeFrame = 16, kFrames = 9;  // Eight of 512 KiB, and the rest.
     std::vector<std::size_t> frames{kSizeFrame};
     while (frames.size() < kFrames)
-        frames.push_back(frames.back() + ZSTD_findFrameCompressedSize(whole.data() + frames.back(),
-                                                                      whole.size() - frames.back()));
+        frames.push_back(frames.back() +
+                         ZSTD_findFrameCompressedSize(whole.data() + frames.back(),
+                                                      whole.size() - frames.back()));
 
     std::vector<std::size_t> bits;  // All of the stated size, and of the begin of two frames.
     for (std::size_t bit = 0; bit < 8 * kSizeFrame; ++bit) bits.push_back(bit);
@@ -322,7 +324,8 @@ TEST_CASE_METHOD(Fixture, "a flipped bit in a compressed segment costs at most o
     CHECK(most_lost <= chunk_count / 8 + 2);
 }
 
-TEST_CASE_METHOD(Fixture, "a segment of earlier versions in a single frame is read as far as possible",
+TEST_CASE_METHOD(Fixture,
+                 "a segment of earlier versions in a single frame is read as far as possible",
                  "[record][journal]") {
     std::uint32_t chunk_count = 0;
     const auto bytes = long_segment(chunk_count);
@@ -360,9 +363,11 @@ TEST_CASE("chunks that a later segment repeats are read once and in order, whate
             const test::TemporaryDirectory directory;
             for (int i = 0; i < 3; ++i) {
                 auto bytes = segments[std::size_t(i)];
-                if (i == damaged) bytes[bytes.size() - std::size_t(chunks - k + 1) * size + 20] ^= std::byte{1};
+                if (i == damaged)
+                    bytes[bytes.size() - std::size_t(chunks - k + 1) * size + 20] ^= std::byte{1};
                 test::write_bytes(directory.path() / ("0000000" + std::to_string(i + 1) +
-                                                      "_20260301T130000Z.a351j"), bytes);
+                                                      "_20260301T130000Z.a351j"),
+                                  bytes);
             }
             Sequence sequence(segment_files(directory.path()));
             std::string read;

@@ -138,8 +138,7 @@ TEST_CASE("a bad reading of a station with others is to be repeated", "[mistake]
     CHECK(kinds(day.findings()) == Kinds{"not_visited"});
 }
 
-TEST_CASE("a temperature that moved is named if the model does not correct it",
-          "[mistake]") {
+TEST_CASE("a temperature that moved is named if the model does not correct it", "[mistake]") {
     Day day;
     REQUIRE(day.rows[3].rate_degc_per_h > 0.2);
     const auto of_row = [&](const std::string& model) {

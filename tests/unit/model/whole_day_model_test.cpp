@@ -285,7 +285,8 @@ TEST_CASE("one reading at a known station is enough for the whole-day model", "[
     CHECK(correct_survey(rows, with_model("network"), nullptr).model == "network");
 }
 
-TEST_CASE("after a gap of the temperature, estimating the state of the lags halves the error", "[survey][day]") {
+TEST_CASE("after a gap of the temperature, estimating the state of the lags halves the error",
+          "[survey][day]") {
     DayRecord day = MadeUpDay{}.record();
     const auto rows = rows_of(day);
     // Between the seventh and the eighth set-up the temperature was another one than the line, and
