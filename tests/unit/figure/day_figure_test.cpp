@@ -3,6 +3,7 @@
 
 #include "corrector/figure/survey_figures.hpp"
 #include "corrector/model/survey_correction.hpp"
+#include "tests/unit/figure/corrected_rows.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351;
@@ -10,22 +11,6 @@ using namespace a351::corrector;
 using namespace a351::corrector::figure;
 using namespace a351::corrector::model;
 using namespace a351::corrector::reading;
-
-namespace {
-
-SurveyCorrection corrected(const std::vector<SurveyRow>& rows) {
-    SurveyOptions options;
-    options.model = "t";
-    return correct_survey(rows, options);
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t found = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
-}
-
-}  // namespace
 
 TEST_CASE("the axis of the day names each stay once, and shows dates if there are several",
           "[report][figures]") {

@@ -5,6 +5,7 @@
 #include "corrector/figure/survey_figures.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "tests/golden/tsukuba_table.hpp"
+#include "tests/unit/figure/corrected_rows.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351;
@@ -14,12 +15,6 @@ using namespace a351::corrector::model;
 using namespace a351::corrector::reading;
 
 namespace {
-
-SurveyCorrection corrected(const std::vector<SurveyRow>& rows, const std::string& model = "t") {
-    SurveyOptions options;
-    options.model = model;
-    return correct_survey(rows, options);
-}
 
 /// Returns a record of ten minutes at 2 s with a knock, averaged from its third sample on.
 RepresentativeValue record_at(UtcTime start) {
@@ -49,12 +44,6 @@ SurveyRow row_behind(const RepresentativeValue& value, const std::string& site) 
     row.end = value.interval_end;
     row.time = value.interval_start;
     return row;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t found = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
 }
 
 text::Site site(const std::string& name, double longitude, double latitude, bool is_known = true) {
