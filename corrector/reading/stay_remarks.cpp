@@ -105,10 +105,11 @@ std::optional<Finding> uncertain_times(const std::vector<OccupationWindow>& wind
     }
     if (uncertain == 0) return std::nullopt;
     Finding finding{.kind = "clock", .code = "clock_uncertain"};
+    const double worst_s = uncertainty_s(worst_percent);
     finding.text = fmt::format(
-        "the times of {} of {} set-ups are uncertain by more than 10 ms (up to {:.2g} s), or the "
+        "the times of {} of {} set-ups are uncertain by more than 10 ms (up to {:.{}f} s), or the "
         "host's clock was not synchronised",
-        uncertain, windows.size(), uncertainty_s(worst_percent));
+        uncertain, windows.size(), worst_s, worst_s < 1.0 ? 2 : 0);
     return finding;
 }
 
