@@ -52,8 +52,10 @@ TEST_CASE("unknown and missing keys and impossible values are refused by name", 
     CHECK_NOTHROW(parse_scenario(good, "day.toml"));
     CHECK_THROWS_WITH(
         parse_scenario(with(good, "white_mgal = 2.5", "white_mgals = 2.5"), "day.toml"),
-        ContainsSubstring("day.toml:") && ContainsSubstring("sensor.white_mgal") &&
-            ContainsSubstring("missing"));
+        ContainsSubstring("day.toml:") && ContainsSubstring("sensor.white_mgals") &&
+            ContainsSubstring("did you mean white_mgal"));
+    CHECK_THROWS_WITH(parse_scenario(with(good, "white_mgal = 2.5", ""), "day.toml"),
+                      ContainsSubstring("sensor.white_mgal") && ContainsSubstring("missing"));
     CHECK_THROWS_WITH(
         parse_scenario(with(good, "[sensor]\n", "[sensor]\nextra_mgal = 1.0\n"), "day.toml"),
         ContainsSubstring("extra_mgal"));
