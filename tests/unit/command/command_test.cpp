@@ -53,7 +53,7 @@ TEST_CASE("table writes a report in the requested formats, the same bytes each t
         CHECK(text::read_text_file(entry.path()) ==
               text::read_text_file(folder.path() / "b" / name));
     }
-    CHECK(count == 8 + 6 * 5);  // six figures as .gp, .dat, .svg, .pdf and .png
+    CHECK(count == 8 + 5 * 5);  // five figures as .gp, .dat, .svg, .pdf and .png
     CHECK_THAT(text::read_text_file(folder.path() / "a/report.html"),
                ContainsSubstring("Gravity survey observations") &&
                    ContainsSubstring("n = 16: the scatter of 2.62 mGal (in sample)") &&
@@ -63,7 +63,7 @@ TEST_CASE("table writes a report in the requested formats, the same bytes each t
 TEST_CASE("without a working gnuplot everything except the figures is written", "[command]") {
     const auto [script, reason] = GENERATE(table<std::string, std::string>({
         {"", "figures are missing: gnuplot is not installed (not in PATH)"},
-        {"echo 'no fonts' >&2; exit 5", "gnuplot ended with status 5: no fonts; 5 more such"},
+        {"echo 'no fonts' >&2; exit 5", "gnuplot ended with status 5: no fonts; 4 more such"},
     }));
     CAPTURE(reason);
     const test::TemporaryDirectory folder;
@@ -76,10 +76,10 @@ TEST_CASE("without a working gnuplot everything except the figures is written", 
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.errors, StartsWith("a351-correct: ") && ContainsSubstring(reason));
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
-    for (const std::string name : {"occupations.csv", "result.json", "figures/residuals.gp"}) {
+    for (const std::string name : {"occupations.csv", "result.json", "figures/day.gp"}) {
         CHECK(std::filesystem::exists(folder.path() / "result" / name));
     }
-    CHECK_FALSE(std::filesystem::exists(folder.path() / "result/figures/residuals.svg"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "result/figures/day.svg"));
     CHECK_THAT(text::read_text_file(folder.path() / "result/report.html"),
                ContainsSubstring(reason) && ContainsSubstring("Repeated stations"));
 }

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <functional>
+
 #include "tests/unit/daemon/forgetful_files.hpp"
 #include "tests/unit/daemon/store_rig.hpp"
 
@@ -13,7 +16,7 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
     Store store(forgetful, options(), clock, reads);
     store.start();
     begin_session();
-    std::size_t lost = 0, mended = 0, torn = 0;
+    std::size_t lost = 0, mended = 0, torn = 0, holes = 0;
     // Time at which each sample was fed.
     std::vector<std::chrono::steady_clock::time_point> fed_at;
     std::chrono::duration<double> oldest_lost{0};
@@ -33,21 +36,26 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
         INFO("cut " << cut << ", journaled " << journaled.value_or(-1) << ", added "
                     << report.records_added);
         const auto counts = archived_counts(found, "BNZ");
-        const auto size = static_cast<int>(counts.size());
-        REQUIRE(counts == expected_counts(size));
+        const auto expected = expected_counts(fed);
+        REQUIRE(std::ranges::adjacent_find(counts, std::greater_equal()) == counts.end());
+        REQUIRE(std::ranges::includes(expected, counts));
         REQUIRE(samples_in_records(found, "BNZ") == counts.size());
-        REQUIRE(size > journaled.value_or(-1));
-        lost += static_cast<std::size_t>(fed - size);
-        if (counts.size() < fed_at.size())
+        // The disk may keep chunks behind others that it lost.
+        const auto first_lost = static_cast<std::size_t>(
+            std::ranges::mismatch(counts, expected).in1 - counts.begin());
+        REQUIRE(static_cast<std::int64_t>(first_lost) > journaled.value_or(-1));
+        holes += first_lost < counts.size() ? 1U : 0U;
+        lost += static_cast<std::size_t>(fed) - counts.size();
+        if (first_lost < fed_at.size())
             oldest_lost = std::max<std::chrono::duration<double>>(oldest_lost,
-                                                                  cut_at - fed_at[counts.size()]);
+                                                                  cut_at - fed_at[first_lost]);
         CHECK(recover(files::posix_files(), again, clock).records_added == 0);
         std::filesystem::remove_all(found);
     }
     std::printf(
         "power cuts: %d; samples fed that were not journaled yet and lost: %zu, the oldest fed "
-        "%.2f s before its cut; journals torn: %zu, day files repaired: %zu\n",
-        kCuts, lost, oldest_lost.count(), torn, mended);
+        "%.2f s before its cut; journals torn: %zu, with holes: %zu, day files repaired: %zu\n",
+        kCuts, lost, oldest_lost.count(), torn, holes, mended);
     CHECK(mended > 0);
     CHECK(torn > 0);
     CHECK(store.stop());

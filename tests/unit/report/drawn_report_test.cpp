@@ -19,8 +19,8 @@ TEST_CASE(
     CHECK_THAT(html, ContainsSubstring("<li>" + reason + "</li>") &&
                          ContainsSubstring("This figure is missing.") &&
                          ContainsSubstring("Repeated stations") && !ContainsSubstring("<svg"));
-    CHECK_FALSE(file(made, "figures/residuals.gp").empty());
-    CHECK_FALSE(file(made, "figures/residuals.dat").empty());
+    CHECK_FALSE(file(made, "figures/day.gp").empty());
+    CHECK_FALSE(file(made, "figures/day.dat").empty());
     for (const auto& [name, content] : made.files) CHECK_FALSE(name.ends_with(".svg"));
 }
 
@@ -31,7 +31,7 @@ TEST_CASE("a failing gnuplot is reported once", "[report][page]") {
     const Report made = report();
     REQUIRE(made.warnings.size() == 1);
     CHECK_THAT(made.warnings.front(),
-               StartsWith("figures are missing: corrected.svg: gnuplot ended with status "
+               StartsWith("figures are missing: day.svg: gnuplot ended with status "
                           "2: no <terminal>; ") &&
                    EndsWith(" more such"));
     CHECK_THAT(file(made, "report.html"), ContainsSubstring("no &lt;terminal&gt;"));
