@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What is known of the unit before a survey: priors, noise, course of the oven's temperature.
+/// Knowledge of the unit before a survey: priors, noise, course of the oven's temperature.
 ///
 ///     PlannedUnit unit = usual_unit();                        // nobody has measured it
 ///     unit = planned_unit("calibration.toml");                // or result.json of an earlier day

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the figures of the records and the figure of the day have in common.
+/// Common parts of the figures of the records and of the day.
 
 #include <string>
 #include <vector>

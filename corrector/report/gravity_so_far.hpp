@@ -13,7 +13,7 @@
 
 namespace a351::corrector::report {
 
-/// What is known of a day so far.  Each part is absent as long as it cannot be computed.
+/// Knowledge of a day so far.  Each part is absent as long as it cannot be computed.
 struct GravitySoFar {
     std::optional<UtcTime> as_of;  ///< Newest clock reading of the journal.
     std::optional<reading::OccupationRows> read;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a day has found of its unit, for another day of the same unit.
+/// Findings of a day about its unit, for another day of the same unit.
 ///
 ///     const UnitPosterior unit = unit_posterior(record, stations, fit, priors);
 ///     const DayPriors next = unit.priors();     // of a later day

@@ -60,12 +60,14 @@ std::optional<std::size_t> find_last(const Segment& archived, const Segment& tai
     return std::nullopt;
 }
 
-/// Returns the samples of a segment from `first` on as a record.
-DecodedRecord record_from(const Segment& segment, std::size_t first, std::size_t behind,
-                          Nanoseconds shift) {
+/// Returns the samples of a segment from `first` on as a record, with the time flags of its anchor.
+DecodedRecord record_from(const Segment& segment, const Segment::Anchor& anchor, std::size_t first,
+                          std::size_t behind, Nanoseconds shift) {
     DecodedRecord record;
     record.header.nominal_rate = Hertz(segment.rate_hz);
     record.header.start = segment.time_of(first) + shift;
+    record.header.is_time_questionable = anchor.is_time_questionable;
+    record.header.timing_quality_percent = anchor.timing_quality_percent;
     record.samples.assign(segment.counts.begin() + static_cast<std::ptrdiff_t>(first),
                           segment.counts.begin() + static_cast<std::ptrdiff_t>(behind));
     return record;
@@ -77,8 +79,8 @@ void append(RecordJoiner& joiner, const Segment& segment, std::size_t first, Nan
         const std::size_t behind =
             k + 1 < segment.anchors.size() ? segment.anchors[k + 1].offset : segment.counts.size();
         if (behind <= first) continue;
-        joiner.take(
-            record_from(segment, std::max(first, segment.anchors[k].offset), behind, shift));
+        const Segment::Anchor& anchor = segment.anchors[k];
+        joiner.take(record_from(segment, anchor, std::max(first, anchor.offset), behind, shift));
     }
 }
 

@@ -4,7 +4,7 @@ import json
 import re
 import sys
 
-from programs import BIN, TOP, Scratch, demand, run
+from programs import BIN, ONE_SITE, TOP, Scratch, demand, run
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(TOP / "tests" / "golden" / "logs"))
@@ -17,16 +17,7 @@ name = "short"
 [schedule]
 start_utc = "2017-07-15T23:40:00Z"
 duration_h = 1.0
-[[site]]
-name = "No.0"
-longitude_deg = 140.0
-latitude_deg = 36.0
-altitude_m = 0.0
-gravity_mgal = 979900.0
-[[ambient]]
-at_h = 0.0
-degc = 25.0
-"""
+""" + ONE_SITE.replace('"here"', '"No.0"')
 
 
 def at(minute, second=0):

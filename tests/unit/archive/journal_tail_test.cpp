@@ -1,6 +1,7 @@
 #include "protocol/archive/journal_tail.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <random>
 #include "tests/support/catch.hpp"
 
@@ -105,6 +106,10 @@ TEST_CASE("the journal's tail has the samples that the archive lacks, at the arc
             const double ms = most_difference_ms(data, expected);
             CAPTURE(archived, ms);
             REQUIRE(ms < 0.2);
+            const Segment::Anchor& newest = data.segments.back().anchors.back();
+            const Segment::Anchor& wanted = expected.segments.back().anchors.back();
+            CHECK(newest.is_time_questionable == wanted.is_time_questionable);
+            CHECK(std::abs(newest.timing_quality_percent - wanted.timing_quality_percent) <= 20);
             if (channel == std::string("BNZ"))
                 std::printf("%zu of %lld samples archived: the tail's times differ by %.3f ms\n",
                             archived, static_cast<long long>(kCount), ms);
