@@ -33,7 +33,7 @@ constexpr std::size_t kMoreSites = 10;
 /// A step is clear from so many standard errors on.
 constexpr double kClear = 5.0;
 
-/// What is said about a survey, without the benchmarks that were not visited.
+/// Findings of a survey, without the benchmarks that were not visited.
 std::vector<Finding> all_findings_of(const corrector::job::SurveyFile& survey,
                                      OccupationRows read) {
     auto findings = corrector::job::correct_survey_day(survey, read).findings;
@@ -43,7 +43,7 @@ std::vector<Finding> all_findings_of(const corrector::job::SurveyFile& survey,
     return findings;
 }
 
-/// What is said about a survey, without remarks.
+/// Findings of a survey, without remarks.
 std::vector<Finding> findings_of(const corrector::job::SurveyFile& survey, OccupationRows read) {
     auto findings = all_findings_of(survey, std::move(read));
     std::erase_if(findings, corrector::reading::is_remark);

@@ -60,7 +60,7 @@ TEST_CASE("an earlier day gives response, noise, temperature and levelling", "[d
     CHECK(unit.priors.factor(DayPriors::place_of(DayTerm::x), DayPriors::place_of(DayTerm::x)) ==
           Approx(0.1));
     CHECK(unit.priors.bias_factor == 1.0);
-    // What a day does not share with others keeps its usual prior.
+    // Terms that a day does not share with others keep their usual prior.
     const DayPriors usual = whole_day::usual_day_priors();
     const auto drift = DayPriors::place_of(DayTerm::drift);
     CHECK(unit.priors.factor(drift, drift) == usual.factor(drift, drift));
