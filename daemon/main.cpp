@@ -177,6 +177,7 @@ verdict::Options thresholds_of(const config::Config& config, const source::HostC
 
 survey::OccupationOptions occupation_options(const config::Config& config) {
     return {.planned = config.survey.planned,
+            .planned_set_ups = config.survey.set_ups,
             .target = MilliGal(config.verdict.target_mgal),
             .sites_file = config.survey.sites_file};
 }
@@ -208,8 +209,8 @@ gravity::GravityOptions gravity_options(const config::Config& config, spdlog::lo
     return options;
 }
 
-/// Reads the configuration again after SIGHUP, and takes sites, planned length and thresholds from
-/// it.  A file that is refused changes nothing.
+/// Reads the configuration again after SIGHUP, and takes sites, the plan of a stay and thresholds
+/// from it.  A file that is refused changes nothing.
 void reload(const std::filesystem::path& config_file, const source::HostClock& clock,
             spdlog::logger& log, live::Record& live, survey::Occupations& occupations,
             page::Server& page) {
@@ -219,7 +220,8 @@ void reload(const std::filesystem::path& config_file, const source::HostClock& c
         page.post([&occupations, sites = fresh.survey.sites, options = occupation_options(fresh)] {
             occupations.use(sites, options);
         });
-        log.info("SIGHUP: [verdict], sites and occupation_min were read again and are in use");
+        log.info(
+            "SIGHUP: [verdict], sites, occupation_min and set_ups were read again and are in use");
     } catch (const std::exception& error) {
         log.error("SIGHUP: the configuration was refused and nothing was changed: {}",
                   error.what());

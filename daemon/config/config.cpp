@@ -248,7 +248,11 @@ SurveyConfig read_survey(TomlTable table) {
         file_at("calibration", "a calibration file written by a351-correct, or \"\"");
     if (!survey.calibration_file.empty())
         survey.calibration = unit::read_calibration(survey.calibration_file);
-    survey.planned = from_seconds(60.0 * table.number_or("occupation_min", 10.0, 1.0, 240.0));
+    const double occupation_min = table.number_or("occupation_min", 10.0, 1.0, 240.0);
+    survey.planned = from_seconds(60.0 * occupation_min);
+    // A set-up has a minute or more: the reading begins with the first whole one.
+    const auto most_set_ups = static_cast<std::int64_t>(occupation_min);
+    survey.set_ups = static_cast<int>(table.integer_or("set_ups", 1, 1, most_set_ups));
     survey.gravity_every = std::chrono::duration_cast<std::chrono::milliseconds>(
         from_seconds(60.0 * table.number_or("gravity_every_min", 3.0, 0.0, 240.0)));
     table.require_all_read();

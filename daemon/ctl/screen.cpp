@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -118,9 +119,26 @@ std::string verdict(const json& status) {
            (why.empty() ? "" : ": " + joined(why));
 }
 
-/// Returns the reading of the running set-up, with advice and warnings for the operator.
+/// Returns where the stay is in its plan: "2 of 3: 2:10 left", or what to do when no time is left.
+std::string set_up(const json& status) {
+    const json& stay = at(status, "occupation");
+    const json& left_s = at(stay, "set_up_left_s");
+    if (!left_s.is_number()) return "-";
+    const int running = stay.value("set_up_count", 1);
+    const int planned = std::max(stay.value("planned_set_ups", 1), running);
+    const auto left = static_cast<int>(std::ceil(left_s.get<double>()));
+    const bool may_stop = at(stay, "may_stop") == true;
+    std::string text = fmt::format("{} of {}: ", running, planned);
+    text +=
+        may_stop ? "the stay may be stopped" : fmt::format("{}:{:02} left", left / 60, left % 60);
+    if (at(stay, "propose_set_up") == true)
+        text += "; lift the box, set it down again, then run a351ctl setup";
+    return text;
+}
+
+/// Returns the mean of all set-ups with their scatter, and warnings for the operator.
 std::string reading(const json& status) {
-    const json& reading = at(status, "occupation/reading");
+    const json& reading = at(status, "occupation/whole");
     std::string text =
         fmt::format("{} +- {}, target {}", number_of(reading, "value_mgal", "{:.2f}"),
                     number_of(reading, "standard_error_mgal", "{:.2f} mGal"),
@@ -129,8 +147,11 @@ std::string reading(const json& status) {
         text += ": good enough";
     else if (at(reading, "needed_s").is_number())
         text += number_of(reading, "needed_s", ": {:.0f} s more");
-    if (at(status, "occupation/propose_set_up") == true)
-        text += "; half time: lift the box, set it down again, then run a351ctl setup";
+    if (at(reading, "set_up_sd_mgal").is_number())
+        text +=
+            fmt::format("; scatter of {} set-ups {}, of their mean {}", text_of(reading, "set_ups"),
+                        number_of(reading, "set_up_sd_mgal", "{:.2f} mGal"),
+                        number_of(reading, "set_up_error_mgal", "{:.2f} mGal"));
     for (const json& warning : at(status, "occupation/warnings")) text += "; " + text_of(warning);
     return text;
 }
@@ -212,7 +233,8 @@ std::string status_screen(const json& status, bool is_coloured) {
                                   reasons.empty() ? "" : ": " + joined(reasons)));
     screen += line("verdict", verdict(status));
     screen += line("occupation", occupation(status));
-    if (at(status, "occupation/reading").is_object()) screen += line("reading", reading(status));
+    if (at(status, "occupation").is_object()) screen += line("set-up", set_up(status));
+    if (at(status, "occupation/whole").is_object()) screen += line("reading", reading(status));
     if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
     screen += line("device", device(status));
     screen += line("sampling", rate(status));
@@ -294,17 +316,26 @@ std::string site_table(const json& answer) {
 }
 
 std::string occupation_table(const json& answer) {
-    std::vector<std::vector<std::string>> rows = {
-        {"site", "stay", "start", "end", "mgal", "error_mgal", "key", "operator", "note"}};
+    std::vector<std::vector<std::string>> rows = {{"site", "stay", "start", "end", "mgal",
+                                                   "error_mgal", "sd_mgal", "key", "operator",
+                                                   "note"}};
     const auto add = [&](const json& one, const std::string& number, std::string note) {
-        for (const auto& set_up : at(one, "set_ups")) {
-            rows.push_back({text_of(one, "site"), number, text_of(set_up, "start"),
-                            text_of(set_up, "end"),
-                            number_of(set_up, "reading/value_mgal", "{:.2f}"),
-                            number_of(set_up, "reading/standard_error_mgal", "{:.2f}"),
+        const json& set_ups = at(one, "set_ups");
+        const auto add_row = [&](const json& first, const json& last, const json& mean) {
+            rows.push_back({text_of(one, "site"), number, text_of(first, "start"),
+                            text_of(last, "end"), number_of(mean, "value_mgal", "{:.2f}"),
+                            number_of(mean, "standard_error_mgal", "{:.2f}"), "-",
                             text_of(one, "key"), text_of(one, "operator"), note});
             note = "";
-        }
+        };
+        for (const auto& set_up : set_ups) add_row(set_up, set_up, at(set_up, "reading"));
+        // The set-ups combined: the error is that of their own scatter.
+        if (!at(one, "reading/set_up_sd_mgal").is_number()) return;
+        const json& mean = at(one, "reading");
+        add_row(set_ups.front(), set_ups.back(), mean);
+        rows.back()[1] += " mean";
+        rows.back()[5] = number_of(mean, "set_up_error_mgal", "{:.2f}");
+        rows.back()[6] = number_of(mean, "set_up_sd_mgal", "{:.2f}");
     };
     for (const auto& one : at(answer, "occupations"))
         add(one, text_of(one, "number"), text_of(one, "note"));

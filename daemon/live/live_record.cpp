@@ -144,13 +144,16 @@ verdict::Verdict Record::verdict(UtcTime now) const {
     return asked.at(now);
 }
 
-verdict::RunningReading Record::reading(UtcTime from, UtcTime to, MilliGal target) const {
+verdict::RunningReading Record::reading(std::span<const events::Occupation::SetUp> set_ups,
+                                        MilliGal target) const {
     const std::lock_guard lock(mutex_);
-    verdict::RunningValue value(options_, from);
-    for (const verdict::LiveSample& sample : thinned_) {
-        if (sample.time < from) continue;
-        if (seconds_between(sample.time, to) < verdict::kReachSeconds) break;
-        value.take(sample);
+    verdict::RunningValue value(options_);
+    for (const auto& [from, to] : set_ups) {
+        value.begin_set_up(from);
+        auto one = std::ranges::lower_bound(thinned_, from, {}, &verdict::LiveSample::time);
+        for (; one != thinned_.end() && seconds_between(one->time, to) >= verdict::kReachSeconds;
+             ++one)
+            value.take(*one);
     }
     return value.reading(target, judge_.verdict().state);
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "daemon/live/live_thinning.hpp"
 #include "daemon/verdict/running_value.hpp"
 #include "daemon/verdict/verdict.hpp"
+#include "protocol/events/occupations.hpp"
 #include "protocol/journal/journal.hpp"
 #include "protocol/signal/moved_box.hpp"
 #include "protocol/wire/device_profile.hpp"
@@ -86,9 +88,10 @@ public:
     /// Returns the verdict at `now`, also if there are no samples.
     [[nodiscard]] verdict::Verdict verdict(UtcTime now) const;
 
-    /// Returns the reading of the set-up from `from` to `to`, as far as it is in memory.  Data
-    /// outside do not affect it.
-    [[nodiscard]] verdict::RunningReading reading(UtcTime from, UtcTime to, MilliGal target) const;
+    /// Returns the reading of these set-ups together, as far as they are in memory.
+    /// Data outside do not affect it.
+    [[nodiscard]] verdict::RunningReading reading(
+        std::span<const events::Occupation::SetUp> set_ups, MilliGal target) const;
 
     /// Returns the length of signal that is missing between the samples in [from, to), in s.
     [[nodiscard]] double missing_s(UtcTime from, UtcTime to) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "daemon/page/history_json.hpp"
 #include "daemon/page/order.hpp"
@@ -178,13 +179,12 @@ Response Api::occupations_so_far() const {
     json list = json::array();
     for (const auto& one : sources_.occupations.list()) {
         list.push_back(to_json(one));
-        const auto reading = [&](const std::vector<events::Occupation::SetUp>& set_ups) {
-            return to_json(
-                survey::reading_of(set_ups, sources_.live, sources_.occupations.target()));
+        const auto reading = [&](std::span<const events::Occupation::SetUp> set_ups) {
+            return mean_of(sources_.live.reading(set_ups, sources_.occupations.target()));
         };
         list.back()["reading"] = reading(one.set_ups);
         for (std::size_t i = 0; i < one.set_ups.size(); ++i)
-            list.back()["set_ups"][i]["reading"] = reading({one.set_ups[i]});
+            list.back()["set_ups"][i]["reading"] = reading({&one.set_ups[i], 1});
     }
     json discarded = json::array();
     for (const auto& one : sources_.occupations.discarded()) discarded.push_back(to_json(one));

@@ -46,10 +46,12 @@ json occupation_of(const survey::Occupations& occupations, const survey::FieldSt
     if (!running) return nullptr;
     json occupation = to_json(*running, now);
     occupation["reading"] = field.reading ? to_json(*field.reading, occupations.target()) : json();
-    occupation["whole"] = to_json(field.whole);
-    occupation["half_time_s"] = or_null(field.half_time_s);
+    occupation["whole"] = to_json(field.whole, occupations.target());
     occupation["planned_s"] = std::chrono::duration<double>(occupations.planned()).count();
-    occupation["propose_set_up"] = field.proposes_set_up;
+    occupation["planned_set_ups"] = field.plan.planned;
+    occupation["set_up_left_s"] = field.plan.left_s;
+    occupation["propose_set_up"] = field.plan.proposes_next;
+    occupation["may_stop"] = field.plan.may_stop;
     occupation["warnings"] = field.warnings;
     occupation["moved"] = nullptr;
     if (field.moved)
@@ -224,19 +226,22 @@ json to_json(const verdict::Verdict& verdict, UtcTime now) {
             {"checks", checks}};
 }
 
-json to_json(const survey::OccupationReading& reading) {
+json mean_of(const verdict::RunningReading& reading) {
     return {{"value_mgal", or_null(reading.value)},
-            {"standard_error_mgal", or_null(reading.standard_error)}};
+            {"standard_error_mgal", or_null(reading.standard_error)},
+            {"set_ups", reading.set_ups},
+            {"set_up_sd_mgal", or_null(reading.set_up_sd)},
+            {"set_up_error_mgal", or_null(reading.set_up_error)}};
 }
 
 json to_json(const verdict::RunningReading& reading, MilliGal target) {
-    return {{"value_mgal", or_null(reading.value)},
-            {"standard_error_mgal", or_null(reading.standard_error)},
-            {"used_s", reading.used_s},
-            {"left_out_s", reading.left_out_s},
-            {"target_mgal", target.value()},
-            {"is_good_enough", reading.is_good_enough},
-            {"needed_s", or_null(reading.needed_s)}};
+    json object = mean_of(reading);
+    object.update({{"used_s", reading.used_s},
+                   {"left_out_s", reading.left_out_s},
+                   {"target_mgal", target.value()},
+                   {"is_good_enough", reading.is_good_enough},
+                   {"needed_s", or_null(reading.needed_s)}});
+    return object;
 }
 
 json tilt_of(const survey::FieldStatus& field) {

@@ -30,8 +30,9 @@ inline constexpr int kApiVersion = 1;
 
 /// Convert the information for the operator at a benchmark.  A number that is not known is null.
 [[nodiscard]] nlohmann::json to_json(const verdict::Verdict& verdict, UtcTime now);
-[[nodiscard]] nlohmann::json to_json(const survey::OccupationReading& reading);
 [[nodiscard]] nlohmann::json to_json(const verdict::RunningReading& reading, MilliGal target);
+/// Converts the mean alone, for a stay that has ended.
+[[nodiscard]] nlohmann::json mean_of(const verdict::RunningReading& reading);
 
 /// Returns the tilt relative to the day's first set-up; null if there was none.
 [[nodiscard]] nlohmann::json tilt_of(const survey::FieldStatus& field);

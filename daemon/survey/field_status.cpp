@@ -74,23 +74,15 @@ std::vector<events::Occupation> survey_day(const Occupations& occupations, UtcTi
     return events::survey_day(occupations.list(), running ? running->start : now);
 }
 
-OccupationReading reading_of(const std::vector<SetUp>& set_ups, const live::Record& live,
-                             MilliGal target) {
-    OccupationReading whole;
-    double sum_mgal = 0.0, square = 0.0;
-    int values = 0, errors = 0;
-    for (const SetUp& set_up : set_ups) {
-        const auto reading = live.reading(set_up.start, set_up.end, target);
-        if (!reading.value) continue;
-        sum_mgal += reading.value->value();
-        ++values;
-        if (!reading.standard_error) continue;
-        square += std::pow(reading.standard_error->value(), 2);
-        ++errors;
-    }
-    if (values > 0) whole.value = MilliGal(sum_mgal / values);
-    if (values > 0 && errors == values) whole.standard_error = MilliGal(std::sqrt(square) / values);
-    return whole;
+SetUpPlan set_up_plan(int planned, double length_s, int running, double stay_s, double set_up_s) {
+    SetUpPlan plan{.running = running, .planned = planned};
+    const double left_s = running > planned ? length_s - stay_s : length_s / planned - set_up_s;
+    plan.left_s = std::max(0.0, left_s);
+    const bool is_over = plan.left_s == 0.0;
+    plan.may_stop = running >= planned && is_over;
+    plan.proposes_next =
+        planned == 1 ? running == 1 && stay_s >= 0.5 * length_s : running < planned && is_over;
+    return plan;
 }
 
 FieldStatus field_status(const Occupations& occupations, const live::Record& live, UtcTime now) {
@@ -101,12 +93,14 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
 
     const auto set_ups = set_ups_so_far(*running, now);
     const auto& last = set_ups.back();
-    field.reading = live.reading(last.start, last.end, occupations.target());
-    field.whole = reading_of(set_ups, live, occupations.target());
+    field.reading = live.reading({&last, 1}, occupations.target());
+    field.whole = live.reading(set_ups, occupations.target());
     const double running_s = seconds_between(running->start, now);
     const double planned_s = std::chrono::duration<double>(occupations.planned()).count();
-    field.half_time_s = std::max(0.0, 0.5 * planned_s - running_s);
-    field.proposes_set_up = set_ups.size() == 1 && *field.half_time_s == 0.0;
+    field.plan =
+        set_up_plan(occupations.planned_set_ups(), planned_s, static_cast<int>(set_ups.size()),
+                    running_s, seconds_between(last.start, now));
+    field.whole.is_good_enough &= field.plan.running >= field.plan.planned;
     field.warnings = warnings_of(*running, survey_day(occupations, now), running_s, planned_s);
     constexpr double kLeastMissing_s = 1.0;  // A shorter gap changes no reading.
     if (const double missing_s = live.missing_s(last.start, now); missing_s >= kLeastMissing_s) {

@@ -16,17 +16,27 @@
 
 namespace a351::daemon::survey {
 
-/// The mean of an occupation's set-ups, as far as they are in memory.
-struct OccupationReading {
-    std::optional<MilliGal> value;           ///< Mean of the norm, uncorrected.
-    std::optional<MilliGal> standard_error;  ///< Absent if that of any set-up is absent.
+/// Where the running stay is in its plan.
+struct SetUpPlan {
+    int running = 1;      ///< Number of the set-up that runs, counted from 1.
+    int planned = 1;      ///< Planned set-ups of a stay.
+    double left_s = 0.0;  ///< Seconds left in the set-up, in one beyond the plan in the stay.
+    bool proposes_next = false;  ///< The box is to be lifted and set down again now.
+    bool may_stop = false;       ///< No planned set-up and no planned time is left.
 };
+
+/// Returns the place in the plan: `planned` set-ups of equal length fill `length_s`.  A plan of one
+/// set-up proposes a second one at half time, because two half as long give less error.
+/// @param running    number of the set-up that runs.
+/// @param stay_s     seconds since the start of the stay.
+/// @param set_up_s   seconds since the start of this set-up.
+[[nodiscard]] SetUpPlan set_up_plan(int planned, double length_s, int running, double stay_s,
+                                    double set_up_s);
 
 struct FieldStatus {
     std::optional<verdict::RunningReading> reading;  ///< Reading of the running set-up.
-    OccupationReading whole;                         ///< Mean of all set-ups.
-    std::optional<double> half_time_s;               ///< Seconds until half time; 0 after it.
-    bool proposes_set_up = false;  ///< Half time is past and there was only one set-up.
+    verdict::RunningReading whole;  ///< All set-ups; good enough only if the planned ones began.
+    SetUpPlan plan;
     std::vector<std::string> warnings;
     std::optional<MovePrompt> moved;  ///< Question about a move of the box; also in the warnings.
 
@@ -43,10 +53,6 @@ struct FieldStatus {
 /// Returns the information for the operator at this time.
 [[nodiscard]] FieldStatus field_status(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);
-
-/// Returns the mean of these set-ups.
-[[nodiscard]] OccupationReading reading_of(const std::vector<events::Occupation::SetUp>& set_ups,
-                                           const live::Record& live, MilliGal target);
 
 struct SiteDistance {
     text::Site site;

@@ -119,6 +119,10 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     add(event, "site", running()->site);
     add(event, remark);
     auto message = fmt::format("stopped {} at {}", named(*running()), shown(utc));
+    if (const auto made = running()->set_ups.size();
+        static_cast<int>(made) < options_.planned_set_ups) {
+        message += fmt::format("; {} of {} planned set-ups", made, options_.planned_set_ups);
+    }
     using Minutes = std::chrono::duration<double, std::ratio<60>>;
     if (const Nanoseconds stay = utc - running()->start; stay < options_.planned) {
         message += fmt::format("; shorter than planned: {:.1f} of {:.0f} min",

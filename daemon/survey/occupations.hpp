@@ -44,7 +44,8 @@ struct Named {
 inline constexpr Nanoseconds kLongestResume = std::chrono::minutes(10);
 
 struct OccupationOptions {
-    Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay.
+    Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay, all set-ups.
+    int planned_set_ups = 1;                         ///< Planned set-ups of a stay, equally long.
     MilliGal target{1.0};                            ///< Target until the operator sets another.
     std::filesystem::path sites_file = {};  ///< List that gets new sites; empty: there is none.
 };
@@ -96,12 +97,13 @@ public:
     Outcome set_target(MilliGal target);
     [[nodiscard]] MilliGal target() const noexcept { return target_.value_or(options_.target); }
     [[nodiscard]] Nanoseconds planned() const noexcept { return options_.planned; }
+    [[nodiscard]] int planned_set_ups() const noexcept { return options_.planned_set_ups; }
 
     /// Appends a site to the list, see append_site(), and uses it from now on.
     Outcome add_site(const text::Site& site);
 
-    /// Replaces the list of sites and the planned length, and the target unless the operator has
-    /// set one.
+    /// Replaces the list of sites and the plan of a stay, and the target unless the operator has set
+    /// one.
     void use(std::vector<text::Site> sites, const OccupationOptions& options);
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
 

@@ -31,14 +31,16 @@ def verdict(state, held_s=75.0):
 
 def reading(standard_error_mgal=1.31, needed_s=250.0, is_good_enough=False):
     return {"value_mgal": 979861.32, "standard_error_mgal": standard_error_mgal, "used_s": 388.0, "left_out_s": 12.0,
-            "target_mgal": 1.0, "is_good_enough": is_good_enough, "needed_s": needed_s}
+            "target_mgal": 1.0, "is_good_enough": is_good_enough, "needed_s": needed_s,
+            "set_ups": 1, "set_up_sd_mgal": None, "set_up_error_mgal": None}
 
 
 def occupation(site="No.5", **changes):
     start = rfc3339(time.time() - 400)
     return {"key": "20260301T013000Z", "site": site, "number": 1, "operator": "T. Sato", "note": "on the pillar", "start": start, "set_up": start,
             "set_up_count": 1, "session": "00", "index": 1, "running_s": 400.0, "reading": reading(),
-            "whole": reading(0.7), "propose_set_up": False, "warnings": [], "half_time_s": 20.0, **changes}
+            "whole": reading(), "planned_s": 720.0, "planned_set_ups": 2, "set_up_left_s": 130.0, "propose_set_up": False,
+            "may_stop": False, "warnings": [], **changes}
 
 
 def finished(site, number=1, hours_ago=1.0, **changes):

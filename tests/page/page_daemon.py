@@ -84,7 +84,7 @@ def work_an_occupation(session, browser):
 
     browser.click("#setup")
     browser.wait_for_text("answer", "further set-up at No.1 (stay 1)")
-    browser.wait_for_text("run-whole", "Set-up 2")
+    browser.wait_for_text("run-plan", "set-up 2 of 2: ")
     browser.find("#note").send_keys("a lorry passed")
     browser.click("#note-form button")
     browser.wait_for_text("answer", "noted at")

@@ -66,27 +66,46 @@ def count_announcements(stub, browser):
            browser.find("#verdict-word").get_attribute("aria-live") == "polite")
 
 
+def count_set_ups_down(stub, browser):
+    stay = {"planned_set_ups": 3, "set_up_count": 2}
+    for changes, expected, is_proposed in (
+            ({"set_up_left_s": 130.0}, "set-up 2 of 3: 2:10 left", False),
+            ({"set_up_left_s": 0.2}, "set-up 2 of 3: 0:01 left", False),
+            ({"set_up_left_s": 0.0, "propose_set_up": True}, "set-up 2 of 3: 0:00 left", True),
+            ({"set_up_left_s": 65.0, "set_up_count": 3}, "set-up 3 of 3: 1:05 left", False),
+            ({"set_up_left_s": 0.0, "set_up_count": 3, "may_stop": True}, "set-up 3 of 3: the stay may be stopped", False),
+            ({"set_up_left_s": 9.0, "set_up_count": 4}, "set-up 4 of 4: 0:09 left", False)):
+        stub.status["occupation"] = occupation(**{**stay, **changes})
+        browser.wait_for_text("run-plan", expected)
+        demand(f"{expected}: the next set-up is {'proposed' if is_proposed else 'not proposed'}",
+               browser.find("#run-propose").is_displayed() == is_proposed)
+
+
 def show_occupations(stub, browser):
     stub.status["verdict"] = verdict("stable", held_s=430)
     stub.status["occupation"] = occupation()
     browser.wait_for_text("run-judgement", "still about 4 min 10 s needed (target 1.00 mGal)")
     demand("value and standard error are shown with their unit", "979861.32 ± 1.31 mGal" in browser.text("run-value"))
-    demand("the next set-up is not proposed yet", browser.text("run-propose") == "")
+    count_set_ups_down(stub, browser)
+    stub.status["occupation"] = occupation()
+    browser.wait_for("the next set-up is not proposed yet", lambda: browser.text("run-propose") == "")
     above = {name: browser.is_above_fold(name) for name in ABOVE_FOLD + ["stop", "run-value"]}
     demand(f"the main items are visible without scrolling at 1366 x 768: {above}", all(above.values()))
     browser.shot("occupation-1366")
 
     stub.status["occupation"] = occupation(propose_set_up=True,
                                            warnings=["the site was occupied before: this is stay 2"])
-    browser.wait_for_text("run-propose", "Half time: lift the box")
+    browser.wait_for_text("run-propose", "Lift the box")
     browser.wait_for_text("run-warnings", "this is stay 2")
-    browser.demand_readable("half time")
+    browser.demand_readable("the time for the next set-up")
     demand("the stop button stays visible without scrolling", browser.is_above_fold("stop"))
-    browser.shot("half-time-1366")
+    browser.shot("next-set-up-1366")
 
-    stub.status["occupation"] = occupation(reading=reading(0.82, 0.0, True), set_up_count=2)
+    both = {**reading(0.82, 0.0, True), "set_ups": 2, "set_up_sd_mgal": 1.1, "set_up_error_mgal": 0.778}
+    stub.status["occupation"] = occupation(whole=both, set_up_count=2, may_stop=True, set_up_left_s=0.0)
     browser.wait_for_text("run-judgement", "✓ GOOD ENOUGH")
-    browser.wait_for_text("run-whole", "All set-ups: 979861.32 ± 0.70 mGal.")
+    demand("the mean of all set-ups is the value", browser.text("run-value") == "979861.32 ± 0.82 mGal")
+    browser.wait_for_text("run-whole", "UTC: 979861.32 ± 1.31 mGal. Scatter of 2 set-ups: 1.10 mGal, of their mean 0.78 mGal.")
     browser.demand_readable("good enough")
     browser.shot("good-enough-1366")
     browser.resize(PHONE)
@@ -113,7 +132,7 @@ def show_occupations(stub, browser):
     stub.status["occupation"] = occupation()
     browser.wait_for("the question is gone", lambda: not browser.find("#run-moved").is_displayed())
 
-    stub.status["occupation"] = occupation(reading=reading(None, None))
+    stub.status["occupation"] = occupation(whole=reading(None, None))
     browser.wait_for_text("run-judgement", "time needed not known yet")
     demand("no standard error is shown before it is known", browser.text("run-value") == "979861.32 mGal")
 
@@ -141,13 +160,13 @@ def show_level(stub, browser):
 def show_day(stub, browser):
     stub.occupations = [finished("No.0", hours_ago=30), finished("No.0", hours_ago=3, note="windy"),
                         finished("No.1", hours_ago=2, reading=None),
-                        finished("No.1", hours_ago=1, set_ups=finished("x")["set_ups"] * 2)]
+                        finished("No.1", hours_ago=1, set_ups=finished("x")["set_ups"] * 2, reading={**reading(0.42), "set_up_sd_mgal": 1.234})]
     stub.status["occupation"] = None
     browser.wait_for("the three occupations of the last 24 h are listed",
                      lambda: len(browser.text("day-rows").splitlines()) == 3)
     rows = browser.text("day-rows").splitlines()
     demand(f"occupations are listed newest first, with set-ups, note and value if known: {rows}",
-           "2 set-ups" in rows[0] and "–" in rows[1] and "windy" in rows[2] and "± 0.42" in rows[2])
+           "2 set-ups, sd 1.23 mGal" in rows[0] and "–" in rows[1] and "windy" in rows[2] and "± 0.42" in rows[2])
     browser.find("#start-site").send_keys("No.1")
     browser.wait_for_text("start-warning", "was occupied at")
     browser.choose("start-site", "No.0")

@@ -104,6 +104,7 @@ for table in ("survey", "prior"):
                 accepted_keys([BIN / "a351-correct", "survey", "file.toml"], f"[{table}]\nzzz = 1\n"))
 
 EXAMPLE = (TOP / "config" / "a351d.toml").read_text()
+RECOMMENDED = {"survey.occupation_min": 10, "survey.set_ups": 1}  # The defaults of keys for which the example has a better value.
 
 
 def demand_limits(key, default, entry, config):
@@ -133,7 +134,7 @@ for table in ("station", "sensor", "oven", "storage", "page", "survey", "verdict
     described = dict(re.findall(r"^\.TP\n\.B (\S+)\n((?:(?!\.TP|\.PP).*\n)*)", section, re.M))
     demand_same(f"keys of [{table}]", "a351d.toml.5", set(described), accepted)
     for key, value in tomllib.loads(EXAMPLE).get(table, {}).items():
-        demand_limits(f"{table}.{key}", value, described[key].replace("\\-", "-"), text)
+        demand_limits(f"{table}.{key}", RECOMMENDED.get(f"{table}.{key}", value), described[key].replace("\\-", "-"), text)
 
 page = TOP / "sim" / "command" / "a351-faults.toml.5"
 plan_faults = [BIN / "a351-sim", "device", "--link", "sensor", "--oven-link", "oven", "--faults", "file.toml"]

@@ -32,6 +32,13 @@ export function duration(seconds) {
     return `${Math.floor(s / 3600)} h ${String(Math.floor((s % 3600) / 60)).padStart(2, "0")} min`;
 }
 
+/** Formats seconds that are left as 2:10; 0:00 only if none is left. */
+export function countdown(seconds) {
+    if (!Number.isFinite(seconds)) return "–";
+    const s = Math.max(0, Math.ceil(seconds));
+    return `${Math.floor(s / 60)}:${String(s % 60).padStart(2, "0")}`;
+}
+
 /** Returns the time of day of an RFC 3339 text in UTC, its milliseconds cut to `decimals` places. */
 export function time_of_day(rfc3339, decimals = 0) {
     return rfc3339 ? rfc3339.slice(11, 19 + (decimals ? 1 + decimals : 0)) : "–";

@@ -2,7 +2,7 @@
 
 import { get, post } from "./api.js";
 import { by_id, make, set_items, set_text, show } from "./dom.js";
-import { duration, number, time_of_day, visible } from "./format.js";
+import { countdown, counted, duration, number, time_of_day, visible } from "./format.js";
 import { recalled, remember } from "./memory.js";
 import { NewSite } from "./new_site.js";
 import { nearest_instant, StayDialogs } from "./stay_dialogs.js";
@@ -20,6 +20,13 @@ function reading_text(reading) {
     if (!reading || reading.value_mgal === null) return "–";
     return reading.standard_error_mgal === null ? number(reading.value_mgal, 2)
         : `${number(reading.value_mgal, 2)} ± ${number(reading.standard_error_mgal, 2)}`;
+}
+
+/** Returns where the running stay is in its plan. */
+function plan_text(one) {
+    const planned = Math.max(one.planned_set_ups, one.set_up_count); // A further set-up may follow the plan.
+    const left = one.may_stop ? "the stay may be stopped" : `${countdown(one.set_up_left_s)} left`;
+    return `set-up ${one.set_up_count} of ${planned}: ${left}`;
 }
 
 export class OccupationPanel {
@@ -228,8 +235,9 @@ export class OccupationPanel {
     row(one, is_discarded) {
         const row = document.createElement("tr");
         const seconds = one.set_ups.reduce((sum, s) => sum + (Date.parse(s.end) - Date.parse(s.start)) / 1000, 0);
-        const remark = [is_discarded && "discarded", one.set_ups.length > 1 && `${one.set_ups.length} set-ups`,
-            visible(one.note)];
+        const sd_mgal = one.reading?.set_up_sd_mgal ?? null;
+        const remark = [is_discarded && "discarded", one.set_ups.length > 1 &&
+            counted(one.set_ups.length, "set-up") + (sd_mgal === null ? "" : `, sd ${number(sd_mgal, 2)} mGal`), visible(one.note)];
         const stay = { key: one.key, site: one.site, number: one.number, start: one.set_ups[0].start,
             end: one.set_ups.at(-1).end };
         const buttons = document.createElement("td");
@@ -297,16 +305,17 @@ export class OccupationPanel {
         set_text("run-time", `running ${duration(one.running_s)}`);
         set_text("run-remark", [one.operator && `Operator: ${visible(one.operator)}`,
             one.note && `Note: ${visible(one.note)}`].filter(Boolean).join("\n"));
-        const reading = one.reading;
-        set_text("run-value", reading ? `${reading_text(reading)} mGal` : "–");
-        set_text("run-judgement", this.judgement(reading));
-        by_id("run-judgement").className = reading?.is_good_enough ? "good" : "";
-        set_text("run-used", reading
-            ? `${duration(reading.used_s)} of data used, ${duration(reading.left_out_s)} left out` : "");
+        set_text("run-plan", plan_text(one));
+        const whole = one.whole;
+        set_text("run-value", whole ? `${reading_text(whole)} mGal` : "–");
+        set_text("run-judgement", this.judgement(whole));
+        by_id("run-judgement").className = whole?.is_good_enough ? "good" : "";
+        set_text("run-used", whole ? `${duration(whole.used_s)} of data used, ${duration(whole.left_out_s)} left out` : "");
         show("run-whole", one.set_up_count > 1);
         if (one.set_up_count > 1) {
-            set_text("run-whole", `Set-up ${one.set_up_count}, since ${time_of_day(one.set_up)} UTC. ` +
-                `All set-ups: ${reading_text(one.whole)} mGal.`);
+            set_text("run-whole", `This set-up, since ${time_of_day(one.set_up)} UTC: ${reading_text(one.reading)} mGal.` +
+                (whole?.set_ups > 1 ? ` Scatter of ${whole.set_ups} set-ups: ${number(whole.set_up_sd_mgal, 2)} mGal, of their ` +
+                    `mean ${number(whole.set_up_error_mgal, 2)} mGal.` : ""));
         }
         const is_proposed = Boolean(one.propose_set_up);
         show("run-propose", is_proposed);

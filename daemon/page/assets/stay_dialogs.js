@@ -32,6 +32,9 @@ function doubts(stay, verdict) {
     if (stay.planned_s && stay.running_s < stay.planned_s) {
         list.push(`It is shorter than planned: ${duration(stay.running_s)} of ${number(stay.planned_s / 60, 0)} min.`);
     }
+    if (stay.set_up_count < stay.planned_set_ups) {
+        list.push(`Only ${stay.set_up_count} of ${stay.planned_set_ups} planned set-ups were made.`);
+    }
     if (verdict.state !== "stable") {
         list.push(`The verdict is ${visible(verdict.state)}, not stable: ${visible(verdict.reasons.join("; "))}`);
     }
@@ -53,7 +56,7 @@ export class StayDialogs {
     }
 
     /** Opens a dialog: stop, discard, rename or times.
-        @param stay  { key, site, number, start, end, running_s, planned_s }
+        @param stay  { key, site, number, start, end, running_s, planned_s, set_up_count, planned_set_ups }
         @param verdict  the present one; for stop. */
     open(kind, stay, verdict = null) {
         this.stay = stay;

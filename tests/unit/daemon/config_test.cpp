@@ -65,6 +65,8 @@ TEST_CASE_METHOD(Fixture, "a minimal configuration has the documented defaults",
     CHECK(to_string(config.page.listen) == "127.0.0.1:8351");
     CHECK_FALSE(config.oven);
     CHECK(config.survey.sites.empty());
+    CHECK(config.survey.planned == std::chrono::minutes(10));
+    CHECK(config.survey.set_ups == 1);
 }
 
 TEST_CASE("the annotated example is accepted", "[daemon][config]") {
@@ -72,6 +74,8 @@ TEST_CASE("the annotated example is accepted", "[daemon][config]") {
     const Config config = read_config(example);
     CHECK(config.sensor.baud == 460800);
     CHECK(config.survey.sites.empty());
+    CHECK(config.survey.planned == config.survey.set_ups * std::chrono::minutes(6));
+    CHECK(config.survey.set_ups == 2);
     CHECK(config.verdict == verdict::Options{});
 }
 
@@ -87,7 +91,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
         "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\nassets=\"."
         "\"\n"
-        "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\n"
+        "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\noccupation_min=15\nset_ups=3\n"
         "[verdict]\nslope_degc_per_h=0.4\nknock_gal=3\n");
     CHECK(config.station.codes == journal::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
     CHECK(config.sensor.address.usb == UsbAddress{0x0403, 0x6001, "A:5"});
@@ -103,6 +107,8 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
     CHECK(config.storage.root == "/var/lib/a351");
     CHECK(std::filesystem::equivalent(config.page.assets, directory.path()));
     REQUIRE(config.survey.sites.size() == 1);
+    CHECK(config.survey.planned == std::chrono::minutes(15));
+    CHECK(config.survey.set_ups == 3);
     verdict::Options verdict;
     verdict.slope_degc_per_h = 0.4;
     verdict.knock_gal = 3.0;
@@ -161,6 +167,8 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
           "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV file of "
           "sites, or \"\"");
+    CHECK(refusal(kStation + kSensor + kStorage + "[survey]\noccupation_min = 3\nset_ups = 4\n") ==
+          "a351d.toml:11: survey.set_ups = 4: out of range; allowed: a whole number from 1 to 3");
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n"),
                StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&
                    ContainsSubstring("slope_degc_per_h"));

@@ -59,6 +59,49 @@ TEST_CASE("the status screen shows the oven in one line", "[daemon][ctl]") {
           "-, set point 43.0 degC, heating 0.0 %, input error, silent, 64 s old");
 }
 
+TEST_CASE("the status screen counts the set-ups of the plan down", "[daemon][ctl]") {
+    const auto line_of = [](const char* stay) {
+        const auto screen =
+            status_screen(nlohmann::json{{"occupation", nlohmann::json::parse(stay)}}, false);
+        const auto begin = screen.find("\nset-up  ") + 14;
+        return screen.substr(begin, screen.find('\n', begin) - begin);
+    };
+    CHECK(line_of(R"({"planned_set_ups":3,"set_up_count":2,"set_up_left_s":129.2})") ==
+          "2 of 3: 2:10 left");
+    CHECK(line_of(R"({"planned_set_ups":3,"set_up_count":2,"set_up_left_s":0.0,
+                      "propose_set_up":true})") ==
+          "2 of 3: 0:00 left; lift the box, set it down again, then run a351ctl setup");
+    CHECK(line_of(R"({"planned_set_ups":2,"set_up_count":3,"set_up_left_s":0.0,
+                      "may_stop":true})") == "3 of 3: the stay may be stopped");
+}
+
+TEST_CASE("several set-ups are shown with their mean, its error and their scatter",
+          "[daemon][ctl]") {
+    const nlohmann::json mean = {
+        {"value_mgal", 980001.5},   {"standard_error_mgal", 0.9}, {"set_ups", 2},
+        {"set_up_sd_mgal", 2.1213}, {"set_up_error_mgal", 1.5},   {"is_good_enough", true}};
+    const auto screen =
+        status_screen({{"occupation", {{"whole", mean}}}, {"target_mgal", 1.0}}, false);
+    CHECK(screen.find("reading      980001.50 +- 0.90 mGal, target 1.00 mGal: good enough; scatter "
+                      "of 2 set-ups 2.12 mGal, of their mean 1.50 mGal\n") != std::string::npos);
+    const auto set_up = [](const char* start, const char* end, double value) {
+        return nlohmann::json{{"start", start},
+                              {"end", end},
+                              {"reading", {{"value_mgal", value}, {"standard_error_mgal", 1.7}}}};
+    };
+    const nlohmann::json stay = {
+        {"site", "No.1"},
+        {"number", 1},
+        {"key", "K"},
+        {"set_ups", {set_up("a", "b", 980000.0), set_up("b", "c", 980003.0)}},
+        {"reading", mean}};
+    CHECK(occupation_table({{"occupations", {stay}}}) ==
+          "site  stay    start  end  mgal       error_mgal  sd_mgal  key  operator  note\n"
+          "No.1  1       a      b    980000.00  1.70        -        K    -         -\n"
+          "No.1  1       b      c    980003.00  1.70        -        K    -\n"
+          "No.1  1 mean  a      c    980001.50  1.50        2.12     K    -\n");
+}
+
 TEST_CASE("control characters in names do not reach the terminal", "[daemon][ctl]") {
     CHECK(printable("No.0 \xC3\xA9") == "No.0 \xC3\xA9");
     CHECK(printable("\x1b[2J\x07\n\x7f") == "?[2J???");

@@ -135,6 +135,13 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/occupation/start", R"("2026-03-14T08:50:00.000Z")"));
     CHECK(is(status, "/occupation/running_s", "600.5"));
     CHECK(is(status, "/occupation/index", "3000"));
+    CHECK(is(status, "/occupation/planned_s", "600.0"));
+    CHECK(is(status, "/occupation/planned_set_ups", "1"));
+    CHECK(is(status, "/occupation/set_up_left_s", "0.0"));
+    CHECK(is(status, "/occupation/propose_set_up", "true"));
+    CHECK(is(status, "/occupation/may_stop", "true"));
+    CHECK(is(status, "/occupation/whole/set_ups", "0"));
+    CHECK(is(status, "/occupation/whole/set_up_sd_mgal", "null"));
     CHECK(is(status, "/occupation/session", '"' + page.recorder.session.to_hex() + '"'));
 }
 

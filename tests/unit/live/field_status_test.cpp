@@ -24,18 +24,72 @@ struct Field {
     Record live{kProfile, 50, {}};
 };
 
+TEST_CASE("a plan of several set-ups counts each one down", "[field]") {
+    struct Case {
+        int planned, running;
+        double stay_s, set_up_s, left_s;
+        bool proposes_next, may_stop;
+    };
+    constexpr double kLength_s = 720.0;
+    for (const Case& one : {Case{2, 1, 230.0, 230.0, 130.0, false, false},
+                            {2, 1, 360.0, 360.0, 0.0, true, false},
+                            {2, 1, 900.0, 900.0, 0.0, true, false},
+                            {2, 2, 400.0, 20.0, 340.0, false, false},
+                            {2, 2, 750.0, 360.0, 0.0, false, true},
+                            {2, 3, 700.0, 10.0, 20.0, false, false},
+                            {2, 3, 800.0, 30.0, 0.0, false, true},
+                            {3, 2, 500.0, 240.0, 0.0, true, false},
+                            // One planned set-up: half time.
+                            {1, 1, 350.0, 350.0, 370.0, false, false},
+                            {1, 1, 360.0, 360.0, 360.0, true, false},
+                            {1, 1, 720.0, 720.0, 0.0, true, true},
+                            {1, 2, 400.0, 40.0, 320.0, false, false},
+                            {1, 2, 720.0, 300.0, 0.0, false, true}}) {
+        CAPTURE(one.planned, one.running, one.stay_s, one.set_up_s);
+        const SetUpPlan plan =
+            set_up_plan(one.planned, kLength_s, one.running, one.stay_s, one.set_up_s);
+        CHECK(plan.left_s == one.left_s);
+        CHECK(plan.proposes_next == one.proposes_next);
+        CHECK(plan.may_stop == one.may_stop);
+    }
+}
+
+TEST_CASE("a stay is good enough only with its planned set-ups", "[field]") {
+    Field field;
+    field.occupations.use(
+        two_sites(),
+        {.planned = std::chrono::minutes(12), .planned_set_ups = 2, .target = MilliGal(5.0)});
+    (void)field.occupations.start("No.0", {}, minute(20));
+    auto now = field_status(field.occupations, field.live, minute(27));
+    CHECK(now.reading->is_good_enough);
+    CHECK_FALSE(now.whole.is_good_enough);
+    CHECK(now.plan.proposes_next);
+    const auto stopped = field.occupations.stop({}, minute(30));
+    CHECK(stopped.message.ends_with(
+        "; 1 of 2 planned set-ups; shorter than planned: 10.0 of 12 min"));
+    (void)field.occupations.start("No.1", {}, minute(30));
+    (void)field.occupations.setup(minute(34));
+    now = field_status(field.occupations, field.live, minute(40));
+    CHECK(now.whole.is_good_enough);
+    CHECK(now.whole.set_ups == 2);
+    CHECK(now.plan.running == 2);
+    CHECK(now.plan.may_stop);
+    CHECK(field.occupations.stop({}, minute(42)).message.find("planned") == std::string::npos);
+}
+
 TEST_CASE("a further set-up is proposed at half time, once only", "[field]") {
     Field field;
     CHECK_FALSE(field_status(field.occupations, field.live, minute(5)).reading);
     (void)field.occupations.start("No.0", {}, minute(20));
     auto now = field_status(field.occupations, field.live, minute(24));
-    CHECK(now.half_time_s == 60.0);
-    CHECK_FALSE(now.proposes_set_up);
+    CHECK(now.plan.left_s == 360.0);
+    CHECK_FALSE(now.plan.proposes_next);
     CHECK(now.warnings.empty());
-    CHECK(field_status(field.occupations, field.live, minute(25)).proposes_set_up);
+    CHECK(field_status(field.occupations, field.live, minute(25)).plan.proposes_next);
     (void)field.occupations.setup(minute(26));
     now = field_status(field.occupations, field.live, minute(35));
-    CHECK_FALSE(now.proposes_set_up);
+    CHECK_FALSE(now.plan.proposes_next);
+    CHECK(now.plan.may_stop);
     REQUIRE(now.reading->value);
     CHECK(now.reading->used_s == Approx(9.0 * 60.0 - 18.0).margin(2.0));
     CHECK(now.whole.value->value() == Approx(980000.005).epsilon(0.0).margin(0.06));

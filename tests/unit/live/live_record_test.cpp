@@ -12,6 +12,11 @@ using namespace a351::daemon::verdict;
 namespace a351::daemon::live {
 namespace {
 
+verdict::RunningReading reading_between(const Record& record, UtcTime from, UtcTime to) {
+    const events::Occupation::SetUp set_up{from, to};
+    return record.reading({&set_up, 1}, MilliGal(1.0));
+}
+
 double wave(std::int64_t i) { return 500.0 * std::sin(0.01 * static_cast<double>(i)); }
 
 TEST_CASE("until the filters are full the verdict is no data, since the first sample", "[live]") {
@@ -109,7 +114,7 @@ TEST_CASE("a clock that is set back starts the history again from there", "[live
     CHECK(record.end() == kBefore + kBehind);
     CHECK(record.verdict(after(660.0)).state == verdict::State::settling);
     CHECK(record.history(Channel::x, after(600.0), after(4000.0), 4000).size() == 30);
-    const auto reading = record.reading(after(600.0), after(4000.0), MilliGal(1.0));
+    const auto reading = reading_between(record, after(600.0), after(4000.0));
     CHECK(reading.used_s == Approx(60.0 - 20.0).margin(4.0));
 }
 
@@ -187,7 +192,7 @@ TEST_CASE("the live record gives its samples to the verdict and to the reading",
     CHECK(record.verdict(kZero).state == verdict::State::no_data);
     for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) record.take(steady(i));
     CHECK(record.verdict(after(2400.0)).state == verdict::State::stable);
-    const auto reading = record.reading(after(1200.0), after(2380.0), MilliGal(1.0));
+    const auto reading = reading_between(record, after(1200.0), after(2380.0));
     REQUIRE(reading.value);
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(0.06));
     CHECK(reading.used_s == Approx(1162.0).margin(2.0));
@@ -257,7 +262,7 @@ TEST_CASE("nothing from before or after a set-up enters its reading", "[live]") 
         const bool is_within = i >= 100 * 50 && i < 400 * 50;
         record.take(placed(i, 0.0, 0.0, is_within ? 980000.0 : 979000.0));
     }
-    const auto reading = record.reading(after(100.0), after(400.0), MilliGal(1.0));
+    const auto reading = reading_between(record, after(100.0), after(400.0));
     REQUIRE(reading.value);
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(0.1));
     CHECK(reading.used_s == Approx(300.0 - 18.0).margin(2.0));

@@ -20,7 +20,8 @@ LiveSample sample(double at_s, double mgal) {
 }
 
 TEST_CASE("the running value is the mean of the norm", "[verdict][running]") {
-    RunningValue running({}, kStart);
+    RunningValue running({});
+    running.begin_set_up(kStart);
     CHECK_FALSE(running.reading(MilliGal(1.0), State::stable).value);
     for (int i = 0; i < 405; ++i)
         running.take(sample(2.0 * i, 980000.0 + (i % 2 == 0 ? 1.0 : -1.0)));
@@ -35,7 +36,8 @@ TEST_CASE("the running value is the mean of the norm", "[verdict][running]") {
 }
 
 TEST_CASE("the predicted time still needed is the time that it takes", "[verdict][running]") {
-    RunningValue running({}, kStart);
+    RunningValue running({});
+    running.begin_set_up(kStart);
     const auto value_at = [](int i) { return 980000.0 + 0.8 * ((i / 30) % 2 == 0 ? 1.0 : -1.0); };
     int i = 5;
     for (; i < 155; ++i) running.take(sample(2.0 * i, value_at(i)));
@@ -51,8 +53,60 @@ TEST_CASE("the predicted time still needed is the time that it takes", "[verdict
     CHECK(reading.used_s == Approx(promised_s).margin(20.0));
 }
 
+TEST_CASE("set-ups of half the length give the error of one, and their own scatter",
+          "[verdict][running]") {
+    // The box is put down 3 mGal higher the second time.
+    RunningValue whole({}), halves({});
+    whole.begin_set_up(kStart);
+    halves.begin_set_up(kStart);
+    for (int i = 5; i < 365; ++i) {
+        const double mgal = 980000.0 + 0.3 * ((i / 30) % 2 == 0 ? 1.0 : -1.0);
+        whole.take(sample(2.0 * i, mgal));
+        if (i == 185) {
+            const RunningReading first = halves.reading(MilliGal(1.0), State::stable);
+            CHECK(first.set_ups == 1);
+            CHECK_FALSE(first.set_up_sd);
+            halves.begin_set_up(kStart + from_seconds(360.0));
+        }
+        halves.take(sample(2.0 * i, i < 185 ? mgal : mgal + 3.0));
+        if (i == 190) CHECK(halves.reading(MilliGal(1.0), State::stable).set_ups == 1);
+    }
+    const RunningReading one = whole.reading(MilliGal(1.0), State::stable),
+                         two = halves.reading(MilliGal(1.0), State::stable);
+    CHECK(one.used_s == 720.0);
+    CHECK(two.used_s == 720.0);
+    CHECK(two.set_ups == 2);
+    CHECK(two.value->value() == Approx(one.value->value() + 1.5).epsilon(0.0).margin(1e-6));
+    CHECK(two.set_up_sd->value() == Approx(3.0 / std::sqrt(2.0)).margin(1e-6));
+    CHECK(two.set_up_error->value() == Approx(1.5).margin(1e-6));
+    CHECK(two.standard_error->value() == Approx(one.standard_error->value()).margin(0.01));
+    CHECK(two.is_good_enough);
+}
+
+TEST_CASE("the last of several set-ups needs the time that is predicted", "[verdict][running]") {
+    RunningValue running({});
+    running.begin_set_up(kStart);
+    int i = 5;
+    for (; i < 185; ++i) running.take(sample(2.0 * i, 980000.0));
+    running.begin_set_up(kStart + from_seconds(360.0));
+    for (; i < 230; ++i) running.take(sample(2.0 * i, 980001.0));
+    const RunningReading early = running.reading(MilliGal(1.0), State::stable);
+    REQUIRE(early.needed_s);
+    CHECK(*early.needed_s > 100.0);
+    const double promised_s = early.used_s + *early.needed_s;
+    RunningReading reading = early;
+    for (; !reading.is_good_enough && i < 1000; ++i) {
+        running.take(sample(2.0 * i, 980001.0));
+        reading = running.reading(MilliGal(1.0), State::stable);
+    }
+    CHECK(reading.used_s == Approx(promised_s).margin(2.0));
+    // The error of the first set-up alone is larger than this target.
+    CHECK_FALSE(running.reading(MilliGal(0.1), State::stable).needed_s);
+}
+
 TEST_CASE("good enough requires a stable verdict and three minutes", "[verdict][running]") {
-    RunningValue running({}, kStart);
+    RunningValue running({});
+    running.begin_set_up(kStart);
     int i = 5;
     for (; i < 94; ++i) running.take(sample(2.0 * i, 980000.0));
     CHECK_FALSE(running.reading(MilliGal(5.0), State::stable).standard_error);
@@ -66,7 +120,8 @@ TEST_CASE("good enough requires a stable verdict and three minutes", "[verdict][
 
 TEST_CASE("a knock and the samples it affects are left out of the running value",
           "[verdict][running]") {
-    RunningValue running({}, kStart);
+    RunningValue running({});
+    running.begin_set_up(kStart);
     for (int i = 5; i < 300; ++i) {
         // Shaken from 400 to 402 s; the filters spread it to 9 s on either side.
         LiveSample one = sample(2.0 * i, std::abs(2.0 * i - 401.0) < 10.0 ? 985000.0 : 980000.0);
@@ -79,7 +134,8 @@ TEST_CASE("a knock and the samples it affects are left out of the running value"
 }
 
 TEST_CASE("a missing sample is left out of the running value", "[verdict][running]") {
-    RunningValue running({}, kStart);
+    RunningValue running({});
+    running.begin_set_up(kStart);
     for (int i = 5; i < 300; ++i) {
         running.take(
             sample(2.0 * i, i == 100 ? std::numeric_limits<double>::quiet_NaN() : 980000.0));
