@@ -215,12 +215,12 @@ class Browser:
         """Returns the median number of inked rows in px, over the columns with ink."""
         return statistics.median(rows for rows in self.run(INK, chart) if rows)
 
-    def demand_readable(self, name):
+    def demand_readable(self, name, target_px=44):
         """Demands sufficient contrast, control sizes and page width in the present state."""
         faint = self.run(FAINT, 7.0)
         demand(f"{name}: every text has a contrast of at least 7:1 {faint[:3] if faint else ''}", not faint)
-        small = self.run(SMALL, 44)
-        demand(f"{name}: every control is at least 44 px wide and high {small[:3] if small else ''}", not small)
+        small = self.run(SMALL, target_px)
+        demand(f"{name}: every control is at least {target_px} px wide and high {small[:3] if small else ''}", not small)
         wide = self.run("return document.documentElement.scrollWidth - innerWidth")
         demand(f"{name}: the page is not wider than the window ({wide} px)", wide <= 0)
 

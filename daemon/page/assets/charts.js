@@ -9,10 +9,14 @@ const kHour_s = 3600;
 const kNames = { x: "x", y: "y", z: "z", norm: "norm", temperature: "sensor", oven: "oven" };
 const kLeftOut = 0.2; // Share of bins that do not affect the frame: cars pass a tenth of the time.
 const kRoom = 0.6; // Space added to the frame on either side, relative to its height.
-const kInk = ["#003f87", "#a33b00"];
 
 // The legend is not used, and it sets a style in a way that the page's policy forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
+
+/** Returns a colour of the style sheet, which depends on the scheme. */
+function colour(name) {
+    return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
+}
 
 /** Creates a dygraphs chart in its box; with `is_envelope` its rows are [ms, [low, mid, high]]. */
 function new_chart(box, labels, is_envelope) {
@@ -21,15 +25,15 @@ function new_chart(box, labels, is_envelope) {
         labelsUTC: true,
         customBars: is_envelope,
         connectSeparatedPoints: false,
-        colors: kInk,
+        colors: [colour("curve"), colour("set-point")],
         strokeWidth: 1.5,
         fillAlpha: 0.45,
         highlightCircleSize: 0,
         interactionModel: {},
         yRangePad: 4,
-        gridLineColor: "#c8c8c8",
+        gridLineColor: colour("grid"),
         axisLabelFontSize: 14,
-        axisLineColor: "#000",
+        axisLineColor: colour("ink"),
         axes: {
             x: {
                 axisLabelWidth: 76,
@@ -99,6 +103,7 @@ export class Charts {
             }
         });
         for (const name of Object.keys(kNames)) watch.observe(by_id(`chart-${name}`));
+        addEventListener("scheme", () => this.restart());
         for (const group of ["signal", "warmth"]) {
             by_id(`${group}-span`).addEventListener("change", (event) => {
                 this.spans_s[group] = Number(event.target.value);
@@ -107,6 +112,14 @@ export class Charts {
                 show("figure-norm", this.spans_s.signal === 60);
                 show("signal-end", this.spans_s.signal === 60);
             });
+        }
+    }
+
+    /** Draws all charts again, in other colours. */
+    restart() {
+        for (const group of ["signal", "warmth"]) {
+            this.asked_ms[group] = -Infinity;
+            for (const name of this.names(group)) this.clear(name);
         }
     }
 

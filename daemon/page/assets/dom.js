@@ -1,5 +1,7 @@
 // Functions that put texts into the document.  They create text nodes only, never markup.
 
+import { number } from "./format.js";
+
 const found = new Map();
 const listed = new Map(); // Items that each list shows.
 
@@ -14,6 +16,14 @@ export function by_id(id) {
 export function set_text(id, text) {
     const element = by_id(id);
     if (element.textContent !== text) element.textContent = text;
+}
+
+/** Sets a value in mGal with its error, and its label if there is one.  Its element has three parts, which may differ in size. */
+export function set_value(id, value_mgal, error_mgal, label = null) {
+    const [value, error, name] = by_id(id).children;
+    const has_error = Number.isFinite(error_mgal);
+    const texts = [[value, number(value_mgal)], [error, `${has_error ? `± ${number(error_mgal)} ` : ""}mGal`], [name, label ?? name.textContent]];
+    for (const [element, text] of texts) if (element.textContent !== text) element.textContent = text;
 }
 
 export function show(id, is_shown) {

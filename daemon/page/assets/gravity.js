@@ -12,6 +12,7 @@ const kGravityReasons = {
 };
 
 let shown = "";
+let current = []; // Stays with figures that are not old.
 let next_ms = 0;
 
 function state_text(survey) {
@@ -37,7 +38,13 @@ function row_of(stay) {
     return row;
 }
 
+/** Returns the stay with its gravity so far; null if there are no figures, or only old ones. */
+export function gravity_of(key) {
+    return current.find((stay) => stay.key === key && Number.isFinite(stay.gravity_mgal)) ?? null;
+}
+
 function show_gravity(survey) {
+    current = survey.reason ? [] : survey.stays;
     const text = JSON.stringify(survey);
     if (text === shown) return;
     shown = text;
@@ -58,5 +65,6 @@ export async function refresh_gravity() {
     } catch (error) {
         set_text("gravity-state", `No figures: ${visible(error.message)}`);
         shown = "";
+        current = [];
     }
 }

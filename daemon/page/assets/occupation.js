@@ -1,8 +1,9 @@
 // The occupation panel: start, stop, the running occupation and those of the day.
 
 import { get, post } from "./api.js";
-import { by_id, make, set_items, set_text, show } from "./dom.js";
-import { countdown, counted, duration, number, time_of_day, visible } from "./format.js";
+import { by_id, make, set_items, set_text, set_value, show } from "./dom.js";
+import { countdown, counted, duration, number, signed, time_of_day, visible } from "./format.js";
+import { gravity_of } from "./gravity.js";
 import { recalled, remember } from "./memory.js";
 import { NewSite } from "./new_site.js";
 import { nearest_instant, StayDialogs } from "./stay_dialogs.js";
@@ -29,9 +30,16 @@ function plan_text(one) {
     return `set-up ${one.set_up_count} of ${planned}: ${left}`;
 }
 
+/** Returns by how much the gravity of a known benchmark differs from its reference, as the end of a sentence. */
+function difference_text(gravity) {
+    const difference_mgal = gravity?.left_out_difference_mgal ?? null;
+    return difference_mgal === null ? "" : `, left out − known ${signed(difference_mgal, 2)} mGal`;
+}
+
 export class OccupationPanel {
     constructor() {
         this.sites = [];
+        this.shown_sites = null; // The list of sites that is shown, as JSON.
         this.list = [];
         this.discarded = [];
         this.shown_day = null; // The list of stays that is shown, as JSON.
@@ -172,7 +180,10 @@ export class OccupationPanel {
             this.forget_lists(); // They are read again with the next status.
             return;
         }
-        for (const kind of ["start", "rename"]) this.fill_sites(kind);
+        // An unchanged list is kept: the operator may be choosing from it.
+        const shown_sites = JSON.stringify([this.sites, this.wanted_site]);
+        if (shown_sites !== this.shown_sites) for (const kind of ["start", "rename"]) this.fill_sites(kind);
+        this.shown_sites = shown_sites;
         this.show_day();
         this.warn_of_repeat();
     }
@@ -279,6 +290,17 @@ export class OccupationPanel {
         }
     }
 
+    /** Shows the last stay while none is running, with its corrected gravity as soon as it is known. */
+    show_last() {
+        const last = this.running === null ? this.today().at(-1) : undefined;
+        show("last-stay", last !== undefined);
+        if (!last) return;
+        const gravity = gravity_of(last.key);
+        set_text("last-name", `Last stay: ${visible(last.site)} (${last.number})${difference_text(gravity)}`);
+        set_value("last-value", gravity ? gravity.gravity_mgal : last.reading?.value_mgal,
+            gravity ? gravity.u_mgal : last.reading?.standard_error_mgal, gravity ? "gravity so far" : "reading");
+    }
+
     /** Shows the panel.  @param status  the complete status of the daemon. */
     show(status) {
         this.running = status.occupation;
@@ -291,6 +313,7 @@ export class OccupationPanel {
         show("start-form", !this.running);
         show("running", this.running !== null);
         this.show_resume();
+        this.show_last();
         const target = by_id("target");
         if (status.target_mgal !== this.target_mgal && document.activeElement !== target) {
             this.target_mgal = status.target_mgal;
@@ -306,8 +329,12 @@ export class OccupationPanel {
         set_text("run-remark", [one.operator && `Operator: ${visible(one.operator)}`,
             one.note && `Note: ${visible(one.note)}`].filter(Boolean).join("\n"));
         set_text("run-plan", plan_text(one));
+        const gravity = gravity_of(one.key);
+        by_id("running").classList.toggle("has-gravity", gravity !== null);
+        show("run-gravity", gravity !== null);
+        if (gravity) set_value("run-gravity", gravity.gravity_mgal, gravity.u_mgal);
         const whole = one.whole;
-        set_text("run-value", whole ? `${reading_text(whole)} mGal` : "–");
+        set_value("run-value", whole?.value_mgal, whole?.standard_error_mgal);
         set_text("run-judgement", this.judgement(whole));
         by_id("run-judgement").className = whole?.is_good_enough ? "good" : "";
         set_text("run-used", whole ? `${duration(whole.used_s)} of data used, ${duration(whole.left_out_s)} left out` : "");

@@ -8,7 +8,7 @@ const kAdvice = {
     "settling": "Wait: the reading is not steady yet.",
     "warming up": "Wait: the oven has not reached its operating temperature.",
     "disturbed": "The box was touched or shaken: step back and wait.",
-    "no data": "No verdict is possible: see Health below.",
+    "no data": "No verdict is possible: check sensor and cable.",
 };
 const kBubbleScale = 100 / 3; // Drawing units per arc minute: the rim is 3'.
 
@@ -40,8 +40,8 @@ export function show_verdict(verdict, stale_s) {
         ? `Last verdict: ${visible(verdict.state)}, ${duration(stale_s)} ago.` : advice(verdict));
     const is_held = !is_stale && Number.isFinite(verdict.held_s);
     const is_waiting = is_held && verdict.time_left_s > 0;
-    set_text("verdict-held", (is_held ? `Unchanged for ${duration(verdict.held_s)}.` : "") +
-        (is_waiting ? ` At least ${duration(verdict.time_left_s)} more.` : ""));
+    set_text("verdict-held", is_held ? `Unchanged for ${duration(verdict.held_s)}.` : "");
+    set_text("verdict-left", is_waiting ? `At least ${duration(verdict.time_left_s)} more.` : "");
     const checks = verdict.checks;
     if (is_stale) set_items("verdict-checks", [[`✗ newest sample ${duration(stale_s)} old`, "unmet"]]);
     else set_items("verdict-checks", checks.length
