@@ -1,12 +1,8 @@
 #include "daemon/ctl/commands.hpp"
 
 #include <fmt/core.h>
-#include <poll.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,8 +10,11 @@
 
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/meant_stay.hpp"
+#include "daemon/ctl/requests.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "daemon/ctl/survey_text.hpp"
+#include "daemon/ctl/terminal.hpp"
+#include "daemon/ctl/watch.hpp"
 #include "daemon/ctl/when.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/sites.hpp"
@@ -30,86 +29,30 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kRefreshMs = 1000;
-
-volatile std::sig_atomic_t g_stop = 0;
-
 void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
-
-json parsed(const Reply& reply) {
-    auto body = json::parse(reply.body, nullptr, false);
-    if (!body.is_object()) throw NoDaemon("the program at this address is not a351d; check --url");
-    return body;
-}
 
 /// Returns the body of a good answer; otherwise prints the error and returns std::nullopt.
 /// @param prefix  begins the printed error.
-std::optional<json> accepted(const Reply& reply, const std::string& prefix = {}) {
-    auto body = parsed(reply);
-    if (reply.status == 200) return body;
-    const auto error = body.find("error");
-    complain(prefix + (error != body.end() && error->is_string()
-                           ? error->get<std::string>()
-                           : fmt::format("the daemon answered with status {}", reply.status)));
+std::optional<json> accepted(Answer answer, const std::string& prefix = {}) {
+    if (answer.error.empty()) return std::move(answer.body);
+    complain(prefix + answer.error);
     return std::nullopt;
 }
 
 int show_status(const Client& client, const Arguments& arguments) {
     const auto reply = client.get("/api/status");
-    const auto status = accepted(reply);
+    const auto status = accepted(answer_of(reply));
     if (!status) return kNoDaemon;
-    print(arguments.json ? reply.body : status_screen(*status, isatty(STDOUT_FILENO) != 0));
+    print(arguments.json ? reply.body : status_screen(*status, wants_colour()));
     return plugin_status(*status);
-}
-
-/// Shows the screen once a second; on a terminal each screen overwrites the last one.
-int watch(const Client& client) {
-    struct sigaction action {};
-    action.sa_handler = [](int) { g_stop = 1; };
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-
-    const bool is_terminal = isatty(STDOUT_FILENO) != 0;
-    if (is_terminal) print("\x1b[2J");
-    while (!g_stop) {
-        std::string screen;
-        try {
-            const auto reply = client.get("/api/status");
-            screen = reply.status == 200 ? status_screen(parsed(reply), is_terminal)
-                                         : printable(reply.body);
-        } catch (const NoDaemon& error) {
-            screen = std::string(error.what()) + "\n";
-        }
-        if (is_terminal) {
-            winsize size{};
-            if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0)
-                screen = fitted(screen, size.ws_col, size.ws_row);
-            std::string cleared = "\x1b[H";
-            for (const char c : screen) cleared += c == '\n' ? "\x1b[K\n" : std::string(1, c);
-            print(cleared + "\x1b[K\x1b[J");
-        } else {
-            print(screen + "\n");
-        }
-        std::fflush(stdout);
-        if (!g_stop) poll(nullptr, 0, kRefreshMs);  // A signal ends the wait, unlike sleep_for.
-    }
-    return kDone;
 }
 
 /// Sends a change.  @param prefix  begins the printed answer.
 int change(const Client& client, const Arguments& arguments, const std::string& path,
            const json& body, const std::string& prefix = {}) {
-    std::string token = arguments.token;
-    if (token.empty()) {
-        const auto answer = accepted(client.get("/api/token"));
-        if (!answer) return kRefused;
-        token = answer->value("token", "");
-    }
-    // Arguments may be invalid UTF-8; invalid parts become U+FFFD, which the daemon does not know.
-    const std::string text = body.dump(-1, ' ', false, json::error_handler_t::replace);
-    const auto answer = accepted(client.post(path, text, token), prefix);
-    if (!answer) return kRefused;
-    print(prefix + printable(answer->value("message", "done")) + "\n");
+    const Answer answer = send_change(client, arguments.token, path, body);
+    if (!accepted(answer, prefix)) return kRefused;
+    print(prefix + message_of(answer) + "\n");
     return kDone;
 }
 
@@ -129,7 +72,7 @@ json order(const Client& client, const Arguments& arguments) {
     for (const auto& [key, text] :
          {std::pair{"at", &arguments.at}, {"from", &arguments.from}, {"to", &arguments.to}}) {
         if (text->empty()) continue;
-        if (!now) now = parse_rfc3339(parsed(client.get("/api/status")).value("now", ""));
+        if (!now) now = parse_rfc3339(answer_of(client.get("/api/status")).body.value("now", ""));
         const auto instant = now ? parse_when(*text, *now) : parse_rfc3339(*text);
         body[key] = instant ? to_rfc3339(*instant, 9) : *text;
     }
@@ -147,7 +90,7 @@ int change_all(const Arguments& arguments, const std::string& command) {
     for (const std::string& url : arguments.urls) clients.emplace_back(parse_url(url));
     std::vector<std::pair<UtcTime, std::string>> last;  // Last sample and address of each.
     for (std::size_t i = 0; i < clients.size(); ++i) {
-        const auto status = parsed(clients[i].get("/api/status"));
+        const auto status = answer_of(clients[i].get("/api/status")).body;
         const json sample = status.value("sample", json());
         const auto utc = parse_rfc3339(sample.is_object() ? sample.value("utc", "") : "");
         if (utc) last.emplace_back(*utc, printable(arguments.urls[i]));
@@ -189,8 +132,8 @@ int add_site(const Client& client, const Arguments& arguments) {
 int change_stay(const Client& client, Arguments arguments, const std::string& command) {
     json body = order(client, arguments);
     if (arguments.stay.empty()) {
-        const auto status = accepted(client.get("/api/status"));
-        const auto list = accepted(client.get("/api/occupations"));
+        const auto status = accepted(answer_of(client.get("/api/status")));
+        const auto list = accepted(answer_of(client.get("/api/occupations")));
         if (!status || !list) return kRefused;
         const auto stay = meant_stay(*status, *list);
         if (!stay) {
@@ -209,7 +152,7 @@ int change_stay(const Client& client, Arguments arguments, const std::string& co
 int show(const Client& client, const Arguments& arguments, const std::string& path,
          std::string (*table)(const json&)) {
     const auto reply = client.get(path);
-    const auto answer = accepted(reply);
+    const auto answer = accepted(answer_of(reply));
     if (!answer) return kRefused;
     print(arguments.json ? reply.body : table(*answer));
     return kDone;
@@ -225,7 +168,10 @@ int run_command(const std::string& command, const Arguments& arguments) {
     const Client client(parse_url(arguments.urls.front()));
     if (command == "site") return add_site(client, arguments);
     if (command == "status") return show_status(client, arguments);
-    if (command == "watch") return watch(client);
+    if (command == "watch") {
+        watch(client, arguments.token, arguments.operator_name);
+        return kDone;
+    }
     if (command == "sites") return show(client, arguments, "/api/sites", site_table);
     if (command == "survey") return show(client, arguments, "/api/survey", survey_text);
     if (command == "list") return show(client, arguments, "/api/occupations", occupation_table);

@@ -108,19 +108,22 @@ std::string occupation(const json& status) {
     return text;
 }
 
-std::string verdict(const json& status) {
+std::string verdict(const json& status, bool is_coloured) {
     const json& why = at(status, "verdict/reasons");
     const json& held_s = at(status, "verdict/held_s");
     const json& left_s = at(status, "verdict/time_left_s");
     const bool is_waiting = left_s.is_number() && left_s.get<double>() > 0.0;
-    return text_of(status, "verdict/state") +
+    const std::string state = text_of(status, "verdict/state");
+    const char* const level = state == "stable" ? "good" : state == "no data" ? "fault" : "warning";
+    return coloured(state, level, is_coloured) +
            (held_s.is_number() ? number_of(held_s, " for {:.0f} s") : "") +
            (is_waiting ? number_of(left_s, ", at least {:.0f} s more") : "") +
            (why.empty() ? "" : ": " + joined(why));
 }
 
 /// Returns where the stay is in its plan: "2 of 3: 2:10 left", or what to do when no time is left.
-std::string set_up(const json& status) {
+/// @param next  how the operator begins the next set-up.
+std::string set_up(const json& status, const char* next) {
     const json& stay = at(status, "occupation");
     const json& left_s = at(stay, "set_up_left_s");
     if (!left_s.is_number()) return "-";
@@ -132,7 +135,7 @@ std::string set_up(const json& status) {
     text +=
         may_stop ? "the stay may be stopped" : fmt::format("{}:{:02} left", left / 60, left % 60);
     if (at(stay, "propose_set_up") == true)
-        text += "; lift the box, set it down again, then run a351ctl setup";
+        text += std::string("; lift the box, set it down again, then ") + next;
     return text;
 }
 
@@ -187,6 +190,17 @@ std::string oven(const json& status) {
                        is_stale ? number_of(status, "oven/age_s", ", {:.0f} s old") : "");
 }
 
+std::string timing(const json& status) {
+    return text_of(status, "timing/state") + ", uncertainty " +
+           number_of(status, "timing/uncertainty_ms", "{:.2f} ms");
+}
+
+std::string disk(const json& status) {
+    const json& free_bytes = at(status, "disk/free_bytes");
+    const json free_gb = free_bytes.is_number() ? json(free_bytes.get<double>() / 1e9) : json();
+    return number_of(free_gb, "{:.1f} GB free");
+}
+
 std::string rate(const json& status) {
     const bool is_verified = at(status, "device/profile_verified") == true;
     return fmt::format("{} Hz, filter {}, profile {}{}", text_of(status, "device/output_rate_hz"),
@@ -231,9 +245,10 @@ std::string status_screen(const json& status, bool is_coloured) {
         line("a351d", fmt::format("{}   {}   {}{}", text_of(status, "version"),
                                   text_of(status, "now"), coloured(level, level, is_coloured),
                                   reasons.empty() ? "" : ": " + joined(reasons)));
-    screen += line("verdict", verdict(status));
+    screen += line("verdict", verdict(status, is_coloured));
     screen += line("occupation", occupation(status));
-    if (at(status, "occupation").is_object()) screen += line("set-up", set_up(status));
+    if (at(status, "occupation").is_object())
+        screen += line("set-up", set_up(status, "run a351ctl setup"));
     if (at(status, "occupation/whole").is_object()) screen += line("reading", reading(status));
     if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
     screen += line("device", device(status));
@@ -246,8 +261,7 @@ std::string status_screen(const json& status, bool is_coloured) {
                                               number_of(status, "sample/age_s", "{:.1f} s ago")));
     screen += line("journal", lag(status, "journaled"));
     screen += line("archive", lag(status, "archived"));
-    screen += line("timing", text_of(status, "timing/state") + ", uncertainty " +
-                                 number_of(status, "timing/uncertainty_ms", "{:.2f} ms"));
+    screen += line("timing", timing(status));
     if (at(status, "timing/rate/measured_hz").is_number()) {
         screen +=
             line("rate", number_of(status, "timing/rate/measured_hz", "{:.6f} Hz +- ") +
@@ -258,49 +272,34 @@ std::string status_screen(const json& status, bool is_coloured) {
         line("counters", fmt::format("frames {}  sessions {}", text_of(status, "counters/frames"),
                                      text_of(status, "counters/sessions")));
     screen += line("troubles", troubles(status));
-    const json& free_bytes = at(status, "disk/free_bytes");
-    const json free_gb = free_bytes.is_number() ? json(free_bytes.get<double>() / 1e9) : json();
-    screen += line("disk", number_of(free_gb, "{:.1f} GB free"));
+    screen += line("disk", disk(status));
     return screen;
 }
 
-std::string fitted(const std::string& screen, std::size_t columns, std::size_t rows) {
-    constexpr std::size_t kIndent = 13;  // that of line()
-    std::string shown;
-    std::size_t row = 0, column = 0, last_blank = std::string::npos, after_blank = 0;
-    for (std::size_t i = 0; i < screen.size() && row < rows; ++i) {
-        const char c = screen[i];
-        if (c == '\x1b') {  // A colour takes no place.
-            const std::size_t end = std::min(screen.find('m', i), screen.size() - 1);
-            shown.append(screen, i, end - i + 1);
-            i = end;
-            continue;
-        }
-        shown += c;
-        if (c == '\n') {
-            ++row;
-            column = 0;
-            last_blank = std::string::npos;
-            continue;
-        }
-        if ((static_cast<unsigned char>(c) & 0xC0U) == 0x80) continue;  // the rest of a letter
-        ++column;
-        if (c == ' ' && column > kIndent) {
-            last_blank = shown.size() - 1;
-            after_blank = column;
-        }
-        if (column < columns || last_blank == std::string::npos) continue;
-        if (++row == rows) {
-            shown.resize(last_blank);
-            break;
-        }
-        shown.replace(last_blank, 1, "\n" + std::string(kIndent, ' '));
-        column = column - after_blank + kIndent;
-        last_blank = std::string::npos;
+std::string watch_screen(const json& status, bool is_coloured) {
+    const std::string level = text_of(status, "level");
+    const json& reasons = at(status, "reasons");
+    std::string screen = line("a351d", fmt::format("{}   {}{}", text_of(status, "now"),
+                                                   coloured(level, level, is_coloured),
+                                                   reasons.empty() ? "" : ": " + joined(reasons)));
+    screen += line("verdict", verdict(status, is_coloured));
+    screen += line("occupation", occupation(status));
+    if (at(status, "occupation").is_object()) {
+        screen += line("set-up", set_up(status, "press u"));
+        screen += line("reading", reading(status));
     }
-    // The line end of the last row would scroll the first one away.
-    if (shown.ends_with('\n')) shown.pop_back();
-    return shown;
+    if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
+    screen += line("device", device(status));
+    screen += line("signal", axes(status) +
+                                 number_of(status, "sample/temperature_degc", "   {:.3f} degC") +
+                                 number_of(status, "sample/age_s", "   {:.1f} s ago"));
+    screen += line("oven", oven(status));
+    screen += line("journal", lag(status, "journaled"));
+    screen += line("archive", lag(status, "archived"));
+    screen += line("timing", timing(status));
+    screen += line("troubles", troubles(status));
+    screen += line("disk", disk(status));
+    return screen;
 }
 
 std::string site_table(const json& answer) {

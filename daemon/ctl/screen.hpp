@@ -11,10 +11,8 @@ namespace a351::daemon::ctl {
 /// Control characters in names and notes are shown as "?", because the terminal would execute them.
 [[nodiscard]] std::string status_screen(const nlohmann::json& status, bool is_coloured);
 
-/// Fits a screen to a terminal: long lines are broken at blanks and indented, and lines at the end
-/// that have no place are left out.
-/// @param columns, rows  size of the terminal.
-[[nodiscard]] std::string fitted(const std::string& screen, std::size_t columns, std::size_t rows);
+/// Returns the part of it that an operator needs at a benchmark, for the screen of `watch`.
+[[nodiscard]] std::string watch_screen(const nlohmann::json& status, bool is_coloured);
 
 /// Return the answers of GET /api/sites and GET /api/occupations as tables.
 [[nodiscard]] std::string site_table(const nlohmann::json& answer);

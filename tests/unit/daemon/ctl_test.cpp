@@ -6,6 +6,7 @@
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "daemon/ctl/survey_text.hpp"
+#include "daemon/ctl/terminal.hpp"
 #include "daemon/ctl/when.hpp"
 #include "daemon/page/server.hpp"
 #include "protocol/core/input_error.hpp"
@@ -121,8 +122,10 @@ TEST_CASE("a screen fits the terminal, with lines broken between words", "[daemo
     const std::string coloured = "a351d        \x1b[1;32mgood\x1b[0m: wind and rain\n";
     CHECK(fitted(coloured, 28, 24) ==
           "a351d        \x1b[1;32mgood\x1b[0m: wind and\n             rain");
-    CHECK(fitted("site         \xE5\xB1\xB1\xE5\xB1\xB1 b c\n", 20, 9) ==
-          "site         \xE5\xB1\xB1\xE5\xB1\xB1 b c");
+    CHECK(fitted("site         \xE5\xB1\xB1\xE5\xB1\xB1 b c\n", 22, 9) ==
+          "site         \xE5\xB1\xB1\xE5\xB1\xB1 b c");  // Such a letter takes two columns.
+    CHECK(fitted("site         \xE5\xB1\xB1\xE5\xB1\xB1 b c\n", 21, 9) ==
+          "site         \xE5\xB1\xB1\xE5\xB1\xB1 b\n             c");
 }
 
 TEST_CASE("the URL of a daemon is http, a host and an optional port", "[daemon][ctl]") {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "daemon/ctl/client.hpp"
+
+namespace a351::daemon::ctl {
+
+/// An answer of the daemon.
+struct Answer {
+    nlohmann::json body;  ///< An object.
+    std::string error;    ///< Why the daemon refused, one sentence; empty if it did not.
+};
+
+/// Reads the body of a reply.
+/// @throws NoDaemon  the program at this address is not a351d.
+[[nodiscard]] Answer answer_of(const Reply& reply);
+
+/// Sends a change.
+/// @param token  empty: the daemon is asked for it.
+/// @throws NoDaemon
+[[nodiscard]] Answer send_change(const Client& client, const std::string& token,
+                                 const std::string& path, const nlohmann::json& body);
+
+/// Returns the sentence with which the daemon confirms a change.
+[[nodiscard]] std::string message_of(const Answer& answer);
+
+}  // namespace a351::daemon::ctl

@@ -1,0 +1,138 @@
+#include "daemon/ctl/terminal.hpp"
+
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace a351::daemon::ctl {
+namespace {
+
+// Alternate screen, no cursor, no wrapping of long lines; and back.
+constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[?7l";
+constexpr std::string_view kLeave = "\x1b[0m\x1b[?7h\x1b[?25h\x1b[?1049l";
+
+// A signal handler needs them.
+termios g_before{};  ///< Settings of standard input.
+bool g_has_keys = false;
+
+void write_all(std::string_view text) {
+    while (!text.empty()) {
+        const auto written = write(STDOUT_FILENO, text.data(), text.size());
+        if (written <= 0) return;
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void leave() {
+    write_all(kLeave);
+    if (g_has_keys) tcsetattr(STDIN_FILENO, TCSANOW, &g_before);
+}
+
+/// Returns the columns of a letter that begins with this byte of UTF-8; 0 within a letter.
+std::size_t columns_of(unsigned char byte) {
+    constexpr unsigned char kFirstWide = 0xE3;  // U+3000
+    if ((byte & 0xC0U) == 0x80) return 0;
+    return byte >= kFirstWide ? 2 : 1;
+}
+
+}  // namespace
+
+bool wants_colour() {
+    const char* const no_colour = std::getenv("NO_COLOR");
+    return isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
+}
+
+Terminal::Terminal() {
+    g_has_keys = isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &g_before) == 0;
+    // While a request waits for a daemon that hangs, no loop could look at a flag.
+    struct sigaction action {};
+    action.sa_handler = [](int) {
+        leave();
+        _exit(0);
+    };
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+    action.sa_handler = [](int) {};  // Ends the wait for keys.
+    sigaction(SIGWINCH, &action, nullptr);
+    if (g_has_keys) {
+        termios settings = g_before;
+        settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+        settings.c_cc[VSUSP] = settings.c_cc[VQUIT] = _POSIX_VDISABLE;
+        settings.c_cc[VMIN] = 1;
+        settings.c_cc[VTIME] = 0;
+        tcsetattr(STDIN_FILENO, TCSANOW, &settings);
+    }
+    write_all(kEnter);
+}
+
+Terminal::~Terminal() { leave(); }
+
+TerminalSize Terminal::size() const {
+    winsize size{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0)
+        return {};
+    return {size.ws_col, size.ws_row};
+}
+
+void Terminal::show(const std::string& screen, bool is_typing) const {
+    std::string drawn = "\x1b[?25l\x1b[H";
+    for (const char c : screen) drawn += c == '\n' ? "\x1b[K\n" : std::string(1, c);
+    write_all(drawn + "\x1b[0m\x1b[K" + (is_typing ? "\x1b[?25h" : "\x1b[J"));
+}
+
+std::optional<std::string> Terminal::keys(int wait_ms) const {
+    pollfd input{.fd = g_has_keys ? STDIN_FILENO : -1, .events = POLLIN, .revents = 0};
+    if (poll(&input, 1, std::max(wait_ms, 0)) <= 0) return "";
+    char bytes[256];
+    const auto got = read(STDIN_FILENO, bytes, sizeof bytes);
+    if (got <= 0) return std::nullopt;
+    return std::string(bytes, static_cast<std::size_t>(got));
+}
+
+std::string fitted(const std::string& screen, std::size_t columns, std::size_t rows) {
+    constexpr std::size_t kIndent = 13;  // that of line()
+    std::string shown;
+    std::size_t row = 0, column = 0, last_blank = std::string::npos, after_blank = 0;
+    for (std::size_t i = 0; i < screen.size() && row < rows; ++i) {
+        const char c = screen[i];
+        if (c == '\x1b') {  // A colour takes no place.
+            const std::size_t end = std::min(screen.find('m', i), screen.size() - 1);
+            shown.append(screen, i, end - i + 1);
+            i = end;
+            continue;
+        }
+        shown += c;
+        if (c == '\n') {
+            ++row;
+            column = 0;
+            last_blank = std::string::npos;
+            continue;
+        }
+        const std::size_t width = columns_of(static_cast<unsigned char>(c));
+        if (width == 0) continue;
+        column += width;
+        if (c == ' ' && column > kIndent) {
+            last_blank = shown.size() - 1;
+            after_blank = column;
+        }
+        if (column < columns || last_blank == std::string::npos) continue;
+        if (++row == rows) {
+            shown.resize(last_blank);
+            break;
+        }
+        shown.replace(last_blank, 1, "\n" + std::string(kIndent, ' '));
+        column = column - after_blank + kIndent;
+        last_blank = std::string::npos;
+    }
+    // The line end of the last row would scroll the first one away.
+    if (shown.ends_with('\n')) shown.pop_back();
+    return shown;
+}
+
+}  // namespace a351::daemon::ctl
