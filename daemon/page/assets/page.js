@@ -1,10 +1,13 @@
 // The live page: connects stream, panels and charts, and shows when their data are old.
 
+import { follow } from "./alerts.js";
+import "./awake.js";
 import { Charts } from "./charts.js";
 import { by_id, set_text, show } from "./dom.js";
 import { number, time_of_day, visible } from "./format.js";
 import { refresh_gravity } from "./gravity.js";
 import { show_health } from "./health.js";
+import "./help.js";
 import { OccupationPanel } from "./occupation.js";
 import { Minute } from "./samples.js";
 import { Stream } from "./stream.js";
@@ -89,6 +92,11 @@ function refresh() {
     }
     const word = show_verdict(status.verdict, is_stale && status.verdict.state !== "no data" ? age_s : null);
     show_tilt(status.tilt);
+    follow({
+        stable: status.verdict.state === "stable",
+        good: Boolean(status.occupation?.whole?.is_good_enough),
+        fault: status.level === "fault" || is_stale,
+    });
     const title = `${word}${status.occupation ? ` · ${visible(status.occupation.site).slice(0, 40)}` : ""} · a351`;
     if (document.title !== title) document.title = title;
 }

@@ -23,6 +23,7 @@ function show_view() {
     document.documentElement.classList.toggle("field", view === kField);
     set_text("view-switch", is_field() ? "Full page" : "Field view");
     dispatchEvent(new Event("resize")); // The charts have another width, or none.
+    dispatchEvent(new Event("view"));
 }
 
 function switch_view() {
