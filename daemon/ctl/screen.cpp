@@ -139,7 +139,7 @@ std::string set_up(const json& status, const char* next) {
     return text;
 }
 
-/// Returns the mean of all set-ups with their scatter, and warnings for the operator.
+/// Returns the mean of all set-ups with their scatter.
 std::string reading(const json& status) {
     const json& reading = at(status, "occupation/whole");
     std::string text =
@@ -155,8 +155,13 @@ std::string reading(const json& status) {
             fmt::format("; scatter of {} set-ups {}, of their mean {}", text_of(reading, "set_ups"),
                         number_of(reading, "set_up_sd_mgal", "{:.2f} mGal"),
                         number_of(reading, "set_up_error_mgal", "{:.2f} mGal"));
-    for (const json& warning : at(status, "occupation/warnings")) text += "; " + text_of(warning);
     return text;
+}
+
+/// Returns the line of warnings on the running stay; empty if there are none.
+std::string warnings(const json& status, bool is_coloured) {
+    const json& list = at(status, "occupation/warnings");
+    return list.empty() ? "" : line("warnings", coloured(joined(list), "warning", is_coloured));
 }
 
 std::string tilt(const json& status) {
@@ -250,6 +255,7 @@ std::string status_screen(const json& status, bool is_coloured) {
     if (at(status, "occupation").is_object())
         screen += line("set-up", set_up(status, "run a351ctl setup"));
     if (at(status, "occupation/whole").is_object()) screen += line("reading", reading(status));
+    screen += warnings(status, is_coloured);
     if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
     screen += line("device", device(status));
     screen += line("sampling", rate(status));
@@ -276,7 +282,7 @@ std::string status_screen(const json& status, bool is_coloured) {
     return screen;
 }
 
-std::string watch_screen(const json& status, bool is_coloured) {
+std::string watch_screen(const json& status, const std::string& gravity, bool is_coloured) {
     const std::string level = text_of(status, "level");
     const json& reasons = at(status, "reasons");
     std::string screen = line("a351d", fmt::format("{}   {}{}", text_of(status, "now"),
@@ -287,8 +293,10 @@ std::string watch_screen(const json& status, bool is_coloured) {
     if (at(status, "occupation").is_object()) {
         screen += line("set-up", set_up(status, "press u"));
         screen += line("reading", reading(status));
+        screen += warnings(status, is_coloured);
     }
     if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
+    if (!gravity.empty()) screen += line("gravity", gravity);
     screen += line("device", device(status));
     screen += line("signal", axes(status) +
                                  number_of(status, "sample/temperature_degc", "   {:.3f} degC") +

@@ -12,7 +12,9 @@ namespace a351::daemon::ctl {
 [[nodiscard]] std::string status_screen(const nlohmann::json& status, bool is_coloured);
 
 /// Returns the part of it that an operator needs at a benchmark, for the screen of `watch`.
-[[nodiscard]] std::string watch_screen(const nlohmann::json& status, bool is_coloured);
+/// @param gravity  the gravity so far in one line; empty: not shown.
+[[nodiscard]] std::string watch_screen(const nlohmann::json& status, const std::string& gravity,
+                                       bool is_coloured);
 
 /// Return the answers of GET /api/sites and GET /api/occupations as tables.
 [[nodiscard]] std::string site_table(const nlohmann::json& answer);

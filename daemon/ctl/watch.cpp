@@ -14,7 +14,9 @@
 
 #include "daemon/ctl/requests.hpp"
 #include "daemon/ctl/screen.hpp"
+#include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/terminal.hpp"
+#include "protocol/core/utc_time.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon::ctl {
@@ -24,6 +26,7 @@ using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kRefresh{1000};
+constexpr std::chrono::seconds kRefreshGravity{5};  ///< It changes after a stop, and every few min.
 constexpr std::chrono::minutes kAnswerShown{1};  ///< Time for which an answer stays on the screen.
 constexpr std::size_t kAnswerRows = 3;           ///< Place of an answer, which may be a long line.
 constexpr char kEscape = '\x1b', kEraseLine = '\x15', kDelete = '\x7f', kBackspace = '\b';
@@ -75,6 +78,10 @@ private:
             Answer answer = answer_of(client_.get("/api/status"));
             status_ = answer.error.empty() ? std::move(answer.body) : json();
             trouble_ = printable(answer.error);
+            if (Clock::now() < gravity_due_) return;
+            gravity_due_ = Clock::now() + kRefreshGravity;
+            const Answer survey = answer_of(client_.get("/api/survey"));
+            gravity_ = survey.error.empty() ? newest_gravity(survey.body) : "";
         } catch (const NoDaemon& error) {
             status_ = json();
             trouble_ = printable(error.what());
@@ -104,7 +111,7 @@ private:
         const std::size_t below = lines(answer) + 1;
         const std::size_t rows = size.rows > below ? size.rows - below : 1;
         std::string above =
-            fitted(status_.is_object() ? watch_screen(status_, is_coloured)
+            fitted(status_.is_object() ? watch_screen(status_, gravity_, is_coloured)
                                        : "a351d        " + warned(trouble_, is_coloured) + "\n",
                    size.columns, rows);
         above.append(rows - std::min(rows, lines(above)), '\n');
@@ -121,9 +128,13 @@ private:
             case Question::other_site:
                 return fmt::format("did you mean {}? y start there, any other key: no",
                                    printable(other_site_));
-            case Question::stop:
-                return fmt::format("stop {}? y stop, any other key: no",
-                                   printable(asked_stay_.value("site", "")));
+            case Question::stop: {
+                const std::string site = printable(asked_stay_.value("site", ""));
+                if (!moved_utc_) return fmt::format("stop {}? y stop, any other key: no", site);
+                return fmt::format(
+                    "stop {} at {}, when the box was moved? y there, n now, other keys: no", site,
+                    to_rfc3339(*moved_utc_).substr(11, 8));
+            }
             case Question::none:
                 break;
         }
@@ -131,7 +142,9 @@ private:
         if (!running.is_object()) return "s start   n note   q quit";
         const bool is_next = running.value("propose_set_up", false);
         return reversed("x stop", running.value("may_stop", false) && !is_next) + "   " +
-               reversed("u next set-up", is_next) + "   n note   q quit";
+               reversed("u next set-up", is_next) +
+               (running.value("moved", json()).is_object() ? "   m not moved" : "") +
+               "   n note   q quit";
     }
 
     /// Returns a question with the end of the typed text that has room behind it.
@@ -169,9 +182,12 @@ private:
         if (question == Question::none) return take_command(key);
         if (is_typing()) return take_letter(key);
         ask(Question::none);
-        if (key != 'y') return say("nothing was changed");
+        const bool is_now = question == Question::stop && moved_utc_ && key == 'n';
+        if (key != 'y' && !is_now) return say("nothing was changed");
         if (question == Question::other_site) return start(other_site_);
-        send("stop", asked_stay_);
+        json order = asked_stay_;
+        if (moved_utc_ && !is_now) order["at"] = to_rfc3339(*moved_utc_, 9);
+        send("stop", order);
     }
 
     void take_command(char key) {
@@ -184,8 +200,9 @@ private:
                            true);
             return ask_site();
         }
-        if (key != 'x' && key != 'u') return;
+        if (key != 'x' && key != 'u' && key != 'm') return;
         if (!is_running) return say("no occupation is running", true);
+        if (key == 'm') return send("not_moved", named());
         if (key == 'u') return send("setup", named());
         const int made = running.value("set_up_count", 1);
         const int planned = running.value("planned_set_ups", 1);
@@ -194,6 +211,10 @@ private:
         say(doubts + "the verdict is " +
             printable(status_.value("/verdict/state"_json_pointer, "unknown")));
         asked_stay_ = named();
+        // A stay that was started too early has its move at the start: nothing to stop there.
+        const json moved = running.value("moved", json());
+        const bool is_later = moved.is_object() && !moved.value("is_at_start", false);
+        moved_utc_ = is_later ? parse_rfc3339(moved.value("utc", "")) : std::nullopt;
         ask(Question::stop);
     }
 
@@ -302,11 +323,14 @@ private:
     std::string token_, operator_;
     json status_;          ///< Null if the daemon does not answer.
     std::string trouble_;  ///< Why not.
+    std::string gravity_;  ///< Gravity so far, one line.
+    Clock::time_point gravity_due_;
     Question question_ = Question::none;
     std::string typed_;
-    json asked_stay_;                ///< Stay that is to be stopped.
-    std::string other_site_;         ///< Name that the operator may have meant.
-    std::vector<text::Site> sites_;  ///< Names alone, nearest first.
+    json asked_stay_;                   ///< Stay that is to be stopped.
+    std::optional<UtcTime> moved_utc_;  ///< When its box was moved, if it was.
+    std::string other_site_;            ///< Name that the operator may have meant.
+    std::vector<text::Site> sites_;     ///< Names alone, nearest first.
     std::string answer_;
     bool is_refused_ = false;
     Clock::time_point answered_;

@@ -11,12 +11,17 @@ import select
 import signal
 import struct
 import subprocess
+import sys
 import termios
 import threading
 import time
 
 from emulated_session import Session, wait_for
-from programs import BIN, Scratch, demand, run
+from programs import BIN, TOP, Scratch, demand, run
+
+sys.path.append(str(TOP / "tests" / "page"))
+from made_up import finding, occupation, reading, stay, survey, tilt, verdict
+from stub_daemon import StubDaemon
 
 SITES = """site,longitude_deg,latitude_deg,altitude_m,gravity_mgal
 No.0,140.1,36.2,400,979861
@@ -269,9 +274,40 @@ def interrupt(session):
     watched.demand_restored("q")
 
 
+def answer_move():
+    """Shows as much as can be said at one time, and the question about a moved box, with made-up values."""
+    stub = StubDaemon()
+    at = "2026-03-01T01:43:20.500Z"
+    both = {**reading(0.82), "set_ups": 2, "set_up_sd_mgal": 1.1, "set_up_error_mgal": 0.778}
+    stub.status.update(
+        level="warning", reasons=["the laptop's clock was never synchronised: times may be wrong by 16 s; connect it to a network"],
+        verdict=verdict("disturbed"), tilt=tilt(2.4, -0.6, ["lower the +x side by 2.4'", "raise the +y side by 0.6'"]),
+        occupation=occupation("Mt Tsukuba", whole=both, planned_set_ups=3, set_up_count=2, set_up_left_s=0.0, propose_set_up=True,
+                              moved={"utc": at, "is_at_start": False},
+                              warnings=["the site was occupied before: this is stay 2", "90 s are missing in this set-up",
+                                        f"the box was moved at {at}: stop there, next set-up there, or was it not moved?"]))
+    stub.survey = survey([stay("No.0", difference_mgal=0.42)], [finding("No.3 (1) reads like No.7: it is 12.1 mGal too high for No.3", True)])
+    named = {key: stub.status["occupation"][key] for key in ("key", "site")}
+    watched = Watched(stub)
+    watched.shows("gravity No.0 (1): 979861.32 +- 1.27 mGal, left out - known +0.42 mGal; ! No.3 (1) reads like No.7")
+    watched.shows("GB free")
+    watched.demand_fits("with everything that can be said")
+    for keys, path, body in (("xy", "stop", {**named, "at": "2026-03-01T01:43:20.500000000Z", "operator": "km"}),
+                             ("xn", "stop", {**named, "operator": "km"}), ("m", "not_moved", {**named, "operator": "km"})):
+        count = len(stub.posts)
+        watched.press(keys)
+        wait_for(f"{keys} sends an order", lambda count=count: len(stub.posts) > count)
+        demand(f"the keys {keys} send {path} {body}: {stub.posts[-1]}", stub.posts[-1] == (f"/api/occupation/{path}", body))
+    watched.press("x")
+    watched.shows("stop Mt Tsukuba at 01:43:20, when the box was moved? y there, n now")
+    watched.press("zq")
+    watched.demand_restored("q")
+
+
 with Scratch() as scratch:
     (scratch / "list.csv").write_text(SITES)
     running = Session(scratch, speed=20, config=PLAN)
     wait_for("samples are recorded", lambda: running.status().get("received"))
     operate(running)
     interrupt(running)
+answer_move()
