@@ -106,6 +106,7 @@ class Browser:
             options.add_argument("--no-sandbox")  # Chromium does not start as root with its sandbox.
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(service=Service(driver), options=options)
+        self.set_zone("UTC")
         self.seen = []  # Console messages so far.
         SCREENSHOTS.mkdir(exist_ok=True)
         self.resize(LAPTOP)
@@ -150,6 +151,9 @@ class Browser:
     def resize(self, size):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
             "width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": size == PHONE})
+
+    def set_zone(self, name):
+        self.driver.execute_cdp_cmd("Emulation.setTimezoneOverride", {"timezoneId": name})
 
     def open(self, port):
         self.driver.get(f"http://127.0.0.1:{port}/")

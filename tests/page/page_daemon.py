@@ -141,8 +141,11 @@ def later(rfc3339, seconds):
 def change_stays(session, browser):
     """Each change hits the stay that its dialog names, also after late entries and changes by others."""
     def press(site, word):
-        path = f"//tbody[@id='day-rows']/tr[td[1][starts-with(., '{site}')]]//button[contains(., '{word}')]"
-        browser.run("arguments[0].click()", browser.driver.find_element("xpath", path))
+        browser.run("""
+            const select = document.getElementById("day-stay");
+            select.value = Array.from(select.options).find((one) => one.text.startsWith(arguments[0])).value;
+            select.dispatchEvent(new Event("change"));""", site)
+        browser.click(f"#day-{word.lower()}")
 
     def stays():
         return json.loads(session.ctl("list", "--json"))["occupations"]
@@ -181,7 +184,7 @@ def change_stays(session, browser):
     browser.find("#discard-reason").send_keys("wind")
     browser.click("#discard-yes")
     browser.wait_for_text("answer", "discarded No.2")
-    browser.wait_for_text("day-rows", "Restore")
+    browser.wait_for_text("day-rows", "discarded")
     browser.shot("real-discarded-1366")
     demand("only the stay of the dialog was discarded", [one["site"] for one in stays()] == ["No.1", "No.0"])
     press("No.2", "Restore")

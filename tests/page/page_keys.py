@@ -154,19 +154,20 @@ with Browser(allowed_errors=["status of 403", "status of 409"]) as page:
            order == {**running, "site": "No.5", "from": start[:17] + second + ".000Z"}
            and earlier in order["from"])
 
-    page.run("document.querySelector('#day-rows .rename').focus()")
+    page.run("document.getElementById('day-rename').focus()")
     daemon.sites = sites(15)
     page.wait_for("the list of sites is read again", lambda: "No.14" in page.run(
         "return document.getElementById('rename-site').textContent"))
     time.sleep(0.2)
     demand("a list that is read again without a change keeps the focus",
-           page.run("return document.activeElement.className") == "rename")
+           page.run("return document.activeElement.id") == "day-rename")
 
     page.find("#note").send_keys("rain began", Keys.ENTER)
     demand("Enter in the note field sends the note", last_post(daemon, page, "/api/note") == {**STAY, "note": "rain began"})
     page.wait_for("the note field is empty after sending", lambda: page.find("#note").get_attribute("value") == "")
 
     page.find("#signal-span input[value='60']").send_keys(Keys.ARROW_RIGHT)
+    page.run("document.getElementById('chart-x').scrollIntoView()")
     page.wait_for_text("caption-x", "x: median")
     demand("the arrow keys choose the time span",
            page.run("return document.querySelector('[name=signal-span]:checked').value") == "3600")

@@ -191,7 +191,7 @@ def show_gravity(stub, browser):
                           stay("No.5", remarks=[{"code": "pulse", "numbers": [], "text": "a knock <i>"}], is_running=True),
                           stay("No.6", gravity_mgal=None, remarks=[{"code": "left_out", "numbers": [], "text": "no samples"}])],
                          [finding(remark, False), finding(headline, True)])
-    browser.wait_for_text("gravity-state", "As of 12:03:10 UTC, data up to 12:03:09, model day.", seconds=20)
+    browser.wait_for_text("gravity-state", "As of 12:03:10 UTC, data up to 12:03:09 UTC, model day.", seconds=20)
     rows = [row.replace("\t", " ").strip() for row in browser.text("gravity-rows").splitlines()]
     demand(f"the stays are listed newest first, with value, u, difference and remarks: {rows}",
            rows == ["No.6 (1) – – no samples", "No.5 (1) 979861.32 ± 1.27 – running; a knock <i>",

@@ -70,7 +70,7 @@ with Browser() as page:
         page.click("#start")
         page.wait_for(f"{name}: the order carries the name unchanged",
                       lambda: daemon.posts and daemon.posts[-1][1].get("site") == text)
-        page.click("#day-rows .discard")
+        page.click("#day-discard")
         demand(f"{name}: the question shows the name", expected in shown(page, "discard-text"))
         demand(f"{name}: the buttons of the question are visible without scrolling", page.is_above_fold("discard-yes"))
         page.click("#discard-no")

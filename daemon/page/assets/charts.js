@@ -2,12 +2,14 @@
 
 import { get } from "./api.js";
 import { by_id, set_text, show } from "./dom.js";
-import { number, signed, time_of_day } from "./format.js";
+import { number, signed, visible } from "./format.js";
 import { kMgalPerMg, kMinute_ms } from "./samples.js";
+import { time_of_day } from "./time.js";
 
 const kHour_s = 3600;
 const kNames = { x: "x", y: "y", z: "z", norm: "norm", temperature: "sensor", oven: "oven" };
 const kLeftOut = 0.2; // Share of bins that do not affect the frame: cars pass a tenth of the time.
+const kLabel_px = 18; // With 110 px and steps of 1, 2 or 5 each axis then has two labels or more.
 const kRoom = 0.6; // Space added to the frame on either side, relative to its height.
 
 // The legend is not used, and it sets a style in a way that the page's policy forbids.
@@ -19,10 +21,10 @@ function colour(name) {
 }
 
 /** Creates a dygraphs chart in its box; with `is_envelope` its rows are [ms, [low, mid, high]]. */
-function new_chart(box, labels, is_envelope) {
+function new_chart(box, labels, is_envelope, under) {
     return new Dygraph(box, [[0, ...labels.slice(1).map(() => (is_envelope ? [null, null, null] : null))]], {
         labels,
-        labelsUTC: true,
+        underlayCallback: under,
         customBars: is_envelope,
         connectSeparatedPoints: false,
         colors: [colour("curve"), colour("set-point")],
@@ -41,7 +43,7 @@ function new_chart(box, labels, is_envelope) {
                 ticker: Dygraph.dateTicker,
                 axisLabelFormatter: Dygraph.dateAxisLabelFormatter,
             },
-            y: { axisLabelWidth: 64, pixelsPerLabel: 22 },
+            y: { axisLabelWidth: 64, pixelsPerLabel: kLabel_px },
         },
     });
 }
@@ -90,8 +92,10 @@ function range_text(low_mgal, high_mgal) {
 }
 
 export class Charts {
-    constructor(minute) {
+    /** @param spans  returns the stays, as { from_ms, to_ms, site }. */
+    constructor(minute, spans) {
         this.minute = minute;
+        this.spans = spans;
         this.charts = {};
         this.spans_s = { signal: 60, warmth: kHour_s };
         this.in_view = new Set();
@@ -153,7 +157,7 @@ export class Charts {
     draw_minute() {
         const end_ms = this.minute.newest_ms;
         if (end_ms === null) return false;
-        set_text("signal-end", `to ${time_of_day(new Date(end_ms).toISOString(), 2)} UTC`);
+        set_text("signal-end", `to ${time_of_day(end_ms, 2)}`);
         for (const name of this.names("signal")) {
             if (!this.in_view.has(`chart-${name}`)) continue;
             const shown = this.minute.shown(name, by_id(`chart-${name}`).clientWidth || 300);
@@ -216,8 +220,30 @@ export class Charts {
             `oven: ${number(value, 1)} °C (blue), set point ${number(set_point, 1)} °C (brown, dashed)`);
     }
 
+    /** Shades the stays in a chart of hours, with their sites where there is room. */
+    draw_stays(context, area, chart) {
+        const [from_ms, to_ms] = chart.xAxisRange();
+        if (to_ms - from_ms < 1000 * kHour_s) return;
+        context.save();
+        context.beginPath();
+        context.rect(area.x, area.y, area.w, area.h);
+        context.clip();
+        context.font = "12px sans-serif";
+        for (const stay of this.spans()) {
+            const begin_px = chart.toDomXCoord(stay.from_ms);
+            const width_px = Math.max(1, chart.toDomXCoord(stay.to_ms) - begin_px);
+            context.fillStyle = colour("stay");
+            context.fillRect(begin_px, area.y, width_px, area.h);
+            const site = visible(stay.site).slice(0, 20);
+            context.fillStyle = colour("ink");
+            if (context.measureText(site).width < width_px) context.fillText(site, begin_px + 1, area.y + 12);
+        }
+        context.restore();
+    }
+
     update(name, labels, is_envelope, rows, from_ms, to_ms, frame = null) {
-        const chart = (this.charts[name] ??= new_chart(by_id(`chart-${name}`), labels, is_envelope));
+        const chart = (this.charts[name] ??= new_chart(by_id(`chart-${name}`), labels, is_envelope,
+            (context, area, chart) => this.draw_stays(context, area, chart)));
         const options = { file: rows, dateWindow: [from_ms, to_ms], valueRange: frame };
         if (labels.length > 2) options.series = { [labels[2]]: { strokePattern: [6, 4] } };
         chart.updateOptions(options);

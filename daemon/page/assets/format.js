@@ -39,11 +39,6 @@ export function countdown(seconds) {
     return `${Math.floor(s / 60)}:${String(s % 60).padStart(2, "0")}`;
 }
 
-/** Returns the time of day of an RFC 3339 text in UTC, its milliseconds cut to `decimals` places. */
-export function time_of_day(rfc3339, decimals = 0) {
-    return rfc3339 ? rfc3339.slice(11, 19 + (decimals ? 1 + decimals : 0)) : "–";
-}
-
 /** Formats a data volume in decimal units. */
 export function volume(bytes) {
     if (!Number.isFinite(bytes)) return "–";

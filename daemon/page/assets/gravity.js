@@ -2,7 +2,8 @@
 
 import { get } from "./api.js";
 import { by_id, make, set_items, set_text, show } from "./dom.js";
-import { number, signed, time_of_day, visible } from "./format.js";
+import { number, signed, visible } from "./format.js";
+import { time_with_utc } from "./time.js";
 
 const kRefresh_ms = 5000;
 const kGravityReasons = {
@@ -17,7 +18,7 @@ let next_ms = 0;
 
 function state_text(survey) {
     const figures = survey.as_of_utc
-        ? `As of ${time_of_day(survey.as_of_utc)} UTC, data up to ${time_of_day(survey.data_to_utc)}${
+        ? `As of ${time_with_utc(survey.as_of_utc)}, data up to ${time_with_utc(survey.data_to_utc)}${
             survey.model ? `, model ${visible(survey.model)}` : ""}.` : "";
     if (!survey.reason) return figures;
     const reason = kGravityReasons[survey.reason] ?? survey.reason_text ?? survey.reason;

@@ -1,26 +1,20 @@
 // The occupation panel: start, stop, the running occupation and those of the day.
 
 import { get, post } from "./api.js";
+import { DayList, may_resume, reading_text } from "./day_list.js";
 import { by_id, make, set_items, set_text, set_value, show } from "./dom.js";
-import { countdown, counted, duration, number, signed, time_of_day, visible } from "./format.js";
+import { countdown, duration, number, signed, visible } from "./format.js";
 import { gravity_of } from "./gravity.js";
 import { recalled, remember } from "./memory.js";
 import { NewSite } from "./new_site.js";
-import { nearest_instant, StayDialogs } from "./stay_dialogs.js";
+import { StayDialogs } from "./stay_dialogs.js";
+import { nearest_instant, time_of_day, time_with_utc } from "./time.js";
 
 const kDay_ms = 24 * 3600 * 1000;
-const kResume_ms = 10 * 60 * 1000; // The daemon's limit (kLongestResume) is the same.
 
 function distance_text(metres) {
     if (metres === null || metres === undefined) return "";
     return metres < 1000 ? `, ${number(metres, 0)} m` : `, ${number(metres / 1000, 1)} km`;
-}
-
-/** Returns value and standard error in mGal, as far as they are known. */
-function reading_text(reading) {
-    if (!reading || reading.value_mgal === null) return "–";
-    return reading.standard_error_mgal === null ? number(reading.value_mgal, 2)
-        : `${number(reading.value_mgal, 2)} ± ${number(reading.standard_error_mgal, 2)}`;
 }
 
 /** Returns where the running stay is in its plan. */
@@ -42,9 +36,6 @@ export class OccupationPanel {
         this.shown_sites = null; // The list of sites that is shown, as JSON.
         this.list = [];
         this.discarded = [];
-        this.shown_day = null; // The list of stays that is shown, as JSON.
-        this.resume_button = null; // Button of the stay that can be resumed.
-        this.resume_until_ms = 0;
         this.running = null;
         this.verdict = null;
         this.changes = null; // The daemon's count of changes when the lists were last read.
@@ -53,6 +44,7 @@ export class OccupationPanel {
         this.now_ms = 0;
         by_id("start-operator").value = recalled("operator");
         this.dialogs = new StayDialogs((path, body) => this.send(path, this.signed(body)), () => this.chosen("rename"));
+        this.day = new DayList((kind, stay) => this.dialogs.open(kind, stay), (path, body) => this.change(path, body));
         this.new_site = new NewSite((path, body) => this.send(path, body), (site) => { this.wanted_site = site; });
         this.listen();
     }
@@ -147,7 +139,7 @@ export class OccupationPanel {
         if (by_id("start-at").value) {
             // The latest such instant up to an hour ahead, which the daemon refuses: a watch may be fast.
             const instant_ms = nearest_instant(by_id("start-at").value, this.now_ms - 11 / 24 * kDay_ms);
-            if (instant_ms === null) return this.refuse("started at: allowed: HH:MM or HH:MM:SS, in UTC");
+            if (instant_ms === null) return this.refuse("started at: allowed: HH:MM or HH:MM:SS, HH:MMZ in UTC");
             order.at = new Date(instant_ms).toISOString();
         }
         if (await this.order("/api/occupation/start", order)) {
@@ -184,7 +176,8 @@ export class OccupationPanel {
         const shown_sites = JSON.stringify([this.sites, this.wanted_site]);
         if (shown_sites !== this.shown_sites) for (const kind of ["start", "rename"]) this.fill_sites(kind);
         this.shown_sites = shown_sites;
-        this.show_day();
+        this.day.set(this.today(), this.of_today(this.discarded));
+        this.show_resume();
         this.warn_of_repeat();
     }
 
@@ -215,7 +208,7 @@ export class OccupationPanel {
         show("start-warning", before.length > 0);
         if (before.length) {
             set_text("start-warning", `This site was occupied at ${before
-                .map((one) => time_of_day(one.set_ups[0].start)).join(", ")} UTC: is it the right one?`);
+                .map((one) => time_with_utc(one.set_ups[0].start)).join(", ")}: is it the right one?`);
         }
     }
 
@@ -227,67 +220,12 @@ export class OccupationPanel {
         return this.of_today(this.list);
     }
 
-    show_day() {
-        // Rows that did not change are kept: a button in them may have the focus.
-        const day = JSON.stringify([this.today(), this.of_today(this.discarded)]);
-        if (day === this.shown_day) return;
-        this.shown_day = day;
-        this.resume_button = null;
-        const row_of = (one, is_discarded) => ({ start: one.set_ups[0].start, row: this.row(one, is_discarded) });
-        const rows = [...this.today().map((one) => row_of(one, false)),
-            ...this.of_today(this.discarded).map((one) => row_of(one, true))];
-        rows.sort((one, other) => (one.start < other.start ? 1 : -1)); // The newest first.
-        by_id("day-rows").replaceChildren(...rows.map((one) => one.row));
-        show("day-empty", rows.length === 0);
-        this.show_resume();
-    }
-
-    /** Returns the row of a stay that ended, with the buttons that change it. */
-    row(one, is_discarded) {
-        const row = document.createElement("tr");
-        const seconds = one.set_ups.reduce((sum, s) => sum + (Date.parse(s.end) - Date.parse(s.start)) / 1000, 0);
-        const sd_mgal = one.reading?.set_up_sd_mgal ?? null;
-        const remark = [is_discarded && "discarded", one.set_ups.length > 1 &&
-            counted(one.set_ups.length, "set-up") + (sd_mgal === null ? "" : `, sd ${number(sd_mgal, 2)} mGal`), visible(one.note)];
-        const stay = { key: one.key, site: one.site, number: one.number, start: one.set_ups[0].start,
-            end: one.set_ups.at(-1).end };
-        const buttons = document.createElement("td");
-        const add = (text, class_name, act) => {
-            const button = make("button", text, class_name);
-            button.type = "button";
-            button.addEventListener("click", act);
-            buttons.append(button);
-            return button;
-        };
-        const send = (change) => this.change(`/api/occupation/${change}`, { key: stay.key, site: stay.site });
-        if (is_discarded) {
-            row.className = "discarded";
-            add("Restore", "restore", () => send("restore"));
-        } else {
-            for (const [kind, text] of [["rename", "Rename"], ["times", "Times"], ["discard", "Discard"]]) {
-                add(text, kind, () => this.dialogs.open(kind, stay));
-            }
-            if (one === this.list.at(-1)) {
-                this.resume_button = add("Resume", "resume", () => send("resume"));
-                this.resume_until_ms = Date.parse(stay.end) + kResume_ms;
-            }
-        }
-        row.append(make("td", is_discarded ? visible(one.site) : `${visible(one.site)} (${one.number})`, "foreign"),
-            make("td", time_of_day(stay.start)), make("td", duration(seconds)),
-            make("td", is_discarded ? "–" : reading_text(one.reading)),
-            make("td", remark.filter(Boolean).join("; "), "foreign"), buttons);
-        return row;
-    }
-
     /** Offers to undo the last stop, as long as the daemon allows it. */
     show_resume() {
         const last = this.list.at(-1);
-        const until_ms = last ? Date.parse(last.set_ups.at(-1).end) + kResume_ms : 0;
-        show("resume-last", this.running === null && this.now_ms <= until_ms);
+        show("resume-last", this.running === null && may_resume(last, this.now_ms));
         if (last) set_text("resume-last", `Undo the stop of ${visible(last.site).slice(0, 40)}`);
-        if (this.resume_button) {
-            this.resume_button.hidden = this.running !== null || this.now_ms > this.resume_until_ms;
-        }
+        this.day.show_resume(this.running, this.now_ms);
     }
 
     /** Shows the last stay while none is running, with its corrected gravity as soon as it is known. */
@@ -324,7 +262,7 @@ export class OccupationPanel {
 
     show_running(one) {
         set_text("run-site", visible(one.site));
-        set_text("run-stay", `stay ${one.number}, since ${time_of_day(one.start)} UTC`);
+        set_text("run-stay", `stay ${one.number}, since ${time_with_utc(one.start)}`);
         set_text("run-time", `running ${duration(one.running_s)}`);
         set_text("run-remark", [one.operator && `Operator: ${visible(one.operator)}`,
             one.note && `Note: ${visible(one.note)}`].filter(Boolean).join("\n"));
@@ -340,7 +278,7 @@ export class OccupationPanel {
         set_text("run-used", whole ? `${duration(whole.used_s)} of data used, ${duration(whole.left_out_s)} left out` : "");
         show("run-whole", one.set_up_count > 1);
         if (one.set_up_count > 1) {
-            set_text("run-whole", `This set-up, since ${time_of_day(one.set_up)} UTC: ${reading_text(one.reading)} mGal.` +
+            set_text("run-whole", `This set-up, since ${time_with_utc(one.set_up)}: ${reading_text(one.reading)} mGal.` +
                 (whole?.set_ups > 1 ? ` Scatter of ${whole.set_ups} set-ups: ${number(whole.set_up_sd_mgal, 2)} mGal, of their ` +
                     `mean ${number(whole.set_up_error_mgal, 2)} mGal.` : ""));
         }
@@ -359,11 +297,19 @@ export class OccupationPanel {
         show("run-moved", moved !== null);
         if (!moved) return;
         const time = time_of_day(moved.utc);
-        set_text("moved-text", moved.is_at_start ? `The box was moved until ${time} UTC, after the start.`
-            : `The box was moved at ${time} UTC while ${visible(one.site)} runs.`);
+        set_text("moved-text", moved.is_at_start ? `The box was moved until ${time_with_utc(moved.utc)}, after the start.`
+            : `The box was moved at ${time_with_utc(moved.utc)} while ${visible(one.site)} runs.`);
         set_text("moved-stop", moved.is_at_start ? `Begin at ${time}` : `Stop at ${time}`);
         set_text("moved-setup", `Next set-up at ${time}`);
         show("moved-setup", !moved.is_at_start);
+    }
+
+    /** Returns the stays of the last 24 h with the running one, as { from_ms, to_ms, site }. */
+    spans() {
+        const ended = this.today().map((one) => ({ from_ms: Date.parse(one.set_ups[0].start),
+            to_ms: Date.parse(one.set_ups.at(-1).end), site: one.site }));
+        const { running, now_ms } = this;
+        return running ? [...ended, { from_ms: Date.parse(running.start), to_ms: now_ms, site: running.site }] : ended;
     }
 
     judgement(reading) {

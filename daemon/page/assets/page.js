@@ -4,13 +4,14 @@ import { follow } from "./alerts.js";
 import "./awake.js";
 import { Charts } from "./charts.js";
 import { by_id, set_text, show } from "./dom.js";
-import { number, time_of_day, visible } from "./format.js";
+import { number, visible } from "./format.js";
 import { refresh_gravity } from "./gravity.js";
 import { show_health } from "./health.js";
 import "./help.js";
 import { OccupationPanel } from "./occupation.js";
 import { Minute } from "./samples.js";
 import { Stream } from "./stream.js";
+import { date_with_utc, zone } from "./time.js";
 import { show_tilt, show_verdict } from "./verdict.js";
 
 const kRedraw_ms = 200;
@@ -18,8 +19,8 @@ const kStale_s = 3;
 const kSetBack_ms = 1000; // Smaller steps are corrections of a clock that is not well known yet.
 
 const minute = new Minute();
-const charts = new Charts(minute);
 const panel = new OccupationPanel();
+const charts = new Charts(minute, () => panel.spans());
 const page = { redraw_ms: NaN, longest_redraw_ms: NaN, connected_s: 0, losses: 0 };
 let status = null;
 let is_connected = false;
@@ -83,7 +84,8 @@ function refresh() {
     }
     set_text("age", `${number(age_s, 1)} s old`);
     if (!status) return;
-    set_text("clock", `${status.now.slice(0, 10)} ${time_of_day(status.now)} UTC`);
+    set_text("clock", date_with_utc(status.now));
+    for (const id of ["signal-zone", "warmth-zone"]) set_text(id, zone(status.now));
     const is_good = status.level === "good";
     show("trouble", !is_good);
     if (!is_good) {

@@ -3,27 +3,13 @@
 
 import { Dialog } from "./dialog.js";
 import { by_id, set_items, set_text, show } from "./dom.js";
-import { duration, number, time_of_day, visible } from "./format.js";
-
-const kDay_ms = 24 * 3600 * 1000;
+import { duration, number, visible } from "./format.js";
+import { nearest_instant, span_with_utc, time_of_day, time_with_utc } from "./time.js";
 
 /** Returns a stay in words.  A running one has no end. */
 function described(stay) {
-    const times = stay.end ? `${time_of_day(stay.start)} to ${time_of_day(stay.end)} UTC`
-        : `running since ${time_of_day(stay.start)} UTC`;
+    const times = stay.end ? span_with_utc(stay.start, stay.end) : `running since ${time_with_utc(stay.start)}`;
     return `${visible(stay.site)} (stay ${stay.number}), ${times}`;
-}
-
-/** Returns the instant with this time of day, HH:MM or HH:MM:SS in UTC, that is nearest to another instant; null if the
-    text is no time of day. */
-export function nearest_instant(text, near_ms) {
-    const parts = /^(\d{1,2}):(\d{2})(?::(\d{2}))?$/.exec(text.trim());
-    if (!parts) return null;
-    const [hour, minute, second] = [parts[1], parts[2], parts[3] ?? "0"].map(Number);
-    if (hour > 23 || minute > 59 || second > 59) return null;
-    const time_ms = Math.floor(near_ms / kDay_ms) * kDay_ms + ((hour * 60 + minute) * 60 + second) * 1000;
-    return [time_ms - kDay_ms, time_ms, time_ms + kDay_ms]
-        .reduce((best, one) => (Math.abs(one - near_ms) < Math.abs(best - near_ms) ? one : best));
 }
 
 /** Returns what speaks against stopping now, as texts. */
@@ -97,7 +83,7 @@ export class StayDialogs {
             const text = by_id(`times-${key}`).value;
             if (!old || text === time_of_day(old)) continue;
             const instant_ms = nearest_instant(text, Date.parse(old));
-            if (instant_ms === null) throw new Error(`${text} is no time of day; allowed: HH:MM or HH:MM:SS, in UTC`);
+            if (instant_ms === null) throw new Error(`${text} is no time of day; allowed: HH:MM or HH:MM:SS, HH:MMZ in UTC`);
             body[key] = new Date(instant_ms).toISOString();
         }
         if (!body.from && !body.to) throw new Error("the times are as before");

@@ -1,7 +1,8 @@
 // The verdict, and the level of the box.
 
 import { by_id, set_items, set_text } from "./dom.js";
-import { duration, number, signed, significant, time_of_day, visible } from "./format.js";
+import { duration, number, signed, significant, visible } from "./format.js";
+import { time_with_utc } from "./time.js";
 
 const kAdvice = {
     "stable": "Readings taken now are valid.",
@@ -55,7 +56,7 @@ export function show_verdict(verdict, stale_s) {
 export function show_tilt(tilt) {
     const spot = by_id("bubble-spot");
     set_text("level-reference", tilt
-        ? `compared with ${visible(tilt.reference.site)}, ${time_of_day(tilt.reference.utc)} UTC`
+        ? `compared with ${visible(tilt.reference.site)}, ${time_with_utc(tilt.reference.utc)}`
         : "Each set-up is compared with the first one of the day.");
     if (!tilt || tilt.x_arcmin === null) {
         spot.setAttribute("visibility", "hidden");
