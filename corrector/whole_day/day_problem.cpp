@@ -190,12 +190,13 @@ DayProblem::Point DayProblem::point_of(const DayNoise& noise) const {
 
 DayProblem::Point DayProblem::expected(const Point& u) const {
     constexpr double kStep = 0.25;
+    const double least = cost(u);
     Point expected = u;
     const auto grow = [&](DayHyper place, double factor) {
         Point more = u, less = u;
         more.at(place) += kStep;
         less.at(place) -= kStep;
-        const double curvature = (cost(more) - 2.0 * cost(u) + cost(less)) / (kStep * kStep);
+        const double curvature = (cost(more) - 2.0 * least + cost(less)) / (kStep * kStep);
         // x = median factor^u.  If ln x is normal with the mean m and the variance v, the root of
         // the mean square of x is exp(m + v), with v = (ln factor)^2 / curvature.
         expected.at(place) += std::log(factor) / std::max(curvature, 1.0);
@@ -267,11 +268,12 @@ Eigen::MatrixXd DayProblem::linearised(const Point& expected, const Eigen::Vecto
 std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u) const {
     constexpr double kStep = 0.25;
     constexpr std::array<DayHyper, 3> kParts{kPlacement, kFlicker, kWhite};
+    const Eigen::MatrixXd columns = scaled(u);
     const auto moved = [&](std::size_t i, double by_i, std::size_t k, double by_k) {
         Point point = u;
         point.at(kParts.at(i)) += by_i;
         point.at(kParts.at(k)) += by_k;
-        return cost(point);
+        return cost(point, columns);
     };
     Eigen::Matrix3d curvature;
     for (std::size_t i = 0; i < kParts.size(); ++i)
@@ -293,8 +295,7 @@ std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u
     return errors;
 }
 
-double DayProblem::cost(const Point& u) const {
-    Eigen::MatrixXd columns = scaled(u);
+double DayProblem::cost(const Point& u, Eigen::MatrixXd columns) const {
     const double log_determinant = whiten(record_.bins, noise(u), columns);
     const auto y = columns.col(0);
     const auto x = columns.rightCols(estimated());

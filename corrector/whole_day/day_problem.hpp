@@ -118,7 +118,7 @@ public:
     ///
     /// Differences between points are meaningful, the value itself is not.  Cost: one lag filter of
     /// the temperature for each lag, then O(n (1 + estimated)^2).
-    [[nodiscard]] double cost(const Point& u) const;
+    [[nodiscard]] double cost(const Point& u) const { return cost(u, scaled(u)); }
 
     /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
     /// the terms, then 1 for the bins of each gravity and for those after each step, then what remains of
@@ -158,6 +158,8 @@ private:
     void set_states();
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
     [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
+    /// Returns cost(u) from the scaled() columns of a point that differs from `u` in its noise only.
+    [[nodiscard]] double cost(const Point& u, Eigen::MatrixXd columns) const;
     /// Returns the priors' factor of lags and terms, with the size of the axis biases at a point.
     [[nodiscard]] DayPriors::Matrix prior_factor(const Point& u) const;
 

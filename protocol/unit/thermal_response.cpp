@@ -75,7 +75,9 @@ std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {
             c = (after - before) / 6.0 + 0.5 * (from - to);
             a -= b + c;
         }
-        y[i] = keep * y[i - 1] + w[0] * from + w[1] * a + w[2] * b + w[3] * c;
+        // The input is summed first: only a product and a sum have to wait for the step before.
+        const double input = w[0] * from + w[1] * a + w[2] * b + w[3] * c;
+        y[i] = keep * y[i - 1] + input;
     }
     return y;
 }
