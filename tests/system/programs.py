@@ -1,5 +1,6 @@
 """Shared parts of the system tests: the programs under test, a scratch directory, and small readers."""
 
+import concurrent.futures
 import csv
 import http.client
 import json
@@ -85,6 +86,13 @@ def daemon_status(port):
             return json.load(reply)
     except (OSError, http.client.HTTPException):  # HTTPException: the daemon ended during its answer.
         return None
+
+
+def together(*parts):
+    """Runs these functions at the same time; the first that fails ends the test."""
+    with concurrent.futures.ThreadPoolExecutor(len(parts)) as pool:
+        for one in concurrent.futures.as_completed([pool.submit(part) for part in parts]):
+            one.result()
 
 
 def rows(file):
