@@ -16,8 +16,10 @@ constexpr int kShortDivisor = 2;
 constexpr std::chrono::minutes kLongEnough(6);
 /// Fewest stays with a median.
 constexpr std::size_t kFewestCompared = 5;
-/// Least step of the clock that is named.  Reason: the ends of a stay are known to a second.
-constexpr std::chrono::seconds kLeastStep(1);
+/// Errors of the clock above this are named.  Reason: the ends of a stay are known to a second, and in
+/// a second the tide changes by less than 0.1 uGal.
+constexpr std::chrono::seconds kLeastError(1);
+constexpr int kLeastErrorQuality_percent = 40;  // timing_quality_percent() of kLeastError
 
 bool has_note(const OccupationWindow& window, const char* note) {
     return std::ranges::count(window.notes, note) > 0;
@@ -87,29 +89,27 @@ double uncertainty_s(int timing_quality_percent) {
 std::optional<Finding> uncertain_times(const std::vector<OccupationWindow>& windows,
                                        const archive::ChannelData& axis) {
     std::size_t uncertain = 0;
-    int worst_percent = 100;
+    int worst_percent = kLeastErrorQuality_percent;
     for (const OccupationWindow& window : windows) {
-        std::size_t count = 0, questionable = 0;
-        int percent = 100;
+        std::size_t count = 0, bad = 0;
+        int percent = kLeastErrorQuality_percent;
         for (const archive::Segment& segment : axis.segments)
             for (const archive::Segment::Anchor& anchor : segment.anchors) {
                 if (anchor.time < window.start || anchor.time >= window.end) continue;
                 ++count;
-                if (!anchor.is_time_questionable) continue;
-                ++questionable;
+                if (anchor.timing_quality_percent < kLeastErrorQuality_percent) ++bad;
                 percent = std::min(percent, anchor.timing_quality_percent);
             }
-        if (2 * questionable <= count) continue;
+        if (2 * bad <= count) continue;
         ++uncertain;
         worst_percent = std::min(worst_percent, percent);
     }
     if (uncertain == 0) return std::nullopt;
     Finding finding{.kind = "clock", .code = "clock_uncertain"};
-    const double worst_s = uncertainty_s(worst_percent);
     finding.text = fmt::format(
-        "the times of {} of {} set-ups are uncertain by more than 10 ms (up to {:.{}f} s), or the "
-        "host's clock was not synchronised",
-        uncertain, windows.size(), worst_s, worst_s < 1.0 ? 2 : 0);
+        "the times of {} of {} set-ups are uncertain by up to {:.0f} s: the host's clock was not "
+        "synchronised",
+        uncertain, windows.size(), uncertainty_s(worst_percent));
     return finding;
 }
 
@@ -118,7 +118,7 @@ void add_steps_back(std::vector<Finding>& findings, const archive::ChannelData& 
     UtcTime end = axis.segments.front().anchors.front().time;
     for (const archive::Segment& segment : axis.segments) {
         const UtcTime start = segment.anchors.front().time;
-        if (start <= end - kLeastStep) {
+        if (start <= end - kLeastError) {
             Finding& finding = findings.emplace_back(
                 Finding{.kind = "clock", .code = "clock_set_back", .time = start});
             finding.text =

@@ -14,7 +14,8 @@ namespace a351::corrector::reading {
 /// - no_stop: a stay without a stop in which no move of the box was found.
 /// - short_stay: all set-ups of a stay together are shorter than half the day's median, and than 6
 ///   min.  A stay that still runs, was excluded or was divided by an amendment is not compared.
-/// - clock: most records of a set-up have an uncertain time; or times go back by 1 s or more.
+/// - clock: most records of a set-up have a time that is uncertain by more than 1 s; or times go back
+///   by 1 s or more.
 ///   A step forward looks like missing samples, and is not named.
 /// @param windows  set-ups with a reading, as they are averaged: cut where the box was moved.
 /// @param axis     samples of one axis.

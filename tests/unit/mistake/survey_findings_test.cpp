@@ -192,3 +192,28 @@ TEST_CASE("findings have all keys, and null for what does not apply", "[mistake]
         R"([{"kind":"not_visited","code":"not_visited","is_headline":false,"site":null,"occupation":null,)"
         R"("key":null,"time_utc":null,"size_mgal":null,"u_mgal":null,"other_site":null,"text":"x","amendment":null}])");
 }
+
+TEST_CASE("a mistake does not decide which model is chosen", "[mistake]") {
+    const Day good;
+    const std::string chosen = model::correct_survey(good.rows, {}).model;
+    CHECK(chosen == "t-rate-drift");
+    CHECK(mistake::correct_and_search({good.rows, good.sites, nullptr}, {}).remarks.empty());
+
+    Day day;
+    day.off(2, 100.0);
+    REQUIRE(model::correct_survey(day.rows, {}).model != chosen);
+    const auto result = mistake::correct_and_search({day.rows, day.sites, nullptr}, {});
+    CHECK(result.model == chosen);
+    REQUIRE(!result.remarks.empty());
+    CHECK(result.remarks.back() ==
+          "t-rate-drift is chosen from the readings without the mistakes that were found");
+    CHECK(kinds(result.findings).front() == "unusable_day");
+
+    // A model that is asked for is kept, and what is known already stays.
+    model::SurveyOptions options;
+    options.model = "t";
+    const Finding known{.kind = "no_stop", .code = "no_stop", .text = "S1 (1) has no stop"};
+    const auto kept = mistake::correct_and_search({day.rows, day.sites, nullptr}, options, {known});
+    CHECK(kept.model == "t");
+    CHECK(std::ranges::count(kept.findings, known.text, &Finding::text) == 1);
+}
