@@ -118,16 +118,24 @@ void add_findings(ReadingGrade& reading, const reading::SurveyRow& row,
     }
 }
 
-/// Adds a reason if the samples alone say that the reading is worse than its uncertainty.
+/// Adds reasons if the samples alone say that the reading is worse than its uncertainty.
 void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
-    if (!row.row.record || !row.row.record->standard_error || !row.u_corrected) return;
-    const MilliGal error = *row.row.record->standard_error;
-    if (error <= *row.u_corrected) return;
-    add(reading, Grade::repeat,
-        {"scattered",
-         {error.value(), row.u_corrected->value()},
-         fmt::format("the scatter of its samples alone gives {} mGal, more than its u of {} mGal",
-                     text::fixed(error.value(), 1), text::fixed(row.u_corrected->value(), 1))});
+    if (!row.row.record || !row.u_corrected) return;
+    const MilliGal u = *row.u_corrected, by_shaking = row.row.record->rectification;
+    if (const auto error = row.row.record->standard_error; error && *error > u)
+        add(reading, Grade::repeat,
+            {"scattered",
+             {error->value(), u.value()},
+             fmt::format(
+                 "the scatter of its samples alone gives {} mGal, more than its u of {} mGal",
+                 text::fixed(error->value(), 1), text::fixed(u.value(), 1))});
+    if (by_shaking > u)
+        add(reading, Grade::repeat,
+            {"shaken",
+             {by_shaking.value(), u.value()},
+             fmt::format("the box was shaken as on a drive: this changes the norm of its samples "
+                         "by {} mGal, more than its u of {} mGal",
+                         text::fixed(by_shaking.value(), 1), text::fixed(u.value(), 1))});
 }
 
 void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {

@@ -88,6 +88,26 @@ TEST_CASE("the whole-day model is graded by its prediction without the station",
           "6.2 mGal above its reference when its station is left out, 3.1 times its uncertainty|");
 }
 
+TEST_CASE("a reading whose samples are worse than its uncertainty is graded repeat",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.record.emplace();
+    auto& record = *result.rows[0].row.record;
+    record.standard_error = MilliGal(2.0);
+    record.rectification = MilliGal(2.0);
+    CHECK(first_grade(result) == Grade::trust);
+    record.standard_error = MilliGal(2.1);
+    CHECK(first_grade(result) == Grade::repeat);
+    CHECK(first_reasons(result) ==
+          "the scatter of its samples alone gives 2.1 mGal, more than its u of 2.0 mGal|");
+    record.standard_error.reset();
+    record.rectification = MilliGal(77.6);
+    CHECK(first_grade(result) == Grade::repeat);
+    CHECK(first_reasons(result) ==
+          "the box was shaken as on a drive: this changes the norm of its samples by 77.6 mGal, "
+          "more than its u of 2.0 mGal|");
+}
+
 TEST_CASE("set-ups of one station are compared by the placement scatter of the whole-day model",
           "[report][grade]") {
     SurveyCorrection result = quiet(2);
