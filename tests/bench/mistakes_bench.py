@@ -3,6 +3,7 @@
 usage: mistakes_bench.py [FIRST_SEED [CLEAN [DAYS [MOST]]]]    (A351_BIN, A351_TOOLS)
 Default 28001, 200 clean days of tsukuba, tilted, hot-afternoon and roadside in turn, and 6 days of the first three, in each of
 which at most 6 mistakes of each kind are made, one at a time (mistake_trials.cpp).  Each seed draws a unit within +-25 %.
+Each day is printed with its trials / named / otherwise / in a headline.
 """
 
 import collections
@@ -36,7 +37,9 @@ jobs = [(("tsukuba", "tilted", "hot-afternoon", "roadside")[k % 4], first + k, 0
 jobs += [(("tsukuba", "hot-afternoon", "tilted")[k % 3], first + clean + k, most) for k in range(days)]
 totals = collections.defaultdict(lambda: [0, 0, 0, 0])
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    for counts in pool.map(lambda job: trials(scratch, *job), jobs):
+    for job, counts in zip(jobs, pool.map(lambda job: trials(scratch, *job), jobs)):
+        said = ", ".join(f"{kind} {'/'.join(map(str, numbers))}" for kind, numbers in counts.items() if sum(numbers))
+        print(f"{job[1]} {job[0]}: {said}", flush=True)
         for kind, numbers in counts.items():
             totals[kind] = [one + other for one, other in zip(totals[kind], numbers)]
 failures = []
