@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -25,8 +26,8 @@ bool g_has_keys = false;
 void write_all(std::string_view text) {
     while (!text.empty()) {
         const auto written = write(STDOUT_FILENO, text.data(), text.size());
-        if (written <= 0) return;
-        text.remove_prefix(static_cast<std::size_t>(written));
+        if (written < 0 && errno != EINTR) return;
+        text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
     }
 }
 
