@@ -47,6 +47,7 @@ def demand_signals(stub, browser):
     for word, change, count in (("SETTLING", lambda: stub.status.update(verdict=verdict("settling")), 0),
                                 ("STABLE", lambda: stub.status.update(verdict=verdict("stable")), 2),
                                 ("GOOD ENOUGH", lambda: stub.status.update(occupation=occupation(whole=reading(0.8, 0.0, True))), 3),
+                                ("lift it", lambda: stub.status.update(occupation=occupation(propose_set_up=True)), 2),
                                 ("FAULT", lambda: stub.status.update(level="fault", reasons=["the disk is full"]), 4),
                                 ("good again", lambda: stub.status.update(level="good", reasons=[]), 0),
                                 ("old data", lambda: setattr(stub, "is_sampling", False), 4)):
@@ -55,6 +56,7 @@ def demand_signals(stub, browser):
         time.sleep(4.5 if word == "old data" else 2.5)
         tones = heard(browser)
         demand(f"{word}: {len(tones)} tones in some seconds, expected {count}: {tones}", len(tones) == count)
+        demand(f"{word}: its tones fall", word != "lift it" or tones == sorted(tones, reverse=True))
         demand(f"{word}: it vibrates as often as it sounds",
                browser.run("return window.vibrations.length") - vibrations == (1 if count else 0))
     stub.is_sampling = True
