@@ -10,14 +10,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <vector>
 
 #include "daemon/ctl/requests.hpp"
 #include "daemon/ctl/screen.hpp"
+#include "daemon/ctl/site_names.hpp"
 #include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/terminal.hpp"
 #include "protocol/core/utc_time.hpp"
-#include "protocol/text/sites.hpp"
 
 namespace a351::daemon::ctl {
 namespace {
@@ -233,55 +232,30 @@ private:
     }
 
     void ask_site() {
-        sites_.clear();
         try {
-            const Answer answer = answer_of(client_.get("/api/sites"));
-            for (const json& one : answer.body.value("sites", json::array()))
-                sites_.emplace_back().name = one.value("site", "");
+            sites_ = SiteNames(answer_of(client_.get("/api/sites")).body);
         } catch (const NoDaemon& error) {
             return say(printable(error.what()), true);
         }
         say(sites_.empty() ? "there is no list of sites; any name is accepted"
-                           : "nearest sites: " + names_beginning_with(""));
+                           : "nearest sites: " + printable(sites_.beginning_with("")));
         ask(Question::site);
     }
 
-    /// Returns the first names with this beginning, nearest first.
-    [[nodiscard]] std::string names_beginning_with(const std::string& text) const {
-        constexpr std::size_t kMost = 8;
-        std::string names;
-        std::size_t count = 0;
-        for (const text::Site& site : sites_) {
-            if (!site.name.starts_with(text)) continue;
-            if (++count > kMost) return names + ", ...";
-            names += (names.empty() ? "" : ", ") + printable(site.name);
-        }
-        return names;
-    }
-
-    /// Completes the typed text as far as the names that begin with it agree.
     void complete_site() {
-        std::optional<std::string> common;
-        for (const text::Site& site : sites_) {
-            if (!site.name.starts_with(typed_)) continue;
-            if (!common) common = site.name;
-            const auto end = std::ranges::mismatch(*common, site.name).in1;
-            common->erase(end, common->end());
-        }
-        if (!common) return say("no site begins with " + printable(typed_), true);
-        typed_ = *common;
-        say("sites: " + names_beginning_with(typed_));
+        const auto completed = sites_.completed(typed_);
+        if (!completed) return say("no site begins with " + printable(typed_), true);
+        typed_ = *completed;
+        say("sites: " + printable(sites_.beginning_with(typed_)));
     }
 
     void enter_site() {
-        if (typed_.empty()) return ask(Question::none);
         const std::string typed = typed_;
-        const text::Site* const similar = text::similar_site(sites_, typed);
-        if (similar == nullptr || text::find_site(sites_, typed) != nullptr) {
-            ask(Question::none);
-            return start(typed);
-        }
-        other_site_ = similar->name;
+        ask(Question::none);
+        if (typed.empty()) return;
+        const auto meant = sites_.meant_by(typed);
+        if (!meant) return start(typed);
+        other_site_ = *meant;
         say(printable(typed) + " is not in the list of sites");
         ask(Question::other_site);
     }
@@ -330,7 +304,7 @@ private:
     json asked_stay_;                   ///< Stay that is to be stopped.
     std::optional<UtcTime> moved_utc_;  ///< When its box was moved, if it was.
     std::string other_site_;            ///< Name that the operator may have meant.
-    std::vector<text::Site> sites_;     ///< Names alone, nearest first.
+    SiteNames sites_;
     std::string answer_;
     bool is_refused_ = false;
     Clock::time_point answered_;

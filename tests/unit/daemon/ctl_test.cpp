@@ -5,6 +5,7 @@
 
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/screen.hpp"
+#include "daemon/ctl/site_names.hpp"
 #include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/terminal.hpp"
 #include "daemon/ctl/when.hpp"
@@ -167,6 +168,24 @@ TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago", "[
     setenv("TZ", before.c_str(), 1);
     if (before.empty()) unsetenv("TZ");
     tzset();
+}
+
+TEST_CASE("a typed name of a site is completed by whole letters, or the meant one is named",
+          "[daemon][ctl]") {
+    // U+5C71 and U+5C72 differ in their last byte only.
+    const SiteNames names(nlohmann::json::parse(
+        R"({"sites":[{"site":"No.5"},{"site":"Mt A"},{"site":"Mt B"},{"site":"\u5c71"},
+                     {"site":"\u5c72"}]})"));
+    CHECK(names.completed("N") == "No.5");
+    CHECK(names.completed("M") == "Mt ");
+    CHECK(names.completed("Mt B") == "Mt B");
+    CHECK(names.completed("\xE5") == "");
+    CHECK_FALSE(names.completed("x"));
+    CHECK(names.beginning_with("Mt") == "Mt A, Mt B");
+    CHECK(names.meant_by("no 5") == "No.5");
+    CHECK_FALSE(names.meant_by("No.5"));
+    CHECK_FALSE(names.meant_by("No.6"));
+    CHECK(SiteNames().empty());
 }
 
 TEST_CASE("the gravity so far is a table with findings first and remarks behind", "[daemon][ctl]") {
