@@ -116,8 +116,8 @@ void add_table_command(CLI::App& program) {
     add_with_default(command, "--reading-sd", "MGAL", options->survey.priors.reading_sd_mgal,
                      "Standard deviation of a reading: its weight against priors and datum");
     add_with_default(command, "--drift-degree", "N", options->survey.network.drift_degree,
-                     "network: degree of the polynomial in time that describes the drift, 0-2")
-        ->check(CLI::Range(0, 2));
+                     "network: degree of the polynomial in time that describes the drift, 0-3")
+        ->check(CLI::Range(0, model::kGreatestDriftDegree));
     std::vector<std::string> linear_models;
     linear_models.reserve(model::kLinearModels.size());
     for (const model::LinearModel& model : model::kLinearModels)

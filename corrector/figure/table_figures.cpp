@@ -126,7 +126,7 @@ std::optional<Figure> difference_figure(const model::SurveyCorrection& result) {
                           "Acceleration - reference - tide (mGal)",
                           "temperature_degc difference_mgal",
                           [](const model::CorrectedRow& row) -> std::optional<Point> {
-                              if (!row.difference) return std::nullopt;
+                              if (!row.difference || !row.row.has_temperature) return std::nullopt;
                               return Point{row.row.temperature.value(), row.difference->value()};
                           }};
     return figure_with_line(result, scatter,

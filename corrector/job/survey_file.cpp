@@ -80,8 +80,8 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.survey.network.datum_sd_mgal =
         table.number_or("datum_sd_mgal", survey.survey.network.datum_sd_mgal, model::kLeastSd_mgal,
                         model::kGreatestSd_mgal);
-    survey.survey.network.drift_degree = static_cast<int>(
-        table.integer_or("drift_degree", survey.survey.network.drift_degree, 0, 2));
+    survey.survey.network.drift_degree = static_cast<int>(table.integer_or(
+        "drift_degree", survey.survey.network.drift_degree, 0, model::kGreatestDriftDegree));
     std::vector<std::string> linear_models;
     for (const model::LinearModel& model : model::kLinearModels)
         linear_models.emplace_back(model.name);

@@ -10,11 +10,12 @@
 ///     x = (A^T W A)^-1 A^T W y,  v = A x - y,  s0^2 = v^T W v / dof,  r_i = (Q_vv W)_ii
 ///
 /// reading_i is acceleration - tide, mGal; W is the diagonal matrix of 1 / sd^2.
-/// A pause of more than kLoopPause_h begins a loop with its own constant and drift.  A loop without
-/// a reading in use has neither.  The rate R takes part only if it has a prior.
+/// Each instrument has loops of its own, with their own constant and drift.  A new loop begins after a
+/// pause of more than kLoopPause_h, and where the table has another loop.  A loop without a reading in
+/// use has neither constant nor drift.  The rate R takes part only if it has a prior.
 ///
 /// T0 is kReferenceTemperature; t0 is kReferenceTime_h after the first row of the loop; k is 0 to
-/// drift_degree.  Pauses are those between rows, in use or not.
+/// drift_degree.  Pauses are those between rows of an instrument, in use or not.
 ///
 /// Use it to find many unknown stations from repeated readings and a few known ones.  A station
 /// read once gets a value, but no error of its reading can be found.
@@ -56,12 +57,16 @@ inline constexpr double kControlledRedundancy = 0.1;
 /// Least redundancy of a row that v / r predicts without itself.  Reason: below it v / r is rounding.
 inline constexpr double kLeastRedundancy = 1e-9;
 
+/// Greatest degree of the drift of a loop.  Reason: spring gravimeters are adjusted with a cubic
+/// drift at most; a higher degree follows the readings.
+inline constexpr int kGreatestDriftDegree = 3;
+
 /// Options of the adjustment.
 struct NetworkOptions {
     /// Standard deviation of a reference that has none of its own, mGal.  Default: typical of gravity
     /// networks, and a hundredth of what this sensor can achieve.  It must be above 0; this is not checked.
     double datum_sd_mgal = 0.01;
-    int drift_degree = 1;  ///< Degree of the drift, 0 to 2; column k is (t - t0)^k, t in h.
+    int drift_degree = 1;  ///< 0 to kGreatestDriftDegree; column k is (t - t0)^k, t in h.
     /// Instants after which the readings of the same loop have an unknown offset, ascending.
     std::vector<UtcTime> steps;
 };

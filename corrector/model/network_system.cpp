@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "corrector/model/model_fit.hpp"
 #include "protocol/core/units.hpp"
@@ -18,16 +20,28 @@ struct Loops {
 };
 
 Loops find_loops(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use) {
-    Loops loops;
-    for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
-        bool is_used = false;
-        do {
-            is_used = in_use[end++] || is_used;
-        } while (end < rows.size() && seconds_between(rows[end - 1].time, rows[end].time) <=
-                                          kLoopPause_h * kSecondsPerHour);
-        loops.of.resize(end, is_used ? std::optional(loops.count) : std::nullopt);
-        if (is_used) ++loops.count;
+    // First the loops of all rows, by the last row of each instrument; then those in use, numbered.
+    std::map<std::string, std::size_t> last_of;
+    std::vector<std::size_t> all;
+    std::vector<bool> is_used;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto last = last_of.find(rows[i].instrument);
+        if (last != last_of.end() && rows[last->second].loop == rows[i].loop &&
+            seconds_between(rows[last->second].time, rows[i].time) <=
+                kLoopPause_h * kSecondsPerHour) {
+            all.push_back(all[last->second]);
+        } else {
+            all.push_back(is_used.size());
+            is_used.push_back(false);
+        }
+        if (in_use[i]) is_used[all.back()] = true;
+        last_of[rows[i].instrument] = i;
     }
+    Loops loops;
+    std::vector<std::optional<std::size_t>> number;
+    for (const bool one : is_used)
+        number.push_back(one ? std::optional(loops.count++) : std::nullopt);
+    for (const std::size_t loop : all) loops.of.push_back(number[loop]);
     return loops;
 }
 
@@ -86,7 +100,8 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
         const std::string suffix = loop == 0 ? "" : fmt::format("_loop{}", loop + 1);
         network.terms.push_back("constant_mgal" + suffix);
         if (drift_degree >= 1) network.terms.push_back("time_mgal_per_h" + suffix);
-        if (drift_degree >= 2) network.terms.push_back("time2_mgal_per_h2" + suffix);
+        for (int k = 2; k <= drift_degree; ++k)
+            network.terms.push_back(fmt::format("time{0}_mgal_per_h{0}{1}", k, suffix));
     }
     const bool has_temperature =
         temperature_varies(rows, in_use) || priors.find("temperature_mgal_per_degc") != nullptr;
@@ -95,8 +110,10 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
         network.terms.emplace_back("temperature_mgal_per_degc");
     else
         network.remarks.emplace_back(
-            "the temperature does not vary between the readings: its coefficient cannot be "
-            "separated from the constant and is left out");
+            rows.front().has_temperature
+                ? "the temperature does not vary between the readings: its coefficient cannot be "
+                  "separated from the constant and is left out"
+                : "no temperature is given: the readings are taken as corrected for it");
     if (has_rate) network.terms.emplace_back("rate_mgal_per_degc_per_h");
     std::vector<Eigen::VectorXd> steps;
     for (std::size_t k = 0; k < options.steps.size(); ++k) {
@@ -109,18 +126,19 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
     const auto degree = static_cast<Eigen::Index>(drift_degree);
     network.term_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
                                                  static_cast<Eigen::Index>(network.terms.size()));
-    UtcTime origin = rows.front().time;
+    std::vector<std::optional<UtcTime>> origins(loops.count);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         network.is_tied.push_back(loops.of[i].has_value());
         if (!loops.of[i]) continue;
-        if (i > 0 && loops.of[i] != loops.of[i - 1]) origin = rows[i].time;
+        std::optional<UtcTime>& origin = origins[*loops.of[i]];
+        if (!origin) origin = rows[i].time;
         auto line = network.term_columns.row(static_cast<Eigen::Index>(i));
         const double hours =
-            seconds_between(origin, rows[i].time) / kSecondsPerHour - kReferenceTime_h;
+            seconds_between(*origin, rows[i].time) / kSecondsPerHour - kReferenceTime_h;
         auto k = static_cast<Eigen::Index>(*loops.of[i]) * (degree + 1);
         line(k) = 1.0;
-        if (degree >= 1) line(k + 1) = hours;
-        if (degree >= 2) line(k + 2) = hours * hours;
+        for (Eigen::Index power = 1; power <= degree; ++power)
+            line(k + power) = line(k + power - 1) * hours;
         k = static_cast<Eigen::Index>(loops.count) * (degree + 1);
         if (has_temperature) line(k++) = (rows[i].temperature - kReferenceTemperature).value();
         if (has_rate) line(k) = rows[i].rate_degc_per_h;

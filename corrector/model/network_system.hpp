@@ -48,7 +48,7 @@ struct NetworkReadings {
 /// kReferenceTemperature, in degC.  A temperature that does not vary between the rows in use and
 /// has no prior is left out, with a remark.  The rate takes part only with a prior.
 ///
-/// The terms are, for each loop: constant, time, time^2, up to the degree; then temperature and
+/// The terms are, for each loop: constant, time, time^2, time^3, up to the degree; then temperature and
 /// rate, which all loops have in common; then each step that has readings in use of one loop before
 /// and after it.  Rows of a loop without a reading in use have zeros.
 /// @param rows, in_use, priors, options  as adjust_network().

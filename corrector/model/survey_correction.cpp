@@ -187,6 +187,21 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     return chosen;
 }
 
+/// Takes the network for readings of gravimeters, because it alone has a constant for each loop.
+/// @throws InputError  another model is asked for, and there are several instruments or loops.
+void choose_for_gravimeter(SurveyOptions& options, const std::vector<reading::SurveyRow>& rows) {
+    const reading::SurveyRow& first = rows.front();
+    if (first.instrument.empty()) return;
+    if (options.model == kAutomatic) options.model = kNetwork;
+    const bool has_loops = std::ranges::any_of(rows, [&](const reading::SurveyRow& row) {
+        return row.instrument != first.instrument || row.loop != first.loop;
+    });
+    if (has_loops && options.model != kNetwork)
+        throw InputError(
+            fmt::format("model = {}: it has no constant for each instrument and loop; allowed: {}",
+                        options.model, kNetwork));
+}
+
 }  // namespace
 
 void add_left_out(SurveyCorrection& result, const std::vector<reading::LeftOut>& occupations) {
@@ -208,6 +223,7 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     if (applied.base.empty()) applied.base = rows.front().site;
     require_row_of(rows, applied.base, "base");
     for (const std::string& site : applied.datum) require_row_of(rows, site, "datum");
+    choose_for_gravimeter(applied, rows);
 
     const SurveyProblem problem{rows, applied, day};
     const RowChoice unflagged = choose_rows(rows, applied.datum, true);

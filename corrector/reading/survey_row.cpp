@@ -58,6 +58,20 @@ int whole_number(const text::CsvTable& table, std::size_t row, std::string_view 
     return whole;
 }
 
+/// Least reading of a gravimeter, mGal.  Reason: its zero is anywhere in its range, and the range of
+/// a gravimeter for the whole Earth is 8000 mGal.
+constexpr double kLeastGravimeterReading_mgal = -20e3;
+
+/// Reads the columns of a gravimeter.
+void set_gravimeter(SurveyRow& row, const text::CsvTable& table, std::size_t i) {
+    row.instrument = table.cell(i, "instrument");
+    if (const std::string trouble = text::trouble_with_site_name(row.instrument); !trouble.empty())
+        table.refuse(i, "instrument", "not a name", trouble);
+    if (table.has_column("loop")) row.loop = whole_number(table, i, "loop", 0, 1'000'000);
+    row.has_temperature =
+        table.has_column("temperature_degc") && !table.cell(i, "temperature_degc").empty();
+}
+
 }  // namespace
 
 const RecordSummary& SurveyRow::axes_for(std::string_view wanted_by) const {
@@ -70,9 +84,11 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
                                          const std::vector<text::Site>& sites) {
     const text::CsvTable table = text::read_csv(file);
     const TimeColumn& column = time_column(table, file);
+    const bool is_of_gravimeter = table.has_column("instrument");
     std::vector<SurveyRow> rows;
     for (std::size_t i = 0; i < table.row_count(); ++i) {
         SurveyRow row;
+        if (is_of_gravimeter) set_gravimeter(row, table, i);
         row.site = table.cell(i, "site");
         const text::Site* const site = text::find_site(sites, row.site);
         if (site == nullptr) table.refuse(i, "site", "unknown", "a name of the table of sites");
@@ -86,15 +102,22 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
             row.given_tide = MilliGal(table.number(i, "earth_tide_mgal", -1.0, 1.0));
         }
         // Gravity on Earth is 976000-984000 mGal, biases are some thousands.
-        row.acceleration = MilliGal(table.number(i, "acceleration_mgal", 900e3, 1100e3));
-        row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));
-        if (std::ranges::find(rows, row.time, &SurveyRow::time) != rows.end())
+        row.acceleration =
+            MilliGal(table.number(i, "acceleration_mgal",
+                                  is_of_gravimeter ? kLeastGravimeterReading_mgal : 900e3, 1100e3));
+        if (row.has_temperature)
+            row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));
+        if (i > 0 && row.has_temperature != rows.front().has_temperature)
+            table.refuse(i, "temperature_degc", "given in some rows only", "all rows or none");
+        if (std::ranges::any_of(rows, [&](const SurveyRow& other) {
+                return other.time == row.time && other.instrument == row.instrument;
+            }))
             table.refuse(i, column.name, "appears twice", "one row per instant");
         rows.push_back(std::move(row));
     }
     if (rows.empty()) throw InputError(file.string() + ": no rows; allowed: at least one");
-    std::ranges::sort(rows, {}, &SurveyRow::time);
-    set_backward_rates(rows);
+    std::ranges::stable_sort(rows, {}, &SurveyRow::time);
+    if (!is_of_gravimeter) set_backward_rates(rows);
     return rows;
 }
 

@@ -44,11 +44,17 @@ struct SurveyRow {
     bool is_flagged = false;         ///< Marked by the operator as not to be used.
     bool is_excluded = false;        ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes;  ///< Reasons for doubt, e.g. "fallback".
-    MilliGal acceleration;           ///< Mean; the full value, not a difference.
-    /// Mean temperature of the sensor over the interval.
+    /// Mean.  The full value, or from a gravimeter the value above the zero of its own scale.
+    MilliGal acceleration;
+    std::string instrument;  ///< Name of the gravimeter; empty for the sensor.
+    /// Loop of the gravimeter, as the table gives it: within a loop its constant does not change.
+    int loop = 0;
+    /// Mean temperature of the sensor over the interval; 0 if not given.
     DegC temperature;
+    /// False in a table of a gravimeter, which corrects its readings for temperature itself.
+    bool has_temperature = true;
     /// Rate of the temperature, degC/h.  From a record: the slope within the interval.  From a
-    /// table: that of set_backward_rates().
+    /// table: that of set_backward_rates(); 0 for a gravimeter.
     double rate_degc_per_h = 0.0;
     /// Tide that came with the row, effect on gravity; used by the tide `given` only.
     std::optional<MilliGal> given_tide;
@@ -86,7 +92,7 @@ struct LeftOut {
 };
 
 /// Reads a table `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],
-/// acceleration_mgal,temperature_degc` and sorts its rows by time.
+/// acceleration_mgal,temperature_degc[,instrument[,loop]]` and sorts its rows by time.
 ///
 /// A zone in a cell has priority; without one the zone of the column applies.  Cells of `time` must
 /// have a zone.  `tide` is left zero; rates are set by set_backward_rates().
@@ -96,12 +102,15 @@ struct LeftOut {
 /// other columns are ignored.  `time` is the middle of the average; `start`, `end` and `record`
 /// stay absent.
 ///
+/// With the column `instrument` the rows are of gravimeters: readings from -20 000 mGal on are
+/// permitted, and the temperature may be empty in all rows.  `loop` is then from 0 to 10^6.
+///
 /// @param file   CSV with one row per occupation, in any order.
 /// @param sites  table of the sites; their gravity becomes the reference of the rows.
 /// @return at least one row, in strictly ascending time.
-/// @throws InputError  a site that `sites` lacks, two rows at one instant, a number out of range,
-///                     no rows, not exactly one column of time; with file, line, column and
-///                     value.
+/// @throws InputError  a site that `sites` lacks, two rows of an instrument at one instant, a number
+///                     out of range, no rows, not exactly one column of time; with file, line,
+///                     column and value.
 [[nodiscard]] std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
                                                        const std::vector<text::Site>& sites);
 

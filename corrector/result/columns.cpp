@@ -127,7 +127,11 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         {"used", of(&model::CorrectedRow::is_used), {"In fit", 0, 'l'}},
         {"flags", [&result](Row row) { return flags_of(row, result.options); }, {"Flags", 0, 'l'}},
         {"acceleration_mgal", [](Row row) { return cell(row.row.acceleration); }, {"Acceleration"}},
-        {"temperature_degc", [](Row row) { return row.row.temperature.value(); }, {"T degC"}},
+        {"temperature_degc",
+         [](Row row) {
+             return row.row.has_temperature ? Cell(row.row.temperature.value()) : Cell();
+         },
+         {"T degC"}},
         {"rate_degc_per_h", [](Row row) { return row.row.rate_degc_per_h; }, {"degC/h"}},
         {"tide_mgal", [](Row row) { return cell(row.row.tide); }, {"Tide"}},
         {"difference_mgal", of(&model::CorrectedRow::difference), {"Difference"}},

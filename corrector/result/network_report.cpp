@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/csv.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -45,8 +46,8 @@ std::string network_text(const model::SurveyCorrection& result) {
     std::string text = fmt::format(
         "network: {} rows ({} readings, {} datum of sd {} mGal), {} unknowns, dof = {}\n",
         network.rows.size(), network.reading_count, network.datum_count,
-        text::fixed(result.options.network.datum_sd_mgal, 3), network.unknowns.size(), network.dof);
-    const std::string sd = text::fixed(result.options.priors.reading_sd_mgal, 2);
+        text::shortest(result.options.network.datum_sd_mgal), network.unknowns.size(), network.dof);
+    const std::string sd = text::shortest(result.options.priors.reading_sd_mgal);
     if (const auto passes = network.passes_global_test()) {
         text += fmt::format(
             "global test at 5 %: v'Wv = {} within {} to {}: {}; s0 = {} for readings of sd {} "

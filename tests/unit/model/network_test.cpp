@@ -3,6 +3,7 @@
 #include <cmath>
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/model/survey_rows.hpp"
@@ -70,6 +71,57 @@ TEST_CASE("a network finds a known quadratic drift and the unknown stations", "[
             network.origin.value() + network.unknowns(static_cast<Eigen::Index>(k));
         CHECK(gravity == exactly(true_gravity_mgal(network.stations[k])));
     }
+}
+
+TEST_CASE("a network finds a known cubic drift", "[survey][network]") {
+    auto rows = day_with_quadratic_drift(0.08);
+    for (SurveyRow& row : rows)
+        row.acceleration = row.acceleration + MilliGal(-0.02 * std::pow(hours(row) - 5.0, 3));
+    NetworkOptions options;
+    options.drift_degree = 3;
+    const auto network = adjust(rows, options).adjustment.value();
+    CHECK(value_of(network, "time3_mgal_per_h3") == Approx(-0.02).epsilon(0).margin(1e-9));
+    CHECK(value_of(network, "time2_mgal_per_h2") == Approx(0.08).epsilon(0).margin(1e-8));
+}
+
+TEST_CASE("each instrument and each loop of the table has its own constant and drift",
+          "[survey][network]") {
+    // The same day by two instruments that differ in constant and drift; the second one is set to
+    // another constant in its middle.
+    auto rows = day_with_quadratic_drift(0.0);
+    for (SurveyRow& row : rows) row.has_temperature = false, row.temperature = {};
+    const auto first = made_up::day();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].acceleration =
+            MilliGal(true_gravity_mgal(rows[i].site) - 977000.0 + 0.3 * hours(rows[i])) +
+            rows[i].tide;
+        rows[i].instrument = "B44";
+    }
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        SurveyRow row = rows[i];
+        row.instrument = "B108";
+        row.loop = i < 6 ? 1 : 2;
+        row.time += std::chrono::minutes(1);
+        row.acceleration = MilliGal(true_gravity_mgal(row.site) - 976000.0 - 0.2 * hours(row) +
+                                    (row.loop == 2 ? 55.0 : 0.0)) +
+                           row.tide;
+        rows.push_back(row);
+    }
+    std::ranges::stable_sort(rows, {}, &SurveyRow::time);
+    const auto network = adjust(rows).adjustment.value();
+    CHECK(network.terms.size() == 6);
+    for (std::size_t k = 0; k < network.stations.size(); ++k)
+        CHECK(network.origin.value() + network.unknowns(static_cast<Eigen::Index>(k)) ==
+              Approx(true_gravity_mgal(network.stations[k])).epsilon(0).margin(1e-8));
+    CHECK(value_of(network, "time_mgal_per_h") == Approx(0.3).margin(1e-8));
+    CHECK(value_of(network, "time_mgal_per_h_loop2") == Approx(-0.2).margin(1e-8));
+    CHECK(value_of(network, "time_mgal_per_h_loop3") == Approx(-0.2).margin(1e-8));
+
+    // Several loops are for the network only, which `auto` takes.
+    SurveyOptions options;
+    CHECK(correct_survey(rows, options).model == kNetwork);
+    options.model = "drift";
+    CHECK_THROWS_AS(correct_survey(rows, options), InputError);
 }
 
 TEST_CASE("redundancies of readings, datum and priors add up to the degrees of freedom",

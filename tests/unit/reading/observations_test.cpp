@@ -97,3 +97,29 @@ TEST_CASE("a bad table of observations is refused with line, column and value",
     CHECK_THROWS_WITH(file.read(), ContainsSubstring(message));
     CHECK_THROWS_AS(file.read(), InputError);
 }
+
+TEST_CASE(
+    "rows of gravimeters have instrument and loop, and need neither a full value nor a temperature",
+    "[survey][observations]") {
+    const std::string header =
+        "site,occupation,time_utc,acceleration_mgal,temperature_degc,instrument,loop\n";
+    const auto rows = TableFile(header +
+                                "A,1,2020-01-01T00:00:00Z,-12.5,,B44,1\n"
+                                "A,2,2020-01-01T00:00:00Z,2700.25,,B108,3\n")
+                          .read();
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0].acceleration == MilliGal(-12.5));
+    CHECK(rows[0].instrument == "B44");
+    CHECK(rows[1].loop == 3);
+    CHECK_FALSE(rows[1].has_temperature);
+    for (const std::string refused :
+         {"A,1,2020-01-01T00:00:00Z,-30000,,B44,1\n", "A,1,2020-01-01T00:00:00Z,2700,,,1\n",
+          "A,1,2020-01-01T00:00:00Z,2700,,B44,-1\n",
+          "A,1,2020-01-01T00:00:00Z,2700,,B44,1\n"
+          "B,1,2020-01-01T00:00:00Z,2700,,B44,1\n",
+          "A,1,2020-01-01T00:00:00Z,2700,,B44,1\n"
+          "B,1,2020-01-01T01:00:00Z,2700,40,B44,1\n"}) {
+        INFO(refused);
+        CHECK_THROWS_AS(TableFile(header + refused).read(), InputError);
+    }
+}
