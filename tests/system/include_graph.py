@@ -8,7 +8,7 @@ import re
 from programs import TOP, demand
 
 COMPONENTS = ("protocol", "daemon", "sim", "corrector")
-MOST_MODULES = 22  # Largest number of modules in a room; the largest rooms have as many today.
+MOST_MODULES = 23  # Largest number of modules in a room; the largest room has as many today.
 ROW = re.compile(r"^\| `([a-z0-9_/]+)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
 NAMESPACE = re.compile(r"^namespace (a351[a-z0-9_:]*) \{$", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)/[^/"]+"', re.MULTILINE)

@@ -16,10 +16,10 @@ import subprocess
 import sys
 import time
 
-from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_status, demand, os, run, unused_port
+from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_status, demand, os, rows, run, unused_port
 
 # Subcommands whose results the examples of other pages read.
-FIRST = ("calibrate", "record", "export", "survey")
+FIRST = ("calibrate", "record", "export", "survey", "import")
 SITES = ("No.0", "No.12", "No.1", "No.2", "No.4", "No.0")
 LONGEST_START_S = 60
 USUAL_ADDRESS = "http://127.0.0.1:8351"
@@ -46,6 +46,14 @@ def prepare_correct(scratch):
         run(BIN / "a351-sim", "survey", "--scenario", scenario, "--out", root, cwd=scratch)
     for table in ("sites.csv", "observations.csv"):
         shutil.copy(TOP / "tests" / "golden" / "tsukuba" / table, scratch)
+    usgs = TOP / "tests" / "golden" / "usgs"
+    for meter in ("B44", "B108"):
+        shutil.copy(usgs / f"{meter}_2017-12-05.txt", scratch / f"{meter.lower()}.txt")
+    run(BIN / "a351-correct", "import", "b108.txt", "--out", "imported", cwd=scratch)
+    known = (scratch / "imported" / "sites.csv").read_text()
+    for row in rows(usgs / "absolute.csv")[:4]:
+        known = re.sub(f"^({row['site']},.*),,,$", rf"\1,{row['gravity_mgal']},{row['u_gravity_mgal']},", known, flags=re.M)
+    (scratch / "known-sites.csv").write_text(known)
     (scratch / "plan.csv").write_text("site,start_utc,set_ups,minutes_each\n"
                                       "No.0,2026-05-01T00:00:00Z,1,12\nNo.1,2026-05-01T00:35:00Z,1,12\n")
     (scratch / "plan-sites.csv").write_text("site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n"

@@ -1,0 +1,72 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "corrector/command/commands.hpp"
+#include "corrector/command/options.hpp"
+#include "corrector/gravimeter/survey_tables.hpp"
+
+namespace a351::corrector::command {
+namespace {
+
+struct ImportOptions {
+    std::vector<std::string> files;
+    std::string out, average = "median", tide = "keep";
+    std::size_t last = gravimeter::AverageOptions().last;
+};
+
+void import_files(const ImportOptions& options) {
+    require_folder_option("--out", options.out);
+    std::vector<gravimeter::GravimeterFile> files;
+    for (const std::string& file : options.files)
+        files.push_back(gravimeter::read_gravimeter_file(file));
+    const std::vector<gravimeter::Stay> stays = gravimeter::find_stays(files);
+    text::write_together(
+        options.out,
+        gravimeter::survey_tables(
+            files, stays, {{options.last, options.average == "mean"}, options.tide == "keep"}));
+
+    bool is_damaged = false;
+    for (const gravimeter::GravimeterFile& file : files) {
+        for (const gravimeter::RefusedLine& line : file.refused)
+            std::cerr << fmt::format("a351-correct: {}:{}: {}\n", file.path.string(), line.line,
+                                     line.reason);
+        std::cout << fmt::format("{}: {}, {} lines: {} readings, {} comments, {} refused\n",
+                                 file.path.string(), file.format,
+                                 file.readings.size() + file.comment_count + file.refused.size(),
+                                 file.readings.size(), file.comment_count, file.refused.size());
+        is_damaged = is_damaged || !file.refused.empty();
+    }
+    std::cout << fmt::format(
+        "{} stays, written to {}\n"
+        "add gravity_mgal and u_gravity_mgal of the known sites to {}\n",
+        stays.size(), options.out, (std::filesystem::path(options.out) / "sites.csv").string());
+    report_damaged_input(is_damaged);
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand(
+        "import", "Reads files of gravimeters and writes the tables for the command table.");
+    const auto options = std::make_shared<ImportOptions>();
+    add_required(command, "FILE", "", options->files,
+                 "Files of Scintrex CG-5, Scintrex CG-6 or ZLS Burris");
+    add_required(command, "--out", "DIR", options->out,
+                 "Folder for observations.csv, sites.csv and readings.csv");
+    add_with_default(command, "--last", "N", options->last,
+                     "Readings at the end of each stay that are used; 0: all")
+        ->check(CLI::Range(0, 1'000'000));
+    add_with_default(command, "--average", "NAME", options->average,
+                     "median or mean of these readings")
+        ->check(CLI::IsMember({"median", "mean"}));
+    add_with_default(command, "--tide", "RULE", options->tide,
+                     "keep: earth_tide_mgal has the tide that the instrument removed; remove: "
+                     "without this column, so that the command table computes the tide")
+        ->check(CLI::IsMember({"keep", "remove"}));
+    command.callback([options] { import_files(*options); });
+}
+
+}  // namespace a351::corrector::command

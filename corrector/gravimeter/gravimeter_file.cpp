@@ -1,0 +1,63 @@
+#include "corrector/gravimeter/gravimeter_file.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "corrector/gravimeter/line_readers.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/text_file.hpp"
+
+namespace a351::corrector::gravimeter {
+namespace {
+
+/// Takes the next line from the text, without its end LF or CRLF.
+std::string_view next_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+std::optional<Format> format_of(std::string_view text) {
+    const std::array formats{cg5_format(), cg6_format(), burris_format()};
+    while (!text.empty()) {
+        const std::string_view line = next_line(text);
+        for (const Format& format : formats)
+            if (format.begins_with(line)) return format;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+GravimeterFile read_gravimeter_file(const std::filesystem::path& path) {
+    const std::string content = text::read_text_file(path);
+    std::string_view text = content;
+    const auto format = format_of(text);
+    if (!format)
+        throw InputError(path.string() +
+                         ": not a file of a gravimeter; allowed: Scintrex CG-5, Scintrex CG-6, ZLS "
+                         "Burris");
+    GravimeterFile file{path, std::string(format->name), {}, 0, {}};
+    const LineReader read = format->make_reader();
+    for (std::size_t number = 1; !text.empty(); ++number) {
+        const bool is_cut = text.find('\n') == std::string_view::npos;
+        Line line = read(next_line(text));
+        if (is_cut) line = Refusal{"the last line has no end, the file may be cut off"};
+        if (auto* const refusal = std::get_if<Refusal>(&line)) {
+            file.refused.push_back({number, std::move(refusal->reason)});
+        } else if (auto* const reading = std::get_if<Reading>(&line)) {
+            reading->line = number;
+            file.readings.push_back(std::move(*reading));
+        } else {
+            ++file.comment_count;
+        }
+    }
+    if (file.readings.empty())
+        throw InputError(path.string() + ": no reading of a " + file.format +
+                         "; allowed: at least one");
+    return file;
+}
+
+}  // namespace a351::corrector::gravimeter

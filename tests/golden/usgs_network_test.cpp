@@ -1,0 +1,197 @@
+// Two real gravimeters against absolute gravity, from their raw files: tests/golden/usgs/README.md.
+#include <fmt/core.h>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include "tests/support/catch.hpp"
+
+#include "corrector/gravimeter/survey_tables.hpp"
+#include "corrector/model/network.hpp"
+#include "corrector/tide/tide_choice.hpp"
+#include "protocol/text/csv.hpp"
+#include "protocol/text/text_file.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// Standard deviation of a reading, mGal.  Source: the manufacturer's repeatability of a Burris.
+constexpr double kReadingSd_mgal = 0.005;
+
+struct Survey {
+    std::string name, month;
+    std::vector<std::string> files;
+};
+const std::vector<Survey> kMeters{{"B44", "2017-12", {"B44_2017-12-05.txt"}},
+                                  {"B44", "2018-02", {"B44_2018-02-27.txt"}},
+                                  {"B108", "2017-12", {"B108_2017-12-05.txt"}}};
+const Survey kBoth{"B44 and B108", "2017-12", {"B44_2017-12-05.txt", "B108_2017-12-05.txt"}};
+
+struct Absolute {
+    double gravity_mgal = 0.0;
+    double u_mgal = 0.0;
+};
+
+std::map<std::string, Absolute> absolute_values(const std::string& month) {
+    const auto table = text::read_csv(A351_GOLDEN "/usgs/absolute.csv");
+    std::map<std::string, Absolute> values;
+    for (std::size_t row = 0; row < table.row_count(); ++row)
+        if (table.cell(row, "month") == month)
+            values[table.cell(row, "site")] = {table.number(row, "gravity_mgal"),
+                                               table.number(row, "u_gravity_mgal")};
+    REQUIRE(values.size() == 4);
+    return values;
+}
+
+/// Imports the raw files and reads the tables again, with the absolute values as references.
+std::vector<reading::SurveyRow> rows_of(const Survey& survey, bool is_mean) {
+    std::vector<gravimeter::GravimeterFile> files;
+    for (const std::string& file : survey.files)
+        files.push_back(gravimeter::read_gravimeter_file(A351_GOLDEN "/usgs/" + file));
+    const auto stays = gravimeter::find_stays(files);
+    gravimeter::TableOptions options;
+    options.average.is_mean = is_mean;
+    if (is_mean) options.average.last = 0;
+    const test::TemporaryDirectory folder;
+    text::write_together(folder.path(), gravimeter::survey_tables(files, stays, options));
+    auto sites = text::read_sites(folder.path() / "sites.csv");
+    for (const auto& [name, value] : absolute_values(survey.month)) {
+        for (text::Site& site : sites) {
+            if (site.name != name) continue;
+            site.gravity = MilliGal(value.gravity_mgal);
+            site.u_gravity = MilliGal(value.u_mgal);
+        }
+    }
+    auto rows = reading::read_observations(folder.path() / "observations.csv", sites);
+    tide::apply_tide(rows, sites, {"given", {}, {}});
+    return rows;
+}
+
+struct HoldOut {
+    double error_mgal = 0.0;  ///< Prediction minus absolute value.
+    double u_mgal = 0.0;      ///< Of the prediction.
+    /// Returns the error in units of its uncertainty, that of the absolute value included.
+    [[nodiscard]] double ratio(const Absolute& value) const {
+        return std::abs(error_mgal) / std::hypot(u_mgal, value.u_mgal);
+    }
+};
+
+/// Predicts one absolute station from the others.
+HoldOut hold_out(const std::vector<reading::SurveyRow>& rows, const std::string& held,
+                 const Absolute& value, int degree) {
+    std::vector<std::string> datum;
+    for (const reading::SurveyRow& row : rows)
+        if (row.reference && row.site != held) datum.push_back(row.site);
+    model::Priors priors;
+    priors.reading_sd_mgal = kReadingSd_mgal;
+    model::NetworkOptions options;
+    options.drift_degree = degree;
+    const auto network =
+        model::adjust_network(rows, std::vector<bool>(rows.size(), true), datum, priors, options)
+            .adjustment.value();
+    const auto at = std::ranges::find(network.stations, held) - network.stations.begin();
+    return {(network.origin + MilliGal(network.unknowns(at))).value() - value.gravity_mgal,
+            std::sqrt(network.covariance(at, at))};
+}
+
+/// Predicts all absolute stations, prints the errors and returns them by station.
+std::map<std::string, HoldOut> hold_out_all(const Survey& survey, bool is_mean, int degree) {
+    const auto rows = rows_of(survey, is_mean);
+    std::map<std::string, HoldOut> errors;
+    std::cout << fmt::format("{} {} {} degree {}:", survey.name, survey.month,
+                             is_mean ? "mean of all" : "median of 8", degree);
+    for (const auto& [site, value] : absolute_values(survey.month)) {
+        errors[site] = hold_out(rows, site, value, degree);
+        std::cout << fmt::format("  {} {:+.4f} ({:.4f})", site, errors[site].error_mgal,
+                                 errors[site].u_mgal);
+    }
+    std::cout << '\n';
+    return errors;
+}
+
+double rms(const std::map<std::string, HoldOut>& errors) {
+    double squares = 0.0;
+    for (const auto& [site, one] : errors) squares += one.error_mgal * one.error_mgal;
+    return std::sqrt(squares / static_cast<double>(errors.size()));
+}
+
+}  // namespace
+
+TEST_CASE("absolute stations that are held out agree within their uncertainty", "[golden][usgs]") {
+    std::vector<double> ratios;
+    for (const bool is_mean : {false, true}) {
+        for (const int degree : {1, 2}) {
+            double squares = 0.0;
+            for (const Survey& meter : kMeters) {
+                const auto absolute = absolute_values(meter.month);
+                const auto errors = hold_out_all(meter, is_mean, degree);
+                for (const auto& [site, one] : errors)
+                    ratios.push_back(one.ratio(absolute.at(site)));
+                squares += std::pow(rms(errors), 2) / static_cast<double>(kMeters.size());
+            }
+            std::cout << fmt::format("rms of 12 hold-outs {:.4f} mGal, must be at most 0.010\n",
+                                     std::sqrt(squares));
+            CHECK(std::sqrt(squares) <= 0.010);
+        }
+    }
+    REQUIRE(ratios.size() == 48);
+    const auto share = [&](double limit) {
+        return static_cast<double>(
+                   std::ranges::count_if(ratios, [&](double one) { return one <= limit; })) /
+               static_cast<double>(ratios.size());
+    };
+    std::cout << fmt::format(
+        "of 48: {:.1f} % within 2 u, must be at least 92; {:.1f} % within u, must be 60 to 80\n",
+        100.0 * share(2.0), 100.0 * share(1.0));
+    CHECK(share(2.0) >= 0.92);
+    CHECK(share(1.0) >= 0.60);
+    CHECK(share(1.0) <= 0.80);
+}
+
+TEST_CASE(
+    "two gravimeters together predict no worse than the worse of them, and more surely than each",
+    "[golden][usgs]") {
+    for (const bool is_mean : {false, true}) {
+        for (const int degree : {1, 2, 3}) {
+            const auto first = hold_out_all(kMeters[0], is_mean, degree);
+            const auto second = hold_out_all(kMeters[2], is_mean, degree);
+            const auto both = hold_out_all(kBoth, is_mean, degree);
+            std::cout << fmt::format("rms {:.4f} and {:.4f}, together {:.4f} mGal\n", rms(first),
+                                     rms(second), rms(both));
+            // A cubic drift brings each of them below 0.005 mGal, half the uncertainty of the
+            // absolute values, so that their order says nothing.
+            CHECK(rms(both) <= (degree == 3 ? 0.006 : std::max(rms(first), rms(second))));
+            for (const auto& [site, one] : both) {
+                CHECK(one.u_mgal <= first.at(site).u_mgal);
+                CHECK(one.u_mgal <= second.at(site).u_mgal);
+            }
+        }
+    }
+}
+
+TEST_CASE("the table of absolute values comes from the files of the absolute gravimeter",
+          "[golden][usgs]") {
+    // The value at the mark: that at the transfer height of 100 cm plus 3 uGal/cm.
+    const std::map<std::string, std::string> suffixes{{"2017-12", "_2017-12-01.project.txt"},
+                                                      {"2018-02", "_2018-02-2"}};
+    for (const auto& [month, suffix] : suffixes) {
+        for (const auto& [site, value] : absolute_values(month)) {
+            const std::string day =
+                month == "2017-12" ? "" : (site == "rg57" ? "8.project.txt" : "6.project.txt");
+            const std::string report =
+                text::read_text_file(A351_GOLDEN "/usgs/" + site + suffix + day);
+            const auto number_after = [&](const std::string& key) {
+                return std::stod(report.substr(report.find(key) + key.size()));
+            };
+            INFO(site << " " << month);
+            CHECK(number_after("\nTransfer Height: ") == 100.0);
+            CHECK((number_after("\nGravity: ") + 300.0) / 1000.0 ==
+                  Approx(value.gravity_mgal).epsilon(0).margin(0.00005));
+            // One uncertainty for all; the reports have 0.01055 to 0.01075 mGal.
+            CHECK(number_after("\nTotal Uncertainty: ") / 1000.0 ==
+                  Approx(value.u_mgal).epsilon(0).margin(0.0002));
+        }
+    }
+}

@@ -1,0 +1,123 @@
+#include "corrector/gravimeter/gravimeter_file.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "protocol/core/input_error.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "tests/unit/gravimeter/made_up_lines.hpp"
+
+using namespace a351;
+using namespace a351::corrector::gravimeter;
+using namespace made_up;
+
+namespace {
+
+GravimeterFile read(const std::string& content) {
+    const test::TemporaryDirectory folder;
+    return read_gravimeter_file(folder.write("no-name", content));
+}
+
+std::string kept(const Reading& reading, const std::string& name) {
+    for (const auto& [key, text] : reading.kept)
+        if (key == name) return text;
+    return "not kept";
+}
+
+}  // namespace
+
+TEST_CASE("a CG-5 west of Greenwich has its time in UTC, its position and its columns",
+          "[gravimeter]") {
+    const auto file = read(cg5_header("4.0") + cg5_reading("16.0000000", "23:30:00"));
+    CHECK(file.format == "Scintrex CG-5");
+    CHECK(file.comment_count == 8);
+    REQUIRE(file.readings.size() == 1);
+    const Reading& reading = file.readings[0];
+    CHECK(reading.instrument == "CG-5 123");
+    CHECK(reading.site == "16");
+    CHECK(to_rfc3339(reading.time) == "2013-09-16T03:30:00Z");
+    CHECK(reading.value == MilliGal(2000.0));
+    CHECK(reading.tide_correction == MilliGal(0.02));
+    CHECK(reading.position->latitude == Degrees(-33.25));
+    CHECK(reading.position->longitude == Degrees(-70.5));
+    CHECK(kept(reading, "tilt_y_arcsec") == "-0.2");
+    CHECK(kept(reading, "temperature_offset_mk") == "-1.5");
+}
+
+TEST_CASE("a CG-5 without its tide correction has none, and a second header changes the instrument",
+          "[gravimeter]") {
+    const auto file = read(cg5_header("0.0") + cg5_reading("1", "10:00:00") +
+                           cg5_header("-1.0", "NO", "456") + cg5_reading("1", "10:00:00"));
+    REQUIRE(file.readings.size() == 2);
+    CHECK(file.readings[0].tide_correction.has_value());
+    CHECK_FALSE(file.readings[1].tide_correction.has_value());
+    CHECK(file.readings[1].instrument == "CG-5 456");
+    CHECK(to_rfc3339(file.readings[1].time) == "2013-09-15T09:00:00Z");
+}
+
+TEST_CASE("a CG-6 gives its own tide only if it was applied, and the receiver's position",
+          "[gravimeter]") {
+    const auto file = read(cg6_header() + cg6_reading("A 1", "10:00:00") +
+                           cg6_reading("A 1", "10:01:00", "11001"));
+    CHECK(file.format == "Scintrex CG-6");
+    REQUIRE(file.readings.size() == 2);
+    CHECK(file.readings[0].site == "A 1");
+    CHECK(file.readings[0].tide_correction == MilliGal(-0.0488));
+    CHECK_FALSE(file.readings[1].tide_correction.has_value());
+    CHECK(file.readings[0].height == Metres(0.25));
+    CHECK(file.readings[0].position->longitude == Degrees(-105.0));
+    CHECK(kept(file.readings[0], "temperature_degc") == "43.2662");
+}
+
+TEST_CASE("a Burris is read with blanks or commas", "[gravimeter]") {
+    const char separator = GENERATE(' ', ',', '\t');
+    const auto file = read(burris_reading("rg37", "15:56:20", "2800", separator));
+    CHECK(file.format == "ZLS Burris");
+    REQUIRE(file.readings.size() == 1);
+    CHECK(file.readings[0].dial == "2800");
+    CHECK(file.readings[0].tide_correction == MilliGal(-0.103));
+    CHECK(file.readings[0].height == Metres(0.1));
+    CHECK(kept(file.readings[0], "tilt_correction_mgal") == "0.005");
+}
+
+TEST_CASE("damaged and foreign lines are refused with number and reason, and the others are read",
+          "[gravimeter]") {
+    const auto [content, line, reason] = GENERATE(table<std::string, std::size_t, std::string>({
+        {cg5_header("0.0") + cg5_reading("1", "10:00:00") + cg5_reading("1", "25:00:00"), 10,
+         "TIME = 2013/09/15 25:00:00: not an instant"},
+        {cg5_header("0.0") + cg5_reading("1", "10:00:00") + cg5_reading("1", "10:01:00", "20x0"),
+         10, "GRAV. = 20x0: not a number; allowed: -20000 to 20000"},
+        {cg5_header("0.0") + cg5_reading("1", "10:00:00") + burris_reading("a", "10:00:00"), 10,
+         "16 columns; allowed: 15"},
+        {cg5_reading("1", "10:00:00") + cg5_header("0.0") + cg5_reading("1", "10:00:00"), 1,
+         "no header with Instrument S/N before it"},
+        {cg6_header() + cg6_reading("A", "10:00:00") + cg6_reading("A", "10:01:00", "2"), 6,
+         "not five digits 0 or 1"},
+        {cg6_header() + cg6_reading("A", "10:00:00") + "A\t2017-04-17\n", 6,
+         "2 columns; allowed: 22"},
+        {burris_reading("a", "10:00:00") + "\x01\xff\n", 2, "1 columns; allowed: 16"},
+        {burris_reading("a", "10:00:00") + burris_reading("a", "10:00:10").substr(0, 60), 2,
+         "may be cut off"},
+    }));
+    const auto file = read(content);
+    CHECK(file.readings.size() == 1);
+    REQUIRE(file.refused.size() == 1);
+    CHECK(file.refused[0].line == line);
+    CHECK_THAT(file.refused[0].reason, ContainsSubstring(reason));
+}
+
+TEST_CASE("a file of no known format, or without a reading, is refused in one line",
+          "[gravimeter]") {
+    const auto [content, words] = GENERATE(table<std::string, std::string>({
+        {"", "not a file of a gravimeter"},
+        {"site,gravity\nA,979800\n", "not a file of a gravimeter"},
+        {cg5_header("0.0"), "no reading of a Scintrex CG-5"},
+        {cg6_header(), "no reading of a Scintrex CG-6"},
+    }));
+    try {
+        (void)read(content);
+        FAIL("it was read");
+    } catch (const InputError& error) {
+        CHECK_THAT(error.what(), ContainsSubstring(words));
+        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    }
+}
