@@ -16,7 +16,7 @@ constexpr seconds kArchiveSyncInterval{30};
 constexpr seconds kSpaceInterval{1};                 // A disk can fill up within a minute.
 constexpr seconds kModelInterval{10};                // Instrument time, and
 constexpr milliseconds kShortestModelInterval{100};  // real time.
-constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
+constexpr milliseconds kWriteInterval{50};
 constexpr std::size_t kSessionsRemembered = 8;  // Each has 24 h of times, up to 3.5 MB.
 
 std::optional<survey::Instant> instant_of(const journal::SessionId& session,
@@ -31,7 +31,8 @@ std::optional<survey::Instant> instant_of(const journal::SessionId& session,
 ArchiveThread::ArchiveThread(files::FileLayer& files, std::filesystem::path archive,
                              journal::StationCodes codes, const source::HostClock& clock,
                              ChunkQueue& chunks, Progress& progress, SpaceReserve& reserve,
-                             Hooks hooks, DiskTime time, const archive::RecoveryPlan& plan)
+                             Hooks hooks, DiskTime time, std::size_t most_waiting_bytes,
+                             const archive::RecoveryPlan& plan)
     : files_(files),
       archive_(std::move(archive)),
       codes_(std::move(codes)),
@@ -41,6 +42,7 @@ ArchiveThread::ArchiveThread(files::FileLayer& files, std::filesystem::path arch
       reserve_(reserve),
       hooks_(std::move(hooks)),
       time_(std::move(time)),
+      most_waiting_bytes_(most_waiting_bytes),
       plan_(plan),
       last_sync_(time_.now()),
       archiver_(std::make_unique<archive::Archiver>(outbox_)) {
@@ -61,15 +63,24 @@ ArchiveThread::~ArchiveThread() {
 void ArchiveThread::skip_waits() {
     const std::lock_guard lock(mutex_);
     is_hurried_ = true;
-    hurried_.notify_all();
+    changed_.notify_all();
 }
 
 bool ArchiveThread::join() {
-    if (thread_.joinable())
+    const bool is_started = thread_.joinable();
+    if (is_started)
         thread_.join();
     else
         run();
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
+    is_ending_ = true;
+    changed_.notify_all();
+    lock.unlock();
+    if (is_started)
+        writing_thread_.join();
+    else
+        run_writing();
+    lock.lock();
     return !status_.is_faulty && status_.chunks_lost == 0;
 }
 
@@ -78,7 +89,7 @@ void ArchiveThread::run() noexcept {
     while (!recover()) {
         std::unique_lock lock(mutex_);
         const bool is_over =
-            hurried_.wait_for(lock, time_.retry_interval, [this] { return is_hurried_; });
+            changed_.wait_for(lock, time_.retry_interval, [this] { return is_hurried_; });
         lock.unlock();
         if (!is_over && !chunks_.is_half_full()) continue;
         if (!is_over)
@@ -89,19 +100,34 @@ void ArchiveThread::run() noexcept {
         }
         return;
     }
-    while (const auto numbered = chunks_.pop()) handle(*numbered);
-    {
-        const std::lock_guard lock(mutex_);
-        // The next run may adopt this session; its replay then computes times not fixed yet.
-        if (!has_recorded_ || archiver_->are_times_fixed()) archiver_->close_records();
+    while (const auto numbered = chunks_.pop()) {
+        handle(*numbered);
+        wait_for_room();
     }
+    const std::lock_guard lock(mutex_);
+    // The next run may adopt this session; its replay then computes times not fixed yet.
+    if (!has_recorded_ || archiver_->are_times_fixed()) archiver_->close_records();
+}
+
+void ArchiveThread::run_writing() noexcept {
+    std::unique_lock lock(mutex_);
+    while (!is_ending_) {
+        changed_.wait_for(lock, kWriteInterval, [this] { return is_ending_; });
+        if (is_ending_ || status_.is_replaying) continue;
+        lock.unlock();
+        if (may_write()) store_records(false);
+        lock.lock();
+    }
+    const bool is_left_to_next_start = status_.is_replaying;
+    lock.unlock();
     // The journal is written, so the archive may use all remaining space.
-    if (!store_records(true)) store_records(true);
+    if (!is_left_to_next_start && !store_records(true)) store_records(true);
 }
 
 void ArchiveThread::step() {
     if (!recover()) return;
     while (const auto numbered = chunks_.try_pop()) handle(*numbered);
+    if (may_write()) store_records(false);
 }
 
 void ArchiveThread::handle(const NumberedChunk& numbered) noexcept {
@@ -114,13 +140,30 @@ void ArchiveThread::handle(const NumberedChunk& numbered) noexcept {
         const std::lock_guard lock(mutex_);
         ++status_.chunks_lost;
     }
-    if (may_write()) store_records(false);
+}
+
+/// Waits while the records that are being written fill the memory.  Drops the oldest if they cannot
+/// be written: the archive refuses them, or the journal has not taken their chunks.
+void ArchiveThread::wait_for_room() {
+    std::unique_lock lock(mutex_);
+    auto& entries = outbox_.entries;
+    while (outbox_.bytes > most_waiting_bytes_ && !is_hurried_) {
+        if (!entries.empty() && (is_refused_ || entries.front().chunk > progress_.written())) {
+            outbox_.bytes -= entries.front().record.bytes.size();
+            entries.pop_front();
+            are_marks_true_ = false;  // No mark may claim that it is archived.
+            ++status_.records_dropped;
+        } else {
+            changed_.wait_for(lock, kWriteInterval);
+        }
+    }
 }
 
 void ArchiveThread::take(const NumberedChunk& numbered) {
     const auto* const header = std::get_if<journal::Header>(&numbered.chunk);
     const std::lock_guard lock(mutex_);
     if (header != nullptr) begin_session(*header);
+    outbox_.chunk = numbered.number;
     archiver_->take(numbered.chunk);
     if (header != nullptr) outbox_.session = header->session;
     status_.counters = archiver_->counters();
@@ -135,7 +178,10 @@ void ArchiveThread::begin_session(const journal::Header& header) {
     // The first header of a session has the time of its start.
     if (undescribed_.empty() || undescribed_.back().session != header.session)
         undescribed_.push_back(header);
-    if (session_ != header.session) outbox_.last_sample.reset();
+    if (session_ != header.session) {
+        outbox_.last_sample.reset();
+        outbox_.held.clear();
+    }
     note_session(header.session);
     has_recorded_ = true;
 }
@@ -149,38 +195,36 @@ void ArchiveThread::note_session(const journal::SessionId& session) {
 }
 
 /// Returns true if records may be written now: not while the journal needs the space, unless memory
-/// is full, and after a fault only at intervals.  Waits for an interval only if memory is full.
+/// is full, and after a fault only at intervals.
 bool ArchiveThread::may_write() {
     if (time_.now() - last_look_at_space_ >= kSpaceInterval) {
         last_look_at_space_ = time_.now();
         reserve_.tend();
     }
-    const bool is_full = outbox_.bytes > kMostWaitingBytes;
-    if (reserve_.is_space_short() && !is_full) return false;
-    if (!retry_at_) return true;
-    if (is_full) {
-        std::unique_lock lock(mutex_);
-        hurried_.wait_until(lock, *retry_at_, [this] { return is_hurried_; });
+    if (reserve_.is_space_short()) {
+        const std::lock_guard lock(mutex_);
+        if (outbox_.bytes <= most_waiting_bytes_) return false;
     }
-    return time_.now() >= *retry_at_;
+    return !retry_at_ || time_.now() >= *retry_at_;
 }
 
 /// Writes the waiting records.  @return false if writing failed; the rest waits.
 bool ArchiveThread::store_records(bool is_last) {
     try {
         if (retry_at_) reopen();
-        for (; !undescribed_.empty(); undescribed_.pop_front())
-            hooks_.session_began(undescribed_.front());
+        describe_sessions();
         write_outbox();
         if (is_last || time_.now() - last_sync_ >= kArchiveSyncInterval) sync();
     } catch (const std::exception& error) {
         note_fault(error.what());
         retry_at_ = time_.now() + time_.retry_interval;
+        const std::lock_guard lock(mutex_);
+        is_refused_ = true;
         return false;
     }
     retry_at_.reset();
     const std::lock_guard lock(mutex_);
-    status_.is_faulty = false;
+    is_refused_ = status_.is_faulty = false;
     return true;
 }
 
@@ -191,24 +235,53 @@ void ArchiveThread::note_fault(const std::string& trouble) {
     ++status_.faults;
 }
 
+void ArchiveThread::describe_sessions() {
+    std::unique_lock lock(mutex_);
+    while (!undescribed_.empty()) {
+        const journal::Header header = undescribed_.front();
+        lock.unlock();
+        hooks_.session_began(header);
+        lock.lock();
+        undescribed_.pop_front();
+    }
+}
+
+/// Removes the next record whose chunk is in the journal; std::nullopt if there is none.
+std::optional<ArchiveThread::Outbox::Entry> ArchiveThread::next_record() {
+    const std::lock_guard lock(mutex_);
+    auto& entries = outbox_.entries;
+    status_.records_waiting = entries.size();
+    status_.conflicts = writer_->replay_conflicts();
+    if (entries.empty() || entries.front().chunk > progress_.written()) return std::nullopt;
+    std::optional<Outbox::Entry> next(std::move(entries.front()));
+    outbox_.bytes -= next->record.bytes.size();
+    entries.pop_front();
+    return next;
+}
+
 void ArchiveThread::write_outbox() {
-    auto& entries = outbox_.entries;  // Only this thread fills it, within take().
-    while (!entries.empty()) {
-        const Outbox::Entry& entry = entries.front();
-        if (entry.session != marked_) {  // Marks never mix sessions.
-            if (marked_) sync();
-            writer_->end_replay();
-            writer_->begin_session();
-            marked_ = entry.session;
+    while (auto entry = next_record()) {
+        try {
+            write_record(*entry);
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            outbox_.bytes += entry->record.bytes.size();
+            outbox_.entries.push_front(std::move(*entry));
+            throw;
         }
-        writer_->record(entry.channel, entry.record, entry.last_index);
-        outbox_.bytes -= entry.record.bytes.size();
-        entries.pop_front();
         const std::lock_guard lock(mutex_);
         ++status_.records;
-        status_.records_waiting = entries.size();
-        status_.conflicts = writer_->replay_conflicts();
     }
+}
+
+void ArchiveThread::write_record(const Outbox::Entry& entry) {
+    if (entry.session != marked_) {  // Marks never mix sessions.
+        if (marked_) sync();
+        writer_->end_replay();
+        writer_->begin_session();
+        marked_ = entry.session;
+    }
+    writer_->record(entry.channel, entry.record, entry.last_index);
 }
 
 void ArchiveThread::sync() {

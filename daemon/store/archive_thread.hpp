@@ -1,11 +1,12 @@
 #pragma once
 /// @file
-/// The archive thread: journal chunks -> samples, times, miniSEED records.  It first
-/// processes the chunks that the last run left in the journal; acquisition does not wait for them.
+/// From chunks to samples, times and miniSEED records, by two threads.  The first decodes, and never
+/// waits for the disk once the chunks that the last run left in the journal are processed;
+/// acquisition does not wait for them.  The second writes a record when the journal holds its chunk.
 /// If the archive cannot be written, or the journal needs the remaining disk space, records wait in
-/// memory (64 MiB, 18 h at 50 Hz), writing is tried again at intervals, and the journal continues.
-/// When this memory is full, the records are written if possible, even if space is short.
-/// Otherwise chunks wait in ChunkQueue, and when that is full the journal waits.
+/// memory (64 MiB, 18 h at 50 Hz), and writing is tried again at intervals.  When this memory is
+/// full, the records are written if possible, even if space is short.  Otherwise the oldest are
+/// dropped; they are in the journal.
 
 #include <atomic>
 #include <chrono>
@@ -36,7 +37,8 @@ struct ArchiveStatus {
     std::string trouble;
     std::uint64_t faults = 0;
     std::uint64_t chunks_lost = 0;  ///< Chunks that could not be parsed; they are in the journal.
-    /// False after a failed sync or a lost chunk: nothing is marked as archived until the next
+    std::uint64_t records_dropped = 0;  ///< Records dropped because they waited for too long.
+    /// False after a failed sync, a lost chunk or a dropped record: nothing is marked as archived until the next
     /// start, which replays the journal from the last mark.
     bool is_marking = true;
     bool is_replaying = false;  ///< The last run's journal is being added to the archive.
@@ -69,11 +71,12 @@ public:
     ArchiveThread(files::FileLayer& files, std::filesystem::path archive,
                   journal::StationCodes codes, const source::HostClock& clock, ChunkQueue& chunks,
                   Progress& progress, SpaceReserve& reserve, Hooks hooks, DiskTime time,
-                  const archive::RecoveryPlan& plan);
+                  std::size_t most_waiting_bytes, const archive::RecoveryPlan& plan);
     ~ArchiveThread();
 
     void start() {
         thread_ = std::thread([this] { run(); });
+        writing_thread_ = std::thread([this] { run_writing(); });
     }
 
     /// Processes pending input in the caller's thread; for tests that do not call start().
@@ -96,6 +99,7 @@ private:
     class Outbox : public archive::Sink {
     public:
         struct Entry {
+            std::uint64_t chunk = 0;  ///< The journal must hold this chunk first.
             std::optional<journal::SessionId> session;
             std::string channel;
             archive::PackedRecord record;
@@ -104,7 +108,7 @@ private:
         void record(const std::string& channel, const archive::PackedRecord& record,
                     std::int64_t last_index) override {
             bytes += record.bytes.size();
-            entries.push_back({session, channel, record, last_index});
+            entries.push_back({chunk, session, channel, record, last_index});
         }
         void sample(const archive::Sample& sample) override {
             last_sample = sample;
@@ -112,10 +116,16 @@ private:
         }
         [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
                                                                     UtcTime start) const override {
-            return writer->samples_in_archive(channel, start);
+            if (writer != nullptr) return writer->samples_in_archive(channel, start);
+            const auto records = held.find(channel);
+            if (records == held.end()) return std::nullopt;
+            const auto record = records->second.find(start);
+            return record == records->second.end() ? std::nullopt : std::optional(record->second);
         }
 
-        const archive::Writer* writer = nullptr;    ///< Not null while records are received.
+        const archive::Writer* writer = nullptr;  ///< Not null during the replay only.
+        archive::Writer::Held held;  ///< Records of the archive that the replay has not matched.
+        std::uint64_t chunk = 0;     ///< Number of the chunk that is being decoded.
         std::optional<journal::SessionId> session;  ///< Session of the records being received.
         std::deque<Entry> entries;
         std::size_t bytes = 0;
@@ -135,6 +145,8 @@ private:
     [[nodiscard]] bool replay(archive::RecoveryReport& report);
     [[nodiscard]] bool replay_chunk(const journal::Chunk& chunk);
     void handle(const NumberedChunk& numbered) noexcept;
+    void wait_for_room();
+    void run_writing() noexcept;
     void take(const NumberedChunk& numbered);
     void open_archive(const journal::StationCodes& codes);
     void write_replayed();
@@ -142,7 +154,10 @@ private:
     void note_session(const journal::SessionId& session);
     [[nodiscard]] bool may_write();
     bool store_records(bool is_last);
+    void describe_sessions();
+    [[nodiscard]] std::optional<Outbox::Entry> next_record();
     void write_outbox();
+    void write_record(const Outbox::Entry& entry);
     void sync();
     void note_fault(const std::string& trouble);
     void post_model();
@@ -157,21 +172,28 @@ private:
     SpaceReserve& reserve_;
     Hooks hooks_;
     DiskTime time_;
+    std::size_t most_waiting_bytes_;
     const archive::RecoveryPlan& plan_;
 
     using steady_time = std::chrono::steady_clock::time_point;
 
-    // Used by the archive thread only.
-    std::unique_ptr<archive::Writer> writer_;
-    steady_time last_sync_, last_model_real_, last_look_at_space_;
+    // Used by the decoding thread only.
+    steady_time last_model_real_;
     RawTime last_model_;
-    std::optional<steady_time> retry_at_;      ///< Time of the next try; set after a fault.
-    std::deque<journal::Header> undescribed_;  ///< Sessions whose metadata must be written.
-    std::atomic<bool> are_marks_true_{true};
+
+    // Used by the decoding thread during the replay, then by the writing thread only.
+    std::unique_ptr<archive::Writer> writer_;
+    steady_time last_sync_, last_look_at_space_;
+    std::optional<steady_time> retry_at_;       ///< Time of the next try; set after a fault.
     std::optional<journal::SessionId> marked_;  ///< Session of the records in the writer.
 
-    mutable std::mutex mutex_;  ///< Mutex of archiver_ and its output; not locked for disk access.
-    std::condition_variable hurried_;
+    std::atomic<bool> are_marks_true_{true};
+
+    mutable std::mutex mutex_;  ///< Mutex of all that follows; not locked for disk access.
+    std::condition_variable changed_;
+    bool is_refused_ = false;  ///< The last try to write records failed.
+    bool is_ending_ = false;   ///< Everything is decoded, and in the journal if it could be.
+    std::deque<journal::Header> undescribed_;  ///< Sessions whose metadata must be written.
     bool has_recorded_ = false;  ///< This run recorded a session or a part of one.
     bool is_hurried_ = false;
     Outbox outbox_;
@@ -179,7 +201,7 @@ private:
     std::optional<journal::SessionId> session_;  ///< Session of archiver_.
     std::deque<Ended> ended_;
     ArchiveStatus status_;
-    std::thread thread_;
+    std::thread thread_, writing_thread_;
 };
 
 }  // namespace a351::daemon::store

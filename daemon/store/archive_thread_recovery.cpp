@@ -1,5 +1,5 @@
 /// @file
-/// The begin of the archive thread: it adds the data that the last run left in the journal.
+/// The begin of the decoding thread: it adds the data that the last run left in the journal.
 
 #include <system_error>
 
@@ -69,6 +69,8 @@ bool ArchiveThread::replay(archive::RecoveryReport& report) {
     const std::lock_guard lock(mutex_);
     outbox_.session = marked_ = session_;
     if (!plan_.replays.empty() && plan_.replays.back().codes != codes_) open_archive(codes_);
+    outbox_.held = writer_->held();
+    outbox_.writer = nullptr;  // From here on only the writing thread uses it.
     return true;
 }
 

@@ -1,7 +1,6 @@
 #include "daemon/store/chunk_queue.hpp"
 
 namespace a351::daemon::store {
-namespace {
 
 std::size_t size_of(const NumberedChunk& numbered) {
     std::size_t size = sizeof numbered;
@@ -9,8 +8,6 @@ std::size_t size_of(const NumberedChunk& numbered) {
         size += rx->bytes.size() + rx->reads.size() * sizeof(journal::ReadStamp);
     return size;
 }
-
-}  // namespace
 
 bool ChunkQueue::push(NumberedChunk chunk) {
     std::unique_lock lock(mutex_);

@@ -11,13 +11,16 @@
 
 namespace a351::daemon::store {
 
-/// A chunk that is written to the journal (not yet synced), with its number since start.
+/// A chunk for journal and archive, with its number since start, from 1.
 struct NumberedChunk {
-    std::uint64_t number = 0;
+    std::uint64_t number = 0;  ///< 0: for the journal only.
     journal::Chunk chunk;
 };
 
-/// The queue from the journal thread to the archive thread.
+/// Returns the memory that a chunk takes, about its size in the journal.
+[[nodiscard]] std::size_t size_of(const NumberedChunk& numbered);
+
+/// The queue from ChunkMaker to the archive thread.
 class ChunkQueue {
 public:
     /// Capacity: 32 MiB of chunks, about three quarters of an hour at 50 Hz (20 chunks a second of

@@ -10,28 +10,29 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kWriteInterval{50};  // Half of the promised 100 ms; the disk takes the rest.
+constexpr milliseconds kSyncLookInterval{50};  // Time between looks whether a sync is due.
 constexpr milliseconds kJournalSyncInterval{800};  // Leaves 0.2 s of the promised 1 s.
-constexpr seconds kClockInterval{1};  // Time between two clock readings: instrument time,
-constexpr milliseconds kShortestClockInterval{100};  // and real time.
-// Most bytes in a chunk.  With 12 bytes per stamp a chunk stays below the largest size.
-constexpr std::size_t kMostBytes = std::size_t{48} << 10;
-constexpr std::size_t kMostReads = 1000;
-// Most chunks that wait: almost three hours of the oven's polls, one a second, while writing fails.
-constexpr std::size_t kMostPosted = 10'000;
+// Duration of one disk operation above which the queue no longer waits for it.  Disks that recover
+// do so within the kernel's own time-out of 30 s and a repetition.
+constexpr seconds kHopeless{60};
+
+/// Returns true if the journal may lose a chunk so that newer ones are kept.
+bool is_expendable(const NumberedChunk& numbered) {
+    return std::holds_alternative<journal::RxChunk>(numbered.chunk) ||
+           std::holds_alternative<journal::TxChunk>(numbered.chunk) ||
+           std::holds_alternative<journal::OvenChunk>(numbered.chunk) ||
+           std::holds_alternative<timing::ClockReading>(numbered.chunk);
+}
 
 }  // namespace
 
 JournalThread::JournalThread(files::FileLayer& files, const std::filesystem::path& data_root,
-                             const source::HostClock& clock, source::ReadQueue& reads,
-                             ChunkQueue& written, Progress& progress, SpaceReserve& reserve,
+                             std::size_t capacity_bytes, Progress& progress, SpaceReserve& reserve,
                              DiskTime time)
     : time_(std::move(time)),
       files_(files),
       events_(data_root / "events"),
-      clock_(clock),
-      reads_(reads),
-      written_(written),
+      capacity_bytes_(capacity_bytes),
       progress_(progress),
       reserve_(reserve),
       writer_(files, data_root / "journal") {}
@@ -69,16 +70,36 @@ bool JournalThread::finish() {
     return !status_.is_faulty;
 }
 
-void JournalThread::post(journal::Chunk chunk) {
+void JournalThread::push(NumberedChunk chunk) {
     const std::lock_guard lock(mutex_);
-    if (posted_.size() >= kMostPosted) {
-        const auto is_poll = [](const journal::Chunk& posted) {
-            return std::holds_alternative<journal::OvenChunk>(posted);
-        };
-        const auto oldest = std::find_if(posted_.begin(), posted_.end(), is_poll);
-        if (oldest != posted_.end()) posted_.erase(oldest);
+    queued_bytes_ += size_of(chunk);
+    queued_.push_back(std::move(chunk));
+    while (queued_bytes_ > capacity_bytes_ && is_stuck() && drop_oldest()) {
     }
-    posted_.push_back(std::move(chunk));
+    has_news_ = true;
+    woken_.notify_all();
+}
+
+bool JournalThread::has_room() const {
+    const std::lock_guard lock(mutex_);
+    return queued_bytes_ < capacity_bytes_ || is_stuck();
+}
+
+/// Returns true if the disk refuses data or hangs.  Must be called with the lock held.
+bool JournalThread::is_stuck() const {
+    return faults_running_ >= 2 || (on_disk_since_ && time_.now() - *on_disk_since_ > kHopeless);
+}
+
+/// Drops the oldest chunk that may be lost.  Must be called with the lock held.
+/// @return false if there is none.
+bool JournalThread::drop_oldest() {
+    const auto oldest = std::ranges::find_if(queued_, is_expendable);
+    if (oldest == queued_.end()) return false;
+    if (const auto* const rx = std::get_if<journal::RxChunk>(&oldest->chunk))
+        status_.reads_dropped += rx->reads.size();
+    queued_bytes_ -= size_of(*oldest);
+    queued_.erase(oldest);
+    return true;
 }
 
 void JournalThread::commit(const events::Event& event, milliseconds patience) {
@@ -115,11 +136,12 @@ JournalStatus JournalThread::status() const {
 void JournalThread::run() noexcept {
     for (Phase phase = Phase::running; phase != Phase::finishing;) {
         std::unique_lock lock(mutex_);
-        woken_.wait_for(lock, kWriteInterval, [this] {
-            return !commits_.empty() || phase_ == Phase::finishing ||
+        woken_.wait_for(lock, kSyncLookInterval, [this] {
+            return has_news_ || !commits_.empty() || phase_ == Phase::finishing ||
                    (phase_ == Phase::draining && !is_drained_);
         });
         phase = phase_;
+        has_news_ = false;
         lock.unlock();
         run_once(phase);
     }
@@ -127,7 +149,7 @@ void JournalThread::run() noexcept {
 
 void JournalThread::run_once(Phase phase) noexcept {
     try {
-        work(phase);
+        work();
         if (phase != Phase::running) sync();
     } catch (const std::exception& error) {
         note_fault(error.what());
@@ -137,137 +159,56 @@ void JournalThread::run_once(Phase phase) noexcept {
         ++status_.rounds;
         return;
     }
-    written_.close();
     const std::lock_guard lock(mutex_);
     is_drained_ = true;
     woken_.notify_all();
 }
 
-template <class Item>
-std::optional<Item> JournalThread::take_first(std::deque<Item>& items) {
-    const std::lock_guard lock(mutex_);
-    if (items.empty()) return std::nullopt;
-    std::optional<Item> first(std::move(items.front()));
-    items.pop_front();
-    return first;
-}
-
-void JournalThread::work(Phase phase) {
-    make_room();
-    if (may_try_again()) {
-        retry_unwritten();
-        write_reads();
-        // After draining the archive would not see this chunk, but a reader of the journal would.
-        if (phase == Phase::running && is_clock_due()) write_clock(clock_.read());
-        while (auto chunk = take_first(posted_)) write(std::move(*chunk));
-    }
-    while (const auto commit = take_first(commits_)) carry_out(**commit);
+void JournalThread::work() {
+    if (may_try_again()) write_queued();
+    while (const auto commit = next_commit()) carry_out(*commit);
     if (is_dirty_ && may_try_again() && time_.now() - last_sync_ >= kJournalSyncInterval) sync();
 }
 
-/// Drops the oldest reads when the queue is almost full and writing fails.  A session's header is
-/// kept: it replaces the chunk that waits to be written.
-void JournalThread::make_room() {
-    if (faults_running_ < 2) return;
-    std::uint64_t dropped = 0;
-    while (reads_.fill() > reads_.capacity() / 8 * 7) {
-        const auto kind = reads_.front()->kind;
-        if (kind == source::ReadQueue::Kind::rx) ++dropped;
-        if (kind == source::ReadQueue::Kind::session) {
-            const auto* const rx =
-                unwritten_ ? std::get_if<journal::RxChunk>(&*unwritten_) : nullptr;
-            if (rx != nullptr) dropped += rx->reads.size();
-            unwritten_ = reads_.take_session();
-        }
-        reads_.pop();
-    }
+std::shared_ptr<JournalThread::Commit> JournalThread::next_commit() {
     const std::lock_guard lock(mutex_);
-    status_.reads_dropped += dropped;
+    if (commits_.empty()) return nullptr;
+    auto first = std::move(commits_.front());
+    commits_.pop_front();
+    return first;
 }
 
-void JournalThread::write_reads() {
-    journal::RxChunk rx;
-    const auto write_rx = [&] {
-        if (!rx.reads.empty()) write(std::exchange(rx, {}));
-    };
-    while (const auto item = reads_.front()) {
-        if (item->kind != source::ReadQueue::Kind::rx ||
-            rx.bytes.size() + item->bytes.size() > kMostBytes || rx.reads.size() == kMostReads) {
-            write_rx();
-        }
-        switch (item->kind) {
-            case source::ReadQueue::Kind::rx:
-                rx.bytes.insert(rx.bytes.end(), item->bytes.begin(), item->bytes.end());
-                rx.reads.push_back({static_cast<std::uint32_t>(rx.bytes.size()), item->time});
-                reads_.pop();
-                break;
-            case source::ReadQueue::Kind::tx: {
-                journal::TxChunk tx{item->time, {item->bytes.begin(), item->bytes.end()}};
-                reads_.pop();
-                write(std::move(tx));
-                break;
-            }
-            case source::ReadQueue::Kind::woken: {
-                const timing::ClockReading reading = reads_.woken();
-                reads_.pop();
-                write_clock(reading);
-                break;
-            }
-            case source::ReadQueue::Kind::session: {
-                journal::Header header = reads_.take_session();
-                reads_.pop();
-                write(std::move(header));
-                break;
-            }
-        }
-    }
-    write_rx();
+std::optional<NumberedChunk> JournalThread::next_chunk() {
+    const std::lock_guard lock(mutex_);
+    if (queued_.empty()) return std::nullopt;
+    std::optional<NumberedChunk> first(std::move(queued_.front()));
+    queued_.pop_front();
+    queued_bytes_ -= size_of(*first);
+    return first;
 }
 
-bool JournalThread::is_clock_due() const {
-    return has_segment_ && time_.now() - last_clock_real_ >= kShortestClockInterval &&
-           clock_.raw() - last_clock_ >= kClockInterval;
-}
-
-void JournalThread::write_clock(const timing::ClockReading& reading) {
-    last_clock_ = reading.raw;
-    last_clock_real_ = time_.now();
-    write(reading);
-}
-
-void JournalThread::write(journal::Chunk chunk) {
-    unwritten_ = std::move(chunk);
+void JournalThread::write_queued() {
     retry_unwritten();
+    while ((unwritten_ = next_chunk())) retry_unwritten();
 }
 
 void JournalThread::retry_unwritten() {
     if (!unwritten_) return;
-    const auto* const header = std::get_if<journal::Header>(&*unwritten_);
-    if (header == nullptr && !has_segment_) {
-        unwritten_.reset();
-        return;
-    }
+    const journal::Chunk& chunk = unwritten_->chunk;
+    const auto* const header = std::get_if<journal::Header>(&chunk);
     if (header != nullptr) {
         on_disk([&] { writer_.begin_segment(*header); });
         has_segment_ = true;
-    } else {
-        // With a clock reading later than the reader's own, the header would include later sleeps.
-        const auto* const reading = std::get_if<timing::ClockReading>(&*unwritten_);
-        std::optional<journal::Header> rotated;
-        on_disk([&] { rotated = writer_.append(*unwritten_, reading ? *reading : clock_.read()); });
-        if (rotated) hand_over(*rotated);  // The archive must see the same chunks as a reader.
+    } else if (has_segment_) {
+        on_disk([&] { writer_.append(chunk); });
     }
-    is_dirty_ = true;
-    hand_over(*std::exchange(unwritten_, std::nullopt));
+    is_dirty_ |= has_segment_;
+    if (unwritten_->number > 0) last_chunk_ = unwritten_->number;
+    unwritten_.reset();
+    progress_.journal_written(last_chunk_);
     const std::lock_guard lock(mutex_);
     status_.is_faulty = false;
     status_.bytes_written = writer_.bytes_written();
-}
-
-void JournalThread::hand_over(journal::Chunk chunk) {
-    if (written_.push({++last_chunk_, std::move(chunk)})) return;
-    const std::lock_guard lock(mutex_);
-    ++status_.archive_waits;
 }
 
 // The event counts as written when it is in the event log.  The copy in the journal follows at
@@ -282,10 +223,9 @@ void JournalThread::carry_out(Commit& commit) {
         return commit.done.set_exception(std::current_exception());
     }
     try {
-        post(journal::EventChunk{events::to_json(commit.event)});
+        push({0, journal::EventChunk{events::to_json(commit.event)}});
         if (may_try_again()) {
-            retry_unwritten();
-            while (auto chunk = take_first(posted_)) write(std::move(*chunk));
+            write_queued();
             sync();
         }
     } catch (const std::exception& error) {
@@ -299,9 +239,9 @@ void JournalThread::sync() {
     last_sync_ = time_.now();
     on_disk([this] { writer_.sync(); });
     is_dirty_ = false;
-    faults_running_ = 0;
     {
         const std::lock_guard lock(mutex_);
+        faults_running_ = 0;
         status_.is_faulty = false;
     }
     progress_.journal_synced(last_chunk_);
@@ -333,8 +273,8 @@ void JournalThread::on_disk(const std::function<void()>& operation) {
 }
 
 void JournalThread::note_fault(const std::string& trouble) {
-    ++faults_running_;
     const std::lock_guard lock(mutex_);
+    ++faults_running_;
     last_fault_ = time_.now();
     status_.is_faulty = true;
     status_.trouble = trouble;

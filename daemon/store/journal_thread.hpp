@@ -1,9 +1,9 @@
 #pragma once
 /// @file
 /// The journal thread.  Received bytes go to disk within 100 ms and survive a power cut after
-/// one second, both in real time.  The thread waits for the disk, and for the archive thread when
-/// ChunkQueue is full.  When the disk is full, the reserve is used first.  If writing fails for
-/// longer than the queue of reads can store, the newest reads are kept.
+/// one second, both in real time.  Only this thread waits for the journal's disk.  When the disk is
+/// full, the reserve is used first.  If the disk refuses data, or hangs, for longer than the queue
+/// of chunks can store, the newest chunks are kept.
 
 #include <chrono>
 #include <condition_variable>
@@ -19,7 +19,6 @@
 #include <thread>
 
 #include "daemon/source/host_clock.hpp"
-#include "daemon/source/read_queue.hpp"
 #include "daemon/store/chunk_queue.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
@@ -35,7 +34,6 @@ struct JournalStatus {
     std::uint64_t faults = 0;
     std::uint64_t bytes_written = 0;
     std::uint64_t rounds = 0;                   ///< Rounds of the thread.
-    std::uint64_t archive_waits = 0;            ///< Number of times it had to wait for the archive.
     std::uint64_t events_refused = 0;           ///< Events not written to the event log.
     std::uint64_t reads_dropped = 0;            ///< Reads dropped, writing failed for too long.
     std::chrono::milliseconds longest_sync{0};  ///< Longest sync or write, or one in progress.
@@ -45,9 +43,10 @@ struct JournalStatus {
 class JournalThread {
 public:
     /// All objects passed by reference must outlive this.
+    /// @param capacity_bytes  of chunks that wait to be written.
     JournalThread(files::FileLayer& files, const std::filesystem::path& data_root,
-                  const source::HostClock& clock, source::ReadQueue& reads, ChunkQueue& written,
-                  Progress& progress, SpaceReserve& reserve, DiskTime time);
+                  std::size_t capacity_bytes, Progress& progress, SpaceReserve& reserve,
+                  DiskTime time);
     ~JournalThread();
 
     void start();
@@ -55,15 +54,18 @@ public:
     /// Runs one round in the caller's thread; for tests that do not call start().
     void step() noexcept { run_once(Phase::running); }
 
-    /// Writes everything left in the queues and closes `written`; the thread continues until
-    /// finish().
+    /// Writes everything left in the queue; the thread continues until finish().
     void drain();
-    /// Writes the chunks posted meanwhile, syncs, and ends the thread.
+    /// Writes the chunks pushed meanwhile, syncs, and ends the thread.
     /// @return false if something could not be written.
     bool finish();
 
-    /// Queues a chunk to be written soon: MARK, MODEL or a poll of the oven.
-    void post(journal::Chunk chunk);
+    /// Queues a chunk to be written soon.  If the journal is stuck and the queue full, the oldest
+    /// reads, clock readings and polls are dropped.
+    void push(NumberedChunk chunk);
+
+    /// Returns false if the queue is full because the disk is slow: the caller should wait.
+    [[nodiscard]] bool has_room() const;
 
     /// Writes the event and waits until it is in the event log and synced.  The journal contains it
     /// then too, or as soon as the journal can be written.
@@ -83,16 +85,13 @@ private:
 
     void run() noexcept;
     void run_once(Phase phase) noexcept;
-    void work(Phase phase);
-    void make_room();
-    void write_reads();
-    [[nodiscard]] bool is_clock_due() const;
-    void write_clock(const timing::ClockReading& reading);
-    template <class Item>
-    [[nodiscard]] std::optional<Item> take_first(std::deque<Item>& items);
-    void write(journal::Chunk chunk);
+    void work();
+    void write_queued();
     void retry_unwritten();
-    void hand_over(journal::Chunk chunk);
+    [[nodiscard]] std::optional<NumberedChunk> next_chunk();
+    [[nodiscard]] std::shared_ptr<Commit> next_commit();
+    [[nodiscard]] bool is_stuck() const;
+    [[nodiscard]] bool drop_oldest();
     void carry_out(Commit& commit);
     void sync();
     void on_disk(const std::function<void()>& operation);
@@ -103,9 +102,7 @@ private:
     DiskTime time_;
     files::FileLayer& files_;
     std::filesystem::path events_;
-    const source::HostClock& clock_;
-    source::ReadQueue& reads_;
-    ChunkQueue& written_;
+    std::size_t capacity_bytes_;
     Progress& progress_;
     SpaceReserve& reserve_;
     journal::Writer writer_;
@@ -115,17 +112,18 @@ private:
     // Used by the journal thread only.
     bool has_segment_ = false;
     bool is_dirty_ = false;
-    int faults_running_ = 0;                   ///< Faults since the last successful sync.
-    std::optional<journal::Chunk> unwritten_;  ///< Chunk that could not be written yet.
-    std::uint64_t last_chunk_ = 0;
-    RawTime last_clock_;
-    std::chrono::steady_clock::time_point last_clock_real_, last_sync_;
+    std::optional<NumberedChunk> unwritten_;  ///< Chunk that could not be written yet.
+    std::uint64_t last_chunk_ = 0;            ///< Number of the last chunk that was written.
+    std::chrono::steady_clock::time_point last_sync_;
 
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     Phase phase_ = Phase::running;
     bool is_drained_ = false;
-    std::deque<journal::Chunk> posted_;
+    bool has_news_ = false;  ///< A chunk was pushed since the last round.
+    std::deque<NumberedChunk> queued_;
+    std::size_t queued_bytes_ = 0;
+    int faults_running_ = 0;  ///< Faults since the last successful sync.
     std::deque<std::shared_ptr<Commit>> commits_;
     JournalStatus status_;
     std::optional<std::chrono::steady_clock::time_point> on_disk_since_, last_fault_;

@@ -14,6 +14,16 @@ void Progress::parsed(std::uint64_t chunk, const journal::SessionId& session,
     advance();
 }
 
+void Progress::journal_written(std::uint64_t chunk) {
+    const std::lock_guard lock(mutex_);
+    written_chunk_ = chunk;
+}
+
+std::uint64_t Progress::written() const {
+    const std::lock_guard lock(mutex_);
+    return written_chunk_;
+}
+
 void Progress::journal_synced(std::uint64_t chunk) {
     const std::lock_guard lock(mutex_);
     synced_chunk_ = chunk;

@@ -25,6 +25,12 @@ public:
     void parsed(std::uint64_t chunk, const journal::SessionId& session,
                 std::optional<std::int64_t> last_index);
 
+    /// Notes that every chunk up to `chunk` was written to the journal, or dropped by it.
+    void journal_written(std::uint64_t chunk);
+
+    /// Returns the last chunk that was written.  Later ones must not be archived yet.
+    [[nodiscard]] std::uint64_t written() const;
+
     /// Notes that every chunk up to `chunk` is on disk.
     void journal_synced(std::uint64_t chunk);
 
@@ -43,7 +49,7 @@ private:
     mutable std::mutex mutex_;
     Indices indices_;
     std::deque<Parsed> unsynced_;  ///< Chunks parsed but not known to be synced; ascending.
-    std::uint64_t synced_chunk_ = 0;
+    std::uint64_t written_chunk_ = 0, synced_chunk_ = 0;
 };
 
 }  // namespace a351::daemon::store

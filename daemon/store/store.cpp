@@ -27,16 +27,17 @@ Store::Store(files::FileLayer& files, Options options, const source::HostClock& 
                                           : journal::stream_end(plan_.replays.back().segments)),
       profile_(wire::find_profile(options_.station.profile)),
       chunks_(options_.queue_bytes),
-      journal_(files, options_.root, clock, reads, chunks_, progress_, reserve_, options_.time),
+      journal_(files, options_.root, reads.capacity(), progress_, reserve_, options_.time),
+      chunk_maker_(clock, reads, journal_, chunks_, options_.time),
       archive_(
           files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
           reserve_,
-          {.post = [this](journal::Chunk chunk) { journal_.post(std::move(chunk)); },
+          {.post = [this](journal::Chunk chunk) { journal_.push({0, std::move(chunk)}); },
            .session_began = [this](const journal::Header& header) { describe(header); },
            .recovered = [this](const archive::RecoveryReport& report) { finish_recovery(report); },
            .begin = options_.begin,
            .sample = options_.sample},
-          options_.time, plan_) {}
+          options_.time, options_.waiting_records_bytes, plan_) {}
 
 void Store::start() {
     is_running_ = true;
@@ -44,10 +45,12 @@ void Store::start() {
     keeper_.start();           // A full disk may delay the replay until old segments are removed.
     archive_.start();
     journal_.start();
+    chunk_maker_.start();
 }
 
 void Store::step() {
     is_running_ = true;
+    chunk_maker_.step();
     journal_.step();
     archive_.step();
 }
@@ -56,6 +59,7 @@ bool Store::stop() {
     if (!is_running_) return true;
     is_running_ = false;
     archive_.skip_waits();
+    chunk_maker_.drain();
     journal_.drain();
     const bool is_archived = archive_.join();
     return journal_.finish() && is_archived;
@@ -101,9 +105,11 @@ void Store::describe(const journal::Header& header) {
 }
 
 bool Store::is_alive() {
+    const std::uint64_t rounds = chunk_maker_.status().rounds;
     const JournalStatus journal = journal_.status();
-    return journal.present_sync.count() > 0 ||
-           std::exchange(rounds_, journal.rounds) != journal.rounds;
+    const bool makes_chunks = std::exchange(rounds_, rounds) != rounds;
+    const bool writes = std::exchange(journal_rounds_, journal.rounds) != journal.rounds;
+    return makes_chunks && (writes || journal.present_sync.count() > 0);
 }
 
 void Store::fill(status::Status& status) {
@@ -143,21 +149,26 @@ void Store::fill(status::Status& status) {
                                  {"archive_chunks_lost", archive.chunks_lost},
                                  {"archive_records", archive.records},
                                  {"archive_records_waiting", archive.records_waiting},
-                                 {"archive_waits", journal.archive_waits},
+                                 {"archive_records_dropped", archive.records_dropped},
+                                 {"archive_waits", chunk_maker_.status().archive_waits},
                                  {"journal_segments_compressed", keeper.compressed},
                                  {"journal_segments_removed", keeper.removed},
                                  {"journal_keeper_faults", keeper.faults},
                                  {"reserve_given_up", reserve.times_given_up}});
     if (keeper.faults > 0)
         status.warn("closed journal segment: not compressed or removed: " + keeper.trouble);
-    if (journal.is_faulty) status.fail("journal: " + journal.trouble);
+    if (journal.is_faulty) {
+        status.fail("journal: " + journal.trouble +
+                    "; new data wait in memory and a power cut would lose them; check the disk");
+    }
     if (archive.is_faulty) status.fail("archive: " + archive.trouble);
-    if (journal.is_faulty && journal.reads_dropped > 0) {
+    const bool is_stalled = journal.present_sync >= kStall;
+    if ((journal.is_faulty || is_stalled) && journal.reads_dropped > 0) {
         status.fail(
             "journal: writing has failed for so long that the buffer is full; the oldest data are "
             "being discarded; check the disk");
     }
-    if (archive.chunks_lost > 0) {
+    if (archive.chunks_lost + archive.records_dropped > 0) {
         status.fail(
             "archive: some data could not be added; they are safe in the journal and will be added "
             "at the next start");
@@ -173,7 +184,7 @@ void Store::fill(status::Status& status) {
     }
 
     status.longest_sync = journal.longest_sync;
-    if (journal.present_sync >= kStall) {
+    if (is_stalled) {
         status.warn(
             "the disk stalls: new data wait in memory and a power cut would lose them; check the "
             "disk");

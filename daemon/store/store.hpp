@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Everything between the reader's queue and the disk: recovery at start, journal, archive, station
+/// Everything between the reader's queue and the disk: chunks, recovery at start, journal, archive, station
 /// metadata, events.  It also answers the requests of survey and page about recorded data.
 
 #include <chrono>
@@ -14,6 +14,7 @@
 #include "daemon/source/read_queue.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/store/archive_thread.hpp"
+#include "daemon/store/chunk_maker.hpp"
 #include "daemon/store/chunk_queue.hpp"
 #include "daemon/store/data_root.hpp"
 #include "daemon/store/journal_keeper.hpp"
@@ -37,6 +38,8 @@ struct Options {
     DiskTime time = {};
     std::uint64_t reserve_bytes = SpaceReserve::kSize_bytes;
     std::size_t queue_bytes = ChunkQueue::kCapacityBytes;
+    /// Memory of records that wait for the archive: 18 h at 50 Hz.
+    std::size_t waiting_records_bytes = std::size_t{64} << 20;
     JournalKeeper::Options keeper = {};
     /// Longest time that an event waits for its turn.
     std::chrono::milliseconds commit_patience{10'000};
@@ -65,7 +68,7 @@ public:
     /// Starts recording; the archive is recovered at the same time.
     void start();
 
-    /// Runs one round of the journal and archive threads in the caller's thread; for tests that do
+    /// Runs one round of all threads in the caller's thread; for tests that do
     /// not call start().
     void step();
 
@@ -81,12 +84,12 @@ public:
         journal_.commit(event, options_.commit_patience);
     }
 
-    /// Passes a poll to the journal.  It is dropped before the sensor's first session, which opens
-    /// the journal.
-    void post(journal::OvenChunk poll) { journal_.post(std::move(poll)); }
+    /// Passes a poll to journal and archive.  It is dropped before the sensor's first session, which
+    /// opens the journal.
+    void post(journal::OvenChunk poll) { chunk_maker_.post(std::move(poll)); }
 
-    /// Returns true if the journal thread finished a round since the last call, or waits for the
-    /// disk.  While it waits, data are in memory only, and a restart would lose them.
+    /// Returns true if chunks were made since the last call, and the journal thread finished a round
+    /// or waits for the disk.  While it waits, data are in memory only, and a restart would lose them.
     [[nodiscard]] bool is_alive();
 
     /// Copies the state of the store into the status, and adds its reasons.
@@ -108,11 +111,12 @@ private:
     Progress progress_;
     ChunkQueue chunks_;
     JournalThread journal_;
+    ChunkMaker chunk_maker_;
     ArchiveThread archive_;
     std::mutex metadata_mutex_;
     std::string metadata_trouble_;
     bool is_running_ = false;
-    std::uint64_t rounds_ = 0;  ///< Journal rounds at the last call of is_alive().
+    std::uint64_t rounds_ = 0, journal_rounds_ = 0;  ///< Rounds at the last call of is_alive().
 };
 
 }  // namespace a351::daemon::store

@@ -101,6 +101,20 @@ std::optional<std::size_t> Writer::samples_in_archive(const std::string& name,
     return held->second.sample_count;
 }
 
+Writer::Held Writer::held() const {
+    Held held;
+    if (!is_replaying_) return held;
+    for (const std::string& name : channels_in(archive_, codes_)) {
+        const auto day_file = newest_day_file(archive_, codes_, name);
+        Channel& channel = channels_[name];
+        if (day_file && channel.days_read.insert(*day_file).second) load(channel, *day_file);
+    }
+    for (const auto& [name, channel] : channels_)
+        for (const auto& [start, record] : channel.held)
+            held[name].emplace(start, record.sample_count);
+    return held;
+}
+
 Writer::Found Writer::find(const std::string& name, const PackedRecord& record) {
     if (!is_replaying_) return Found::nothing;
     Channel& channel = replayed(name, record.start);

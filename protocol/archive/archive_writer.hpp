@@ -72,6 +72,13 @@ public:
     [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
                                                                 UtcTime start) const override;
 
+    /// Numbers of samples of archived records, by channel and start.
+    using Held = std::map<std::string, std::map<UtcTime, std::size_t>>;
+    /// Returns the archived records that the replay has not matched yet, of the days it read and of
+    /// each channel's newest day.  It is for a sink that must not wait for the disk.
+    /// @throws std::system_error  a day file cannot be read.
+    [[nodiscard]] Held held() const;
+
     /// Syncs the archive.
     /// @return the last sample per channel that now survives a power cut, in the order of the
     ///         codes.  Channels without a record since begin_session() are absent.

@@ -15,9 +15,6 @@ namespace a351::journal {
 
 namespace {
 
-constexpr std::chrono::hours kLongestSegment{1};
-constexpr std::uint64_t kLargestSegment = 64ULL << 20;
-
 std::string segment_name(std::uint64_t number, UtcTime time) {
     // "2026-03-01T13:00:00Z" without its punctuation.
     std::string stamp = to_rfc3339(time);
@@ -54,6 +51,14 @@ void Writer::begin_segment(const Header& header) {
     forget_unsynced();
 }
 
+void Writer::append(const Chunk& chunk) {
+    assert(header_);
+    if (!segment_) rewrite_unsynced();
+    write(chunk);
+    unsynced_.push_back(chunk);
+    if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) newest_clock_ = *reading;
+}
+
 std::optional<Header> Writer::append(const Chunk& chunk, const timing::ClockReading& clock) {
     assert(header_);
     if (!segment_) rewrite_unsynced();
@@ -65,9 +70,7 @@ std::optional<Header> Writer::append(const Chunk& chunk, const timing::ClockRead
         begin_segment(header);
         unreported_header_ = header;
     }
-    write(chunk);
-    unsynced_.push_back(chunk);
-    if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) newest_clock_ = *reading;
+    append(chunk);
     return std::exchange(unreported_header_, std::nullopt);
 }
 

@@ -12,6 +12,7 @@
 /// A chunk is safe after the sync() that follows it.  All errors of the disk are exceptions, and
 /// every call may simply be repeated after one.
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -22,6 +23,10 @@
 #include "protocol/journal/journal.hpp"
 
 namespace a351::journal {
+
+/// Limits of a segment: raw time and bytes after which a new one is begun.
+inline constexpr std::chrono::hours kLongestSegment{1};
+inline constexpr std::uint64_t kLargestSegment = std::uint64_t{64} << 20;
 
 /// Appends chunks to segments `NNNNNNNN_YYYYMMDDThhmmssZ.a351j`.  One writer per directory.
 ///
@@ -62,19 +67,24 @@ public:
     /// @throws std::invalid_argument  the header is larger than kMostPayloadBytes.
     void begin_segment(const Header& header);
 
-    /// Appends a chunk by one write.  If the segment is older than one hour of raw time or larger
-    /// than 64 MiB, a new one is begun first, with the same header and `clock`.
+    /// Appends a chunk by one write, to the segment that is open, whatever its age and size.
     /// Precondition: begin_segment() was called.
     ///
     /// The chunk is copied.  After std::system_error, append the same chunk again: it was not kept.
     ///
     /// @param chunk  any kind but Header, which would end the segment for every reader; this
     ///               is not checked.  Use begin_segment() for a header.
-    /// @param clock  present reading of the host's clocks; used only if a new segment is begun.
-    /// @return  the header of a segment that was begun so; a reader finds it before `chunk`.
     /// @throws std::system_error  `chunk` is not written; earlier chunks are kept.
     /// @throws std::invalid_argument  the chunk is larger than kMostPayloadBytes, or violates the
     ///         format in another way that encode_chunk() refuses.  The writer is not affected.
+    void append(const Chunk& chunk);
+
+    /// Appends a chunk like the other function.  If the segment is older than kLongestSegment or
+    /// larger than kLargestSegment, a new one is begun first, with the same header and `clock`.
+    ///
+    /// @param clock  present reading of the host's clocks; used only if a new segment is begun.
+    /// @return  the header of a segment that was begun so; a reader finds it before `chunk`.
+    /// @throws std::system_error, std::invalid_argument  as the other function.
     std::optional<Header> append(const Chunk& chunk, const timing::ClockReading& clock);
 
     /// Syncs all chunks to disk.

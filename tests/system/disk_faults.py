@@ -89,6 +89,23 @@ def has_reason(state, beginning):
     return any(reason.startswith(beginning) for reason in state["reasons"])
 
 
+def sample_age_s(state):
+    """Returns the real time since the last sample that the page shows."""
+    return state["sample"]["age_s"] / SPEED
+
+
+def demand_live_view(day, disk, seconds):
+    """Demands that samples and verdict follow the sensor for `seconds`, whatever the disk does."""
+    oldest_s, states, end = 0.0, set(), time.monotonic() + seconds
+    while time.monotonic() < end:
+        state = day.status()
+        oldest_s = max(oldest_s, sample_age_s(state))
+        states.add(state["verdict"]["state"])
+        time.sleep(0.05)
+    demand(f"{disk}: the last sample was at most {oldest_s:.2f} s old, limit 0.5; verdicts {sorted(states)}",
+           oldest_s < 0.5 and "no data" not in states)
+
+
 def archive_size(scratch):
     return sum(file.stat().st_size for file in (scratch / "data" / "archive").rglob("*.D.*"))
 
@@ -175,6 +192,7 @@ def failing_sync(day, part, n):
 def stall(day, call, n, seconds):
     with injecting(day, f"{call}:delay_enter={seconds * 1_000_000}:when={n}"):
         day.wait_for(f"the stall of {call} {n} is reported", lambda state: has_reason(state, STALL))
+        demand_live_view(day, f"{call} stalls", seconds - 2.0)
         longest_s, is_stalled = 0.0, True
         while is_stalled:
             asked = time.monotonic()
@@ -198,7 +216,7 @@ def read_only(day):
                              >= before["journal_faults"] + 2)
         demand(f"read-only: the status reports a fault: {state['reasons']}",
                state["level"] == "fault" and has_reason(state, "journal: "))
-        time.sleep(12.0)  # Longer than the 10 s between two attempts.
+        demand_live_view(day, "read-only", 12.0)  # Longer than the 10 s between two attempts.
         demand("the fault is still reported after another attempt", has_reason(day.status(), "journal: "))
     day.wait_for("the journal is written again", lambda state: not has_reason(state, "journal: "))
     day.wait_for_more()

@@ -33,7 +33,8 @@ public:
     std::atomic<bool> does_append_fail{false};
     std::atomic<bool> does_archive_fail{false};
     std::atomic<bool> does_archive_sync_fail{false};
-    std::atomic<int> hanging{0};
+    std::atomic<bool> does_archive_hang{false};
+    std::atomic<int> hanging{0}, archive_hanging{0};
 
     std::unique_ptr<files::AppendFile> open_append(const std::filesystem::path& file) override {
         if (file.extension() == ".a351j")
@@ -69,6 +70,13 @@ private:
     public:
         ArchiveFile(TroubledFiles& owner, std::unique_ptr<files::AppendFile> file)
             : test::ForwardingFile(std::move(file)), owner_(owner) {}
+        void append(std::span<const std::byte> bytes) override {
+            while (owner_.does_archive_hang) {
+                owner_.archive_hanging = 1;
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+            file_->append(bytes);
+        }
         void sync() override {
             if (owner_.does_archive_sync_fail)
                 throw std::system_error(EIO, std::generic_category(), "sync of the archive");

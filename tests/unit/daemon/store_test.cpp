@@ -86,20 +86,22 @@ TEST_CASE("after the journal is drained only chunks posted by the archive are wr
           "[daemon][store]") {
     SteppedRig rig;
     SpaceReserve reserve(rig.files, rig.root / "state" / "reserve", 0);
-    ChunkQueue written;
+    ChunkQueue decoded;
     Progress progress;
-    JournalThread journal(rig.files, rig.root, rig.clock, rig.reads, written, progress, reserve,
+    JournalThread journal(rig.files, rig.root, rig.reads.capacity(), progress, reserve,
                           rig.options().time);
+    ChunkMaker chunk_maker(rig.clock, rig.reads, journal, decoded, rig.options().time);
     rig.begin_session();
     rig.feed(10);
     rig.pass(std::chrono::seconds(5));
+    chunk_maker.drain();
     journal.drain();
     rig.pass(std::chrono::seconds(5));  // Time that the archive takes to end.
-    journal.post(journal::MarkChunk{});
+    journal.push({0, journal::MarkChunk{}});
     CHECK(journal.finish());
 
     std::size_t handed_over = 0;
-    while (written.try_pop()) ++handed_over;
+    while (decoded.try_pop()) ++handed_over;
     std::vector<journal::Chunk> journaled;
     journal::Sequence chunks(journal::segment_files(rig.root / "journal"));
     while (auto chunk = chunks.next()) journaled.push_back(std::move(*chunk));
