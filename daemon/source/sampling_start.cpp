@@ -7,6 +7,7 @@
 #include "daemon/source/read_queue.hpp"
 #include "protocol/timing/sample_index.hpp"
 #include "protocol/wire/burst_decoder.hpp"
+#include "protocol/wire/commands.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon::source {
@@ -95,8 +96,8 @@ bool drain(Port& port, const wire::DrainUntilSilent& step, std::size_t& skipped)
 
 }  // namespace
 
-Listening listen_for(const journal::StreamEnd& known, Port& port, const HostClock& clock,
-                     const std::atomic<bool>& stop) {
+Listening listen_for(const journal::StreamEnd& known, std::vector<Read> heard, Port& port,
+                     const HostClock& clock, const std::atomic<bool>& stop) {
     const journal::Header& header = known.header;
     const int rate_hz = header.output_rate_hz;
     const auto step = wire::find_profile(header.profile)->count_step(rate_hz);
@@ -111,6 +112,14 @@ Listening listen_for(const journal::StreamEnd& known, Port& port, const HostCloc
     auto last_byte = begin;
 
     Listening listening;
+    const auto take = [&](Read read) {
+        std::span<const std::byte> input = read.bytes;
+        while (const auto event = decoder.next(input))
+            if (const auto* frame = std::get_if<wire::BurstFrame>(&*event))
+                continuation.take(frame->values().count, read.time);
+        listening.reads.push_back(std::move(read));
+    };
+    for (Read& read : heard) take(std::move(read));
     std::array<std::byte, ReadQueue::kLargestItem> bytes{};
     while (!stop && steady_clock::now() - begin < babble) {
         const auto came = port.read(bytes, std::chrono::ceil<milliseconds>(kLongestSilence / 10));
@@ -124,16 +133,36 @@ Listening listen_for(const journal::StreamEnd& known, Port& port, const HostCloc
             continue;
         }
         last_byte = steady_clock::now();
-        std::span<const std::byte> input = std::span(bytes).first(*came);
-        listening.reads.push_back({time, {input.begin(), input.end()}});
-        while (const auto event = decoder.next(input))
-            if (const auto* frame = std::get_if<wire::BurstFrame>(&*event))
-                continuation.take(frame->values().count, time);
+        const auto input = std::span(bytes).first(*came);
+        take({time, {input.begin(), input.end()}});
         if (!continuation.is_certain()) continue;
         if (continuation.fits()) listening.outcome = Listening::Outcome::continues;
         break;
     }
     return listening;
+}
+
+Probe probe_silent_line(Port& port, const HostClock& clock, const std::atomic<bool>& stop) {
+    constexpr int kTries = 3;
+    Probe probe;
+    for (int i = 0; i < kTries && !stop; ++i) {
+        std::vector<wire::Command> commands = wire::read_mode();
+        bool is_there = port.write(std::array{wire::kEndByte});  // completes a half-sent command
+        for (const wire::Command& command : commands) {
+            std::this_thread::sleep_for(wire::kCommandSpacing);
+            is_there = is_there && port.write(command);
+        }
+        std::vector<std::byte> answer;
+        is_there = is_there && receive(port, {.byte_count = wire::kAnswerSize}, answer);
+        if (!is_there) return {Probe::Outcome::port_gone, {}};
+        if (answer.empty()) continue;
+        const auto mode = wire::parse_answer(wire::kModeCtrl, answer);
+        if (mode && wire::ConfigMode::from_mode_ctrl(*mode)) return {Probe::Outcome::stopped, {}};
+        probe.outcome = Probe::Outcome::heard;
+        probe.reads.push_back({clock.raw(), std::move(answer)});
+        return probe;
+    }
+    return probe;
 }
 
 HandshakeRun run_handshake(wire::Handshake& handshake, Port& port, const HostClock& clock,

@@ -32,15 +32,33 @@ struct Listening {
     std::vector<Read> reads;  ///< Everything received, in order.
 };
 
-/// Listens on a port that was just opened.  Gives up after a silence of half a second or 20 frame
+/// Listens on a port that was just opened or has just become silent.  Gives up after a silence of half a second or 20 frame
 /// periods, whichever is longer, or after some seconds of bytes without a known stream.
 /// The stream counts as known when ten consecutive frames keep the counter step of its rate, and
 /// their counter has the value that timing::SampleIndex expects from `known`.
 /// A device that restarted meanwhile is mistaken for the known stream in one of 20 cases: when its
 /// new counter happens to be within a second of the expected one, or continues the old one.
-/// @param stop  listening ends when it becomes true.
-[[nodiscard]] Listening listen_for(const journal::StreamEnd& known, Port& port,
-                                   const HostClock& clock, const std::atomic<bool>& stop);
+/// @param heard  what was received before, from the first byte on.
+/// @param stop   listening ends when it becomes true.
+[[nodiscard]] Listening listen_for(const journal::StreamEnd& known, std::vector<Read> heard,
+                                   Port& port, const HostClock& clock,
+                                   const std::atomic<bool>& stop);
+
+struct Probe {
+    enum class Outcome {
+        silent,   ///< No byte came.
+        stopped,  ///< The sensor does not sample: it can be configured.
+        heard,    ///< Other bytes came, as when a plug is back: a stream may continue.
+        port_gone,
+    };
+    Outcome outcome = Outcome::silent;
+    std::vector<Read> reads;  ///< The bytes heard.
+};
+
+/// Asks a silent sensor for its mode.  A sensor that samples is not disturbed by the question.
+/// @param stop  it ends when it becomes true.
+[[nodiscard]] Probe probe_silent_line(Port& port, const HostClock& clock,
+                                      const std::atomic<bool>& stop);
 
 struct PortGone {};
 

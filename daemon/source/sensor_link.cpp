@@ -109,7 +109,7 @@ void SensorLink::run() noexcept {
 
 void SensorLink::open() {
     port_ = open_port(options_.address, bauds_.front());
-    is_port_new_ = true;
+    may_continue_ = true;
     was_open_ = true;
 }
 
@@ -127,10 +127,11 @@ bool SensorLink::find_port() {
     return true;
 }
 
-// A stream that continues after an outage of the port or of this program is not touched: its
-// counter shows how many samples the outage cost.
+// A stream that continues after an outage of the port, of the line or of this program is not
+// touched: its counter shows how many samples the outage cost.
 bool SensorLink::adopt() {
-    if (!std::exchange(is_port_new_, false) || !known_) return false;
+    const std::vector<Read> heard = std::exchange(heard_, {});
+    if (!std::exchange(may_continue_, false) || !known_) return false;
     journal::Header expected = options_.header;
     expected.baud = bauds_.front();
     const journal::Header& last = known_->header;
@@ -140,7 +141,8 @@ bool SensorLink::adopt() {
         !is_expected_device)
         return false;
     set_state(LinkStatus::State::handshake, "checking whether the sensor is still sampling");
-    const Listening listening = listen_for(*known_, *port_, clock_, stop_);
+    const Listening listening = listen_for(*known_, heard, *port_, clock_, stop_);
+    is_silent_ = listening.reads.empty();
     if (listening.outcome == Listening::Outcome::port_gone) lose_port();
     if (listening.outcome != Listening::Outcome::continues) return false;
     prepare_session(last.session,
@@ -158,6 +160,7 @@ bool SensorLink::adopt() {
 bool SensorLink::begin_sampling() {
     if (!port_) return false;
     set_state(LinkStatus::State::handshake, "configuring the sensor");
+    if (!is_configurable()) return false;
     wire::Handshake handshake(*options_.profile, options_.settings,
                               options_.expected_serial_number);
     HandshakeRun run = run_handshake(handshake, *port_, clock_, stop_);
@@ -171,21 +174,46 @@ bool SensorLink::begin_sampling() {
         prepare_session(random_session(), *device, false, std::move(run.sent));
         return true;
     }
-    const auto& failure = std::get<wire::HandshakeFailure>(run.outcome);
+    handle_failure(std::get<wire::HandshakeFailure>(run.outcome), run.bytes_skipped);
+    return false;
+}
+
+/// Makes sure that no stream begins again on a line that was silent: a command would stop it.
+/// @return true if the sensor may be configured.
+bool SensorLink::is_configurable() {
+    if (!is_silent_ || !known_) return true;
+    Probe probe = probe_silent_line(*port_, clock_, stop_);
+    switch (probe.outcome) {
+        case Probe::Outcome::stopped:
+            return true;
+        case Probe::Outcome::heard:
+            expect_stream(std::move(probe.reads));
+            break;
+        case Probe::Outcome::port_gone:
+            lose_port();
+            break;
+        case Probe::Outcome::silent:
+            handle_failure({.reason = "the sensor does not answer; check its plug and its power",
+                            .is_unanswered = true},
+                           0);
+            break;
+    }
+    return false;
+}
+
+void SensorLink::handle_failure(const wire::HandshakeFailure& failure, std::size_t bytes_skipped) {
     {
         const std::lock_guard lock(mutex_);
         ++status_.handshake_failures;
     }
     // A sensor that was just switched on is silent for a second, so it is first asked again.
-    const bool may_be_baud =
-        failure.is_unanswered && (run.bytes_skipped > 0 || failures_in_a_row_ > 0);
-    if (may_be_baud && try_next_baud()) return false;
+    const bool may_be_baud = failure.is_unanswered && (bytes_skipped > 0 || failures_in_a_row_ > 0);
+    if (may_be_baud && try_next_baud()) return;
     bauds_tried_ = 0;
     std::string trouble = failure.reason;
-    if (failure.is_unanswered && run.bytes_skipped > 0)
+    if (failure.is_unanswered && bytes_skipped > 0)
         trouble += "; bytes arrive, but none can be understood at any baud rate";
     back_off(trouble);
-    return false;
 }
 
 /// Selects the next baud rate.  @return false when all have been tried; the first is then in use.
@@ -214,9 +242,26 @@ void SensorLink::prepare_session(const journal::SessionId& session,
 }
 
 void SensorLink::back_off(const std::string& trouble) {
+    const seconds span =
+        kHandshakeBackOff[std::min(failures_in_a_row_++, kHandshakeBackOff.size() - 1)];
     set_state(LinkStatus::State::waiting, trouble);
-    wait(kHandshakeBackOff[std::min(failures_in_a_row_, kHandshakeBackOff.size() - 1)]);
-    ++failures_in_a_row_;
+    if (find_port())  // It is closed when all baud rates have been tried.
+        wait_for_bytes(real_wait(span));
+    else
+        wait(span);
+}
+
+/// Lets adopt() listen, at the baud rate of the known stream.
+void SensorLink::expect_stream(std::vector<Read> heard) {
+    is_silent_ = false;
+    may_continue_ = true;
+    heard_ = std::move(heard);
+    if (!known_ || known_->header.baud == bauds_.front()) return;
+    const auto last = std::find(bauds_.begin(), bauds_.end(), known_->header.baud);
+    if (last == bauds_.end()) return;
+    std::rotate(bauds_.begin(), last, bauds_.end());
+    heard_.clear();
+    port_.reset();  // find_port() opens it again.
 }
 
 void SensorLink::begin_session() {
@@ -238,7 +283,7 @@ void SensorLink::begin_session() {
     if (is_new) ++status_.sessions;
 }
 
-// A sensor that sent frames is configured again at once.  One that answers but sends no frames is
+// A sensor that sent frames is listened to once more and then configured at once.  One that answers but sends no frames is
 // configured after a pause, because it would otherwise begin one session after another.
 void SensorLink::note_stall(End end) {
     const std::string trouble = end == End::stalled    ? "no bytes from the sensor"
@@ -248,6 +293,7 @@ void SensorLink::note_stall(End end) {
         const std::lock_guard lock(mutex_);
         ++status_.stalls;
     }
+    may_continue_ = is_silent_ = end == End::stalled;
     if (has_frames_) return set_state(LinkStatus::State::handshake, trouble);
     back_off(trouble);
 }
@@ -269,11 +315,13 @@ void SensorLink::lose_port() {
     wait(kPortRetry);
 }
 
+Nanoseconds SensorLink::real_wait(seconds instrument_span) const {
+    return std::max<Nanoseconds>(kShortestRealWait, clock_.real_span(Nanoseconds(instrument_span)));
+}
+
 void SensorLink::wait(seconds instrument_span) {
-    const auto real =
-        std::max<Nanoseconds>(kShortestRealWait, clock_.real_span(Nanoseconds(instrument_span)));
     std::unique_lock lock(mutex_);
-    woken_.wait_for(lock, real, [this] { return stop_.load(); });
+    woken_.wait_for(lock, real_wait(instrument_span), [this] { return stop_.load(); });
 }
 
 void SensorLink::set_state(LinkStatus::State state, std::string trouble) {

@@ -3,6 +3,8 @@
 /// The reader thread.  It finds the port, adopts a known stream that continues there or else starts
 /// the sensor's sampling, and reads and time-stamps the bytes.  It starts again when the port
 /// disappears, the sensor is silent, its bytes are not frames or its counter shows another rate.
+/// After a silence, as of a loose plug at the sensor, the stream may continue at any time: no command
+/// is sent while bytes arrive, until it is clear that they are not this stream.
 /// While sampling it allocates no memory, logs nothing and does not access the disk.
 
 #include <atomic>
@@ -79,6 +81,8 @@ private:
     [[nodiscard]] bool find_port();
     [[nodiscard]] bool adopt();
     [[nodiscard]] bool begin_sampling();
+    [[nodiscard]] bool is_configurable();
+    void handle_failure(const wire::HandshakeFailure& failure, std::size_t bytes_skipped);
     [[nodiscard]] bool try_next_baud();
     [[nodiscard]] End read_stream();
     void note_stall(End end);
@@ -86,12 +90,15 @@ private:
                          bool is_adopted, std::vector<journal::TxChunk> sent);
     void begin_session();
     void back_off(const std::string& trouble);
+    void wait_for_bytes(Nanoseconds real);
+    void expect_stream(std::vector<Read> heard);
     void wait_for_journal();
     void push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes);
     [[nodiscard]] RawTime push_woken();
     void stop_sensor();
     void lose_port();
     [[nodiscard]] std::string unplugged() const;
+    [[nodiscard]] Nanoseconds real_wait(std::chrono::seconds instrument_span) const;
     void wait(std::chrono::seconds instrument_span);
     void set_state(LinkStatus::State state, std::string trouble);
 
@@ -99,9 +106,11 @@ private:
     const HostClock& clock_;
     ReadQueue& queue_;
     std::unique_ptr<Port> port_;
-    bool is_port_new_ = false;  ///< The port was opened and not listened to yet.
-    bool was_open_ = false;     ///< The port has been opened at least once.
-    std::vector<int> bauds_;    ///< Rates to try; the first is in use.
+    bool may_continue_ = false;  ///< The known stream may be on the line; nobody has listened yet.
+    bool is_silent_ = false;     ///< No byte came since the stream stopped.
+    std::vector<Read> heard_;    ///< Bytes that ended a silence; not listened to yet.
+    bool was_open_ = false;      ///< The port has been opened at least once.
+    std::vector<int> bauds_;     ///< Rates to try; the first is in use.
     std::size_t bauds_tried_ = 0;
     std::size_t failures_in_a_row_ = 0;
     bool has_frames_ = false;  ///< Frames were received since sampling began.

@@ -102,6 +102,35 @@ SensorLink::End SensorLink::read_stream() {
     return End::stopped;
 }
 
+/// Waits, but ends at the first byte after a silence, or at a valid frame on a line that is never
+/// silent: the sensor is back.
+void SensorLink::wait_for_bytes(Nanoseconds real) {
+    const auto end = steady_clock::now() + real;
+    wire::BurstDecoder decoder(options_.settings.layout,
+                               options_.profile->count_step(options_.settings.output_rate_hz));
+    std::array<std::byte, ReadQueue::kLargestItem> bytes{};
+    for (auto now = steady_clock::now(); !stop_ && now < end; now = steady_clock::now()) {
+        const auto left = std::chrono::ceil<milliseconds>(end - now);
+        const auto count = port_->read(bytes, std::min(left, kStopCheck));
+        const RawTime time = clock_.raw();
+        if (!count) return lose_port();
+        if (*count == 0) {
+            is_silent_ = true;
+            continue;
+        }
+        std::span<const std::byte> input = std::span(bytes).first(*count);
+        Read read{time, {input.begin(), input.end()}};
+        bool has_frame = false;
+        while (const auto event = decoder.next(input))
+            has_frame |= std::holds_alternative<wire::BurstFrame>(*event);
+        if (is_silent_ || has_frame) {
+            std::vector<Read> heard;
+            heard.push_back(std::move(read));
+            return expect_stream(std::move(heard));
+        }
+    }
+}
+
 // A full queue makes the reader wait.  On a real port, bytes that the kernel cannot store meanwhile
 // are lost; this shows as a gap and the waits are counted.  On a pseudo-terminal the writer
 // waits too.

@@ -194,7 +194,7 @@ private:
     bool is_refused_ = false;  ///< The last try to write records failed.
     bool is_ending_ = false;   ///< Everything is decoded, and in the journal if it could be.
     std::deque<journal::Header> undescribed_;  ///< Sessions whose metadata must be written.
-    bool has_recorded_ = false;  ///< This run recorded a session or a part of one.
+    bool has_recorded_ = false;                ///< This run recorded a session or a part of one.
     bool is_hurried_ = false;
     Outbox outbox_;
     std::unique_ptr<archive::Archiver> archiver_;

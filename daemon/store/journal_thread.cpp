@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kSyncLookInterval{50};  // Time between looks whether a sync is due.
+constexpr milliseconds kSyncLookInterval{50};      // Time between looks whether a sync is due.
 constexpr milliseconds kJournalSyncInterval{800};  // Leaves 0.2 s of the promised 1 s.
 // Duration of one disk operation above which the queue no longer waits for it.  Disks that recover
 // do so within the kernel's own time-out of 30 s and a repetition.

@@ -32,7 +32,10 @@ Store::Store(files::FileLayer& files, Options options, const source::HostClock& 
       archive_(
           files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
           reserve_,
-          {.post = [this](journal::Chunk chunk) { journal_.push({0, std::move(chunk)}); },
+          {.post =
+               [this](journal::Chunk chunk) {
+                   journal_.push({0, std::move(chunk)});
+               },
            .session_began = [this](const journal::Header& header) { describe(header); },
            .recovered = [this](const archive::RecoveryReport& report) { finish_recovery(report); },
            .begin = options_.begin,

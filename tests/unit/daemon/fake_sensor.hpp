@@ -19,6 +19,7 @@ namespace a351 {
 class FakeSensor {
 public:
     std::atomic<bool> is_mute{false};       ///< Neither answers nor sends.
+    std::atomic<bool> is_loose{false};      ///< Its plug is loose: it samples, but no byte passes.
     std::atomic<bool> is_idle{false};       ///< Answers, but sends no frame.
     std::atomic<bool> does_babble{false};   ///< Sends bytes that are no frames.
     std::atomic<int> counts_per_frame{80};  ///< 80 at 50 samples/s; 40 as if somebody had set 100.
@@ -53,6 +54,13 @@ public:
         registers_.is_sampling = true;
     }
 
+    /// Switches the sensor off and on: it waits for commands, and its counter is 0.
+    void lose_power() {
+        const std::lock_guard lock(mutex_);
+        registers_.is_sampling = false;
+        count_ = 0;
+    }
+
     [[nodiscard]] bool is_sampling() const {
         const std::lock_guard lock(mutex_);
         return registers_.is_sampling;
@@ -77,7 +85,7 @@ private:
             if (is_mute) continue;
             const std::lock_guard lock(mutex_);
             const bool was_sampling = registers_.is_sampling;
-            registers_.take(bytes);
+            if (!is_loose) registers_.take(bytes);
             wire::Bytes output = std::exchange(registers_.output, {});
             if (!was_sampling) due = Clock::now() + kPeriod;
             if (registers_.is_sampling && !is_idle && Clock::now() >= due) {
@@ -87,7 +95,7 @@ private:
                 wire::append_frame(wire::BurstLayout::recommended(), frame, output);
                 if (does_babble) output.assign(24, std::byte{0x55});
             }
-            if (!output.empty()) pty_.write(output);
+            if (!output.empty() && !is_loose) pty_.write(output);
         }
     }
 

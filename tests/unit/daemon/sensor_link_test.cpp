@@ -1,5 +1,7 @@
 #include "daemon/source/sensor_link.hpp"
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <vector>
 #include "tests/support/catch.hpp"
@@ -104,7 +106,7 @@ TEST_CASE("the link configures the sensor, records from the first frame and stop
     CHECK(frames.size() + 1 >= static_cast<std::size_t>(sensor.frames_sent));
 }
 
-TEST_CASE("a sensor that falls silent is configured again, as a new session",
+TEST_CASE("a sensor that falls silent and lost its power is configured again, as a new session",
           "[daemon][sensor_link]") {
     FakeSensor sensor;
     ReadQueue queue;
@@ -116,13 +118,54 @@ TEST_CASE("a sensor that falls silent is configured again, as a new session",
     sensor.is_mute = true;
     REQUIRE(eventually([&] { return link.status().stalls == 1; }));
     CHECK(eventually([&] { return link.status().state == LinkStatus::State::waiting; }));
-    CHECK(link.status().trouble.find("MODE_CTRL") != std::string::npos);
+    CHECK(link.status().trouble == "the sensor does not answer; check its plug and its power");
+    sensor.lose_power();
     sensor.is_mute = false;
     REQUIRE(eventually([&] { return link.status().sessions == 2; }));
     link.stop();
     const Received received(queue);
     REQUIRE(received.sessions.size() == 2);
     CHECK(received.sessions[0].session != received.sessions[1].session);
+}
+
+TEST_CASE("a loose plug at the sensor costs the samples of the outage and no session",
+          "[daemon][sensor_link][adoption]") {
+    // The outage ends while the link listens, configures, tries other baud rates, or waits.
+    const std::chrono::milliseconds outage(GENERATE(2300, 3200, 5400, 9000));
+    FakeSensor sensor;
+    ReadQueue queue;
+    const HostClock clock;
+    SensorLink link(options_for(sensor.path()), clock, queue);
+    link.start();
+    REQUIRE(eventually([&] { return sensor.frames_sent >= 50; }));
+    sensor.is_loose = true;
+    std::this_thread::sleep_for(outage);
+    const LinkStatus::State state = link.status().state;
+    const std::string trouble = link.status().trouble;
+    const std::int32_t lost_until = sensor.frames_sent;
+    const auto back = std::chrono::steady_clock::now();
+    sensor.is_loose = false;
+    REQUIRE(eventually([&] { return link.status().state == LinkStatus::State::sampling; }));
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - back;
+    REQUIRE(eventually([&] { return sensor.frames_sent >= lost_until + 100; }));
+    link.stop();
+    const Received received(queue);
+    const auto frames = received.frames();
+    const auto is_late = [&](const wire::BurstValues& frame) {
+        return frame.axes[0] >= lost_until;
+    };
+    const auto first = std::ranges::find_if(frames, is_late);
+    REQUIRE(first != frames.end());
+    std::printf(
+        "loose for %.1f s (%s: %s): sampling %.2f s after the plug is back, %d frames unread\n",
+        std::chrono::duration<double>(outage).count(), to_text(state), trouble.c_str(),
+        took.count(), first->axes[0] - lost_until);
+    CHECK(took.count() < 1.0);
+    CHECK(first->axes[0] - lost_until < 50);
+    CHECK(link.status().sessions == 1);
+    CHECK(link.status().adoptions == 1);
+    REQUIRE(received.sessions.size() == 2);
+    CHECK(received.sessions[0].session == received.sessions[1].session);
 }
 
 TEST_CASE("a sensor whose bytes are no frames is configured again", "[daemon][sensor_link]") {

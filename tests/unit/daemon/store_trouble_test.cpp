@@ -117,9 +117,10 @@ struct SmallQueueRig : Rig {
     SmallQueueRig() : Rig(std::size_t{16} << 10) {}  // About 340 reads.
 };
 
-TEST_CASE_METHOD(SmallQueueRig,
-                 "if a disk refuses data for too long the journal keeps the newest, the archive all",
-                 "[daemon][store]") {
+TEST_CASE_METHOD(
+    SmallQueueRig,
+    "if a disk refuses data for too long the journal keeps the newest, the archive all",
+    "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
 
