@@ -226,10 +226,6 @@ PageConfig read_page(TomlTable table) {
         table.refuse("assets", "no such directory: " + page.assets.string(),
                      "a directory with the page's files, or \"\"");
     }
-    if (!page.listen.is_loopback && page.token.empty()) {
-        table.refuse("listen", "other hosts can connect and no token is set",
-                     "a loopback address, or set token as well");
-    }
     table.require_all_read();
     return page;
 }

@@ -1,6 +1,7 @@
 #include "daemon/ctl/commands.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +11,7 @@
 
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/meant_stay.hpp"
+#include "daemon/ctl/phone.hpp"
 #include "daemon/ctl/requests.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "daemon/ctl/survey_text.hpp"
@@ -149,6 +151,32 @@ int change_stay(const Client& client, Arguments arguments, const std::string& co
     return change(client, arguments, "/api/occupation/" + command, body);
 }
 
+/// Prints the address of the page for a telephone, as a code and as text.
+int show_phone(const Client& client, const Arguments& arguments) {
+    const auto told = accepted(answer_of(client.get("/api/token")));
+    if (!told) return kRefused;
+    const auto listen = told->at("listen").get<std::string>();
+    const std::string port = listen.substr(listen.rfind(':') + 1);
+    const auto addresses = reachable_addresses(listen.substr(0, listen.rfind(':')));
+    if (addresses.empty()) {
+        complain(fmt::format("other devices cannot reach the page at {}; set listen = "
+                             "\"0.0.0.0:{}\" in [page], restart a351d and connect to a network",
+                             listen, port));
+        return kRefused;
+    }
+    std::string address = arguments.address.empty() ? addresses.front() : arguments.address;
+    if (std::ranges::count(addresses, address) == 0) {
+        complain(fmt::format("{} is not an address of this page; allowed: {}", address,
+                             fmt::join(addresses, ", ")));
+        return kRefused;
+    }
+    const std::string url = page_url(address + ":" + port, told->at("token").get<std::string>());
+    print(qr_text(url, wants_colour()) + url + "\n");
+    for (const std::string& other : addresses)
+        if (other != address) print("another address: a351ctl phone " + other + "\n");
+    return kDone;
+}
+
 int show(const Client& client, const Arguments& arguments, const std::string& path,
          std::string (*table)(const json&)) {
     const auto reply = client.get(path);
@@ -168,6 +196,7 @@ int run_command(const std::string& command, const Arguments& arguments) {
     const Client client(parse_url(arguments.urls.front()));
     if (command == "site") return add_site(client, arguments);
     if (command == "status") return show_status(client, arguments);
+    if (command == "phone") return show_phone(client, arguments);
     if (command == "watch") {
         watch(client, arguments.token, arguments.operator_name);
         return kDone;

@@ -25,6 +25,7 @@ struct Arguments {
     std::string operator_name;
     std::string note;
     std::string reason;
+    std::string address;
     double target_mgal = 0.0;
     double latitude_deg = 0.0, longitude_deg = 0.0;
     std::optional<double> height_m, gravity_mgal;

@@ -155,6 +155,12 @@ int main(int argc, char** argv) {
         "Shows the corrected gravity of each stay so far, and what is wrong with the day."));
     add_json(app.add_subcommand(
         "list", "Lists the finished stays with their keys, then the discarded ones."));
+    auto* phone = app.add_subcommand(
+        "phone", "Shows the address of the page, with its token, as a code for a telephone.");
+    phone
+        ->add_option("ADDRESS", a.address,
+                     "Address of this computer, if it has several; default: the first")
+        ->type_name("");
     auto* site = app.add_subcommand("site", "Changes the list of benchmarks.");
     site->require_subcommand(1);
     auto* site_add = site->add_subcommand("add", "Appends a benchmark to the list of the daemon.");

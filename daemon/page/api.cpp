@@ -71,8 +71,11 @@ std::string unsteadiness_of(const status::Status& status) {
 
 }  // namespace
 
-Api::Api(ApiSources sources, std::string token)
-    : sources_(std::move(sources)), token_(std::move(token)), assets_(sources_.assets, token_) {}
+Api::Api(ApiSources sources, std::string token, std::string listen)
+    : sources_(std::move(sources)),
+      token_(std::move(token)),
+      listen_(std::move(listen)),
+      assets_(sources_.assets, token_) {}
 
 Response Api::answer(const Request& request) noexcept {
     try {
@@ -127,7 +130,7 @@ Response Api::route(const Request& request) {
     const bool is_changeable = std::ranges::count(kChangeable, path) > 0;
     if (!is_readable && !is_changeable) return refusal(404, "there is no such path");
     if (is_readable && (request.method == "GET" || request.method == "HEAD"))
-        return read(path, query);
+        return read(path, query, request.is_local);
     if (is_changeable && request.method == "POST") {
         if (!query.empty()) throw InputError("query: none is allowed here");
         return change(path, request.body);
@@ -139,7 +142,7 @@ Response Api::route(const Request& request) {
     return response;
 }
 
-Response Api::read(std::string_view path, std::string_view query) {
+Response Api::read(std::string_view path, std::string_view query, bool is_local) {
     if (path == "/api/events") return events_since(query);
     if (path == "/api/history")
         return {.body = history_json(sources_.live, query, sources_.status().now)};
@@ -151,11 +154,11 @@ Response Api::read(std::string_view path, std::string_view query) {
     if (path == "/api/occupations") return occupations_so_far();
     if (path == "/api/survey") return {.body = sources_.gravity_so_far()};
     if (path == "/api/token") {
-        if (token_.empty())
-            return refusal(403, "the token is not given out here; use that of [page] token");
-        return ok({{"token", token_}});
+        if (!is_local)
+            return refusal(403, "the token is given out only on the computer of the daemon");
+        return ok({{"token", token_}, {"listen", listen_}});
     }
-    return assets_.answer(path);
+    return assets_.answer(path, is_local);
 }
 
 /// Lists the sites by their distance from the last occupation's site, or else from the base.

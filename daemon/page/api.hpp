@@ -50,8 +50,9 @@ struct ApiSources {
 
 class Api {
 public:
-    /// @param token  returned by GET /api/token unless empty.
-    Api(ApiSources sources, std::string token);
+    /// @param token   the token for changes, which clients on this host may read.
+    /// @param listen  address and port of the server, for them too.
+    Api(ApiSources sources, std::string token, std::string listen = {});
 
     /// Answers a request that has passed the Guard.  An exception of a source becomes a 500.
     [[nodiscard]] Response answer(const Request& request) noexcept;
@@ -70,7 +71,7 @@ public:
 private:
     [[nodiscard]] nlohmann::json status_now();
     [[nodiscard]] Response route(const Request& request);
-    [[nodiscard]] Response read(std::string_view path, std::string_view query);
+    [[nodiscard]] Response read(std::string_view path, std::string_view query, bool is_local);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);
     [[nodiscard]] survey::Outcome change_stay(std::string_view change, const std::string& body);
     [[nodiscard]] Response sites_around() const;
@@ -79,6 +80,7 @@ private:
 
     ApiSources sources_;
     std::string token_;
+    std::string listen_;
     Assets assets_;
     PageUse use_;
 };

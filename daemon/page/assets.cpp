@@ -46,7 +46,7 @@ Assets::Assets(std::filesystem::path directory, std::string_view token)
 
 bool Assets::contains(std::string_view path) const noexcept { return find(path) != nullptr; }
 
-Response Assets::answer(std::string_view path) const {
+Response Assets::answer(std::string_view path, bool is_local) const {
     const Asset* const asset = find(path);
     assert(asset);
     Response response;
@@ -58,7 +58,7 @@ Response Assets::answer(std::string_view path) const {
     }
     if (const auto at = response.body.find(kTokenMark);
         asset->name == kIndex && at != std::string::npos)
-        response.body.replace(at, kTokenMark.size(), token_);
+        response.body.replace(at, kTokenMark.size(), is_local ? token_ : std::string());
     return response;
 }
 

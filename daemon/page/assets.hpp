@@ -21,11 +21,12 @@ class Assets {
 public:
     /// @param directory  the files are read from here for each request; if empty, or if a file does
     ///                   not exist, the compiled one is served.  Other names are not served.
-    /// @param token      replaces @TOKEN@ in index.html.
+    /// @param token      replaces @TOKEN@ in index.html for clients on this host.
     Assets(std::filesystem::path directory, std::string_view token);
 
     [[nodiscard]] bool contains(std::string_view path) const noexcept;
-    [[nodiscard]] Response answer(std::string_view path) const;  ///< contains(path)
+    /// Answers a path that contains() has confirmed.
+    [[nodiscard]] Response answer(std::string_view path, bool is_local) const;
 
 private:
     std::filesystem::path directory_;

@@ -56,7 +56,8 @@ Guard::Guard(std::uint16_t port, const std::vector<std::string>& hosts, std::str
 
 std::optional<Response> Guard::refuse(const Request& request) const {
     const auto is_listed = [&](std::string_view name) {
-        return std::ranges::count(hosts_, lower(name)) > 0;
+        return std::ranges::count(hosts_, lower(name)) > 0 ||
+               (!request.address.empty() && lower(name) == request.address);
     };
     const auto host = request.values("Host");
     if (host.size() != 1 || !is_listed(host.front()))

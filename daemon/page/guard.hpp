@@ -3,7 +3,8 @@
 /// Access control.  Any page open in a browser of this host can send requests to a loopback
 /// port, and after DNS rebinding it does so as the same origin.  Therefore Host and Origin are
 /// compared with a list, never with each other, and a change needs a token that foreign pages
-/// cannot read.
+/// cannot read.  The numeric address to which the client connected is in the list, because
+/// rebinding changes what a name means, not what an address means.
 
 #include <cstdint>
 #include <optional>

@@ -16,6 +16,8 @@ struct Request {
     std::string target;                                        ///< Path with query.
     std::vector<std::pair<std::string, std::string>> headers;  ///< Headers as received, in order.
     std::string body;
+    std::string address = {};  ///< Address and port of this host to which the client connected.
+    bool is_local = false;     ///< The client is on this host.
 
     /// Returns all values of the header `name`; upper and lower case are equal.
     [[nodiscard]] std::vector<std::string> values(std::string_view name) const;

@@ -20,9 +20,19 @@ constexpr std::size_t kMostStreams = 20;      // Part of the connections; 12 rem
 constexpr std::chrono::seconds kRefusalLinger{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};
 
-Request plain(const HttpRequest& message) {
+/// @param socket  the connection; one that is broken counts as that of another host.
+Request plain(const HttpRequest& message, const tcp::socket& socket) {
     Request request{
         std::string(message.method_string()), std::string(message.target()), {}, message.body()};
+    error_code error;
+    const auto own = socket.local_endpoint(error);
+    if (!error) {
+        request.address = config::to_string({.ip = own.address().to_string(),
+                                             .port = own.port(),
+                                             .is_v6 = own.address().is_v6()});
+    }
+    const auto client = socket.remote_endpoint(error);
+    request.is_local = !error && client.address().is_loopback();
     for (const auto& field : message)
         request.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
     return request;
@@ -64,7 +74,8 @@ public:
         const std::string token = options.token.empty() ? random_token() : options.token;
         guard_.emplace(port_, options.hosts, token);
         const live::Record& live = sources.live;
-        api_.emplace(std::move(sources), listen_.is_loopback ? token : std::string());
+        api_.emplace(std::move(sources), token,
+                     config::to_string({.ip = listen_.ip, .port = port_, .is_v6 = listen_.is_v6}));
         live_.emplace(io_, live, *api_, options.stream_patience);
     }
 
@@ -175,7 +186,7 @@ private:
                 co_return;
             }
             const auto& message = parser.get();
-            const Request request = plain(message);
+            const Request request = plain(message, stream.socket());
             auto response = guard_->refuse(request);
             if (!response && request.target == kLivePath) {
                 response = refuse_stream(message);

@@ -51,8 +51,6 @@ daemon_config("impossible station code", CONFIG.replace("[sensor]", "station = \
 daemon_config("rate and filter that do not fit",
               CONFIG.replace("port = \"sensor\"", "port = \"sensor\"\nfilter = \"k512_fc16\""),
               ["a351d.toml:7", "sensor.filter", "k512_fc16", "k512_fc9"])
-daemon_config("open page without a token", CONFIG + "[page]\nlisten = \"0.0.0.0:8351\"\n",
-              ["a351d.toml:12", "page.listen", "0.0.0.0:8351", "token"])
 daemon_config("token too short", CONFIG + "[page]\ntoken = \"guess\"\n",
               ["a351d.toml:12", "page.token", "16 or more"])
 daemon_config("missing sites file", CONFIG.replace("sites.csv", "absent.csv"), ["absent.csv"])

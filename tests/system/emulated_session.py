@@ -42,19 +42,20 @@ class Session:
     """Emulator and daemon running together.  end() stops both and reads the emulator's report."""
 
     def __init__(self, scratch, faults="", speed=20, scenario="tsukuba", start=None, config="", prepare_port=None,
-                 on_host_clock=False, **options):
+                 on_host_clock=False, host="127.0.0.1", **options):
         """Starts both.
 
         @param start  begin of simulated time, RFC 3339; default: that of the scenario
         @param config  lines added to the daemon's [sensor]
         @param prepare_port  function called with the emulator's terminal before the daemon starts
         @param on_host_clock  both run on the host's clock; speed must be 1, and `start` must not be in the future
+        @param host  address on which the daemon listens
         @param options  options of subprocess.Popen for the daemon
         """
         self.scratch = scratch
         self.port = unused_port()
         (scratch / "a351d.toml").write_text(
-            daemon_config(self.port).replace("[storage]", config + "\n[storage]"))
+            daemon_config(self.port, host).replace("[storage]", config + "\n[storage]"))
         (scratch / "faults.toml").write_text(faults)
         if start is None:
             plan = run(BIN / "a351-sim", "plan", "--scenario", scenario, "--out", ".", cwd=scratch)

@@ -64,7 +64,7 @@ def unused_port():
         return port
 
 
-def daemon_config(port):
+def daemon_config(port, host="127.0.0.1"):
     """Returns the smallest configuration with which a daemon records the emulated sensor linked as `sensor`."""
     return f"""[station]
 latitude = 36.2
@@ -75,7 +75,7 @@ port = "sensor"
 [storage]
 root = "data"
 [page]
-listen = "127.0.0.1:{port}"
+listen = "{host}:{port}"
 """
 
 

@@ -1,10 +1,12 @@
 // Requests to the daemon.
 
 import { by_id, show } from "./dom.js";
+import * as fragment from "./fragment.js";
 import { recalled, remember } from "./memory.js";
 
-// If the daemon listens beyond loopback, the page does not contain the token; the operator types it in.
-let token = document.querySelector('meta[name="a351-token"]').content || recalled("token");
+// On another device the page does not contain the token; it is in the address, or the operator types it in.
+let token = document.querySelector('meta[name="a351-token"]').content || fragment.token || recalled("token");
+if (fragment.token) remember("token", fragment.token);
 
 by_id("token-form").addEventListener("submit", (event) => {
     event.preventDefault();

@@ -2,6 +2,7 @@
 // are remembered.  This script runs before the first picture, so that neither changes in front of the operator.
 
 import { by_id, set_text } from "./dom.js";
+import "./fragment.js"; // Removes the token.
 import { choices } from "./memory.js";
 
 const kField = "#field"; // Fragment of the address that opens the field view.

@@ -269,15 +269,17 @@ TEST_CASE("sites are listed by their distance from the last occupation, nearest 
     CHECK(is(page.ask(get("/api/sites")), "/sites/0/site", R"("No.1")"));
 }
 
-TEST_CASE("the token is given out only if the interface has one to give", "[daemon][page]") {
+TEST_CASE("the token is given out only to clients on this host", "[daemon][page]") {
     Page page;
     CHECK(is(page.ask(get("/api/token")), "/token", '"' + kToken + '"'));
-    Api exposed({.status = [] { return Status{}; },
-                 .occupations = page.occupations,
-                 .live = page.live,
-                 .events = [] { return std::vector<events::Event>{}; }},
-                "");
-    CHECK(exposed.answer(get("/api/token")).status == 403);
+    CHECK(page.api.answer(get("/")).body.find(kToken) != std::string::npos);
+    for (const char* path : {"/api/token", "/"}) {
+        auto request = get(path);
+        request.is_local = false;
+        const auto response = page.api.answer(request);
+        CHECK(response.status == (request.target == "/" ? 200 : 403));
+        CHECK(response.body.find(kToken) == std::string::npos);
+    }
 }
 
 TEST_CASE("an exception in a data source is answered 500 and counted", "[daemon][page]") {

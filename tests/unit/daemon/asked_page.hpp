@@ -13,7 +13,7 @@ namespace a351::daemon {
 using nlohmann::json;
 
 inline page::Request get(const std::string& target) {
-    return {"GET", target, {{"Host", "127.0.0.1:8351"}}, ""};
+    return {"GET", target, {{"Host", "127.0.0.1:8351"}}, "", "127.0.0.1:8351", true};
 }
 
 inline page::Request post(const std::string& target, const std::string& body = "{}") {

@@ -13,7 +13,7 @@ namespace {
 
 std::string body_of(const Assets& assets, const std::string& path) {
     REQUIRE(assets.contains(path));
-    return assets.answer(path).body;
+    return assets.answer(path, true).body;
 }
 
 bool has(const std::string& text, const std::string& part) {
@@ -24,13 +24,13 @@ bool has(const std::string& text, const std::string& part) {
 
 TEST_CASE("the page and every file it loads are compiled in", "[daemon][page]") {
     const Assets assets({}, "sesame");
-    const auto index = assets.answer("/");
+    const auto index = assets.answer("/", true);
     CHECK(index.content_type == "text/html; charset=utf-8");
     CHECK(has(index.body, R"(<meta name="a351-token" content="sesame">)"));
     CHECK_FALSE(has(index.body, "@TOKEN@"));
     CHECK(index.body == body_of(assets, "/index.html"));
-    CHECK(assets.answer("/page.js").content_type == "text/javascript; charset=utf-8");
-    CHECK(assets.answer("/page.css").content_type == "text/css; charset=utf-8");
+    CHECK(assets.answer("/page.js", true).content_type == "text/javascript; charset=utf-8");
+    CHECK(assets.answer("/page.css", true).content_type == "text/css; charset=utf-8");
     CHECK(has(body_of(assets, "/dygraph.min.js"), "Dygraph"));
     CHECK(has(body_of(assets, "/dygraph.css"), ".dygraph-"));
 

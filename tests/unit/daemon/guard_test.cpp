@@ -31,6 +31,10 @@ TEST_CASE("a request for an unknown Host is answered 421", "[daemon][page]") {
         CHECK(refused_with(guard, with(post("/api/note"), "Host", host)) == 421);
     }
     CHECK(refused_with(guard, without(get("/"), "Host")) == 421);
+    auto phone = with(get("/"), "Host", "192.0.2.7:8351");
+    CHECK(refused_with(guard, phone) == 421);
+    phone.address = "192.0.2.7:8351";
+    CHECK(refused_with(guard, phone) == 200);
     auto two = get("/");
     two.headers.emplace_back("host", "127.0.0.1:8351");
     CHECK(refused_with(guard, two) == 421);
