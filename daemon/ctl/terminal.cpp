@@ -45,9 +45,14 @@ std::size_t columns_of(unsigned char byte) {
 
 }  // namespace
 
+bool is_screen() {
+    const char* const kind = std::getenv("TERM");
+    return isatty(STDOUT_FILENO) != 0 && (kind == nullptr || std::string_view(kind) != "dumb");
+}
+
 bool wants_colour() {
     const char* const no_colour = std::getenv("NO_COLOR");
-    return isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
+    return is_screen() && (no_colour == nullptr || *no_colour == '\0');
 }
 
 Terminal::Terminal() {

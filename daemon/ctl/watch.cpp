@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -335,7 +334,7 @@ void print_screens(const Client& client) {
 }  // namespace
 
 void watch(const Client& client, const std::string& token, const std::string& operator_name) {
-    if (isatty(STDOUT_FILENO) == 0) return print_screens(client);
+    if (!is_screen()) return print_screens(client);
     Watch(client, token, operator_name).run();
 }
 

@@ -253,6 +253,13 @@ def interrupt(session):
     watched.demand_restored("Ctrl-C while the daemon hangs")
     session.daemon.send_signal(signal.SIGCONT)
 
+    watched = Watched(session, rows=1000, env={"TERM": "dumb"})
+    wait_for("the second screen", lambda: sum(line.startswith("a351d  ") for line in watched.lines()) == 2)
+    watched.process.send_signal(signal.SIGTERM)
+    demand(f"with TERM=dumb nothing is drawn: {watched.screen.modes}, {watched.screen.colours}",
+           watched.process.wait(timeout=5) == 0 and not watched.screen.modes and not watched.screen.colours)
+    watched.is_open = False
+
     piped = subprocess.Popen([BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", "watch"], stdout=subprocess.PIPE, text=True)
     time.sleep(2.5)
     piped.send_signal(signal.SIGTERM)
