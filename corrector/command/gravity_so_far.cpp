@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "corrector/design/evening.hpp"
 #include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/reading/refused.hpp"
@@ -19,6 +20,8 @@ void print_gravity_so_far(job::SurveyFile survey) {
     try {
         so_far.read = job::read_survey(survey, [](std::size_t, std::size_t) {});
         so_far.result = job::correct_survey_day(survey, *so_far.read);
+        so_far.u_evening =
+            design::u_in_the_evening(*so_far.result, so_far.read->sites, so_far.read->running_key);
     } catch (const reading::Refused& refused) {
         so_far.reason = refused.code();
         so_far.reason_text = report::in_words(refused);

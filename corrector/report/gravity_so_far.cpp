@@ -156,7 +156,9 @@ Json to_json(const GravitySoFar& so_far) {
              {"gravity_mgal", "u_mgal", "u_evening_mgal", "left_out_difference_mgal"})
             one[name] = nullptr;
         if (so_far.result) add_value(one, stay, *so_far.result);
-        one["is_running"] = !stay.key.empty() && stay.key == so_far.read->running_key;
+        const bool is_running = !stay.key.empty() && stay.key == so_far.read->running_key;
+        if (is_running && so_far.u_evening) one["u_evening_mgal"] = so_far.u_evening->value();
+        one["is_running"] = is_running;
         one["remarks"] = remarks_of(stay, grades, left_out);
         json["stays"].push_back(std::move(one));
     }

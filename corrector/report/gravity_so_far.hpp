@@ -18,6 +18,7 @@ struct GravitySoFar {
     std::optional<UtcTime> as_of;  ///< Newest clock reading of the journal.
     std::optional<reading::OccupationRows> read;
     std::optional<model::SurveyCorrection> result;
+    std::optional<MilliGal> u_evening;  ///< Of the running stay: design::u_in_the_evening().
     std::string reason;       ///< Code of reading::Refused; empty with a result.
     std::string reason_text;  ///< The same in words.
 };
@@ -30,6 +31,7 @@ struct GravitySoFar {
 /// - gravity_mgal: mean of the corrected values of its set-ups.
 /// - u_mgal: standard uncertainty as if the station were unknown; of a stay with several set-ups at
 ///   a station that has more stays, the largest of its set-ups.
+/// - u_evening_mgal: `u_evening` of the running stay.
 /// - left_out_difference_mgal: value without the station's reference, minus the reference.
 /// - remarks: the reasons of its grade (reading_grade.hpp), or why it has no value.
 [[nodiscard]] nlohmann::ordered_json to_json(const GravitySoFar& so_far);

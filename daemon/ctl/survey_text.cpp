@@ -56,6 +56,9 @@ std::string survey_text(const json& answer) {
                         mgal_of(stay, "left_out_difference_mgal"),
                         std::to_string(stay.value("set_ups", 0))});
         if (stay.value("is_running", false)) remarks += "  " + stay_name(stay) + ": running\n";
+        if (stay.at("u_evening_mgal").is_number())
+            remarks += fmt::format("  {}: +- {} mGal after a return to the base\n", stay_name(stay),
+                                   mgal_of(stay, "u_evening_mgal"));
         for (const json& remark : stay.at("remarks"))
             remarks += fmt::format("  {}: {}\n", stay_name(stay), word_of(remark, "text"));
     }

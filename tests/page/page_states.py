@@ -188,13 +188,14 @@ def show_gravity(stub, browser):
     demand("without stays there is no table", not browser.find("#gravity-table").is_displayed())
     headline, remark = "No.3 (1) reads like No.7: it is 12.1 mGal too high for No.3", "the readings follow the temperature <b>"
     stub.survey = survey([stay("No.0", difference_mgal=0.42), stay("No.3", 2, 979873.5, 12.1, set_ups=2),
-                          stay("No.5", remarks=[{"code": "pulse", "numbers": [], "text": "a knock <i>"}], is_running=True),
+                          stay("No.5", remarks=[{"code": "pulse", "numbers": [], "text": "a knock <i>"}], is_running=True,
+                               u_evening_mgal=1.05),
                           stay("No.6", gravity_mgal=None, remarks=[{"code": "left_out", "numbers": [], "text": "no samples"}])],
                          [finding(remark, False), finding(headline, True)])
     browser.wait_for_text("gravity-state", "As of 12:03:10 UTC, data up to 12:03:09 UTC, model day.", seconds=20)
     rows = [row.replace("\t", " ").strip() for row in browser.text("gravity-rows").splitlines()]
     demand(f"the stays are listed newest first, with value, u, difference and remarks: {rows}",
-           rows == ["No.6 (1) – – no samples", "No.5 (1) 979861.32 ± 1.27 – running; a knock <i>",
+           rows == ["No.6 (1) – – no samples", "No.5 (1) 979861.32 ± 1.27 – running; ± 1.05 mGal after a return to the base; a knock <i>",
                     "No.3 (2) 979873.50 ± 1.27 +12.10 2 set-ups", "No.0 (1) 979861.32 ± 1.27 +0.42"])
     demand("headlines come first, word by word", browser.text("gravity-findings").splitlines() == [headline, remark])
     browser.demand_readable("gravity so far")

@@ -32,6 +32,7 @@ function row_of(stay) {
     const u = Number.isFinite(stay.u_mgal) ? ` ± ${number(stay.u_mgal, 2)}` : "";
     const value = Number.isFinite(stay.gravity_mgal) ? number(stay.gravity_mgal, 2) + u : "–";
     const remarks = [stay.is_running && "running", stay.set_ups > 1 && `${stay.set_ups} set-ups`,
+        Number.isFinite(stay.u_evening_mgal) && `± ${number(stay.u_evening_mgal, 2)} mGal after a return to the base`,
         ...stay.remarks.map((remark) => visible(remark.text))];
     row.append(make("td", `${visible(stay.site)} (${stay.occupation})`, "foreign"), make("td", value),
         make("td", signed(stay.left_out_difference_mgal ?? NaN, 2)),

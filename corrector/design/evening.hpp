@@ -1,0 +1,34 @@
+#pragma once
+/// @file
+/// The uncertainty that a running stay will have in the evening.
+///
+///     const auto u = u_in_the_evening(result, sites, running_key);   // while the box still stands
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corrector/model/corrected_survey.hpp"
+#include "protocol/text/sites.hpp"
+
+namespace a351::corrector::design {
+
+/// Returns the standard uncertainty that a stay will have after a return to the base.
+///
+/// It is the present uncertainty of the station, times the ratio of the expected ones with and
+/// without one more visit of the base.  That visit comes after the median of the day's drives and has
+/// the set-ups of the running stay.  The expected uncertainties are those of a plan with the visits so
+/// far (expected_errors()), the priors of the correction and the noise that the day shows.
+///
+/// Absent if the day is not corrected by `day`, the stay is unknown here or at a station whose
+/// gravity is known, or no visit of two minutes at a station with a reference is there.
+/// @param result  correction of the day so far.
+/// @param sites   table of the sites.
+/// @param key     key of the running stay; empty: none.
+///
+/// Accuracy: evening_test.cpp.
+[[nodiscard]] std::optional<MilliGal> u_in_the_evening(const model::SurveyCorrection& result,
+                                                       const std::vector<text::Site>& sites,
+                                                       const std::string& key);
+
+}  // namespace a351::corrector::design
