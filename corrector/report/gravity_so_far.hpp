@@ -18,7 +18,7 @@ struct GravitySoFar {
     std::optional<UtcTime> as_of;  ///< Newest clock reading of the journal.
     std::optional<reading::OccupationRows> read;
     std::optional<model::SurveyCorrection> result;
-    std::optional<MilliGal> u_evening;  ///< Of the running stay: design::u_in_the_evening().
+    std::optional<MilliGal> u_evening;  ///< design::u_in_the_evening() for the running stay.
     std::string reason;       ///< Code of reading::Refused; empty with a result.
     std::string reason_text;  ///< The same in words.
 };
