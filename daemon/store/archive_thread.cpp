@@ -336,7 +336,7 @@ void ArchiveThread::reopen() {
     }
     for (const std::string& channel : archive::channels_in(archive_, codes_))
         if (const auto file = archive::newest_day_file(archive_, codes_, channel))
-            archive::repair_tail(files_, *file);
+            archive::repair_tail(files_, *file, archive::side_directory(archive_));
     writer_->reopen();
 }
 

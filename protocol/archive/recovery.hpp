@@ -75,7 +75,7 @@ struct RecoveryPlan {
 /// Idempotent: a second run, or one that was killed and started again, ends with the same bytes.
 /// They are those of an uninterrupted run, except where an earlier shutdown ended records early.
 ///
-/// The bytes cut from the archive are kept beside the day file.  Damage within a segment costs the
+/// The bytes cut from the archive are kept in side_directory().  Damage within a segment costs the
 /// chunks in it; the replay continues behind it.
 ///
 /// @param writer  new, for the codes of `replay`.  Afterwards it is still in its replay, and not

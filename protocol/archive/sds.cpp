@@ -110,8 +110,10 @@ std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until
 
 }  // namespace
 
+fs::path side_directory(const fs::path& archive) { return archive.parent_path() / "state"; }
+
 std::optional<TornTail> repair_tail(files::FileLayer& files, const fs::path& day_file,
-                                    std::optional<UtcTime> synced_until) {
+                                    const fs::path& side, std::optional<UtcTime> synced_until) {
     const std::uint64_t size = fs::file_size(day_file);
     const std::uint64_t whole = synced_until ? end_of_good_records(day_file, *synced_until)
                                              : end_of_whole_records(day_file);
@@ -119,9 +121,10 @@ std::optional<TornTail> repair_tail(files::FileLayer& files, const fs::path& day
     TornTail tail{day_file, whole, size - whole};
     if (tail.byte_count > 0) {
         // Several crashes may happen in a day; the offset in the name keeps their files apart.
-        auto side = day_file;
-        side += fmt::format(".{}.torn", whole);
-        files::replace_file(files, side, files::read_bytes(day_file, whole, tail.byte_count));
+        files.create_directories(side);
+        files::replace_file(files,
+                            side / fmt::format("{}.{}.torn", day_file.filename().string(), whole),
+                            files::read_bytes(day_file, whole, tail.byte_count));
     }
     if (whole > 0) {
         files.truncate(day_file, whole);
@@ -139,18 +142,8 @@ void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
     const auto path = sds_file(archive_, codes_, channel, record.start);
     if (open_.contains(channel) && open_.at(channel).path != path) close(channel);
     if (!open_.contains(channel)) {
-        if (fs::exists(path)) repair_tail(files_, path);
-        if (!fs::exists(path)) {
-            // Created with its first record: readers fail on an empty day file.
-            files_.create_directories(path.parent_path());
-            files::write_file_atomically(files_, path, record.bytes);
-            // The parent directories are synced too: a program that made them earlier may have
-            // been killed before it synced them.
-            for (auto directory = path.parent_path(); directory != archive_.parent_path();
-                 directory = directory.parent_path())
-                new_entries_.insert(directory);
-            return;
-        }
+        if (fs::exists(path)) repair_tail(files_, path, side_directory(archive_));
+        if (!fs::exists(path)) return create(path, record);
         open_[channel] = {path, files_.open_append(path), false};
     }
     Open& open = open_.at(channel);
@@ -161,6 +154,25 @@ void SdsWriter::append(const std::string& channel, const PackedRecord& record) {
         close(channel);  // Its tail is checked again before the next append.
         throw;
     }
+}
+
+/// Creates a day file with its first record: readers fail on an empty day file.
+void SdsWriter::create(const fs::path& day_file, const PackedRecord& record) {
+    const fs::path side = side_directory(archive_);
+    files_.create_directories(day_file.parent_path());
+    files_.create_directories(side);
+    try {
+        files::write_file_atomically(files_, day_file, record.bytes,
+                                     side / (day_file.filename().string() + ".tmp"));
+    } catch (const std::system_error& error) {
+        if (error.code() != std::errc::cross_device_link) throw;
+        files::write_file_atomically(files_, day_file, record.bytes);  // archive/ is a mount point.
+    }
+    // The parent directories are synced too: a program that made them earlier may have been killed
+    // before it synced them.
+    for (auto directory = day_file.parent_path(); directory != archive_.parent_path();
+         directory = directory.parent_path())
+        new_entries_.insert(directory);
 }
 
 /// Closes a file; syncs it before, because this is not possible later.

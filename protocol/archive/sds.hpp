@@ -50,6 +50,10 @@ namespace a351::archive {
     const std::filesystem::path& archive, const journal::StationCodes& codes,
     const std::string& channel);
 
+/// Returns the folder for side files, `state` of the data root: other programs take every file
+/// below the archive for data.
+[[nodiscard]] std::filesystem::path side_directory(const std::filesystem::path& archive);
+
 /// Bytes that a crash left after the last whole record.
 struct TornTail {
     std::filesystem::path file;    ///< Day file that was cut.
@@ -57,18 +61,20 @@ struct TornTail {
     std::uint64_t byte_count = 0;  ///< Bytes that were cut; 0 for an empty file that was removed.
 };
 
-/// Moves the bytes after the last whole record to `DAYFILE.OFFSET.torn` beside the day file, and
+/// Moves the bytes after the last whole record to `DAYFILE.OFFSET.torn` in the side directory, and
 /// removes a day file that is or becomes empty.
 ///
 /// After a cut the rest of the file is synced.  Without `synced_until` only the end of the file is
 /// read.
 /// @param day_file      must exist; a writer that has it open must reopen it before it appends.
+/// @param side          side_directory(); it is created when needed.
 /// @param synced_until  given after a power failure.  After the records that begin until then, any
 ///                      page may be missing; so the first bytes that are not a record are cut, with
 ///                      everything after them.
 /// @return the part that was cut, if any.
 /// @throws std::system_error  the file cannot be read or changed; call it again.
 std::optional<TornTail> repair_tail(files::FileLayer& files, const std::filesystem::path& day_file,
+                                    const std::filesystem::path& side,
                                     std::optional<UtcTime> synced_until = std::nullopt);
 
 /// Appends records to day files and keeps one file open per channel.  A day file is created with
@@ -97,6 +103,7 @@ private:
         std::unique_ptr<files::AppendFile> file;
         bool is_dirty = false;
     };
+    void create(const std::filesystem::path& day_file, const PackedRecord& record);
     void close(const std::string& channel);
 
     files::FileLayer& files_;

@@ -145,9 +145,8 @@ bool has_shape(std::string_view name, std::string_view shape) noexcept {
 }
 
 void write_file_atomically(FileLayer& files, const std::filesystem::path& file,
-                           std::span<const std::byte> content) {
-    auto temporary = file;
-    temporary += ".tmp";
+                           std::span<const std::byte> content, std::filesystem::path temporary) {
+    if (temporary.empty()) temporary = file.string() + ".tmp";
     if (std::filesystem::exists(temporary)) files.remove(temporary);  // Left by a crash.
     const auto opened = files.open_append(temporary);
     opened->append(content);

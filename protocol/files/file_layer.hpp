@@ -91,12 +91,15 @@ public:
 /// after a crash: temporary name, sync, rename.  If it throws, the old file is unchanged.  The
 /// directory is not synced.
 ///
-/// The temporary name is that of the file with `.tmp` at its end.  An error or a crash may leave
-/// that file; the next call removes it.  One thread and one process at a time may write a file.
-/// @param file     name in an existing directory.
-/// @param content  all bytes; may be empty.
+/// An error or a crash may leave the temporary file; the next call removes it.  One thread and one
+/// process at a time may write a file.
+/// @param file       name in an existing directory.
+/// @param content    all bytes; may be empty.
+/// @param temporary  temporary name, on the same file system; default: `file` with `.tmp` at its
+///                   end.
 void write_file_atomically(FileLayer& files, const std::filesystem::path& file,
-                           std::span<const std::byte> content);
+                           std::span<const std::byte> content,
+                           std::filesystem::path temporary = {});
 
 /// Calls write_file_atomically() and syncs the directory.  After it returns, the new content
 /// survives a power failure.  If the sync of the directory fails it throws, although readers

@@ -1,6 +1,7 @@
 #include "protocol/archive/sds.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <system_error>
 #include "tests/support/catch.hpp"
 
@@ -91,13 +92,13 @@ TEST_CASE("a record is written to the file of the day on which it starts", "[rec
 
 TEST_CASE("writing continues in the file of an earlier run", "[record][sds]") {
     const test::TemporaryDirectory directory;
+    const auto archive = directory.path() / "archive";
     for (int run = 0; run < 3; ++run) {
-        SdsWriter writer(posix_files(), directory.path(), StationCodes{});
+        SdsWriter writer(posix_files(), archive, StationCodes{});
         writer.append("BNZ", record_at("2026-03-01T12:00:00Z", 2 * run + 1));
         writer.append("BNZ", record_at("2026-03-01T12:00:02Z", 2 * run + 2));
     }
-    CHECK(sequences_in(day_file(directory.path(), "2026-03-01T00:00:00Z")) ==
-          std::vector{1, 2, 3, 4, 5, 6});
+    CHECK(sequences_in(day_file(archive, "2026-03-01T00:00:00Z")) == std::vector{1, 2, 3, 4, 5, 6});
 }
 
 TEST_CASE("the channels are those of this station that have a directory in any year",
@@ -129,6 +130,7 @@ TEST_CASE("side files and files of other locations are not day files", "[record]
 TEST_CASE("a tail torn at any byte is cut back to whole records", "[record][sds]") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "XX.A351.00.BNZ.D.2026.060";
+    const auto side = directory.path() / "state";
     std::vector<std::byte> three;
     for (int i = 1; i <= 3; ++i) {
         const auto record = record_at("2026-03-01T12:00:00Z", i);
@@ -137,18 +139,18 @@ TEST_CASE("a tail torn at any byte is cut back to whole records", "[record][sds]
     for (std::size_t size = 1; size <= three.size();
          size += (size % 512 < 2 || size % 512 > 509) ? 1u : 51u) {
         test::write_bytes(file, std::span(three).first(size));
-        const auto tail = repair_tail(posix_files(), file);
+        const auto tail = repair_tail(posix_files(), file, side);
         const std::size_t whole = size / kRecordSize * kRecordSize;
         REQUIRE(tail.has_value() == (whole != size));
         REQUIRE(fs::exists(file) == (whole > 0));
         if (!tail) continue;
         CHECK(tail->offset == whole);
         CHECK(tail->byte_count == size - whole);
-        const auto side = file.string() + "." + std::to_string(whole) + ".torn";
-        CHECK(test::read_bytes(side).size() == size - whole);
+        const auto name = file.filename().string() + "." + std::to_string(whole) + ".torn";
+        CHECK(test::read_bytes(side / name).size() == size - whole);
         if (whole > 0) {
             REQUIRE(fs::file_size(file) == whole);
-            CHECK_FALSE(repair_tail(posix_files(), file));
+            CHECK_FALSE(repair_tail(posix_files(), file, side));
         }
     }
 }
@@ -160,7 +162,7 @@ TEST_CASE("a tail of the size of a record that does not decode is cut off too", 
     std::vector<std::byte> bytes(record.bytes.begin(), record.bytes.end());
     bytes.resize(4 * kRecordSize);  // Zeros, as a file system may leave after a power cut.
     test::write_bytes(file, bytes);
-    const auto tail = repair_tail(posix_files(), file);
+    const auto tail = repair_tail(posix_files(), file, directory.path() / "state");
     REQUIRE(tail);
     CHECK(tail->byte_count == 3 * kRecordSize);
     CHECK(fs::file_size(file) == kRecordSize);
@@ -170,17 +172,24 @@ TEST_CASE("an empty day file is removed", "[record][sds]") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "day";
     test::write_bytes(file, {});
-    REQUIRE(repair_tail(posix_files(), file));
+    REQUIRE(repair_tail(posix_files(), file, directory.path() / "state"));
     CHECK(fs::is_empty(directory.path()));
 }
 
 TEST_CASE("whichever file operation fails, readers find only whole records and writing continues",
           "[record][sds]") {
-    int operations = 1000;
+    int operations = 1000, strange = 0;
+    const auto count_strange_files = [&strange](const fs::path& archive) {
+        if (!fs::exists(archive)) return;
+        for (const auto& entry : fs::recursive_directory_iterator(archive))
+            strange += entry.is_regular_file() &&
+                       std::isdigit(static_cast<unsigned char>(entry.path().string().back())) == 0;
+    };
     for (int fail_at = 1; fail_at <= operations; ++fail_at) {
         const test::TemporaryDirectory directory;
         test::FailingFiles files(fail_at);
-        SdsWriter writer(files, directory.path(), StationCodes{});
+        const auto archive = directory.path() / "archive";
+        SdsWriter writer(files, archive, StationCodes{});
         std::vector<int> written;
         const char* times[] = {"2026-03-01T23:59:50Z", "2026-03-01T23:59:55Z",
                                "2026-03-02T00:00:00Z", "2026-03-02T00:00:05Z"};
@@ -192,12 +201,13 @@ TEST_CASE("whichever file operation fails, readers find only whole records and w
                     is_done = true;
                     writer.sync();
                 } catch (const std::system_error&) {
+                    count_strange_files(archive);
                 }
             }
         }
         operations = files.operations();
         std::vector<int> found;
-        for (const auto& file : day_files(directory.path(), StationCodes{}, "BNZ")) {
+        for (const auto& file : day_files(archive, StationCodes{}, "BNZ")) {
             CHECK(fs::file_size(file) > 0);
             for (const int sequence : sequences_in(file)) found.push_back(sequence);
         }
@@ -205,6 +215,7 @@ TEST_CASE("whichever file operation fails, readers find only whole records and w
     }
     CHECK(operations >= 10);
     CHECK(operations < 1000);
+    CHECK(strange == 0);  // Only names that end in the day's number.
 }
 
 }  // namespace a351::archive

@@ -39,7 +39,8 @@ public:
     std::unique_ptr<files::AppendFile> open_append(const std::filesystem::path& file) override {
         if (file.extension() == ".a351j")
             return std::make_unique<JournalFile>(*this, files_.open_append(file));
-        if (file.string().find("/archive/") == std::string::npos) return files_.open_append(file);
+        const bool is_day_file = file.filename().string().find(".D.") != std::string::npos;
+        if (!is_day_file) return files_.open_append(file);
         if (does_archive_fail) throw std::system_error(ENOSPC, std::generic_category());
         return std::make_unique<ArchiveFile>(*this, files_.open_append(file));
     }
