@@ -21,8 +21,8 @@ export function set_text(id, text) {
 /** Sets a value in mGal with its error, and its label if there is one.  Its element has three parts, which may differ in size. */
 export function set_value(id, value_mgal, error_mgal, label = null) {
     const [value, error, name] = by_id(id).children;
-    const has_error = Number.isFinite(error_mgal);
-    const texts = [[value, number(value_mgal)], [error, `${has_error ? `± ${number(error_mgal)} ` : ""}mGal`], [name, label ?? name.textContent]];
+    const width = Number.isFinite(error_mgal) ? `± ${number(error_mgal)} mGal` : "mGal";
+    const texts = [[value, number(value_mgal)], [error, Number.isFinite(value_mgal) ? width : ""], [name, label ?? name.textContent]];
     for (const [element, text] of texts) if (element.textContent !== text) element.textContent = text;
 }
 

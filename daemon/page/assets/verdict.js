@@ -11,6 +11,7 @@ const kAdvice = {
     "disturbed": "The box was touched or shaken: step back and wait.",
     "no data": "No verdict is possible: check sensor and cable.",
 };
+const kFirstValue = "values so far"; // Check of a daemon that has just started.
 const kBubbleScale = 100 / 3; // Drawing units per arc minute: the rim is 3'.
 
 function check_text(check) {
@@ -22,6 +23,7 @@ function check_text(check) {
 }
 
 function advice(verdict) {
+    if (verdict.checks.some((check) => check.quantity.startsWith(kFirstValue))) return "Wait: the first verdict takes 20 s.";
     const unknown = verdict.checks.find((check) => !check.is_met && check.quantity === "temperature known for");
     if (!unknown || verdict.state === "disturbed") return kAdvice[verdict.state] ?? "";
     return `Wait: the temperature is known for ${significant(unknown.value)} of ${significant(unknown.limit)} min.`;
