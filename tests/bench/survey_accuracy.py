@@ -25,7 +25,8 @@ from programs import BIN, IS_LONG, Scratch, read_json, rows, run
 
 # Scenario, its unit scatter, number of set-ups; promised limits of the RMS out of sample and in sample, in mGal.
 CASES = [("tsukuba", 0.25, 1, 1.6, 1.25), ("tilted", 0.25, 1, 1.6, 1.25), ("hot-afternoon", 0.25, 1, 1.7, 1.25),
-         ("tsukuba", 0.6, 1, 1.7, 1.25), ("tsukuba", 0.25, 2, 1.15, None), ("quiet", 0.25, 1, None, None),
+         ("tsukuba", 0.6, 1, 1.7, 1.25), ("tsukuba", 0.25, 2, 1.15, None), ("tsukuba", 0.25, 3, None, None),
+         ("tsukuba", 0.25, 4, None, None), ("quiet", 0.25, 1, None, None),
          ("roadside", 0.25, 1, None, None), ("ideal", 0.0, 1, 0.01, 0.01)]
 AGREEMENT_MGAL = 0.02
 SURVEYS = 200
