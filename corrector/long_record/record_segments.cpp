@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "corrector/reading/disturbance.hpp"
 #include "protocol/signal/median.hpp"
@@ -41,17 +42,61 @@ struct Valid {
     [[nodiscard]] std::size_t size() const noexcept { return places.size(); }
 };
 
-std::vector<bool> stuck_samples(const std::vector<double>& values, double same) {
-    std::vector<bool> is_stuck(values.size(), false);
-    for (std::size_t first = 0; first < values.size();) {
-        std::size_t behind = first + 1;
-        while (behind < values.size() && std::abs(values[behind] - values[first]) < same) ++behind;
-        if (behind - first >= kStuck)
-            std::fill_n(is_stuck.begin() + static_cast<std::ptrdiff_t>(first), behind - first,
-                        true);
-        first = behind;
+/// Samples of equal value, at least kStuck.
+struct EqualRun {
+    std::size_t first = 0, behind = 0;
+
+    [[nodiscard]] std::size_t size() const noexcept { return behind - first; }
+};
+
+std::vector<EqualRun> equal_runs(const std::vector<double>& values, double same) {
+    std::vector<EqualRun> runs;
+    for (EqualRun run; run.first < values.size(); run.first = run.behind) {
+        run.behind = run.first + 1;
+        while (run.behind < values.size() &&
+               std::abs(values[run.behind] - values[run.first]) < same)
+            ++run.behind;
+        if (run.size() >= kStuck) runs.push_back(run);
     }
-    return is_stuck;
+    return runs;
+}
+
+/// Removes the runs that a thermometer of coarse resolution has in a good oven.
+///
+/// Its value changes by a step of the resolution at each end of a run; the resolution is the least
+/// change in the stretch.  A thermometer that was stuck continues elsewhere.  At an end of the
+/// stretch only one side can be seen: such a run may last twice as long as the longest inner one.
+void remove_coarse_runs(std::vector<EqualRun>& runs, const std::vector<double>& values,
+                        double same) {
+    double resolution = std::numeric_limits<double>::infinity();
+    std::vector<double> finite;
+    std::vector<std::size_t> place(values.size() + 1, 0);  // number of finite values before each
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isfinite(values[i])) {
+            if (!finite.empty() && std::abs(values[i] - finite.back()) >= same)
+                resolution = std::min(resolution, std::abs(values[i] - finite.back()));
+            finite.push_back(values[i]);
+        }
+        place[i + 1] = finite.size();
+    }
+    constexpr double kMostSteps = 2.5;
+    const auto is_step = [&](std::size_t before, std::size_t after) {
+        return std::abs(finite[after] - finite[before]) <= kMostSteps * resolution;
+    };
+    constexpr std::size_t kEndFactor = 2;
+    std::size_t longest_inner = 0;
+    for (const bool is_inner : {true, false}) {
+        std::erase_if(runs, [&](const EqualRun& run) {
+            const std::size_t first = place[run.first], behind = place[run.behind];
+            const bool has_both = first > 0 && behind < finite.size();
+            if (has_both != is_inner || finite.empty() || !std::isfinite(values[run.first]) ||
+                (first > 0 && !is_step(first - 1, first)) ||
+                (behind < finite.size() && !is_step(behind - 1, behind)))
+                return false;
+            if (is_inner) longest_inner = std::max(longest_inner, run.size());
+            return is_inner || run.size() <= kEndFactor * longest_inner;
+        });
+    }
 }
 
 Valid valid_samples(const RecordStretch& stretch, const std::vector<bool>& is_stuck) {
@@ -152,31 +197,31 @@ private:
 
     std::vector<bool> refuse_stuck_channels(const RecordStretch& stretch) {
         std::vector<bool> is_stuck(stretch.size(), false);
-        refuse_stuck(is_stuck, stretch, stretch.temperature_degc, kSame_degc, "the temperature",
-                     "degC");
+        std::vector<EqualRun> still = equal_runs(stretch.temperature_degc, kSame_degc);
+        remove_coarse_runs(still, stretch.temperature_degc, kSame_degc);
+        refuse_stuck(is_stuck, stretch, stretch.temperature_degc, still, "the temperature", "degC");
         // The norm has the tide subtracted, so it varies even if the sensor is stuck.  The axes
         // still contain the tide: they are tested if the record has them.
         constexpr std::array kNames{"the x axis", "the y axis", "the z axis"};
         if (stretch.axes_mgal.empty())
-            refuse_stuck(is_stuck, stretch, stretch.acceleration_mgal, kSame_mgal,
-                         "the acceleration", "mGal");
+            refuse_stuck(is_stuck, stretch, stretch.acceleration_mgal,
+                         equal_runs(stretch.acceleration_mgal, kSame_mgal), "the acceleration",
+                         "mGal");
         for (std::size_t k = 0; k < stretch.axes_mgal.size(); ++k)
-            refuse_stuck(is_stuck, stretch, stretch.axes_mgal[k], kSame_mgal, kNames.at(k), "mGal");
+            refuse_stuck(is_stuck, stretch, stretch.axes_mgal[k],
+                         equal_runs(stretch.axes_mgal[k], kSame_mgal), kNames.at(k), "mGal");
         return is_stuck;
     }
 
     void refuse_stuck(std::vector<bool>& is_stuck, const RecordStretch& stretch,
-                      const std::vector<double>& values, double same, const char* name,
-                      const char* unit) {
-        const std::vector<bool> is_still = stuck_samples(values, same);
-        for (std::size_t i = 0; i < is_still.size(); ++i) {
-            is_stuck[i] = is_stuck[i] || is_still[i];
-            if (!is_still[i] || (i > 0 && is_still[i - 1])) continue;
-            std::size_t last = i;
-            while (last + 1 < is_still.size() && is_still[last + 1]) ++last;
-            result_.refused.push_back(
-                {stretch.times[i], stretch.times[last],
-                 fmt::format("{} is stuck at {} {}", name, text::fixed(values[i], 4), unit)});
+                      const std::vector<double>& values, const std::vector<EqualRun>& still,
+                      const char* name, const char* unit) {
+        for (const EqualRun& run : still) {
+            std::fill_n(is_stuck.begin() + static_cast<std::ptrdiff_t>(run.first), run.size(),
+                        true);
+            result_.refused.push_back({stretch.times[run.first], stretch.times[run.behind - 1],
+                                       fmt::format("{} is stuck at {} {}", name,
+                                                   text::fixed(values[run.first], 4), unit)});
         }
     }
 

@@ -29,12 +29,27 @@ void split(std::string_view line, std::vector<std::string_view>& cells) {
     }
 }
 
+/// Returns true if a line begins a miniSEED record: six digits and a mark of quality (SEED 2.4,
+/// chapter 8), or MS and the version (FDSN miniSEED 3).
+bool is_miniseed(std::string_view line) {
+    constexpr std::size_t kSequence = 6;
+    return line.starts_with("MS\x03") ||
+           (line.size() > kSequence + 1 && line.find_first_not_of("0123456789") == kSequence &&
+            std::string_view("DRQM").find(line[kSequence]) != std::string_view::npos &&
+            line[kSequence + 1] == ' ');
+}
+
 }  // namespace
 
 CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
     : in_(in), origin_(std::move(origin)) {
     if (!next_line())
         throw InputError(origin_.string() + ":1: no header line; allowed: column names");
+    if (is_miniseed(text_))
+        throw InputError(
+            origin_.string() +
+            ": a miniSEED file; allowed: a table (CSV), or miniSEED in the archive of a "
+            "data root with metadata/station.xml");
     for (auto cell = cells_.begin(); cell != cells_.end(); ++cell) {
         if (std::find(cells_.begin(), cell, *cell) != cell) {
             throw InputError(fmt::format("{}:{}: column {} appears twice; allowed: once",

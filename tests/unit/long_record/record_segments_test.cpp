@@ -91,6 +91,28 @@ TEST_CASE("a stuck temperature is refused with its value, and so is a remainder 
                StartsWith("too short: 0.89 h") && ContainsSubstring("end of the stuck values"));
 }
 
+TEST_CASE("a coarse thermometer in a good oven is not stuck, but one that continues elsewhere is",
+          "[long_record][segments]") {
+    LongRecord record = night();
+    auto& temperature = record.stretches[0].temperature_degc;
+    // An oven that moves by 0.02 degC in six hours, seen in steps of 0.01 degC.
+    for (std::size_t i = 0; i < temperature.size(); ++i)
+        temperature[i] =
+            42.5 + 0.01 * std::round(2.0 * std::sin(static_cast<double>(i) * 6.28 / 1080.0));
+    const RecordSegments parts = divide_record(record);
+    REQUIRE(parts.segments.size() == 1);
+    CHECK(parts.refused.empty());
+    CHECK(parts.segments[0].size() == 2160);
+
+    for (std::size_t i = 900; i < 1200; ++i) temperature[i] = temperature[900];
+    const RecordSegments stuck = divide_record(record);
+    REQUIRE(stuck.refused.size() >= 1);
+    CHECK(stuck.refused[0].reason == "the temperature is stuck at 42.4800 degC");
+
+    for (double& value : temperature) value = 42.5;
+    CHECK(divide_record(record).segments.empty());
+}
+
 TEST_CASE("a record without samples has no segments", "[long_record][segments]") {
     LongRecord record = night();
     erase(record, 0, 2160);

@@ -54,6 +54,14 @@ TEST_CASE("an error in a CSV file names file, line, column, value and what is al
     CHECK_THROWS_AS(read_csv("/nowhere/t.csv"), InputError);
 }
 
+TEST_CASE("a miniSEED file is named as such, not read as a table", "[text][csv]") {
+    CHECK_THROWS_WITH(
+        (void)read_csv(A351_GOLDEN "/miniseed/XX.A351.00.BNZ_steim2_blockette100.mseed"),
+        EndsWith("a miniSEED file; allowed: a table (CSV), or miniSEED in the archive of a data "
+                 "root with metadata/station.xml"));
+    CHECK(CsvTable::parse("000001D,x\n1,2\n", "t.csv").row_count() == 1);
+}
+
 TEST_CASE("the shortest text of a number reads back as the same number", "[text][csv]") {
     CHECK(shortest(0.1) == "0.1");
     CHECK(shortest(-981705.102) == "-981705.102");
