@@ -68,8 +68,15 @@ private:
 
     /// Returns "12.3 +- 1.5 mGal too high".
     static std::string off_by(double size_mgal, double u_mgal) {
-        return fmt::format("{} +- {} mGal too {}", text::fixed(std::abs(size_mgal), 1),
-                           text::fixed(u_mgal, 1), size_mgal > 0.0 ? "high" : "low");
+        return fmt::format("{} +- {} mGal too {}", in_mgal(std::abs(size_mgal), u_mgal),
+                           in_mgal(u_mgal, u_mgal), size_mgal > 0.0 ? "high" : "low");
+    }
+
+    /// Returns a size with the decimals that its uncertainty allows: readings of a spring gravimeter
+    /// are a thousand times as sure as those of the sensor.
+    static std::string in_mgal(double size_mgal, double u_mgal) {
+        constexpr double kFine_mgal = 0.05;  // below it one decimal is 0.0
+        return text::fixed(size_mgal, u_mgal < kFine_mgal ? 4 : 1);
     }
 
     static std::string name_of(const SurveyRow& row) {
@@ -171,9 +178,9 @@ private:
             name_of(rows_[after - 1]), name_of(rows_[after]),
             off_by(mistake.size_mgal, mistake.u_mgal));
         if (!rows_[after].listed.site.empty())
-            finding.amendment =
-                fmt::format("[[step]]\ntime_utc = \"{}\"\nreason = \"step of {} mGal\"\n",
-                            to_rfc3339(*finding.time, 3), text::fixed(mistake.size_mgal, 1));
+            finding.amendment = fmt::format(
+                "[[step]]\ntime_utc = \"{}\"\nreason = \"step of {} mGal\"\n",
+                to_rfc3339(*finding.time, 3), in_mgal(mistake.size_mgal, mistake.u_mgal));
         return finding;
     }
 
@@ -212,7 +219,7 @@ private:
         for (const Candidate& candidate : others)
             if (names.size() < kMostNames)
                 names.push_back(fmt::format("{} ({} mGal)", candidate.site->name,
-                                            text::fixed(candidate.distance_mgal, 1)));
+                                            in_mgal(candidate.distance_mgal, mistake.u_mgal)));
         finding.text =
             fmt::format("{} is {}; it reads like {}", name_of(row),
                         off_by(mistake.size_mgal, mistake.u_mgal), text::joined(names, " or "));
@@ -238,9 +245,9 @@ private:
             finding.text += ", or its only stay is bad: look at both";
         }
         if (!row.listed.site.empty())
-            finding.amendment =
-                fmt::format("[[reference]]\nsite = {}\nuse = false\nreason = \"off by {} mGal\"\n",
-                            text::toml_string(row.site), text::fixed(-mistake.size_mgal, 1));
+            finding.amendment = fmt::format(
+                "[[reference]]\nsite = {}\nuse = false\nreason = \"off by {} mGal\"\n",
+                text::toml_string(row.site), in_mgal(-mistake.size_mgal, mistake.u_mgal));
         return finding;
     }
 
@@ -250,9 +257,9 @@ private:
         finding.text =
             fmt::format("{} is {}, unlike the other readings of {}: repeat it", name_of(row),
                         off_by(mistake.size_mgal, mistake.u_mgal), row.site);
-        finding.amendment = amendment(
-            "exclude", row, false,
-            fmt::format("reason = \"off by {} mGal\"\n", text::fixed(mistake.size_mgal, 1)));
+        finding.amendment = amendment("exclude", row, false,
+                                      fmt::format("reason = \"off by {} mGal\"\n",
+                                                  in_mgal(mistake.size_mgal, mistake.u_mgal)));
         return finding;
     }
 
@@ -270,9 +277,9 @@ private:
                                     is_same_stay);
         finding.text = fmt::format("set-up {} of {} is {}, unlike the others: repeat it", number,
                                    name_of(row), off_by(mistake.size_mgal, mistake.u_mgal));
-        finding.amendment = amendment(
-            "exclude", row, true,
-            fmt::format("reason = \"off by {} mGal\"\n", text::fixed(mistake.size_mgal, 1)));
+        finding.amendment = amendment("exclude", row, true,
+                                      fmt::format("reason = \"off by {} mGal\"\n",
+                                                  in_mgal(mistake.size_mgal, mistake.u_mgal)));
         return finding;
     }
 

@@ -6,6 +6,7 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/gravimeter/survey_tables.hpp"
+#include "corrector/mistake/survey_findings.hpp"
 #include "corrector/model/network.hpp"
 #include "corrector/tide/tide_choice.hpp"
 #include "protocol/text/csv.hpp"
@@ -169,6 +170,21 @@ TEST_CASE(
             }
         }
     }
+}
+
+TEST_CASE("a finding about a gravimeter has a size that can be read", "[golden][usgs]") {
+    auto rows = rows_of(kMeters[2], false);
+    constexpr double kStep_mgal = 0.0623;
+    for (reading::SurveyRow& row : rows)
+        if (row.time > rows[8].time) row.acceleration = row.acceleration + MilliGal(kStep_mgal);
+    model::SurveyOptions options;
+    options.priors.reading_sd_mgal = kReadingSd_mgal;
+    const auto result = mistake::correct_and_search({rows, {}, nullptr}, options);
+    REQUIRE(!result.findings.empty());
+    for (const reading::Finding& finding : result.findings) std::cout << finding.text << '\n';
+    CHECK(result.findings[0].kind == "step");
+    CHECK_THAT(result.findings[0].text,
+               ContainsSubstring("the readings are 0.06") && !ContainsSubstring("0.0 +- 0.0"));
 }
 
 TEST_CASE("the table of absolute values comes from the files of the absolute gravimeter",
