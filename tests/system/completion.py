@@ -60,6 +60,8 @@ esac
             (("a351-correct", "survey", "--model", "="), ["auto", "paper", "day", "t", "t-rate", "t-drift", "t-rate-drift",
                                                           "t-rate-drift-axes", "drift", "network", "robust"]),
             (("a351-correct", "survey", "--tide", "l"), ["longman"]),
+            (("a351-correct", "import", "--tide", ""), ["keep", "remove"]),
+            (("a351-correct", "import", "--average", "me"), ["median", "mean"]),
             (("a351-correct", "table", "--sites", "list.csv", "--base", "Mt"), ["Mt Tsukuba"]),
             (("a351-correct", "table", "--sites", "=", "list.csv", "--datum", "N"), ["No.0"]),
             (("a351-correct", "emd", "--input", "emd.csv", "--column", ""), ["time", "value"]),
