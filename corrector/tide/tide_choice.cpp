@@ -73,6 +73,12 @@ std::string_view model_text(const Choice& choice) {
     return model == Model::longman ? "Longman 1959, along the geocentric radius" : "none";
 }
 
+/// Returns what a result contains of the constant part of the tide, which not all programs remove.
+std::string_view permanent_tide_text(const Choice& choice) {
+    if (!choice.series.empty() || choice.source == "given") return "as in the given tide";
+    return choice.source == "none" ? "not removed" : "removed, with the factor delta2";
+}
+
 }  // namespace
 
 bool set_tide_source(Choice& choice, const std::string& text,
@@ -114,6 +120,7 @@ void describe_tide(Json& settings, const Choice& choice) {
     settings["tide"] = choice.source;
     settings["tide_model"] = model_text(choice);
     settings["tide_sign"] = "effect on gravity: positive where gravity is larger; subtracted";
+    settings["permanent_tide"] = permanent_tide_text(choice);
     const bool is_computed =
         choice.series.empty() && choice.source != "given" && choice.source != "none";
     settings["delta2"] = is_computed ? Json(choice.factors.delta2) : Json(nullptr);

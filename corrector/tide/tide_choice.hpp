@@ -84,7 +84,8 @@ void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::S
 
 /// Adds source, model, sign and factors of the tide to the settings of a result.  The factors are
 /// null if the tide is not computed.
-/// The keys are tide, tide_model, tide_sign, delta2 and delta3.  Keys that exist are overwritten.
+/// The keys are tide, tide_model, tide_sign, permanent_tide, delta2 and delta3.  Keys that exist are
+/// overwritten.
 /// Example: tests/unit/tide/tide_series_test.cpp.
 /// @throws InputError  as tide_model(), without a series.
 void describe_tide(nlohmann::ordered_json& settings, const Choice& choice);

@@ -146,11 +146,15 @@ TEST_CASE("the settings name the tide's source, model, factors and sign", "[surv
         settings.dump() ==
         R"({"tide":"direct","tide_model":"positions of Moon and Sun, degrees 2 and 3, along the )"
         R"(ellipsoid's normal","tide_sign":"effect on gravity: positive where gravity is larger; )"
-        R"(subtracted","delta2":1.16,"delta3":1.07})");
+        R"(subtracted","permanent_tide":"removed, with the factor delta2","delta2":1.16,"delta3":1.07})");
     choice.source = "given";
     describe_tide(settings, choice);
     CHECK(settings["tide_model"] == "column earth_tide_mgal");
+    CHECK(settings["permanent_tide"] == "as in the given tide");
     CHECK(settings["delta2"].is_null());
+    choice.source = "none";
+    describe_tide(settings, choice);
+    CHECK(settings["permanent_tide"] == "not removed");
     CHECK_FALSE(set_tide_source(choice, "moon", ""));
     CHECK_THROWS_WITH(set_tide_option(choice, "moon"), ContainsSubstring("--tide = moon: neither"));
 }
