@@ -9,6 +9,7 @@
 
 #include "corrector/model/model_fit.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::model {
 namespace {
@@ -127,11 +128,17 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
     network.term_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
                                                  static_cast<Eigen::Index>(network.terms.size()));
     std::vector<std::optional<UtcTime>> origins(loops.count);
+    std::vector<std::string> of_gravimeters;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         network.is_tied.push_back(loops.of[i].has_value());
         if (!loops.of[i]) continue;
         std::optional<UtcTime>& origin = origins[*loops.of[i]];
-        if (!origin) origin = rows[i].time;
+        if (!origin) {
+            origin = rows[i].time;
+            if (!rows[i].instrument.empty())
+                of_gravimeters.push_back(fmt::format("loop {} is {} from {}", *loops.of[i] + 1,
+                                                     rows[i].instrument, to_rfc3339(*origin)));
+        }
         auto line = network.term_columns.row(static_cast<Eigen::Index>(i));
         const double hours =
             seconds_between(*origin, rows[i].time) / kSecondsPerHour - kReferenceTime_h;
@@ -143,6 +150,7 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
         if (has_temperature) line(k++) = (rows[i].temperature - kReferenceTemperature).value();
         if (has_rate) line(k) = rows[i].rate_degc_per_h;
     }
+    if (of_gravimeters.size() > 1) network.remarks.push_back(text::joined(of_gravimeters, "; "));
     for (std::size_t k = 0; k < steps.size(); ++k)
         network.term_columns.col(network.term_columns.cols() - std::ssize(steps) +
                                  static_cast<Eigen::Index>(k)) = steps[k];

@@ -42,7 +42,8 @@ struct NetworkReadings {
                                             const std::vector<bool>& in_use,
                                             const std::vector<std::string>& datum);
 
-/// Sets `terms`, `term_columns` and `is_tied` of a network.
+/// Sets `terms`, `term_columns` and `is_tied` of a network.  Several loops of gravimeters are listed in
+/// a remark.
 ///
 /// Times count from the first row of each loop, less kReferenceTime_h, in h; temperatures from
 /// kReferenceTemperature, in degC.  A temperature that does not vary between the rows in use and

@@ -110,6 +110,10 @@ TEST_CASE("each instrument and each loop of the table has its own constant and d
     std::ranges::stable_sort(rows, {}, &SurveyRow::time);
     const auto network = adjust(rows).adjustment.value();
     CHECK(network.terms.size() == 6);
+    CHECK(
+        network.remarks.back() ==
+        "loop 1 is B44 from 2020-05-01T00:00:00Z; loop 2 is B108 from 2020-05-01T00:01:00Z; loop 3 "
+        "is B108 from 2020-05-01T04:31:00Z");
     for (std::size_t k = 0; k < network.stations.size(); ++k)
         CHECK(network.origin.value() + network.unknowns(static_cast<Eigen::Index>(k)) ==
               Approx(true_gravity_mgal(network.stations[k])).epsilon(0).margin(1e-8));
