@@ -70,6 +70,13 @@ json rate_of(const status::Status& status) {
             {"advice", status.rate_advice}};
 }
 
+json clock_step_of(const std::optional<status::ClockStep>& step) {
+    if (!step) return nullptr;
+    return {{"utc", to_rfc3339(step->after, 3)},
+            {"clock_before", to_rfc3339(step->before, 3)},
+            {"by_s", seconds_between(step->before, step->after)}};
+}
+
 json sample_of(const status::Status& status) {
     if (!status.last_sample) return nullptr;
     json acceleration = json::array();
@@ -142,6 +149,7 @@ json to_json(const status::Status& status, const survey::Occupations& occupation
             {"timing",
              {{"state", name(status.timing_state)},
               {"uncertainty_ms", uncertainty_ms},
+              {"clock_step", clock_step_of(status.clock_step)},
               {"rate", rate_of(status)}}},
             {"verdict", verdict_of(status, stale_after)},
             {"occupation", occupation_of(occupations, field, status.now)},

@@ -61,11 +61,28 @@ void assess_rate(Status& status) {
     status.warn(status.rate_advice);
 }
 
+/// Returns the sentence about a step of the host's clock, which is complete without the log.
+std::string sentence_of(const ClockStep& step) {
+    const double by_s = seconds_between(step.before, step.after);
+    const std::string before = to_rfc3339(step.before, 1), after = to_rfc3339(step.after, 1);
+    const std::string change =
+        fmt::format("the laptop's clock was set {} by {:.1f} s, from {} to {}",
+                    by_s > 0.0 ? "ahead" : "back", std::abs(by_s), before, after);
+    if (by_s > 0.0) return change + "; the sample times followed: no sample has a time in between";
+    return fmt::format("{}; the sample times followed: the times from {} to {} occur twice", change,
+                       after, before);
+}
+
 /// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later
 /// only if more of them come per second than the sensor's rate, or if the clock was set back.
 void assess_clock(Status& status) {
     // A delay of 16 ms is 16 s of simulated time at 1000x, and says nothing about the host's clock.
     if (!status.is_in_real_time) return;
+    constexpr std::chrono::hours kStepShown{1};
+    if (status.clock_step && status.now - status.clock_step->after < kStepShown) {
+        status.warn(sentence_of(*status.clock_step) +
+                    "; if it was wrong to set it, correct the times with a351-correct retime");
+    }
     constexpr std::chrono::seconds kAhead{5};     // above the uncertainty of a locked clock
     constexpr std::chrono::seconds kUnknown{15};  // the kernel's bound of a clock never set is 16 s
     if (status.last_sample && *status.last_sample > status.now + kAhead) {
@@ -112,7 +129,8 @@ void fill(Status& status, const source::LinkStatus& link) {
             "product identifier {} does not match the profile; check the sensor and sensor.profile",
             status.product_id));
     }
-    if (link.baud != link.configured_baud) {
+    const bool is_sampling = link.state == source::LinkStatus::State::sampling;
+    if (is_sampling && link.baud != link.configured_baud) {
         status.warn(
             fmt::format("the sensor runs at {} baud, not at the configured {}; recording "
                         "continues, set sensor.baud to match",

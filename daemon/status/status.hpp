@@ -20,6 +20,12 @@
 
 namespace a351::daemon::status {
 
+/// A step of the host's clock that the sample times followed.
+struct ClockStep {
+    UtcTime before;  ///< Time of the step by the clock as it was,
+    UtcTime after;   ///< and as it is since then.
+};
+
 /// A snapshot of the daemon's state as `/api/status` publishes it.
 struct Status {
     enum class Level { good, warning, fault };
@@ -47,6 +53,7 @@ struct Status {
     timing::State timing_state = timing::State::unlocked;
     std::optional<Nanoseconds> timing_uncertainty;       ///< 95 %; absent before the first sample.
     timing::LeapSecond leap = timing::LeapSecond::none;  ///< Leap second announced by the host.
+    std::optional<ClockStep> clock_step;                 ///< Newest one of this run.
     std::optional<timing::MeasuredRate> measured_rate;
     std::optional<double> declared_rate_hz;  ///< Rate set in the configuration.
     std::string rate_advice;                 ///< Advice on setting declared_rate_hz; empty if none.

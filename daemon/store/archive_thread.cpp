@@ -132,6 +132,7 @@ void ArchiveThread::step() {
 
 void ArchiveThread::handle(const NumberedChunk& numbered) noexcept {
     try {
+        watch_clock(numbered.chunk);
         take(numbered);
         post_model();
     } catch (const std::exception& error) {
@@ -157,6 +158,17 @@ void ArchiveThread::wait_for_room() {
             changed_.wait_for(lock, kWriteInterval);
         }
     }
+}
+
+void ArchiveThread::watch_clock(const journal::Chunk& chunk) {
+    const auto* const header = std::get_if<journal::Header>(&chunk);
+    const auto* const reading =
+        header != nullptr ? &header->clock : std::get_if<timing::ClockReading>(&chunk);
+    const auto step = reading != nullptr ? clock_watch_.observe(*reading) : std::nullopt;
+    if (!step) return;
+    hooks_.clock_set(*step);
+    const std::lock_guard lock(mutex_);
+    status_.clock_step = step;
 }
 
 void ArchiveThread::take(const NumberedChunk& numbered) {

@@ -21,7 +21,9 @@
 #include <thread>
 
 #include "daemon/source/host_clock.hpp"
+#include "daemon/status/status.hpp"
 #include "daemon/store/chunk_queue.hpp"
+#include "daemon/store/clock_watch.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
 #include "daemon/survey/recorder.hpp"
@@ -49,6 +51,7 @@ struct ArchiveStatus {
     std::optional<archive::Sample> last_sample;
     timing::State timing_state = timing::State::unlocked;
     std::optional<Nanoseconds> timing_uncertainty;  ///< Absent before the first session.
+    std::optional<status::ClockStep> clock_step;    ///< Newest one of this run.
     std::optional<timing::MeasuredRate> measured_rate;
 };
 
@@ -59,6 +62,8 @@ public:
         std::function<void(journal::Chunk)> post;
         /// Called when a session begins, to describe the instrument.
         std::function<void(const journal::Header&)> session_began;
+        /// Called when the sample times follow a step of the host's clock.  Must not wait.
+        std::function<void(const status::ClockStep&)> clock_set;
         /// Called when the last run's journal is completely in the archive.
         std::function<void(const archive::RecoveryReport&)> recovered;
         /// Called before anything is read or written.
@@ -148,6 +153,7 @@ private:
     void wait_for_room();
     void run_writing() noexcept;
     void take(const NumberedChunk& numbered);
+    void watch_clock(const journal::Chunk& chunk);
     void open_archive(const journal::StationCodes& codes);
     void write_replayed();
     void begin_session(const journal::Header& header);
@@ -180,6 +186,7 @@ private:
     // Used by the decoding thread only.
     steady_time last_model_real_;
     RawTime last_model_;
+    ClockWatch clock_watch_;
 
     // Used by the decoding thread during the replay, then by the writing thread only.
     std::unique_ptr<archive::Writer> writer_;

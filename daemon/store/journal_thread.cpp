@@ -121,6 +121,12 @@ void JournalThread::commit(const events::Event& event, milliseconds patience) {
     done.get();  // Once begun it is waited for, so that the answer is always true.
 }
 
+void JournalThread::note(const events::Event& event) {
+    const std::lock_guard lock(mutex_);
+    commits_.push_back(std::make_shared<Commit>(Commit{event, {}}));
+    woken_.notify_all();
+}
+
 JournalStatus JournalThread::status() const {
     const std::lock_guard lock(mutex_);
     JournalStatus status = status_;

@@ -74,6 +74,10 @@ public:
     ///                            then withdrawn.
     void commit(const events::Event& event, std::chrono::milliseconds patience);
 
+    /// Queues an event like commit() and does not wait.  It is lost if it cannot be written; the
+    /// status counts it as refused.
+    void note(const events::Event& event);
+
     [[nodiscard]] JournalStatus status() const;
 
 private:

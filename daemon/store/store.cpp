@@ -37,6 +37,7 @@ Store::Store(files::FileLayer& files, Options options, const source::HostClock& 
                    journal_.push({0, std::move(chunk)});
                },
            .session_began = [this](const journal::Header& header) { describe(header); },
+           .clock_set = [this](const status::ClockStep& step) { log_clock_step(step); },
            .recovered = [this](const archive::RecoveryReport& report) { finish_recovery(report); },
            .begin = options_.begin,
            .sample = options_.sample},
@@ -107,6 +108,16 @@ void Store::describe(const journal::Header& header) {
     metadata_trouble_ = trouble.value_or("");
 }
 
+void Store::log_clock_step(const status::ClockStep& step) {
+    events::Event event;
+    event.type = "clock_step";
+    event.utc = step.after;
+    event.details["clock_before"] = to_rfc3339(step.before, 3);
+    event.details["clock_after"] = to_rfc3339(step.after, 3);
+    event.details["by_s"] = fmt::format("{:+.3f}", seconds_between(step.before, step.after));
+    journal_.note(event);
+}
+
 bool Store::is_alive() {
     const std::uint64_t rounds = chunk_maker_.status().rounds;
     const JournalStatus journal = journal_.status();
@@ -127,6 +138,7 @@ void Store::fill(status::Status& status) {
     status.timing_state = archive.timing_state;
     status.timing_uncertainty = archive.timing_uncertainty;
     status.measured_rate = archive.measured_rate;
+    status.clock_step = archive.clock_step;
     status.counters = archive.counters;
     if (archive.last_sample && profile_ != nullptr) {
         const wire::BurstValues& values = archive.last_sample->values;
@@ -197,9 +209,7 @@ void Store::fill(status::Status& status) {
     status.disk_reserve = to_text(reserve.state);
     status.disk_reserve_trouble = reserve.trouble;
     if (reserve.is_space_short) {
-        status.fail(fmt::format(
-            "disk full: {} MiB free; the archive waits so that the journal can continue; make room",
-            status.disk_free_bytes.value_or(0) >> 20));
+        status.fail("disk full: the archive waits so that the journal can continue; make room");
     }
 }
 

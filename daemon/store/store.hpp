@@ -99,6 +99,7 @@ private:
     archive::RecoveryPlan plan_recovery();
     void finish_recovery(const archive::RecoveryReport& report);
     void describe(const journal::Header& header);
+    void log_clock_step(const status::ClockStep& step);
 
     files::FileLayer& files_;
     Options options_;

@@ -63,6 +63,19 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     CHECK(status.level == Status::Level::warning);
 }
 
+TEST_CASE("another baud rate is reported of a sensor that answers only", "[daemon][assess]") {
+    LinkStatus link;
+    link.baud = 230400;
+    link.configured_baud = 460800;
+    for (const auto state : {LinkStatus::State::sampling, LinkStatus::State::waiting}) {
+        Status status = healthy();
+        link.state = state;
+        fill(status, link);
+        CHECK((status.reasons.back().find("230400 baud") != std::string::npos) ==
+              (state == LinkStatus::State::sampling));
+    }
+}
+
 TEST_CASE("samples from the future are a warning with the remedy", "[daemon][assess]") {
     Status status = healthy();
     status.now = *parse_rfc3339("2026-03-14T08:00:00Z");
@@ -74,6 +87,36 @@ TEST_CASE("samples from the future are a warning with the remedy", "[daemon][ass
     REQUIRE(status.reasons.size() == 1);
     CHECK_THAT(status.reasons[0], ContainsSubstring("--clock") && ContainsSubstring("later than"));
     CHECK(status.level == Status::Level::warning);
+}
+
+TEST_CASE("a step of the clock is a warning for an hour, and an overlap is announced",
+          "[daemon][assess]") {
+    Status status = healthy();
+    const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
+    status.clock_step = ClockStep{noon, noon + std::chrono::hours(1)};
+    status.now = status.clock_step->after + std::chrono::minutes(59);
+    assess(status);
+    REQUIRE(status.reasons.size() == 1);
+    CHECK_THAT(status.reasons[0],
+               ContainsSubstring("set ahead by 3600.0 s, from 2026-03-14T12:00:00.0Z to "
+                                 "2026-03-14T13:00:00.0Z") &&
+                   !ContainsSubstring("twice"));
+    CHECK(status.level == Status::Level::warning);
+
+    status = healthy();
+    status.clock_step = ClockStep{noon, noon - std::chrono::seconds(80)};
+    status.now = noon;
+    assess(status);
+    REQUIRE(status.reasons.size() == 1);
+    CHECK_THAT(status.reasons[0], ContainsSubstring("set back by 80.0 s") &&
+                                      ContainsSubstring("the times from 2026-03-14T11:58:40.0Z to "
+                                                        "2026-03-14T12:00:00.0Z occur twice"));
+
+    status = healthy();
+    status.clock_step = ClockStep{noon, noon + std::chrono::hours(1)};
+    status.now = status.clock_step->after + std::chrono::minutes(61);
+    assess(status);
+    CHECK(status.reasons.empty());
 }
 
 TEST_CASE("a clock that was never synchronised is a warning with its size", "[daemon][assess]") {
