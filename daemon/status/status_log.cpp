@@ -3,11 +3,21 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace a351::daemon::status {
 namespace {
 
 constexpr std::chrono::minutes kReminder{1};
+
+/// Returns the reason without its paths: each try to write the journal may name another file.
+std::string without_paths(const std::string& reason) {
+    std::istringstream words(reason);
+    std::string kept;
+    for (std::string word; words >> word;)
+        if (word.find('/') == std::string::npos) kept += word + ' ';
+    return kept;
+}
 
 }  // namespace
 
@@ -54,8 +64,9 @@ void StatusLog::note(const Status& status, Instant now) {
 
 void StatusLog::note_reasons(const Status& status, Instant now) {
     for (const std::string& reason : status.reasons) {
-        Trouble& trouble = troubles_[reason];
+        Trouble& trouble = troubles_[without_paths(reason)];
         ++trouble.times;
+        trouble.reason = reason;
         if (trouble.times == 1) {
             log_->warn("{}", reason);
             trouble.said = now;
@@ -65,8 +76,8 @@ void StatusLog::note_reasons(const Status& status, Instant now) {
         }
     }
     std::erase_if(troubles_, [&](const auto& entry) {
-        if (std::ranges::count(status.reasons, entry.first) > 0) return false;
-        log_->info("resolved: {}", entry.first);
+        if (std::ranges::count(status.reasons, entry.first, without_paths) > 0) return false;
+        log_->info("resolved: {}", entry.second.reason);
         return true;
     });
 }

@@ -28,6 +28,7 @@ private:
     struct Trouble {
         Instant said;
         std::uint64_t times = 0;  ///< Number of snapshots that showed it.
+        std::string reason;       ///< Its text in the newest one.
     };
     void note_reasons(const Status& status, Instant now);
     void note_counter(const std::string& name, std::uint64_t value, Instant now);

@@ -16,17 +16,28 @@ DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path&
     for (const char* name : {"journal", "archive", "metadata", "events", "state"})
         files.create_directories(root / name);
     files.sync_directory(root);  // A start that was killed may not have synced it.
-    const std::filesystem::path file = root / "state" / "lock";
-    descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (descriptor_ < 0)
-        throw std::system_error(errno, std::generic_category(), "cannot open " + file.string());
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        close(descriptor_);
-        throw DataRootLocked(root.string() + ": another a351d is using this data root");
+    try {
+        lock(root, root, O_RDONLY | O_DIRECTORY);
+        lock(root, root / "state" / "lock", O_RDWR | O_CREAT);
+    } catch (...) {
+        for (const int descriptor : descriptors_) close(descriptor);
+        throw;
     }
 }
 
-DataRootLock::~DataRootLock() { close(descriptor_); }
+DataRootLock::~DataRootLock() {
+    for (const int descriptor : descriptors_) close(descriptor);
+}
+
+void DataRootLock::lock(const std::filesystem::path& root, const std::filesystem::path& file,
+                        int flags) {
+    const int descriptor = open(file.c_str(), flags | O_CLOEXEC, 0644);
+    if (descriptor < 0)
+        throw std::system_error(errno, std::generic_category(), "cannot open " + file.string());
+    descriptors_.push_back(descriptor);
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        throw DataRootLocked(root.string() + ": another a351d is using this data root");
+}
 
 std::optional<std::string> describe_station(files::FileLayer& files,
                                             const std::filesystem::path& root,

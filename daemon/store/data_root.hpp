@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "protocol/files/file_layer.hpp"
 #include "protocol/station/station_xml.hpp"
@@ -18,11 +19,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Keeps `state/lock` of a data root locked.  The kernel releases the lock when the process ends.
+/// Keeps a data root locked: the folder itself, and `state/lock` for network file systems, which do
+/// not lock a folder.  The kernel releases the locks when the process ends.
 class DataRootLock {
 public:
     /// Creates missing directories and takes the lock.
-    /// @throws DataRootLocked     another process has the lock.
+    /// @throws DataRootLocked     another process has a lock.
     /// @throws std::system_error  the root cannot be used.
     DataRootLock(files::FileLayer& files, const std::filesystem::path& root);
     ~DataRootLock();
@@ -30,7 +32,9 @@ public:
     DataRootLock& operator=(const DataRootLock&) = delete;
 
 private:
-    int descriptor_ = -1;
+    void lock(const std::filesystem::path& root, const std::filesystem::path& file, int flags);
+
+    std::vector<int> descriptors_;
 };
 
 /// Extends `metadata/station.xml` by the epochs that begin with this description, or creates it.  A

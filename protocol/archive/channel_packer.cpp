@@ -48,23 +48,17 @@ void ChannelPacker::close(const RecordContext& context, bool ends_series) {
 }
 
 // Returns the number of samples before midnight: a record lies within the UTC day of its day file.
-std::size_t ChannelPacker::samples_before_midnight(const timing::SampleClock& clock,
-                                                   UtcTime start) const {
-    const UtcTime midnight = floor<days>(start) + days(1);
-    const auto is_before = [&](std::size_t i) {
-        return clock.time_of(first_ + static_cast<std::int64_t>(i))->utc < midnight;
-    };
-    std::size_t low = 0;
-    std::size_t high = samples_.size() - 1;
-    if (is_before(high)) return samples_.size();
-    while (low < high) {  // searches the last sample before midnight; the first sample is before it
-        const std::size_t middle = high - (high - low) / 2;
-        if (is_before(middle))
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low + 1;
+// Their times are those that a reader computes from the header.
+std::size_t ChannelPacker::samples_before_midnight(const RecordHeader& header) const {
+    const UtcTime midnight = floor<days>(header.start) + days(1);
+    const auto declared = static_cast<float>(header.declared_rate_hz.value_or(0.0));
+    const double rate_hz = header.declared_rate_hz ? static_cast<double>(declared)  // blockette 100
+                                                   : header.nominal_rate.value();
+    std::size_t count = samples_.size();
+    while (count > 1 &&
+           header.start + from_seconds(static_cast<double>(count - 1) / rate_hz) >= midnight)
+        --count;
+    return count;
 }
 
 void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
@@ -74,7 +68,7 @@ void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
     header.start = floor<std::chrono::microseconds>(time.utc);
     set_timing(header, time);
 
-    std::size_t available = samples_before_midnight(context.clock, header.start);
+    std::size_t available = samples_before_midnight(header);
     if (const auto held = context.sink.samples_in_archive(code_, header.start))
         available = std::min(available, *held);
     const auto samples = std::span<const std::int32_t>(samples_).first(available);

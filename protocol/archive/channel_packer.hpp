@@ -90,8 +90,7 @@ public:
 
 private:
     void pack_one(const RecordContext& context, bool ends_series);
-    [[nodiscard]] std::size_t samples_before_midnight(const timing::SampleClock& clock,
-                                                      UtcTime start) const;
+    [[nodiscard]] std::size_t samples_before_midnight(const RecordHeader& header) const;
 
     std::string code_;
     std::vector<std::int32_t> samples_;

@@ -158,6 +158,31 @@ TEST_CASE("no record reaches over UTC midnight", "[record][archiver]") {
     }
 }
 
+TEST_CASE("by the times of its header no record reaches over UTC midnight", "[record][archiver]") {
+    // The sensor is 100 ppm fast, so header and sample clock differ by up to 1 ms in a record.
+    const auto midnight = *parse_rfc3339("2026-03-02T00:00:00Z");
+    int checked = 0;
+    for (int offset_ms = 0; offset_ms < 20; ++offset_ms) {
+        const auto before = 12h - 100s + std::chrono::milliseconds(offset_ms);
+        JournalStream stream(1, before);
+        for (std::int64_t k = 0; k < 6'000; ++k) {
+            const auto at = before + due(k) - due(k) / 10'000;
+            stream.bytes(frame_of(values_of(k)), at);
+            if (k % 50 == 49) stream.second(at);
+        }
+        stream.flush();
+        const auto run = archived(stream.chunks);
+        CHECK(run.sink.counts("BNZ") == expected(2, 0, 6'000));
+        for (const auto& record : run.sink.decoded.at("BNZ")) {
+            if (record.header.start >= midnight) continue;
+            const double last_s = static_cast<double>(record.samples.size() - 1) / record.rate_hz();
+            CHECK(record.header.start + from_seconds(last_s) < midnight);
+            ++checked;
+        }
+    }
+    CHECK(checked > 100);
+}
+
 TEST_CASE("samples are written to a record after 60 s even if no others follow",
           "[record][archiver]") {
     JournalStream stream;

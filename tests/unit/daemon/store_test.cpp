@@ -82,6 +82,35 @@ TEST_CASE_METHOD(Rig, "after a sleep the journal has the reader's clock reading 
     CHECK(header->clock == woken);
 }
 
+TEST_CASE_METHOD(Rig, "a step of the host's clock is in the event log and in the status",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    record_first(store);
+    timing::ClockReading reading = clock.read();
+    const auto push_seconds = [&](int count) {
+        for (int i = 0; i < count; ++i) {
+            reading.raw += std::chrono::seconds(1);
+            reading.boottime += std::chrono::seconds(1);
+            reading.realtime += std::chrono::seconds(1);
+            reading.is_synchronised = true;
+            REQUIRE(reads.push_woken(reading));
+        }
+    };
+    push_seconds(600);
+    reading.realtime -= std::chrono::seconds(80);
+    push_seconds(7200);
+    CHECK(store.stop());
+
+    std::vector<events::Event> steps = events::read_events(root / "events").events;
+    REQUIRE(steps.size() == 1);
+    CHECK(steps[0].type == "clock_step");
+    CHECK(std::stod(steps[0].details.at("by_s")) == Approx(-80.0).margin(0.01));
+    const auto step = status_of(store).clock_step;
+    REQUIRE(step);
+    CHECK(step->after == steps[0].utc);
+    CHECK(steps[0].details.at("clock_before") == to_rfc3339(step->before, 3));
+}
+
 TEST_CASE("after the journal is drained only chunks posted by the archive are written to it",
           "[daemon][store]") {
     SteppedRig rig;
@@ -131,6 +160,8 @@ TEST_CASE_METHOD(Rig, "the store finds the sample that belongs to a time", "[dae
 TEST_CASE_METHOD(Rig, "a data root accepts one daemon at a time", "[daemon][store]") {
     {
         const Store store(files, options(), clock, reads);
+        CHECK_THROWS_AS(Store(files, options(), clock, reads), DataRootLocked);
+        std::filesystem::remove_all(root / "state");
         CHECK_THROWS_AS(Store(files, options(), clock, reads), DataRootLocked);
     }
     CHECK_NOTHROW(Store(files, options(), clock, reads));

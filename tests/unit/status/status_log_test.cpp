@@ -45,6 +45,23 @@ TEST_CASE_METHOD(
     CHECK(said(Status(), 63).empty());
 }
 
+TEST_CASE_METHOD(Fixture, "a reason that names another file each time is logged as one",
+                 "[daemon][status_log]") {
+    Status status;
+    const auto refuse = [&](int segment) {
+        status.reasons = {"journal: open data/journal/0000000" + std::to_string(segment) +
+                          ".a351j: Read-only file system"};
+    };
+    refuse(1);
+    CHECK_FALSE(said(status, 0).empty());
+    for (int second = 1; second < 60; ++second) {
+        refuse(second % 10);
+        CHECK(said(status, second).empty());
+    }
+    CHECK(said(Status(), 60) ==
+          "resolved: journal: open data/journal/00000009.a351j: Read-only file system\n");
+}
+
 TEST_CASE_METHOD(Fixture, "a rising counter is logged with its increase, at most once a minute",
                  "[daemon][status_log]") {
     Status status;
