@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -186,7 +188,10 @@ int main(int argc, char** argv) {
             a.site = a.stay_and_site.back();
             if (a.stay_and_site.size() > 1) a.stay = a.stay_and_site.front();
         }
-        return run_command(command, a);
+        const int result = run_command(command, a);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            throw std::runtime_error("the output could not be written");
+        return result;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         complain(std::string(error.what()) + "; see a351ctl --help");

@@ -27,7 +27,7 @@ struct Run {
 };
 
 Run run(const std::string& arguments) {
-    const std::string command = std::string(A351CTL) + " " + arguments + " 2>&1";
+    const std::string command = std::string(A351CTL) + " 2>&1 " + arguments;
     Run result;
     FILE* pipe = popen(command.c_str(), "r");
     REQUIRE(pipe);
@@ -88,6 +88,14 @@ TEST_CASE("the exit code of status is that of a monitoring plugin", "[daemon][ct
     CHECK(run("--url http://127.0.0.1:1 status").exit == 3);
     CHECK(run("status --bogus").exit == 3);
     CHECK(run("--url ftp://127.0.0.1 status").exit == 3);
+}
+
+TEST_CASE("a terminal that takes no output is not a good state", "[daemon][ctl]") {
+    const FakeDaemon daemon;
+    CHECK(daemon.ctl("status > /dev/full").exit == 3);
+    CHECK(daemon.ctl("list > /dev/full").exit == 1);
+    CHECK(daemon.ctl("list > /dev/full").text.find("output could not be written") !=
+          std::string::npos);
 }
 
 TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 3 without a daemon",
