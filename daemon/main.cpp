@@ -280,6 +280,10 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
     if (page.is_exposed())
         log.warn("the page can be reached from other hosts; changes need the token");
+    if (config::shows_token(config)) {
+        log.warn("every user of this computer can read the token in {}; chmod o-r {}",
+                 config.file.string(), config.file.string());
+    }
 
     store.start();
     link.start();

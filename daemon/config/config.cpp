@@ -257,6 +257,14 @@ SurveyConfig read_survey(TomlTable table) {
 
 }  // namespace
 
+bool shows_token(const Config& config) {
+    if (config.page.token.empty()) return false;
+    std::error_code unknown;
+    const auto permissions = std::filesystem::status(config.file, unknown).permissions();
+    return !unknown &&
+           (permissions & std::filesystem::perms::others_read) != std::filesystem::perms::none;
+}
+
 Config read_config(const std::filesystem::path& file) {
     TomlTable root = text::read_toml(file);
     Config config;

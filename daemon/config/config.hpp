@@ -57,6 +57,9 @@ struct Config {
 /// @throws InputError  with file, line, key, value and the allowed values.
 [[nodiscard]] Config read_config(const std::filesystem::path& file);
 
+/// Returns true if the file has a token and every user of this computer may read it.
+[[nodiscard]] bool shows_token(const Config& config);
+
 /// Makes the header of the journal; session and device are filled in by the sensor's link.
 [[nodiscard]] journal::Header journal_header(const Config& config, const source::HostClock& clock);
 

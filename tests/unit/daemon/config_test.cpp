@@ -49,6 +49,17 @@ struct Fixture {
 
 }  // namespace
 
+TEST_CASE_METHOD(Fixture, "a token that every user can read is noticed", "[daemon][config]") {
+    const std::string token = "[page]\ntoken = \"0123456789abcdef\"\n";
+    for (const bool has_token : {false, true}) {
+        const Config config = read(kStation + kSensor + kStorage + (has_token ? token : ""));
+        std::filesystem::permissions(file, std::filesystem::perms(0644));
+        CHECK(shows_token(config) == has_token);
+        std::filesystem::permissions(file, std::filesystem::perms(0640));
+        CHECK_FALSE(shows_token(config));
+    }
+}
+
 TEST_CASE_METHOD(Fixture, "a minimal configuration has the documented defaults",
                  "[daemon][config]") {
     const Config config = read(kStation + kSensor + kStorage);
