@@ -25,8 +25,6 @@ namespace a351::corrector::design {
 /// @param result  correction of the day so far.
 /// @param sites   table of the sites.
 /// @param key     key of the running stay; empty: none.
-///
-/// Accuracy: evening_test.cpp.
 [[nodiscard]] std::optional<MilliGal> u_in_the_evening(const model::SurveyCorrection& result,
                                                        const std::vector<text::Site>& sites,
                                                        const std::string& key);

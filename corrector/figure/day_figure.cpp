@@ -124,6 +124,7 @@ Panel temperature_panel(const model::SurveyCorrection& result,
     }
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const reading::SurveyRow& row = result.rows[i].row;
+        if (!row.has_temperature) continue;
         reading_lines += fmt::format("{} {}{}", to_rfc3339(row.time),
                                      datum(row.temperature.value(), 4), comment(result, i));
     }
@@ -133,7 +134,8 @@ Panel temperature_panel(const model::SurveyCorrection& result,
     if (!means.empty())
         panel.clauses.push_back(means + " using 1:2 with lines lw 1.2 lc rgb " + kVermilion +
                                 " notitle");
-    panel.clauses.push_back(data.add("readings: time_utc temperature_degc", reading_lines) +
+    if (!reading_lines.empty())
+        panel.clauses.push_back(data.add("readings: time_utc temperature_degc", reading_lines) +
                             " using 1:2 with points pt 7 ps 0.5 lc rgb " + kBlue + " notitle");
     return panel;
 }

@@ -89,9 +89,11 @@ std::string sites_csv(const std::vector<Stay>& stays) {
 /// Returns the names of the kept columns of all files, in order of their first appearance.
 std::vector<std::string_view> kept_names(const std::vector<GravimeterFile>& files) {
     std::vector<std::string_view> names;
-    for (const GravimeterFile& file : files)
+    for (const GravimeterFile& file : files) {
+        if (file.readings.empty()) continue;
         for (const auto& [name, text] : file.readings.front().kept)
             if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
     return names;
 }
 

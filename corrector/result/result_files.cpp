@@ -2,7 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/result/columns.hpp"
@@ -169,13 +172,20 @@ std::vector<text::NamedText> result_files(const model::SurveyCorrection& result,
                                           const Json& settings,
                                           const std::vector<text::InputFile>& inputs,
                                           const std::vector<text::Site>& sites) {
-    return {{"occupations.csv", occupations_csv(result)},
-            {"stations.csv", stations_csv(result)},
-            {"differences.csv", differences_csv(result)},
-            {"models.csv", models_csv(result)},
-            {"result.json", result_json(result, settings, inputs)},
-            {"stations.geojson", stations_geojson(result, sites)},
-            {"gsadjust.csv", gsadjust_csv(result, sites)}};
+    std::vector<text::NamedText> files{{"occupations.csv", occupations_csv(result)},
+                                       {"stations.csv", stations_csv(result)},
+                                       {"differences.csv", differences_csv(result)},
+                                       {"models.csv", models_csv(result)},
+                                       {"result.json", result_json(result, settings, inputs)},
+                                       {"stations.geojson", stations_geojson(result, sites)}};
+    // The readings of a file for GSadjust have one constant.
+    const auto constant_of = [](const model::CorrectedRow& row) {
+        return std::pair(row.row.instrument, row.row.loop);
+    };
+    if (std::ranges::adjacent_find(result.rows, std::not_equal_to{}, constant_of) ==
+        result.rows.end())
+        files.push_back({"gsadjust.csv", gsadjust_csv(result, sites)});
+    return files;
 }
 
 }  // namespace a351::corrector::result

@@ -25,8 +25,8 @@ bool is_reachable(const ifaddrs& one) {
 }  // namespace
 
 std::vector<std::string> reachable_addresses(const std::string& listen) {
-    if (listen.starts_with("127.") || listen == "[::1]" || listen == "[::]") return {};
-    if (listen != "0.0.0.0") return {listen};
+    if (listen.starts_with("127.") || listen == "[::1]") return {};
+    if (listen != "0.0.0.0" && listen != "[::]") return {listen};
     ifaddrs* first = nullptr;
     if (getifaddrs(&first) != 0)
         throw std::system_error(errno, std::generic_category(), "addresses of this host");

@@ -131,6 +131,7 @@ JournalStatus JournalThread::status() const {
     const std::lock_guard lock(mutex_);
     JournalStatus status = status_;
     status.is_faulty |= is_fault_recent();
+    status.is_dropping = is_stuck() && queued_bytes_ >= capacity_bytes_;
     if (on_disk_since_) {
         status.present_sync =
             std::chrono::duration_cast<milliseconds>(time_.now() - *on_disk_since_);

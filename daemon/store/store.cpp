@@ -178,7 +178,7 @@ void Store::fill(status::Status& status) {
     }
     if (archive.is_faulty) status.fail("archive: " + archive.trouble);
     const bool is_stalled = journal.present_sync >= kStall;
-    if ((journal.is_faulty || is_stalled) && journal.reads_dropped > 0) {
+    if (journal.is_dropping) {
         status.fail(
             "journal: writing has failed for so long that the buffer is full; the oldest data are "
             "being discarded; check the disk");

@@ -161,11 +161,12 @@ void SdsWriter::create(const fs::path& day_file, const PackedRecord& record) {
     const fs::path side = side_directory(archive_);
     files_.create_directories(day_file.parent_path());
     files_.create_directories(side);
+    const fs::path temporary = side / (day_file.filename().string() + ".tmp");
     try {
-        files::write_file_atomically(files_, day_file, record.bytes,
-                                     side / (day_file.filename().string() + ".tmp"));
+        files::write_file_atomically(files_, day_file, record.bytes, temporary);
     } catch (const std::system_error& error) {
         if (error.code() != std::errc::cross_device_link) throw;
+        files_.remove(temporary);
         files::write_file_atomically(files_, day_file, record.bytes);  // archive/ is a mount point.
     }
     // The parent directories are synced too: a program that made them earlier may have been killed

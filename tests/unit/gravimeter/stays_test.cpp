@@ -65,6 +65,7 @@ TEST_CASE("a reading that is given twice is refused once", "[gravimeter]") {
     CHECK(stays.front().readings.size() == 2);
     REQUIRE(files[1].refused.size() == 1);
     CHECK(files[1].refused[0].line == 1);
+    CHECK(survey_tables(files, stays, {}).size() == 3);  // the second file has no reading left
 }
 
 TEST_CASE("the average of a stay is of its last readings, as median or mean", "[gravimeter]") {
