@@ -246,8 +246,10 @@ SurveyConfig read_survey(TomlTable table) {
         survey.calibration = unit::read_calibration(survey.calibration_file);
     const double occupation_min = table.number_or("occupation_min", 10.0, 1.0, 240.0);
     survey.planned = from_seconds(60.0 * occupation_min);
-    // A set-up has a minute or more: the reading begins with the first whole one.
-    const auto most_set_ups = static_cast<std::int64_t>(occupation_min);
+    // Two whole minutes between the disturbances give the set-up a scatter.
+    constexpr double kShortestSetUp_min = 3.0;
+    const auto most_set_ups =
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(occupation_min / kShortestSetUp_min));
     survey.set_ups = static_cast<int>(table.integer_or("set_ups", 1, 1, most_set_ups));
     survey.gravity_every = std::chrono::duration_cast<std::chrono::milliseconds>(
         from_seconds(60.0 * table.number_or("gravity_every_min", 3.0, 0.0, 240.0)));

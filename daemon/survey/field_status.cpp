@@ -100,7 +100,10 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
     field.plan =
         set_up_plan(occupations.planned_set_ups(), planned_s, static_cast<int>(set_ups.size()),
                     running_s, seconds_between(last.start, now));
-    field.whole.is_good_enough &= field.plan.running >= field.plan.planned;
+    if (field.plan.running < field.plan.planned) {
+        field.whole.is_good_enough = false;
+        field.whole.needed_s.reset();
+    }
     field.warnings = warnings_of(*running, survey_day(occupations, now), running_s, planned_s);
     constexpr double kLeastMissing_s = 1.0;  // A shorter gap changes no reading.
     if (const double missing_s = live.missing_s(last.start, now); missing_s >= kLeastMissing_s) {

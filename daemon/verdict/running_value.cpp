@@ -62,10 +62,12 @@ void RunningValue::take(const LiveSample& sample) {
 RunningReading RunningValue::reading(MilliGal target, State state) const {
     RunningReading reading;
     std::vector<SetUp> usable;
+    bool has_running = false;  // The last set-up is usable.
     for (const SetUp& one : set_ups_) {
         reading.used_s += kLiveStepSeconds * one.used;
         reading.left_out_s += kLiveStepSeconds * one.left_out;
-        if (one.used > 0 && (usable.empty() || one.minutes > 0)) usable.push_back(one);
+        has_running = one.used > 0 && (usable.empty() || one.minutes > 0);
+        if (has_running) usable.push_back(one);
     }
     if (usable.empty()) return reading;
 
@@ -109,7 +111,7 @@ RunningReading RunningValue::reading(MilliGal target, State state) const {
     reading.is_good_enough = square <= wanted;
     if (reading.is_good_enough)
         reading.needed_s = 0.0;
-    else if (last_inverse > 0.0)
+    else if (has_running && last_inverse > 0.0)
         reading.needed_s = std::max(0.0, 1.0 / last_inverse - last_s);
     return reading;
 }

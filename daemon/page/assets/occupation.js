@@ -316,7 +316,11 @@ export class OccupationPanel {
         if (!reading) return "";
         const target = `target ${number(reading.target_mgal, 2)} mGal`;
         if (reading.is_good_enough) return `✓ GOOD ENOUGH (${target})`;
-        if (reading.needed_s === null) return `not yet good enough (${target}); time needed not known yet`;
+        if (reading.needed_s === null) {
+            const one = this.running;
+            const is_missing = one !== null && one.set_up_count < one.planned_set_ups;
+            return `not yet good enough (${target}); ${is_missing ? "a set-up is missing" : "time needed not known yet"}`;
+        }
         return reading.needed_s > 0 ? `still about ${duration(reading.needed_s)} needed (${target})`
             : `error below the ${target}; waiting for a stable verdict`;
     }

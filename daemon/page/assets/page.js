@@ -95,7 +95,8 @@ function refresh() {
     const word = show_verdict(status.verdict, is_stale && status.verdict.state !== "no data" ? age_s : null);
     show_tilt(status.tilt);
     follow({
-        due: Boolean(status.occupation?.propose_set_up || status.occupation?.may_stop),
+        due: Boolean(status.occupation?.may_stop
+            || (status.occupation?.propose_set_up && status.occupation.planned_set_ups > 1)),
         stable: status.verdict.state === "stable",
         good: Boolean(status.occupation?.whole?.is_good_enough),
         fault: status.level === "fault" || is_stale,

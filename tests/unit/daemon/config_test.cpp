@@ -178,7 +178,7 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
           "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV file of "
           "sites, or \"\"");
-    CHECK(refusal(kStation + kSensor + kStorage + "[survey]\noccupation_min = 3\nset_ups = 4\n") ==
+    CHECK(refusal(kStation + kSensor + kStorage + "[survey]\noccupation_min = 10\nset_ups = 4\n") ==
           "a351d.toml:11: survey.set_ups = 4: out of range; allowed: a whole number from 1 to 3");
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n"),
                StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&

@@ -63,6 +63,7 @@ TEST_CASE("a stay is good enough only with its planned set-ups", "[field]") {
     auto now = field_status(field.occupations, field.live, minute(27));
     CHECK(now.reading->is_good_enough);
     CHECK_FALSE(now.whole.is_good_enough);
+    CHECK_FALSE(now.whole.needed_s);  // time alone does not help
     CHECK(now.plan.proposes_next);
     const auto stopped = field.occupations.stop({}, minute(30));
     CHECK(stopped.message.ends_with(

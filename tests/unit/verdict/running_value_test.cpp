@@ -88,7 +88,10 @@ TEST_CASE("the last of several set-ups needs the time that is predicted", "[verd
     running.begin_set_up(kStart);
     int i = 5;
     for (; i < 185; ++i) running.take(sample(2.0 * i, 980000.0));
+    CHECK(running.reading(MilliGal(1.0), State::stable).needed_s);
     running.begin_set_up(kStart + from_seconds(360.0));
+    // A lifted box needs no more time where it was.
+    CHECK_FALSE(running.reading(MilliGal(1.0), State::stable).needed_s);
     for (; i < 230; ++i) running.take(sample(2.0 * i, 980001.0));
     const RunningReading early = running.reading(MilliGal(1.0), State::stable);
     REQUIRE(early.needed_s);
