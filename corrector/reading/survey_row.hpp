@@ -107,7 +107,7 @@ struct LeftOut {
 ///
 /// @param file   CSV with one row per occupation, in any order.
 /// @param sites  table of the sites; their gravity becomes the reference of the rows.
-/// @return at least one row, in strictly ascending time.
+/// @return at least one row, in order of time; those of one instrument in strictly ascending time.
 /// @throws InputError  a site that `sites` lacks, two rows of an instrument at one instant, a number
 ///                     out of range, no rows, not exactly one column of time; with file, line,
 ///                     column and value.

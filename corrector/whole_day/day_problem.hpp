@@ -41,9 +41,9 @@ inline constexpr auto kTerms = static_cast<Eigen::Index>(kDayTerms);
 enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite, kBiasSize };
 
 /// Readings and columns of fit_day() for n bins.  The estimated quantities are the terms, then the
-/// gravities, then the steps, then for each gap of the temperature the effects of the fast and of the slow lag's
-/// state, mGal where the gap ends (lag_states.hpp).  A reference that is held with an uncertainty is
-/// one of the gravities, with that prior; an exact one is none.
+/// gravities, then the steps, then for each gap of the temperature the effects of the fast and of
+/// the slow lag's state, mGal where the gap ends (lag_states.hpp).  A reference that is held with an
+/// uncertainty is one of the gravities, with that prior; an exact one is none.
 ///
 /// An unknown counts from a rough gravity: the mean of its readings minus the mean constant of the
 /// set-ups that are held.  Therefore its prior, 0 +- 1e4 mGal, has practically no influence.

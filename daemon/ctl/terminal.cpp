@@ -130,6 +130,7 @@ std::string fitted(const std::string& screen, std::size_t columns, std::size_t r
         if (column < columns || last_blank == std::string::npos) continue;
         if (++row == rows) {
             shown.resize(last_blank);
+            if (shown.find('\x1b') != std::string::npos) shown += "\x1b[0m";  // It may not have ended.
             break;
         }
         shown.replace(last_blank, 1, "\n" + std::string(kIndent, ' '));

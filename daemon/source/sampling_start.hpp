@@ -32,8 +32,9 @@ struct Listening {
     std::vector<Read> reads;  ///< Everything received, in order.
 };
 
-/// Listens on a port that was just opened or has just become silent.  Gives up after a silence of half a second or 20 frame
-/// periods, whichever is longer, or after some seconds of bytes without a known stream.
+/// Listens on a port that was just opened or has just become silent.  Gives up after a silence of
+/// half a second or 20 frame periods, whichever is longer, or after some seconds of bytes without a
+/// known stream.
 /// The stream counts as known when ten consecutive frames keep the counter step of its rate, and
 /// their counter has the value that timing::SampleIndex expects from `known`.
 /// A device that restarted meanwhile is mistaken for the known stream in one of 20 cases: when its

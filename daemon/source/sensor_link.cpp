@@ -283,8 +283,9 @@ void SensorLink::begin_session() {
     if (is_new) ++status_.sessions;
 }
 
-// A sensor that sent frames is listened to once more and then configured at once.  One that answers but sends no frames is
-// configured after a pause, because it would otherwise begin one session after another.
+// A sensor that sent frames is listened to once more and then configured at once.  One that answers
+// but sends no frames is configured after a pause, because it would otherwise begin one session after
+// another.
 void SensorLink::note_stall(End end) {
     const std::string trouble = end == End::stalled    ? "no bytes from the sensor"
                                 : end == End::unframed ? "bytes arrive, but no valid frames"

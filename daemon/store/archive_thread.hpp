@@ -40,8 +40,8 @@ struct ArchiveStatus {
     std::uint64_t faults = 0;
     std::uint64_t chunks_lost = 0;  ///< Chunks that could not be parsed; they are in the journal.
     std::uint64_t records_dropped = 0;  ///< Records dropped because they waited for too long.
-    /// False after a failed sync, a lost chunk or a dropped record: nothing is marked as archived until the next
-    /// start, which replays the journal from the last mark.
+    /// False after a failed sync, a lost chunk or a dropped record: nothing is marked as archived
+    /// until the next start, which replays the journal from the last mark.
     bool is_marking = true;
     bool is_replaying = false;  ///< The last run's journal is being added to the archive.
     std::uint64_t records = 0;

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Everything between the reader's queue and the disk: chunks, recovery at start, journal, archive, station
-/// metadata, events.  It also answers the requests of survey and page about recorded data.
+/// Everything between the reader's queue and the disk: chunks, recovery at start, journal, archive,
+/// station metadata, events.  It also answers the requests of survey and page about recorded data.
 
 #include <chrono>
 #include <cstdint>

@@ -66,7 +66,9 @@ export class DayList {
         }
         by_id("day-stay").addEventListener("change", () => this.mark());
         by_id("day-rows").addEventListener("click", (event) => {
-            by_id("day-stay").value = event.target.closest("tr").dataset.key;
+            const row = event.target.closest("tr");
+            if (!row) return; // Between two rows.
+            by_id("day-stay").value = row.dataset.key;
             this.mark();
         });
     }
