@@ -5,7 +5,8 @@ SEEDS: default 5001-5020, which were not used while the corrector was developed.
 (unit_scatter).  An error is that of an occupation: the mean of its set-ups minus true gravity.
 
 "Out of sample" means leave-one-station-out.  In the first seed the reference of each station in turn is hidden and the
-program is run again (up to two set-ups, because more take minutes); this shows that the program's own column `left_out_mgal` agrees, which is used in the other seeds.
+program is run again (up to two set-ups, because more take minutes); this shows that the program's own column
+`left_out_mgal` agrees, which is used in the other seeds.
 A351_LONG=1: references are hidden in all seeds, and the uncertainties are tested on 200 surveys.
 
 For comparison with the whole-day model: the published method (errors as in its table, and with each row left out), and
