@@ -97,6 +97,7 @@ std::optional<Finding> uncertain_times(const std::vector<OccupationWindow>& wind
             for (const archive::Segment::Anchor& anchor : segment.anchors) {
                 if (anchor.time < window.start || anchor.time >= window.end) continue;
                 ++count;
+                if (!anchor.is_time_questionable) continue;
                 if (anchor.timing_quality_percent < kLeastErrorQuality_percent) ++bad;
                 percent = std::min(percent, anchor.timing_quality_percent);
             }

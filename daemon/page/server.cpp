@@ -31,10 +31,8 @@ Request plain(const HttpRequest& message, const tcp::socket& socket) {
                                              .port = own.port(),
                                              .is_v6 = own.address().is_v6()});
     }
-    // A program on this host that connects to another of its addresses has the same one itself.
     const auto client = socket.remote_endpoint(error);
-    request.is_local =
-        !error && (client.address().is_loopback() || client.address() == own.address());
+    request.is_local = !error && client.address().is_loopback();
     for (const auto& field : message)
         request.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
     return request;

@@ -134,6 +134,8 @@ def show_occupations(stub, browser):
     browser.wait_for("the question is gone", lambda: not browser.find("#run-moved").is_displayed())
 
     stub.status["occupation"] = occupation(whole=reading(None, None))
+    browser.wait_for_text("run-judgement", "a set-up is missing")
+    stub.status["occupation"] = occupation(whole=reading(None, None), set_up_count=2)
     browser.wait_for_text("run-judgement", "time needed not known yet")
     demand("no standard error is shown before it is known", browser.text("run-value") == "979861.32 mGal reading")
 

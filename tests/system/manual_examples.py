@@ -176,6 +176,7 @@ def try_changes(scratch, environment, port):
     for command in commands:
         if re.search(KEY, command):
             command = re.sub(KEY, re.search(KEY, run(BIN / "a351ctl", "list", env=environment).stdout)[0], command)
+        time.sleep(0.5)  # No operator sets up and stops between two samples.
         run_to_end(command, scratch, environment)
     for command in examples(TOP / "daemon" / "page" / "a351d-http.7"):
         if shutil.which("curl"):
