@@ -13,15 +13,16 @@
 
 namespace a351::corrector::design {
 
-/// Returns the standard uncertainty that a stay will have after a return to the base.
+/// Returns the standard uncertainty, mGal, that a stay will have after a return to the base.  The base
+/// is the first visited station with a reference.
 ///
 /// It is the present uncertainty of the station, times the ratio of the expected ones with and
-/// without one more visit of the base.  That visit comes after the median of the day's drives and has
-/// the set-ups of the running stay.  The expected uncertainties are those of a plan with the visits so
-/// far (expected_errors()), the priors of the correction and the noise that the day shows.
+/// without one more visit of the base.  That visit comes after the median of the day's drives.  It
+/// has the set-ups of the running stay.  The expected uncertainties are those of expected_errors()
+/// for the visits so far, with the priors of the correction and the noise that the day shows.
 ///
-/// Absent if the day is not corrected by `day`, the stay is unknown here or at a station whose
-/// gravity is known, or no visit of two minutes at a station with a reference is there.
+/// Absent if another model than `day` corrects the day, if the stay has no reading or its station
+/// has a reference, or if no station with a reference was visited for two minutes.
 /// @param result  correction of the day so far.
 /// @param sites   table of the sites.
 /// @param key     key of the running stay; empty: none.

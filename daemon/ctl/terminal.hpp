@@ -40,7 +40,7 @@ public:
 
     /// Draws the screen over the last one.
     /// @param screen     as many lines as fit.
-    /// @param is_typing  shows the cursor behind the last letter.
+    /// @param is_typing  true: the cursor is visible, after the last letter.
     void show(const std::string& screen, bool is_typing) const;
 
     /// Waits for keys, at most that long.

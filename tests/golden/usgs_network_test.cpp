@@ -72,7 +72,7 @@ std::vector<reading::SurveyRow> rows_of(const Survey& survey, bool is_mean) {
 
 struct HoldOut {
     double error_mgal = 0.0;  ///< Prediction minus absolute value.
-    double u_mgal = 0.0;      ///< Of the prediction.
+    double u_mgal = 0.0;      ///< Standard uncertainty of the prediction.
     /// Returns the error in units of its uncertainty, that of the absolute value included.
     [[nodiscard]] double ratio(const Absolute& value) const {
         return std::abs(error_mgal) / std::hypot(u_mgal, value.u_mgal);

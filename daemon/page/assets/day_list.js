@@ -54,7 +54,7 @@ export class DayList {
     constructor(open, change) {
         this.stays = []; // The newest first.
         this.last = undefined; // The stay that ended last.
-        this.shown = null; // What is shown, as JSON.
+        this.shown = null; // The stays in the table, as JSON.
         this.is_running = true; // Another stay runs, as far as is known.
         this.now_ms = 0;
         for (const kind of kDialogs) by_id(`day-${kind}`).addEventListener("click", () => open(kind, this.named()));

@@ -124,7 +124,7 @@ TEST_CASE("a screen fits the terminal, with lines broken between words", "[daemo
     CHECK(fitted(coloured, 28, 24) ==
           "a351d        \x1b[1;32mgood\x1b[0m: wind and\n             rain");
     CHECK(fitted("site         \xE5\xB1\xB1\xE5\xB1\xB1 b c\n", 22, 9) ==
-          "site         \xE5\xB1\xB1\xE5\xB1\xB1 b c");  // Such a letter takes two columns.
+          "site         \xE5\xB1\xB1\xE5\xB1\xB1 b c");  // A Chinese character takes two columns.
     CHECK(fitted("site         \xE5\xB1\xB1\xE5\xB1\xB1 b c\n", 21, 9) ==
           "site         \xE5\xB1\xB1\xE5\xB1\xB1 b\n             c");
 }

@@ -16,7 +16,7 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
     Store store(forgetful, options(), clock, reads);
     store.start();
     begin_session();
-    std::size_t lost = 0, mended = 0, torn = 0, holes = 0;
+    std::size_t lost = 0, repaired = 0, torn = 0, holes = 0;
     // Time at which each sample was fed.
     std::vector<std::chrono::steady_clock::time_point> fed_at;
     std::chrono::duration<double> oldest_lost{0};
@@ -31,7 +31,7 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
         store::Options again = options();
         again.root = found;
         const auto report = recover(files::posix_files(), again, clock);
-        mended += report.archive.size();
+        repaired += report.archive.size();
         torn += report.journal ? 1U : 0U;
         INFO("cut " << cut << ", journaled " << journaled.value_or(-1) << ", added "
                     << report.records_added);
@@ -55,8 +55,8 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
     std::printf(
         "power cuts: %d; samples fed that were not journaled yet and lost: %zu, the oldest fed "
         "%.2f s before its cut; journals torn: %zu, with holes: %zu, day files repaired: %zu\n",
-        kCuts, lost, oldest_lost.count(), torn, holes, mended);
-    CHECK(mended > 0);
+        kCuts, lost, oldest_lost.count(), torn, holes, repaired);
+    CHECK(repaired > 0);
     CHECK(torn > 0);
     CHECK(store.stop());
 }

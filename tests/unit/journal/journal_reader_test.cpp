@@ -1,7 +1,5 @@
 #include "protocol/journal/journal_reader.hpp"
 
-#include <zstd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <random>
@@ -14,58 +12,11 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/files/failing_files.hpp"
 #include "tests/unit/journal/journal_samples.hpp"
+#include "tests/unit/journal/segment_fixture.hpp"
 
 using namespace a351::files;
 
 namespace a351::journal {
-namespace {
-
-using Bytes = std::vector<std::byte>;
-
-void append(Bytes& bytes, const Bytes& more) {
-    bytes.insert(bytes.end(), more.begin(), more.end());
-}
-
-/// Returns a segment of the given chunks, numbered from 0.
-Bytes segment_of(const std::vector<Chunk>& chunks) {
-    auto bytes = encode_preamble();
-    std::uint32_t sequence = 0;
-    for (const auto& chunk : chunks) append(bytes, encode_chunk(chunk, sequence++));
-    return bytes;
-}
-
-struct Reading {
-    std::size_t chunk_count = 0;
-    std::optional<Damage> damage;  ///< The newest.
-    std::vector<std::uint32_t> sequences;
-};
-
-Reading read_all(const std::filesystem::path& file) {
-    Reader reader(file);
-    Reading reading;
-    while (reader.next()) {
-        ++reading.chunk_count;
-        reading.sequences.push_back(reader.sequence());
-    }
-    CHECK_FALSE(reader.next());
-    if (!reader.damage().empty()) reading.damage = reader.damage().back();
-    return reading;
-}
-
-class Fixture {
-public:
-    Reading read(const Bytes& bytes) {
-        test::write_bytes(file_, bytes);
-        return read_all(file_);
-    }
-
-protected:
-    test::TemporaryDirectory directory_;
-    std::filesystem::path file_ = directory_.path() / "00000001_20260301T130000Z.a351j";
-    Bytes whole_ = segment_of(test::one_of_each());
-};
-
-}  // namespace
 
 TEST_CASE_METHOD(Fixture, "an intact segment is read without damage", "[record][journal]") {
     const auto reading = read(whole_);
@@ -222,126 +173,6 @@ TEST_CASE("opening a segment that does not exist is a system error", "[record][j
     CHECK_THROWS_AS(Reader("/nonexistent/1.a351j"), std::system_error);
 }
 
-TEST_CASE_METHOD(Fixture, "a compressed segment reads like the original", "[record][journal]") {
-    test::write_bytes(file_, whole_);
-    compress_segment(posix_files(), file_);
-    CHECK_FALSE(std::filesystem::exists(file_));
-    const auto segments = segment_files(directory_.path());
-    REQUIRE(segments.size() == 1);
-    Reader reader(segments[0]);
-    for (const auto& chunk : test::one_of_each()) {
-        const auto read = reader.next();
-        REQUIRE(read);
-        CHECK(read->index() == chunk.index());
-    }
-    CHECK_FALSE(reader.next());
-    CHECK(reader.damage().empty());
-    CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
-}
-
-TEST_CASE_METHOD(Fixture,
-                 "damage in a compressed segment is reported and never thrown as an exception",
-                 "[record][journal]") {
-    test::write_bytes(file_, whole_);
-    compress_segment(posix_files(), file_);
-    const auto packed = segment_files(directory_.path()).front();
-    const auto whole = test::read_bytes(packed);
-    for (std::size_t at = 0; at < whole.size(); ++at) {
-        auto damaged = whole;
-        damaged[at] ^= std::byte{0x20};
-        test::write_bytes(packed, damaged);
-        Reader reader(packed);
-        while (reader.next()) {
-        }
-        test::write_bytes(packed, Bytes(whole.begin(), whole.begin() + static_cast<long>(at)));
-        Reader cut(packed);
-        CHECK_FALSE(cut.next());
-        CHECK_FALSE(cut.damage().empty());
-    }
-}
-
-namespace {
-
-/// Returns a segment of four MiB of bytes that hardly compress, in chunks of about 200 bytes.
-Bytes long_segment(std::uint32_t& chunk_count) {
-    std::mt19937_64 random(3);
-    auto bytes = encode_preamble();
-    append(bytes, encode_chunk(test::journal_header(), 0));
-    chunk_count = 1;
-    while (bytes.size() < std::size_t{4} << 20) {
-        std::string text(180, ' ');
-        for (char& letter : text) letter = static_cast<char>('a' + random() % 16);
-        append(bytes, encode_chunk(test::rx_chunk(text, "z"), chunk_count++));
-    }
-    return bytes;
-}
-
-}  // namespace
-
-TEST_CASE_METHOD(Fixture, "a flipped bit in a compressed segment costs at most one of its frames",
-                 "[record][journal]") {
-    std::uint32_t chunk_count = 0;
-    test::write_bytes(file_, long_segment(chunk_count));
-    compress_segment(posix_files(), file_);
-    const auto packed = segment_files(directory_.path()).front();
-    const auto whole = test::read_bytes(packed);
-    REQUIRE(read_all(packed).chunk_count == chunk_count);
-    constexpr std::size_t kSizeFrame = 16, kFrames = 9;  // Eight of 512 KiB, and the rest.
-    std::vector<std::size_t> frames{kSizeFrame};
-    while (frames.size() < kFrames)
-        frames.push_back(frames.back() +
-                         ZSTD_findFrameCompressedSize(whole.data() + frames.back(),
-                                                      whole.size() - frames.back()));
-
-    std::vector<std::size_t> bits;  // All of the stated size, and of the begin of two frames.
-    for (std::size_t bit = 0; bit < 8 * kSizeFrame; ++bit) bits.push_back(bit);
-    for (const std::size_t frame : {frames[3], frames[8]})
-        for (std::size_t bit = 0; bit < 8U * 13U; ++bit) bits.push_back(8 * frame + bit);
-    std::mt19937_64 random(5);
-    constexpr int kRandomFlips = 100;
-    // The first frame has the header, without which the segment is lost.
-    for (int i = 0; i < kRandomFlips; ++i)
-        bits.push_back(8 * frames[1] + random() % (8 * (whole.size() - frames[1])));
-
-    double lost = 0.0;
-    std::size_t most_lost = 0;
-    for (const std::size_t bit : bits) {
-        auto damaged = whole;
-        damaged[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
-        test::write_bytes(packed, damaged);
-        const auto reading = read_all(packed);
-        REQUIRE(std::ranges::is_sorted(reading.sequences));
-        const std::size_t missing = chunk_count - reading.chunk_count;
-        INFO("bit " << bit);
-        if (bit < 8 * kSizeFrame) CHECK(missing == 0);
-        lost += static_cast<double>(missing);
-        most_lost = std::max(most_lost, missing);
-    }
-    std::printf("%zu flips, %u chunks in %zu frames: %.0f lost on average, %zu at most\n",
-                bits.size(), chunk_count, kFrames, lost / static_cast<double>(bits.size()),
-                most_lost);
-    CHECK(most_lost > 0);
-    CHECK(most_lost <= chunk_count / 8 + 2);
-}
-
-TEST_CASE_METHOD(Fixture,
-                 "a segment of earlier versions in a single frame is read as far as possible",
-                 "[record][journal]") {
-    std::uint32_t chunk_count = 0;
-    const auto bytes = long_segment(chunk_count);
-    Bytes packed(ZSTD_compressBound(bytes.size()));
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
-    const std::filesystem::path file = file_.string() + ".zst";
-    test::write_bytes(file, packed);
-    CHECK(read_all(file).chunk_count == chunk_count);
-    packed.resize(packed.size() / 2);
-    test::write_bytes(file, packed);
-    const auto reading = read_all(file);
-    std::printf("half of a frame: %zu of %u chunks\n", reading.chunk_count, chunk_count);
-    CHECK(reading.chunk_count > chunk_count / 2 - chunk_count / 20);
-    CHECK(reading.damage);
-}
-
 TEST_CASE("chunks that a later segment repeats are read once and in order, whatever is damaged",
           "[record][journal]") {
     // Chunks 1 ... 6 of segment 1; segment 2, given up, and segment 3 repeat those from 4 on.
@@ -381,29 +212,6 @@ TEST_CASE("chunks that a later segment repeats are read once and in order, whate
             CHECK(read == expected);
             CHECK(sequence.damage().size() == 1);
         }
-    }
-}
-
-TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a readable segment",
-                 "[record][journal]") {
-    for (int n = 1; n <= 8; ++n) {
-        test::write_bytes(file_, whole_);
-        test::FailingFiles files(n);
-        bool has_failed = false;
-        try {
-            compress_segment(files, file_);
-        } catch (const std::system_error&) {
-            has_failed = true;
-        }
-        const auto segments = segment_files(directory_.path());
-        REQUIRE(segments.size() == 1);
-        Reader reader(segments[0]);
-        while (reader.next()) {
-        }
-        CHECK(reader.damage().empty());
-        CHECK(has_failed == (n <= files.operations()));
-        for (const auto& file : std::filesystem::directory_iterator(directory_.path()))
-            std::filesystem::remove(file);
     }
 }
 
