@@ -221,6 +221,10 @@ PageConfig read_page(TomlTable table) {
     page.token = table.string_or("token", "");
     if (!page.token.empty() && !is_token(page.token))
         table.refuse("token", "too weak", "16 or more visible ASCII characters, or \"\"");
+    const std::string& ip = page.listen.ip;
+    if (page.token.empty() && !page.listen.is_loopback && ip != "0.0.0.0" && ip != "::")
+        table.refuse("listen", "a random token can be read through 127.0.0.1 only",
+                     "0.0.0.0 and a port, or a token in page.token");
     page.assets = table.path_or_empty("assets");
     if (!page.assets.empty() && !std::filesystem::is_directory(page.assets)) {
         table.refuse("assets", "no such directory: " + page.assets.string(),
