@@ -16,6 +16,8 @@ constexpr double kWander_ns = 0.3e6;           // wander of the oscillators with
 constexpr double kSlack_ns = 0.1e6;            // added to the least distance that fits the points
 constexpr double kSeenTimer_ns = 0.5e6;        // scatter of the least delays above any jitter
 constexpr double kPause_ns = 1e6;              // distance of pauses above the hidden delay
+constexpr std::int64_t kHighShare = 20;        // more than 1 point in 20 is above a timer: polling
+constexpr double kTimerKnown_ns = 600e9;       // two beats of a timer 3 ppm from in step
 
 // Latency timer of an FTDI adapter as delivered (AN232B-04, section 3.3); assumed until the
 // arrivals show a timer.
@@ -158,6 +160,17 @@ std::vector<Point> without_pauses(const std::vector<Point>& points, const Strip&
     return kept;
 }
 
+/// Returns true unless the points show one short timer alone: they were watched long enough, and
+/// hardly any lies higher than it explains.
+bool may_be_polled(const std::vector<Point>& points, const Strip& strip) {
+    if (points.back().x - points.front().x < kTimerKnown_ns) return true;
+    const double slope = strip.flattest();
+    const double most = level_below(strip.lower, slope) + kShortTimer_ns + kWander_ns;
+    const auto high =
+        std::ranges::count_if(points, [&](const Point& p) { return p.y - slope * p.x > most; });
+    return kHighShare * high > std::ssize(points);
+}
+
 }  // namespace
 
 EdgeFit fit_edge(std::span<const ArrivalBlock> blocks, Nanoseconds at, Nanoseconds sample_period,
@@ -179,9 +192,10 @@ EdgeFit fit_edge(std::span<const ArrivalBlock> blocks, Nanoseconds at, Nanosecon
     const double needed = strip.depth(flattest) + kSlack_ns;
     const Strip::Range allowed = strip.lines(std::max(hidden, needed), flattest);
 
-    // Without a spacing, points that scatter show a timer or the polling of a bus.
+    // Without a spacing, points that scatter show a timer, the polling of a bus, or both.
     const bool has_short_timer = !has_spacing && needed > kSeenTimer_ns;
-    const double likely_hidden = has_short_timer ? kShortTimer_ns + kPolling_ns : 0.0;
+    const double likely_hidden =
+        has_short_timer ? kShortTimer_ns + (may_be_polled(points, strip) ? kPolling_ns : 0.0) : 0.0;
     const Strip::Range likely =
         has_spacing ? allowed : strip.lines(std::max(likely_hidden, needed), flattest);
     const double slope = 0.5 * (likely.least_slope + likely.largest_slope);

@@ -61,9 +61,10 @@ struct EdgeFit {
 /// between the two oscillators, so up to one spacing can stay hidden for hours.  The spacing is
 /// visible within each block; D = its usual value + 1 ms for the polling of a full-speed bus +
 /// 0.3 ms for the wander of the rates.
-/// Without a spacing D is the least that fits the points.  The uncertainty then still includes a
-/// timer of 1 ms and a polling of 1 ms, which stay invisible while they are in step with the
-/// sensor.
+/// Without a spacing the height of the points decides D: nothing if they do not scatter, 2 ms for a
+/// timer of 1 ms and a polling of 1 ms, or 1 ms if only one of them shows.  It shows alone if fewer
+/// than 1 point in 20 lies more than 1.3 ms above the line, in 600 s or more.  The uncertainty
+/// includes both in any case, because they stay invisible while they are in step with the sensor.
 ///
 /// Points more than D + 1 ms above the lowest line (3.3 ms without a spacing) are pauses of the
 /// host and are ignored.  As long as no block has a spacing, 16 ms are added to the uncertainty:
@@ -71,7 +72,8 @@ struct EdgeFit {
 ///
 /// Accuracy (clock_days_test.cpp, 50 Hz, seeds not used in development, 99 % of all errors): behind
 /// a 16 ms timer 0.47 ms after 10 min, 2.1 ms if it is in step with the sensor; behind a 1 ms timer
-/// 0.26 ms.  The test requires 1.0, 2.5 and 0.3 ms, and that the stated uncertainty covers 95 %.
+/// 0.26 ms with polling, 0.25 ms without, 0.8 ms if in step.  The test requires 1.0, 2.5, 0.3, 0.3
+/// and 2.5 ms, and that the stated uncertainty covers 95 %.
 ///
 /// Source: E. Olson, "A passive solution to the sensor synchronization problem", IROS 2010 (the
 /// bound from one side).  The bound from the other side is this project's.
