@@ -20,6 +20,7 @@
 #include "corrector/model/trend_comparison.hpp"
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
+#include "corrector/result/anomalies.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
@@ -83,6 +84,10 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
     settings["model"] = survey.survey.model;
     settings["flags"] = survey.survey.use_flags ? "use" : "ignore";
     tide::describe_tide(settings, survey.tide);
+    reduction::describe_reduction(settings, survey.reduction);
+    settings["bouguer_density_kg_per_m3"] =
+        survey.bouguer_density_kg_per_m3 ? nlohmann::ordered_json(*survey.bouguer_density_kg_per_m3)
+                                         : nullptr;
     settings["base"] = result.options.base;
     settings["datum"] = survey.survey.datum;
     settings["trend"] =
@@ -123,6 +128,8 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
     Day day;
     day.name = survey.name;
     day.result = job::correct_survey_day(survey, read);
+    if (survey.bouguer_density_kg_per_m3)
+        result::add_anomalies(day.result.stations, read.sites, *survey.bouguer_density_kg_per_m3);
     day.amendments = reading::amendments_text(read.amendments.list);
     const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
     day.files = result::result_files(day.result, settings, read.inputs, read.sites);

@@ -9,7 +9,10 @@
 #include "corrector/mistake/survey_findings.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
+#include "corrector/reduction/normal_gravity.hpp"
+#include "corrector/reduction/row_reduction.hpp"
 #include "corrector/report/report.hpp"
+#include "corrector/result/anomalies.hpp"
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
 #include "corrector/tide/tide_choice.hpp"
@@ -26,6 +29,9 @@ struct TableOptions {
     std::string flags = "use";
     std::string tide;  ///< Empty: given if the column exists, else direct.
     tide::Factors factors;
+    std::string pressure;
+    double admittance_mgal_per_hpa = reduction::kAdmittance_mgal_per_hpa;
+    std::optional<double> bouguer_density_kg_per_m3;
     std::vector<std::tuple<std::string, double, double>> priors;
     std::string out = "result";
     std::vector<std::string> figures;
@@ -40,6 +46,18 @@ void correct_table(TableOptions options) {
     tide::set_tide_option(tide, options.tide);
     tide.factors = tide_factor_options(options.factors);
     tide::apply_tide(rows, sites, tide);
+    const reduction::ReductionChoice reduction{
+        .height = {},
+        .pressure = options.pressure,
+        .admittance_mgal_per_hpa = number_option("--admittance", options.admittance_mgal_per_hpa,
+                                                 reduction::kLeastAdmittance_mgal_per_hpa,
+                                                 reduction::kGreatestAdmittance_mgal_per_hpa)};
+    const std::vector<std::string> reduced =
+        reduction::reduce_rows(rows, sites, reduction::read_gradients(options.sites), reduction);
+    const std::optional<double> density = options.bouguer_density_kg_per_m3;
+    if (density)
+        number_option("--bouguer-density", *density, reduction::kLeastDensity_kg_per_m3,
+                      reduction::kGreatestDensity_kg_per_m3);
     options.survey.use_flags = options.flags == "use";
     for (const auto& [name, mean, sd] : options.priors) {
         model::set_prior(options.survey.priors, "--prior", name, {mean, sd});
@@ -48,23 +66,29 @@ void correct_table(TableOptions options) {
                   model::kGreatestSd_mgal);
     number_option("--reading-sd", options.survey.priors.reading_sd_mgal, model::kLeastSd_mgal,
                   model::kGreatestSd_mgal);
-    const model::SurveyCorrection result =
+    model::SurveyCorrection result =
         mistake::correct_and_search({rows, sites, nullptr}, options.survey);
+    if (density) result::add_anomalies(result.stations, sites, *density);
 
     nlohmann::ordered_json settings;
     settings["command"] = "table";
     settings["model"] = options.survey.model;
     settings["flags"] = options.flags;
     tide::describe_tide(settings, tide);
+    reduction::describe_reduction(settings, reduction);
+    settings["bouguer_density_kg_per_m3"] = density ? nlohmann::ordered_json(*density) : nullptr;
     settings["base"] = result.options.base;
     settings["datum"] = options.survey.datum;
     settings["rate"] = "backward";
     std::vector<std::string> warnings = reading::position_warnings(rows, sites);
+    warnings.insert(warnings.end(), reduced.begin(), reduced.end());
     settings["warnings"] = warnings;
     settings["seed"] = options.survey.seed;
     std::vector<text::InputFile> inputs{text::describe_input("sites", options.sites),
                                         text::describe_input("observations", options.observations)};
     if (!tide.series.empty()) inputs.push_back(text::describe_input("tide", tide.series));
+    if (!options.pressure.empty())
+        inputs.push_back(text::describe_input("pressure", options.pressure));
     std::vector<text::NamedText> files = result::result_files(result, settings, inputs, sites);
     report::Report report =
         report::make_report(result, settings,
@@ -92,7 +116,8 @@ void add_table_command(CLI::App& program) {
     add_required(command, "--sites", "CSV", options->sites, "Benchmarks");
     add_required(command, "--observations", "CSV", options->observations,
                  "Averages, with the columns site, occupation, time_utc (or time_jst, time), "
-                 "acceleration_mgal, temperature_degc and, if known, outlier and earth_tide_mgal");
+                 "acceleration_mgal, temperature_degc and, if known, outlier, earth_tide_mgal, "
+                 "instrument_height_m and pressure_hpa");
     add_with_default(command, "--model", "NAME", options->survey.model, "Model of the instrument")
         ->check(CLI::IsMember(model::model_names()));
     add_with_default(command, "--flags", "RULE", options->flags,
@@ -103,6 +128,14 @@ void add_table_command(CLI::App& program) {
                    std::string(tide::kTideSources) +
                    " (default: given if the column exists, else direct)");
     add_tide_factors(command, options->factors);
+    add_option(
+        command, "--pressure", "CSV", options->pressure,
+        "Air pressure at the stations, time,pressure_hpa, for readings without pressure_hpa");
+    add_with_default(command, "--admittance", "MGAL/HPA", options->admittance_mgal_per_hpa,
+                     "Effect of the air pressure on gravity");
+    add_option(command, "--bouguer-density", "KG/M3", options->bouguer_density_kg_per_m3,
+               "Add normal gravity (GRS80), free-air anomaly and simple Bouguer anomaly of the "
+               "stations, with a plate of this density (usual: 2670)");
     add_option(
         command, "--base", "SITE", options->survey.base,
         "Base station, for the drift of the model paper (default: station of the first row)");

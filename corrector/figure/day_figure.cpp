@@ -109,7 +109,7 @@ Panel sample_panel(const model::SurveyCorrection& result,
             "'{}.dat' index 0 using ({}+60*$1):($2-{}) with lines lw 0.7 lc rgb {} notitle",
             reading_figure_name(record.row),
             text::fixed(seconds_between(UtcTime{}, record.value->series.start()), 3),
-            text::fixed(result.rows[record.row].row.acceleration.value(), 3), kBlue));
+            text::fixed(result.rows[record.row].row.measured().value(), 3), kBlue));
     return panel;
 }
 
@@ -136,7 +136,7 @@ Panel temperature_panel(const model::SurveyCorrection& result,
                                 " notitle");
     if (!reading_lines.empty())
         panel.clauses.push_back(data.add("readings: time_utc temperature_degc", reading_lines) +
-                            " using 1:2 with points pt 7 ps 0.5 lc rgb " + kBlue + " notitle");
+                                " using 1:2 with points pt 7 ps 0.5 lc rgb " + kBlue + " notitle");
     return panel;
 }
 

@@ -94,7 +94,7 @@ std::string averaged_text(const model::CorrectedRow& row, double mean_mgal) {
     return fmt::format(
         "the model day averages {} s of it to {} mGal{}; trend and interval apply to the other "
         "models.",
-        text::fixed(day->averaged_s, 0), text::fixed(row.row.acceleration.value(), 3), samples);
+        text::fixed(day->averaged_s, 0), text::fixed(row.row.measured().value(), 3), samples);
 }
 
 Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord& record) {
@@ -207,7 +207,7 @@ double half_range_of_samples(const model::SurveyCorrection& result,
     for (const ReadingRecord& record : records)
         half_mgal = std::max(
             half_mgal, half_range(spread(record.value->series.values(),
-                                         result.rows[record.row].row.acceleration.value(), 0.98)));
+                                         result.rows[record.row].row.measured().value(), 0.98)));
     return half_mgal;
 }
 
@@ -257,7 +257,7 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
     for (const ReadingRecord& record : records) {
         const reading::RepresentativeValue& value = *record.value;
         const reading::SurveyRow& row = result.rows[record.row].row;
-        acceleration.means.push_back(row.acceleration.value());
+        acceleration.means.push_back(row.measured().value());
         temperature.means.push_back(row.temperature.value());
         temperature.half = std::max(
             temperature.half,

@@ -4,6 +4,7 @@
 
 #include "corrector/model/model.hpp"
 #include "corrector/reading/representative_value.hpp"
+#include "corrector/reduction/normal_gravity.hpp"
 #include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector::job {
@@ -54,6 +55,17 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
         table.number_or("delta2", survey.tide.factors.delta2, kLeastFactor, kGreatestFactor);
     survey.tide.factors.delta3 =
         table.number_or("delta3", survey.tide.factors.delta3, kLeastFactor, kGreatestFactor);
+    if (const auto height =
+            table.number("instrument_height_m", -reading::kGreatestInstrumentHeight_m,
+                         reading::kGreatestInstrumentHeight_m))
+        survey.reduction.height = Metres(*height);
+    survey.reduction.pressure = table.path_or_empty("pressure");
+    survey.reduction.admittance_mgal_per_hpa = table.number_or(
+        "admittance_mgal_per_hpa", survey.reduction.admittance_mgal_per_hpa,
+        reduction::kLeastAdmittance_mgal_per_hpa, reduction::kGreatestAdmittance_mgal_per_hpa);
+    survey.bouguer_density_kg_per_m3 =
+        table.number("bouguer_density_kg_per_m3", reduction::kLeastDensity_kg_per_m3,
+                     reduction::kGreatestDensity_kg_per_m3);
     const std::string curve = table.choice_or("curve", "", {"", "paper", "slow"});
     if (!curve.empty())
         survey.curve = curve == "paper" ? reading::TrendCurve::paper : reading::TrendCurve::slow;

@@ -16,6 +16,7 @@
 
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/occupation_rows.hpp"
+#include "corrector/reduction/row_reduction.hpp"
 #include "corrector/tide/tide_choice.hpp"
 
 namespace a351::corrector::job {
@@ -26,6 +27,7 @@ namespace a351::corrector::job {
 /// - `survey`: options of the correction, with the priors of table [prior].  `calibration` and
 ///   `survey.calibration` belong together; use_calibration() sets both.
 /// - `tide`: source of the tide; a file is relative to the survey file.
+/// - `reduction`: heights and air pressure of the readings.
 /// - `trend`, `curve`: as written in the file.  What is used depends on the model too: see
 ///   trend_method_of() and trend_curve_of().
 /// - `cutoff_s`: kShortestCutoff_s to kLongestCutoff_s; it has an effect with any `trend`, because
@@ -39,6 +41,8 @@ struct SurveyFile : reading::SurveySource {
     std::filesystem::path calibration;  ///< File of survey.calibration; empty: none.
     model::SurveyOptions survey;
     tide::Choice tide;
+    reduction::ReductionChoice reduction;
+    std::optional<double> bouguer_density_kg_per_m3;  ///< Absent: no anomalies.
     std::optional<reading::TrendCurve>
         curve;  ///< Absent: the default of RepresentativeOptions, or of `paper`.
     reading::TrendMethod trend = reading::TrendMethod::eemd;

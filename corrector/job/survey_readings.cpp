@@ -30,6 +30,8 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) 
         more.push_back(text::describe_input("calibration", survey.calibration));
     if (!survey.tide.series.empty())
         more.push_back(text::describe_input("tide", survey.tide.series));
+    if (!survey.reduction.pressure.empty())
+        more.push_back(text::describe_input("pressure", survey.reduction.pressure));
     const auto archive =
         std::ranges::find(inputs, std::string_view("archive"), &text::InputFile::role);
     inputs.insert(archive, more.begin(), more.end());
@@ -48,6 +50,10 @@ reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Pro
     reading::OccupationRows read = reading::average_occupations(source, stays, progress);
     read.warnings.insert(read.warnings.begin(), warnings.begin(), warnings.end());
     tide::apply_tide(read.rows, read.sites, survey.tide, read.day ? &*read.day : nullptr);
+    const std::vector<std::string> reduced =
+        reduction::reduce_rows(read.rows, read.sites, reduction::read_gradients(survey.sites),
+                               survey.reduction, read.day ? &*read.day : nullptr);
+    read.warnings.insert(read.warnings.end(), reduced.begin(), reduced.end());
     add_inputs(read.inputs, survey);
     return read;
 }

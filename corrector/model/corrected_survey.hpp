@@ -141,6 +141,13 @@ struct StationErrors {
 /// few values.
 inline constexpr double kCoverageFactor = 2.0;
 
+/// Gravity of a station compared with that of the normal Earth.
+struct Anomalies {
+    MilliGal normal_gravity;  ///< Gravity of GRS80 on the ellipsoid.
+    MilliGal free_air;        ///< gravity - normal gravity at the altitude.
+    MilliGal bouguer;         ///< free_air - attraction of a plate up to the altitude.
+};
+
 /// The value of a station.
 ///
 /// For a station with a reference in the fit, `gravity` is in sample: the fit has seen the
@@ -167,6 +174,8 @@ struct StationValue {
     /// without u_gravity; the degrees are absent for `network`, whose u is a priori.
     std::optional<double> dof, coverage_factor;
     std::optional<StationErrors> errors;  ///< `day` only.
+    /// Present if they are asked for, and latitude and altitude are known.
+    std::optional<Anomalies> anomalies;
 };
 
 /// Gravity of station `to` minus gravity of station `from`.

@@ -142,6 +142,8 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
             const auto tide = table.number_if_given(row, "earth_tide_mgal", -1.0, 1.0);
             if (tide) window.given_tide = MilliGal(*tide);
         }
+        if (table.has_column("instrument_height_m"))
+            window.instrument_height = instrument_height(table, row);
         list.windows.push_back(std::move(window));
     }
     sort_by_start(list.windows);

@@ -34,12 +34,13 @@ struct OccupationWindow {
     UtcTime start;
     /// End of the set-up.  Samples before this instant are used.
     UtcTime end;
-    bool is_flagged = false;                  ///< Marked as not to be used in the fit.
-    std::optional<MilliGal> given_tide = {};  ///< Effect of the tide on gravity.
-    bool is_excluded = false;                 ///< Excluded from every fit by an amendment.
-    std::vector<std::string> notes = {};      ///< Flags for the table, e.g. "no-stop".
-    bool is_last = false;                     ///< The log ends without its stop.
-    std::string key = {};                     ///< Key of the stay in the event log, if any.
+    bool is_flagged = false;                       ///< Marked as not to be used in the fit.
+    std::optional<MilliGal> given_tide = {};       ///< Effect of the tide on gravity.
+    std::optional<Metres> instrument_height = {};  ///< Height of the sensor above the mark.
+    bool is_excluded = false;                      ///< Excluded from every fit by an amendment.
+    std::vector<std::string> notes = {};           ///< Flags for the table, e.g. "no-stop".
+    bool is_last = false;                          ///< The log ends without its stop.
+    std::string key = {};                          ///< Key of the stay in the event log, if any.
     /// The operator says that the box was not moved before this instant.
     std::optional<UtcTime> not_moved_until = {};
     ListedSetUp listed = {};  ///< Names before all amendments.
@@ -55,7 +56,7 @@ struct OccupationList {
 };
 
 /// Reads a table `site,occupation,start_utc,end_utc,used,note`.  `used` is 1, 0 or empty (= 1).  A
-/// column `earth_tide_mgal` is optional.
+/// column `earth_tide_mgal` is optional, and `instrument_height_m` too.
 ///
 /// `used` is optional too, and `note` is not read.  Times without a zone are UTC.  The tide is from
 /// -1 to 1 mGal or empty, the number of the stay from 1 to 10^6.  An end before its start is not

@@ -185,6 +185,7 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     row.is_flagged = window.is_flagged;
     row.is_excluded = window.is_excluded;
     row.given_tide = window.given_tide;
+    row.instrument_height = window.instrument_height;
     row.notes = window.notes;
     for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));
     row.acceleration = value.curve_mean;

@@ -74,6 +74,12 @@ void set_gravimeter(SurveyRow& row, const text::CsvTable& table, std::size_t i) 
 
 }  // namespace
 
+std::optional<Metres> instrument_height(const text::CsvTable& table, std::size_t row) {
+    const auto height_m = table.number_if_given(
+        row, "instrument_height_m", -kGreatestInstrumentHeight_m, kGreatestInstrumentHeight_m);
+    return height_m ? std::optional(Metres(*height_m)) : std::nullopt;
+}
+
 const RecordSummary& SurveyRow::axes_for(std::string_view wanted_by) const {
     if (record) return *record;
     throw InputError(fmt::format("{}: {} ({}) has no mean_x_g; allowed: rows from records",
@@ -107,6 +113,11 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
                                   is_of_gravimeter ? kLeastGravimeterReading_mgal : 900e3, 1100e3));
         if (row.has_temperature)
             row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));
+        if (table.has_column("instrument_height_m"))
+            row.instrument_height = instrument_height(table, i);
+        if (table.has_column("pressure_hpa"))
+            // On Mount Everest it is 330 hPa, and 1084 hPa was the highest ever measured.
+            row.pressure_hpa = table.number_if_given(i, "pressure_hpa", 300.0, 1100.0);
         if (i > 0 && row.has_temperature != rows.front().has_temperature)
             table.refuse(i, "temperature_degc", "given in some rows only", "all rows or none");
         if (std::ranges::any_of(rows, [&](const SurveyRow& other) {

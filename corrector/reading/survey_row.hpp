@@ -19,6 +19,7 @@
 #include "corrector/reading/representative_value.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/csv.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::reading {
@@ -44,7 +45,7 @@ struct SurveyRow {
     bool is_flagged = false;         ///< Marked by the operator as not to be used.
     bool is_excluded = false;        ///< Excluded from every fit by an amendment.
     std::vector<std::string> notes;  ///< Reasons for doubt, e.g. "fallback".
-    /// Mean.  The full value, or from a gravimeter the value above the zero of its own scale.
+    /// Mean with the reductions below.  The full value, or from a gravimeter the value above the zero of its own scale.
     MilliGal acceleration;
     std::string instrument;  ///< Name of the gravimeter; empty for the sensor.
     /// Loop of the gravimeter, as the table gives it: within a loop its constant does not change.
@@ -58,6 +59,13 @@ struct SurveyRow {
     double rate_degc_per_h = 0.0;
     /// Tide that came with the row, effect on gravity; used by the tide `given` only.
     std::optional<MilliGal> given_tide;
+    std::optional<Metres> instrument_height;  ///< Height of the sensor above the mark, if given.
+    std::optional<double> pressure_hpa;       ///< Air pressure at the site, if given.
+    /// Air pressure minus that of the standard atmosphere at the altitude of the site.
+    std::optional<double> excess_pressure_hpa;
+    /// Reductions to the mark and to the pressure of the standard atmosphere, which `acceleration`
+    /// contains.  Each is present in all rows or in none.
+    std::optional<MilliGal> height_correction, pressure_correction;
     MilliGal tide;                        ///< Effect of the tide on gravity; to be subtracted.
     std::optional<MilliGal> reference;    ///< Known gravity of the site.
     std::optional<MilliGal> u_reference;  ///< Its standard uncertainty, if given.
@@ -65,6 +73,12 @@ struct SurveyRow {
     /// Record of the row; present in all rows of a survey, absent in all rows of a table of
     /// averages.
     std::optional<RecordSummary> record;
+
+    /// Returns the mean without the reductions, as the instrument showed it.
+    [[nodiscard]] MilliGal measured() const {
+        const MilliGal none(0.0);
+        return acceleration - height_correction.value_or(none) - pressure_correction.value_or(none);
+    }
 
     /// Returns true if a fit may hold the reference.
     /// @param datum  stations whose reference is held; empty: all.
@@ -91,14 +105,25 @@ struct LeftOut {
     std::string key = {};  ///< Key of the stay in the event log; empty if not from there.
 };
 
+/// Greatest height of a sensor above or below its mark, m.  Reason: a gravimeter on its tripod is
+/// below 1 m, and the gradient is not constant over more than a few metres.
+inline constexpr double kGreatestInstrumentHeight_m = 10.0;
+
+/// Returns the cell instrument_height_m of a row, if it is not empty.
+/// @param table  must have the column.
+/// @throws InputError  not a number, or beyond kGreatestInstrumentHeight_m.
+[[nodiscard]] std::optional<Metres> instrument_height(const text::CsvTable& table, std::size_t row);
+
 /// Reads a table `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],
-/// acceleration_mgal,temperature_degc[,instrument[,loop]]` and sorts its rows by time.
+/// acceleration_mgal,temperature_degc[,instrument[,loop]][,instrument_height_m][,pressure_hpa]` and
+/// sorts its rows by time.
 ///
 /// A zone in a cell has priority; without one the zone of the column applies.  Cells of `time` must
 /// have a zone.  `tide` is left zero; rates are set by set_backward_rates().
 ///
 /// Permitted are 900 000 to 1 100 000 mGal, -60 to 100 degC and a tide of -1 to 1 mGal.  The number
-/// of the stay is from 1 to 10^6, and `outlier` is 0 or 1 (1 is flagged).  Cells must not be empty;
+/// of the stay is from 1 to 10^6, and `outlier` is 0 or 1 (1 is flagged).  The height is -10 to 10 m,
+/// the pressure 300 to 1100 hPa, and both can be empty.  Other cells must not be empty;
 /// other columns are ignored.  `time` is the middle of the average; `start`, `end` and `record`
 /// stay absent.
 ///

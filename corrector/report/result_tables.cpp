@@ -156,9 +156,10 @@ void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& resul
     std::vector<result::Column<model::CorrectedRow>> columns = result::with_keys(
         result::occupation_columns(result),
         {"acceleration_mgal", "temperature_degc",
-         is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal",
-         "temperature_correction_mgal", "rate_correction_mgal", "drift_correction_mgal",
-         "tilt_correction_mgal", "flicker_correction_mgal", "corrected_mgal"});
+         is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal", "height_correction_mgal",
+         "pressure_correction_mgal", "temperature_correction_mgal", "rate_correction_mgal",
+         "drift_correction_mgal", "tilt_correction_mgal", "flicker_correction_mgal",
+         "corrected_mgal"});
     for (result::Column<model::CorrectedRow>& column : columns)
         if (column.key == "temperature_correction_mgal")
             column.value = [constant](const model::CorrectedRow& row) {

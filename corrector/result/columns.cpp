@@ -104,6 +104,14 @@ Column<model::StationValue> part_column(std::string_view key, std::string_view h
     return {key, cell_of, {heading, 2}};
 }
 
+Column<model::StationValue> anomaly_column(std::string_view key, std::string_view heading,
+                                           MilliGal model::Anomalies::*member) {
+    const auto cell_of = [member](const model::StationValue& station) {
+        return station.anomalies ? cell((*station.anomalies).*member) : Cell();
+    };
+    return {key, cell_of, {heading}};
+}
+
 Columns columns_of_day() {
     using Day = model::WholeDayRow;
     return {of_model("averaged_s", &Day::averaged_s, {"s", 0}),
@@ -126,7 +134,7 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         {"end_utc", [](Row row) { return cell(row.row.end); }},
         {"used", of(&model::CorrectedRow::is_used), {"In fit", 0, 'l'}},
         {"flags", [&result](Row row) { return flags_of(row, result.options); }, {"Flags", 0, 'l'}},
-        {"acceleration_mgal", [](Row row) { return cell(row.row.acceleration); }, {"Acceleration"}},
+        {"acceleration_mgal", [](Row row) { return cell(row.row.measured()); }, {"Acceleration"}},
         {"temperature_degc",
          [](Row row) {
              return row.row.has_temperature ? Cell(row.row.temperature.value()) : Cell();
@@ -151,6 +159,20 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         of_model("residual1_mgal", &model::PaperRow::residual1),
     };
     const model::CorrectedRow& first = result.rows.front();
+    if (first.row.height_correction)
+        append(columns, {{"instrument_height_m",
+                          [](Row row) {
+                              const auto height = row.row.instrument_height;
+                              return height ? Cell(height->value()) : Cell();
+                          }},
+                         {"height_correction_mgal",
+                          [](Row row) { return cell(row.row.height_correction); },
+                          {"Height corr."}}});
+    if (first.row.pressure_correction)
+        append(columns, {{"pressure_hpa", [](Row row) { return cell(row.row.pressure_hpa); }},
+                         {"pressure_correction_mgal",
+                          [](Row row) { return cell(row.row.pressure_correction); },
+                          {"Pressure corr.", 4}}});
     if (first.row.record) append(columns, columns_of_records());
     if (first.as<model::WholeDayRow>() != nullptr)
         append(columns, columns_of_day());
@@ -163,8 +185,9 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
     return columns;
 }
 
-std::vector<Column<model::StationValue>> station_columns() {
-    return {
+std::vector<Column<model::StationValue>> station_columns(
+    const std::vector<model::StationValue>& stations) {
+    std::vector<Column<model::StationValue>> columns{
         {"site", of(&model::StationValue::site), {"Station", 0, 'n'}},
         {"n", of(&model::StationValue::row_count), {"n"}},
         {"gravity_mgal", of(&model::StationValue::gravity), {"Gravity mGal"}},
@@ -187,6 +210,14 @@ std::vector<Column<model::StationValue>> station_columns() {
         part_column("u_drift_mgal", "Drift", whole_day::ErrorSource::drift),
         part_column("u_datum_mgal", "Datum", whole_day::ErrorSource::datum),
     };
+    if (std::ranges::any_of(stations, [](const auto& one) { return one.anomalies.has_value(); }))
+        for (auto& column :
+             {anomaly_column("normal_gravity_mgal", "Normal mGal",
+                             &model::Anomalies::normal_gravity),
+              anomaly_column("free_air_anomaly_mgal", "Free air mGal", &model::Anomalies::free_air),
+              anomaly_column("bouguer_anomaly_mgal", "Bouguer mGal", &model::Anomalies::bouguer)})
+            columns.push_back(column);
+    return columns;
 }
 
 std::vector<Column<model::StationDifference>> difference_columns() {

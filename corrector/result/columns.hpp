@@ -29,8 +29,9 @@ namespace a351::corrector::result {
     const model::SurveyCorrection& result);
 
 /// Returns the columns of stations.csv.  They are the same for every model; cells that a model does
-/// not give are empty.
-[[nodiscard]] std::vector<Column<model::StationValue>> station_columns();
+/// not give are empty.  The columns of anomalies are present if a station has anomalies.
+[[nodiscard]] std::vector<Column<model::StationValue>> station_columns(
+    const std::vector<model::StationValue>& stations);
 
 /// Returns the columns of differences.csv.
 [[nodiscard]] std::vector<Column<model::StationDifference>> difference_columns();

@@ -96,7 +96,7 @@ std::string occupations_csv(const model::SurveyCorrection& result) {
 }
 
 std::string stations_csv(const model::SurveyCorrection& result) {
-    return csv_table(station_columns(), result.stations);
+    return csv_table(station_columns(result.stations), result.stations);
 }
 
 std::string differences_csv(const model::SurveyCorrection& result) {
@@ -153,7 +153,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
     json["findings"] = reading::findings_json(result.findings);
     json["remarks"] = result.remarks;
     json["models"] = json_array(score_columns(result), score_rows(result));
-    json["stations"] = json_array(station_columns(), result.stations);
+    json["stations"] = json_array(station_columns(result.stations), result.stations);
     json["station_covariance"] = covariance_json(result.covariance);
     json["occupations"] = json_array(occupation_columns(result), result.rows);
     json["left_out"] = Json::array();

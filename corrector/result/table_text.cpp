@@ -19,11 +19,12 @@ std::string cell(const std::optional<Value>& value, int decimals) {
 }
 
 std::string occupations_text(const model::SurveyCorrection& result) {
-    const auto columns = with_keys(
-        occupation_columns(result),
-        {"site", "occupation", "time_utc", "used", "acceleration_mgal", "temperature_degc",
-         "rate_degc_per_h", "tide_mgal", "difference_mgal", "corrected_mgal", "reference_mgal",
-         "residual_mgal", "u_corrected_mgal", "flags"});
+    const auto columns =
+        with_keys(occupation_columns(result),
+                  {"site", "occupation", "time_utc", "used", "acceleration_mgal",
+                   "temperature_degc", "rate_degc_per_h", "tide_mgal", "height_correction_mgal",
+                   "pressure_correction_mgal", "difference_mgal", "corrected_mgal",
+                   "reference_mgal", "residual_mgal", "u_corrected_mgal", "flags"});
     Table table = empty_table(columns);
     in_order_of_time(
         result, [&](std::size_t i) { table.rows.push_back(shown_row(columns, result.rows[i])); },
@@ -149,17 +150,19 @@ Table stations_table(const model::SurveyCorrection& result) {
                                        "redundancy"};
     if (std::ranges::any_of(result.stations, &model::StationValue::is_flagged_only))
         keys.emplace_back("flagged_only");
-    return table_of(with_keys(station_columns(), keys), result.stations);
+    for (const auto key : {"normal_gravity_mgal", "free_air_anomaly_mgal", "bouguer_anomaly_mgal"})
+        keys.emplace_back(key);
+    return table_of(with_keys(station_columns(result.stations), keys), result.stations);
 }
 
 Table budget_table(const model::SurveyCorrection& result) {
     std::vector<model::StationValue> stations = result.stations;
     std::erase_if(stations, [](const model::StationValue& station) { return !station.errors; });
-    return table_of(
-        with_keys(station_columns(), {"site", "u_placement_mgal", "u_flicker_mgal", "u_white_mgal",
-                                      "u_levelling_mgal", "u_thermal_mgal", "u_drift_mgal",
-                                      "u_datum_mgal", "u_gravity_mgal", "expanded_u_mgal"}),
-        stations);
+    return table_of(with_keys(station_columns(stations),
+                              {"site", "u_placement_mgal", "u_flicker_mgal", "u_white_mgal",
+                               "u_levelling_mgal", "u_thermal_mgal", "u_drift_mgal", "u_datum_mgal",
+                               "u_gravity_mgal", "expanded_u_mgal"}),
+                    stations);
 }
 
 Table models_table(const model::SurveyCorrection& result) {

@@ -1,0 +1,124 @@
+#include "corrector/reduction/row_reduction.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corrector/reduction/air_pressure.hpp"
+#include "corrector/reduction/normal_gravity.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/text/csv.hpp"
+
+namespace a351::corrector::reduction {
+namespace {
+
+/// Limits of a measured gradient, mGal/m.  Reason: measured ones are 0.2 to 0.5.
+constexpr double kLeastGradient_mgal_per_m = 0.1, kGreatestGradient_mgal_per_m = 0.6;
+
+/// Greatest difference from the standard atmosphere, hPa.  Reason: at sea level the extremes are 870
+/// and 1084 hPa, which is 143 below and 71 above the standard.
+constexpr double kMostExcess_hpa = 150.0;
+
+const text::Site& site_of(const reading::SurveyRow& row, const std::vector<text::Site>& sites) {
+    const text::Site* const site = text::find_site(sites, row.site);
+    if (site == nullptr)
+        throw InputError(
+            fmt::format("site {}: unknown; allowed: a name of the table of sites", row.site));
+    return *site;
+}
+
+/// Returns a warning if only some of the rows have a value; `taken_as` says what the others are.
+void warn_of_missing(std::vector<std::string>& warnings, std::ptrdiff_t missing, std::size_t rows,
+                     std::string_view value, std::string_view taken_as) {
+    if (missing > 0 && missing < static_cast<std::ptrdiff_t>(rows))
+        warnings.push_back(fmt::format("{} of {} readings have no {}: they are taken as {}",
+                                       missing, rows, value, taken_as));
+}
+
+void reduce_heights(std::vector<reading::SurveyRow>& rows, const Gradients& gradients,
+                    std::vector<std::string>& warnings) {
+    const auto missing = std::ranges::count_if(
+        rows, [](const reading::SurveyRow& row) { return !row.instrument_height; });
+    if (missing == std::ssize(rows)) return;
+    warn_of_missing(warnings, missing, rows.size(), "instrument_height_m", "at the mark");
+    for (reading::SurveyRow& row : rows) {
+        const auto own = gradients.find(row.site);
+        const double gradient = own == gradients.end() ? kNormalGradient_mgal_per_m : own->second;
+        row.height_correction =
+            MilliGal(gradient * row.instrument_height.value_or(Metres(0.0)).value());
+        row.acceleration = row.acceleration + *row.height_correction;
+    }
+}
+
+void reduce_pressures(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
+                      double admittance_mgal_per_hpa, std::vector<std::string>& warnings) {
+    const auto missing = std::ranges::count_if(
+        rows, [](const reading::SurveyRow& row) { return !row.pressure_hpa; });
+    if (missing == std::ssize(rows)) return;
+    warn_of_missing(warnings, missing, rows.size(), "air pressure",
+                    "at that of the standard "
+                    "atmosphere");
+    for (reading::SurveyRow& row : rows) {
+        const double normal_hpa = normal_pressure_hpa(site_of(row, sites).altitude);
+        row.excess_pressure_hpa = row.pressure_hpa.value_or(normal_hpa) - normal_hpa;
+        if (std::abs(*row.excess_pressure_hpa) > kMostExcess_hpa)
+            throw InputError(fmt::format(
+                "{} ({}): pressure_hpa = {}: does not belong to the altitude of the site; allowed: "
+                "the pressure at the site, not reduced to sea level, within {} of {:.0f}",
+                row.site, row.occupation, *row.pressure_hpa, kMostExcess_hpa, normal_hpa));
+        row.pressure_correction = MilliGal(-admittance_mgal_per_hpa * *row.excess_pressure_hpa);
+        row.acceleration = row.acceleration + *row.pressure_correction;
+    }
+}
+
+}  // namespace
+
+Gradients read_gradients(const std::filesystem::path& sites) {
+    const text::CsvTable table = text::read_csv(sites);
+    Gradients gradients;
+    if (!table.has_column("gradient_mgal_per_m")) return gradients;
+    for (std::size_t row = 0; row < table.row_count(); ++row)
+        if (const auto gradient =
+                table.number_if_given(row, "gradient_mgal_per_m", kLeastGradient_mgal_per_m,
+                                      kGreatestGradient_mgal_per_m))
+            gradients[table.cell(row, "site")] = *gradient;
+    return gradients;
+}
+
+std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
+                                     const std::vector<text::Site>& sites,
+                                     const Gradients& gradients, const ReductionChoice& choice,
+                                     reading::DayRecord* day) {
+    std::vector<std::string> warnings;
+    std::optional<AirPressure> pressure;
+    if (!choice.pressure.empty()) pressure = AirPressure::read(choice.pressure);
+    for (reading::SurveyRow& row : rows) {
+        if (!row.instrument_height) row.instrument_height = choice.height;
+        if (!row.pressure_hpa && pressure) row.pressure_hpa = pressure->at(row.time);
+    }
+    if (pressure && std::ranges::none_of(rows, [](const reading::SurveyRow& row) {
+            return row.pressure_hpa.has_value();
+        }))
+        throw InputError(choice.pressure.string() +
+                         ": has no pressure at the time of any reading; allowed: a record of the "
+                         "day, in steps of at most 3 h");
+    reduce_heights(rows, gradients, warnings);
+    reduce_pressures(rows, sites, choice.admittance_mgal_per_hpa, warnings);
+    if (day == nullptr) return warnings;
+    for (reading::DayBin& bin : day->bins) {
+        const reading::SurveyRow& row = rows[bin.set_up];
+        bin.reading = bin.reading + (row.acceleration - row.measured());
+    }
+    return warnings;
+}
+
+void describe_reduction(nlohmann::ordered_json& settings, const ReductionChoice& choice) {
+    settings["instrument_height_m"] =
+        choice.height ? nlohmann::ordered_json(choice.height->value()) : nullptr;
+    settings["pressure"] = choice.pressure.filename().string();
+    settings["admittance_mgal_per_hpa"] = choice.admittance_mgal_per_hpa;
+}
+
+}  // namespace a351::corrector::reduction
