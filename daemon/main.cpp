@@ -163,7 +163,7 @@ sigset_t block_signals() {
 
 std::string brief(const status::Status& status) {
     return status.reasons.empty() ? status.link_state
-                                  : status.link_state + "; " + status.reasons.front();
+                                  : status.link_state + "; " + status.reasons.front().english();
 }
 
 /// Returns the thresholds of the verdict.  gap_s is instrument time and must not be shorter than a

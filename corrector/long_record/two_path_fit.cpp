@@ -126,8 +126,8 @@ public:
             .solve(x.transpose() * readings());
     }
 
-    /// Returns the covariance of coefficients and lags, in deviations of their priors:
-    /// (J'J + 1)^-1, with the derivatives J by coefficients and lags.
+    /// Returns the covariance of coefficients and lags, in deviations of their priors: the parts of
+    /// the priors and of the noise, with the derivatives J by coefficients and lags.
     [[nodiscard]] Eigen::MatrixXd covariance(const Lags& u, const Eigen::VectorXd& beta) const {
         constexpr double kStep = 0.05;
         Eigen::MatrixXd jacobian(2 * frequencies_, static_cast<Index>(kTwoPathTerms));
@@ -139,7 +139,10 @@ public:
             jacobian.col(kLinear + static_cast<Index>(k)) =
                 (design(more) - design(less)) * beta / (2.0 * kStep);
         }
-        return linear_algebra::Cholesky(linear_algebra::normal_matrix(jacobian)).inverse();
+        // The error of the estimate is C (J'e + p), C = (J'J + 1)^-1.
+        const Eigen::MatrixXd c =
+            linear_algebra::Cholesky(linear_algebra::normal_matrix(jacobian)).inverse();
+        return c * c + noise_covariance(jacobian * c);
     }
 
     [[nodiscard]] double thermometer_noise() const { return thermometer_noise_; }
@@ -196,6 +199,60 @@ private:
             parts(frequencies_ + k) = spectrum[static_cast<std::size_t>(k + 1)].imag();
         }
         return parts;
+    }
+
+    /// Returns the covariance that the noise leaves in weighted sums of the whitened frequencies.
+    ///
+    /// A record is cut out of noise whose periods do not fit into it, so that every frequency has
+    /// noise of its neighbours, and two have it in common.  The columns of a drift and of a warm-up
+    /// leak in the same way.  So the sums are taken back to time; each has the variance
+    /// integral |weights|^2 x noise over all frequencies, also those between the record's own.
+    /// @param weights  (2 frequencies, m)
+    [[nodiscard]] Eigen::MatrixXd noise_covariance(const Eigen::MatrixXd& weights) const {
+        constexpr std::size_t kFiner = 8;
+        const std::size_t fine = kFiner * count_;
+        const auto half = static_cast<Index>(fine / 2);
+        Eigen::MatrixXd parts(2 * half, weights.cols());
+        for (Index m = 0; m < weights.cols(); ++m) {
+            const correlation::Spectrum spectrum =
+                correlation::half_spectrum(series_of(whitened(weights.col(m))), fine);
+            for (Index k = 0; k < half; ++k) {
+                const double place = static_cast<double>(k + 1) / kFiner;
+                const double scale = 2.0 * std::sqrt(noise_at(place) / static_cast<double>(fine) /
+                                                     static_cast<double>(count_));
+                const auto value = scale * spectrum[static_cast<std::size_t>(k + 1)];
+                parts(k, m) = value.real();
+                parts(half + k, m) = value.imag();
+            }
+        }
+        return linear_algebra::normal_matrix(parts) -
+               Eigen::MatrixXd::Identity(weights.cols(), weights.cols());
+    }
+
+    /// Returns the series whose product with a record is the sum of the parts of the record's
+    /// spectrum with these weights (2 frequencies).
+    [[nodiscard]] std::vector<double> series_of(const Eigen::VectorXd& weights) const {
+        std::vector<double> of_real(count_), of_imaginary(count_), series(count_);
+        for (Index k = 0; k < frequencies_; ++k) {
+            of_real[static_cast<std::size_t>(k + 1)] = weights(k);
+            of_imaginary[static_cast<std::size_t>(k + 1)] = weights(frequencies_ + k);
+        }
+        const correlation::Spectrum cosines = correlation::half_spectrum(of_real, count_),
+                                    sines = correlation::half_spectrum(of_imaginary, count_);
+        for (std::size_t t = 0; t < cosines.size(); ++t) {
+            series[t] = cosines[t].real() + sines[t].imag();
+            if (t > 0) series[count_ - t] = cosines[t].real() - sines[t].imag();
+        }
+        return series;
+    }
+
+    /// Returns the noise between two frequencies; below the first one as 1/f.
+    /// @param place  frequency in units of the first one, > 0.
+    [[nodiscard]] double noise_at(double place) const {
+        if (place <= 1.0) return noise_(0) / place;
+        const auto below = std::min(static_cast<Index>(place), frequencies_) - 1;
+        const auto above = std::min(below + 1, frequencies_ - 1);
+        return std::lerp(noise_(below), noise_(above), place - std::floor(place));
     }
 
     /// Divides real and imaginary parts by the root of the noise, which is the mean square of each.

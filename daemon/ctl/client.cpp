@@ -7,6 +7,7 @@
 
 #include "daemon/page/asio.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::ctl {
 namespace {
@@ -53,9 +54,8 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
     asio::co_spawn(io, exchange(url, request, answer, error), asio::detached);
     io.run();
     if (error) {
-        throw NoDaemon(
-            fmt::format("no daemon answers at http://{}: {}; check that a351d is running",
-                        url.authority(), error.message()));
+        throw NoDaemon(text::tr("no daemon answers at http://{}: {}; check that a351d is running",
+                                url.authority(), error.message()));
     }
     return {static_cast<int>(answer.get().result_int()), std::move(answer.get().body())};
 }

@@ -1,7 +1,6 @@
 #include "daemon/ctl/commands.hpp"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -19,6 +18,8 @@
 #include "daemon/ctl/watch.hpp"
 #include "daemon/ctl/when.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon::ctl {
@@ -102,7 +103,7 @@ int change_all(const Arguments& arguments, const std::string& command) {
         const auto [first, newest] = std::ranges::minmax_element(last);
         const double apart_s = seconds_between(first->first, newest->first);
         if (apart_s > kMostApart_s) {
-            complain(fmt::format(
+            complain(text::tr(
                 "{}: its last sample is {:.0f} s older than that of {}; nothing was changed; "
                 "allowed: {:.0f} s, or an instant by --at",
                 first->second, apart_s, newest->second, kMostApart_s));
@@ -139,7 +140,7 @@ int change_stay(const Client& client, Arguments arguments, const std::string& co
         if (!status || !list) return kRefused;
         const auto stay = meant_stay(*status, *list);
         if (!stay) {
-            complain("there is no stay to " + command);
+            complain(text::tr("there is no stay for this command"));
             return kRefused;
         }
         print(fmt::format("{}: {}\n", command, printable(stay->text)));
@@ -159,21 +160,23 @@ int show_phone(const Client& client, const Arguments& arguments) {
     const std::string port = listen.substr(listen.rfind(':') + 1);
     const auto addresses = reachable_addresses(listen.substr(0, listen.rfind(':')));
     if (addresses.empty()) {
-        complain(fmt::format("other devices cannot reach the page at {}; set listen = "
-                             "\"0.0.0.0:{}\" in [page], restart a351d and connect to a network",
-                             listen, port));
+        complain(
+            text::tr("other devices cannot reach the page at {}; set listen = "
+                     "\"0.0.0.0:{}\" in [page], restart a351d and connect to a network",
+                     listen, port));
         return kRefused;
     }
     std::string address = arguments.address.empty() ? addresses.front() : arguments.address;
     if (std::ranges::count(addresses, address) == 0) {
-        complain(fmt::format("{} is not an address of this page; allowed: {}", address,
-                             fmt::join(addresses, ", ")));
+        complain(text::tr("{} is not an address of this page; allowed: {}", address,
+                          text::joined(addresses)));
         return kRefused;
     }
     const std::string url = page_url(address + ":" + port, told->at("token").get<std::string>());
     print(qr_text(url, wants_colour()) + url + "\n");
     for (const std::string& other : addresses)
-        if (other != address) print("another address: a351ctl phone " + other + "\n");
+        if (other != address)
+            print(text::tr("another address: {}", "a351ctl phone " + other) + "\n");
     return kDone;
 }
 

@@ -13,6 +13,7 @@
 #include "daemon/ctl/when.hpp"
 #include "protocol/core/clock_scale.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/message.hpp"
 
 namespace {
 
@@ -50,6 +51,7 @@ void require_command(const CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    text::write_in(text::language_of_environment());
     Arguments a;
     CLI::App app("Shows the state of the daemon a351d and controls occupations.", "a351ctl");
     app.set_version_flag("--version", std::string("a351ctl ") + A351_VERSION);
@@ -190,7 +192,7 @@ int main(int argc, char** argv) {
         }
         const int result = run_command(command, a);
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            throw std::runtime_error("the output could not be written");
+            throw std::runtime_error(text::tr("the output could not be written"));
         return result;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
@@ -203,7 +205,7 @@ int main(int argc, char** argv) {
         complain(error.what());
         return kNoDaemon;
     } catch (const nlohmann::json::exception&) {
-        complain("the program at this address is not a351d; check --url");
+        complain(text::tr("the program at this address is not a351d; check --url"));
         return kNoDaemon;
     } catch (const std::exception& error) {
         complain(error.what());

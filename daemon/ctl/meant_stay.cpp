@@ -1,8 +1,8 @@
 #include "daemon/ctl/meant_stay.hpp"
 
-#include <fmt/core.h>
-
 #include <nlohmann/json.hpp>
+
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::ctl {
 
@@ -13,17 +13,18 @@ std::optional<MeantStay> meant_stay(const nlohmann::json& status,
                    site = stay.at("site").get<std::string>();
         return MeantStay{
             key, site,
-            fmt::format("{}, stay {} ({}), {}", site, stay.at("number").get<int>(), key, times)};
+            text::tr("{}, stay {} ({}), {}", site, stay.at("number").get<int>(), key, times)};
     };
     const nlohmann::json& running = status.at("occupation");
     if (!running.is_null())
-        return made(running, "running since " + running.at("start").get<std::string>());
+        return made(running, text::tr("running since {}", running.at("start").get<std::string>()));
     const nlohmann::json& finished = occupations.at("occupations");
     if (!finished.is_array() || finished.empty()) return std::nullopt;
     const nlohmann::json& set_ups = finished.back().at("set_ups");
     if (!set_ups.is_array() || set_ups.empty()) return std::nullopt;
-    return made(finished.back(), set_ups.front().at("start").get<std::string>() + " to " +
-                                     set_ups.back().at("end").get<std::string>());
+    return made(finished.back(),
+                text::tr("{} to {}", set_ups.front().at("start").get<std::string>(),
+                         set_ups.back().at("end").get<std::string>()));
 }
 
 }  // namespace a351::daemon::ctl

@@ -1,22 +1,40 @@
 #include "daemon/ctl/requests.hpp"
 
-#include <fmt/core.h>
-
 #include "daemon/ctl/screen.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::ctl {
 
 using nlohmann::json;
 
+std::string sentence_of(const json& object, const char* key, const char* parts) {
+    if (!object.is_object()) return {};
+    const auto english = object.find(key);
+    if (english == object.end() || !english->is_string()) return {};
+    return text::in_words(
+        text::parse_message(object.value(parts, json()), english->get_ref<const std::string&>()));
+}
+
+std::string sentences_of(const json& object, const char* key, const char* parts) {
+    if (!object.is_object()) return {};
+    const json english = object.value(key, json::array()), all = object.value(parts, json::array());
+    std::string whole;
+    for (std::size_t i = 0; i < english.size(); ++i) {
+        json one = {{key, english[i]}};
+        if (i < all.size()) one[parts] = all[i];
+        whole += (i > 0 ? "; " : "") + sentence_of(one, key, parts);
+    }
+    return printable(whole);
+}
+
 Answer answer_of(const Reply& reply) {
     Answer answer{json::parse(reply.body, nullptr, false), ""};
     if (!answer.body.is_object())
-        throw NoDaemon("the program at this address is not a351d; check --url");
+        throw NoDaemon(text::tr("the program at this address is not a351d; check --url"));
     if (reply.status == 200) return answer;
-    const auto error = answer.body.find("error");
-    answer.error = error != answer.body.end() && error->is_string()
-                       ? error->get<std::string>()
-                       : fmt::format("the daemon answered with status {}", reply.status);
+    answer.error = sentence_of(answer.body, "error", "error_parts");
+    if (answer.error.empty())
+        answer.error = text::tr("the daemon answered with status {}", reply.status);
     return answer;
 }
 
@@ -34,7 +52,8 @@ Answer send_change(const Client& client, const std::string& token, const std::st
 }
 
 std::string message_of(const Answer& answer) {
-    return printable(answer.body.value("message", "done"));
+    const std::string said = sentence_of(answer.body, "message", "message_parts");
+    return printable(said.empty() ? text::tr("done") : said);
 }
 
 }  // namespace a351::daemon::ctl

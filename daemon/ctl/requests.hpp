@@ -10,7 +10,8 @@ namespace a351::daemon::ctl {
 /// An answer of the daemon.
 struct Answer {
     nlohmann::json body;  ///< An object.
-    std::string error;    ///< Why the daemon refused, one sentence; empty if it did not.
+    /// Why the daemon refused, one sentence in the language of this program; empty if it did not.
+    std::string error;
 };
 
 /// Reads the body of a reply.
@@ -22,6 +23,15 @@ struct Answer {
 /// @throws NoDaemon
 [[nodiscard]] Answer send_change(const Client& client, const std::string& token,
                                  const std::string& path, const nlohmann::json& body);
+
+/// Returns a sentence of the daemon in the language of this program.
+/// @param object  has the sentence in English under `key`, and its parts under `parts`.
+/// @return        empty if there is none.
+[[nodiscard]] std::string sentence_of(const nlohmann::json& object, const char* key,
+                                      const char* parts);
+/// Returns several such sentences, separated by semicolons.
+[[nodiscard]] std::string sentences_of(const nlohmann::json& object, const char* key,
+                                       const char* parts);
 
 /// Returns the sentence with which the daemon confirms a change.
 [[nodiscard]] std::string message_of(const Answer& answer);

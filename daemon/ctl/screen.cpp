@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "daemon/ctl/requests.hpp"
+#include "protocol/text/message.hpp"
+
 namespace a351::daemon::ctl {
 namespace {
 
@@ -48,13 +51,12 @@ std::string number_of(const json& object, const std::string& path, const char* f
     return number_of(at(object, path), format);
 }
 
-std::string joined(const json& list) {
-    std::string text;
-    for (const auto& item : list) text += (text.empty() ? "" : "; ") + text_of(item);
-    return text;
+/// Returns a word of a fixed list, such as the name of a state, in the language of this program.
+std::string word_of(const json& object, const std::string& path) {
+    return std::string(text::translated(text_of(object, path), text::language()));
 }
 
-std::string line(const char* name, const std::string& text) {
+std::string line(const std::string& name, const std::string& text) {
     return fmt::format("{:13}{}\n", name, text);
 }
 
@@ -71,7 +73,7 @@ std::string lag(const json& status, const char* index) {
     if (!received.is_number_integer() || !here.is_number_integer()) return "-";
     const auto samples = received.get<std::int64_t>() - here.get<std::int64_t>();
     const json& rate = at(status, "device/output_rate_hz");
-    std::string text = fmt::format("{}, {} behind", text_of(here), samples);
+    std::string text = text::tr("{}, {} behind", text_of(here), samples);
     if (rate.is_number() && rate.get<double>() > 0.0)
         text += fmt::format(" ({:.1f} s)", static_cast<double>(samples) / rate.get<double>());
     return text;
@@ -94,36 +96,36 @@ std::string troubles(const json& status) {
         if (!count.is_number_integer() || count == 0) continue;
         text += fmt::format("{}{} {}", text.empty() ? "" : "  ", printable(name), count.dump());
     }
-    return text.empty() ? "none" : text;
+    return text.empty() ? text::tr("none") : text;
 }
 
 std::string occupation(const json& status) {
     const json& running = at(status, "occupation");
-    if (!running.is_object()) return "none running";
-    std::string text = fmt::format("{}, stay {}, since {} ({} s)", text_of(running, "site"),
-                                   text_of(running, "number"), text_of(running, "start"),
-                                   number_of(running, "running_s", "{:.0f}"));
+    if (!running.is_object()) return text::tr("none running");
+    std::string text = text::tr("{}, stay {}, since {} ({} s)", text_of(running, "site"),
+                                text_of(running, "number"), text_of(running, "start"),
+                                number_of(running, "running_s", "{:.0f}"));
     if (at(running, "set_up") != at(running, "start"))
-        text += ", set up " + text_of(running, "set_up");
+        text += text::tr(", set up {}", text_of(running, "set_up"));
     return text;
 }
 
 std::string verdict(const json& status, bool is_coloured) {
-    const json& why = at(status, "verdict/reasons");
+    const std::string why = sentences_of(at(status, "verdict"), "reasons", "reason_parts");
     const json& held_s = at(status, "verdict/held_s");
     const json& left_s = at(status, "verdict/time_left_s");
     const bool is_waiting = left_s.is_number() && left_s.get<double>() > 0.0;
     const std::string state = text_of(status, "verdict/state");
     const char* const level = state == "stable" ? "good" : state == "no data" ? "fault" : "warning";
-    return coloured(state, level, is_coloured) +
-           (held_s.is_number() ? number_of(held_s, " for {:.0f} s") : "") +
-           (is_waiting ? number_of(left_s, ", at least {:.0f} s more") : "") +
-           (why.empty() ? "" : ": " + joined(why));
+    return coloured(word_of(status, "verdict/state"), level, is_coloured) +
+           (held_s.is_number() ? text::tr(" for {:.0f} s", held_s.get<double>()) : "") +
+           (is_waiting ? text::tr(", at least {:.0f} s more", left_s.get<double>()) : "") +
+           (why.empty() ? "" : ": " + why);
 }
 
 /// Returns where the stay is in its plan: "2 of 3: 2:10 left", or what to do when no time is left.
 /// @param next  how the operator begins the next set-up.
-std::string set_up(const json& status, const char* next) {
+std::string set_up(const json& status, const std::string& next) {
     const json& stay = at(status, "occupation");
     const json& left_s = at(stay, "set_up_left_s");
     if (!left_s.is_number()) return "-";
@@ -131,86 +133,85 @@ std::string set_up(const json& status, const char* next) {
     const int planned = std::max(stay.value("planned_set_ups", 1), running);
     const auto left = static_cast<int>(std::ceil(left_s.get<double>()));
     const bool may_stop = at(stay, "may_stop") == true;
-    std::string text = fmt::format("{} of {}: ", running, planned);
-    text +=
-        may_stop ? "the stay may be stopped" : fmt::format("{}:{:02} left", left / 60, left % 60);
+    std::string text = text::tr("{} of {}: ", running, planned);
+    text += may_stop ? text::tr("the stay may be stopped")
+                     : text::tr("{} left", fmt::format("{}:{:02}", left / 60, left % 60));
     if (at(stay, "propose_set_up") == true)
-        text += std::string("; lift the box, set it down again, then ") + next;
+        text += text::tr("; lift the box, set it down again, then {}", next);
     return text;
 }
 
 /// Returns the mean of all set-ups with their scatter.
 std::string reading(const json& status) {
     const json& reading = at(status, "occupation/whole");
-    std::string text =
-        fmt::format("{} +- {}, target {}", number_of(reading, "value_mgal", "{:.2f}"),
-                    number_of(reading, "standard_error_mgal", "{:.2f} mGal"),
-                    number_of(status, "target_mgal", "{:.2f} mGal"));
+    std::string text = text::tr("{} +- {}, target {}", number_of(reading, "value_mgal", "{:.2f}"),
+                                number_of(reading, "standard_error_mgal", "{:.2f} mGal"),
+                                number_of(status, "target_mgal", "{:.2f} mGal"));
     if (at(reading, "is_good_enough") == true)
-        text += ": good enough";
-    else if (at(reading, "needed_s").is_number())
-        text += number_of(reading, "needed_s", ": {:.0f} s more");
+        text += text::tr(": good enough");
+    else if (const json& needed_s = at(reading, "needed_s"); needed_s.is_number())
+        text += text::tr(": {:.0f} s more", needed_s.get<double>());
     if (at(reading, "set_up_sd_mgal").is_number())
         text +=
-            fmt::format("; scatter of {} set-ups {}, of their mean {}", text_of(reading, "set_ups"),
-                        number_of(reading, "set_up_sd_mgal", "{:.2f} mGal"),
-                        number_of(reading, "set_up_error_mgal", "{:.2f} mGal"));
+            text::tr("; scatter of {} set-ups {}, of their mean {}", text_of(reading, "set_ups"),
+                     number_of(reading, "set_up_sd_mgal", "{:.2f} mGal"),
+                     number_of(reading, "set_up_error_mgal", "{:.2f} mGal"));
     return text;
 }
 
 /// Returns the line of warnings on the running stay; empty if there are none.
 std::string warnings(const json& status, bool is_coloured) {
-    const json& list = at(status, "occupation/warnings");
-    return list.empty() ? "" : line("warnings", coloured(joined(list), "warning", is_coloured));
+    const std::string list = sentences_of(at(status, "occupation"), "warnings", "warning_parts");
+    return list.empty() ? "" : line(text::tr("warnings"), coloured(list, "warning", is_coloured));
 }
 
 std::string tilt(const json& status) {
-    const json& advice = at(status, "tilt/advice");
-    return fmt::format(
-        "{} {}   {} {} compared with {}{}", text_of(status, "tilt/axes/0"),
-        number_of(status, "tilt/x_arcmin", "{:+.1f}'"), text_of(status, "tilt/axes/1"),
-        number_of(status, "tilt/y_arcmin", "{:+.1f}'"), text_of(status, "tilt/reference/site"),
-        advice.empty() ? "" : ": " + joined(advice));
+    const std::string advice = sentences_of(at(status, "tilt"), "advice", "advice_parts");
+    return text::tr("{} {}   {} {} compared with {}{}", text_of(status, "tilt/axes/0"),
+                    number_of(status, "tilt/x_arcmin", "{:+.1f}'"), text_of(status, "tilt/axes/1"),
+                    number_of(status, "tilt/y_arcmin", "{:+.1f}'"),
+                    text_of(status, "tilt/reference/site"), advice.empty() ? "" : ": " + advice);
 }
 
 std::string device(const json& status) {
     const auto trouble = text_of(status, "device/trouble");
-    return fmt::format("{} {}, {} on {}{}", text_of(status, "device/product_id"),
-                       text_of(status, "device/serial_number"), text_of(status, "device/state"),
-                       text_of(status, "device/port"), trouble == "-" ? "" : ": " + trouble);
+    return text::tr("{} {}, {} on {}{}", text_of(status, "device/product_id"),
+                    text_of(status, "device/serial_number"), word_of(status, "device/state"),
+                    text_of(status, "device/port"), trouble == "-" ? "" : ": " + trouble);
 }
 
 std::string oven(const json& status) {
-    const std::string state = text_of(status, "oven/state");
+    const std::string state = word_of(status, "oven/state");
     if (!at(status, "oven/age_s").is_number()) {
         const auto trouble = text_of(status, "oven/trouble");
         return trouble == "-" ? state : state + ": " + trouble;
     }
     const bool is_stale = at(status, "oven/is_stale") == true;
-    return fmt::format("{}, set point {}, heating {}{}, {}{}",
-                       number_of(status, "oven/process_value_degc", "{:.1f} degC"),
-                       number_of(status, "oven/set_point_degc", "{:.1f} degC"),
-                       number_of(status, "oven/heating_percent", "{:.1f} %"),
-                       at(status, "oven/has_input_error") == true ? ", input error" : "", state,
-                       is_stale ? number_of(status, "oven/age_s", ", {:.0f} s old") : "");
+    return text::tr(
+        "{}, set point {}, heating {}{}, {}{}",
+        number_of(status, "oven/process_value_degc", "{:.1f} degC"),
+        number_of(status, "oven/set_point_degc", "{:.1f} degC"),
+        number_of(status, "oven/heating_percent", "{:.1f} %"),
+        at(status, "oven/has_input_error") == true ? text::tr(", input error") : "", state,
+        is_stale ? text::tr(", {:.0f} s old", at(status, "oven/age_s").get<double>()) : "");
 }
 
 std::string timing(const json& status) {
-    return text_of(status, "timing/state") + ", uncertainty " +
-           number_of(status, "timing/uncertainty_ms", "{:.2f} ms");
+    return text::tr("{}, uncertainty {}", word_of(status, "timing/state"),
+                    number_of(status, "timing/uncertainty_ms", "{:.2f} ms"));
 }
 
 std::string disk(const json& status) {
     const json& free_bytes = at(status, "disk/free_bytes");
     const json free_gb = free_bytes.is_number() ? json(free_bytes.get<double>() / 1e9) : json();
-    return number_of(free_gb, "{:.1f} GB free");
+    return text::tr("{} free", number_of(free_gb, "{:.1f} GB"));
 }
 
 std::string rate(const json& status) {
     const bool is_verified = at(status, "device/profile_verified") == true;
-    return fmt::format("{} Hz, filter {}, profile {}{}", text_of(status, "device/output_rate_hz"),
-                       text_of(status, "device/filter"), text_of(status, "device/profile"),
-                       is_verified ? "" : " (not verified)");
+    return text::tr("{} Hz, filter {}, profile {}{}", text_of(status, "device/output_rate_hz"),
+                    text_of(status, "device/filter"), text_of(status, "device/profile"),
+                    is_verified ? "" : text::tr(" (not verified)"));
 }
 
 /// Formats rows as a table; each column is as wide as its widest cell.
@@ -245,68 +246,73 @@ std::string printable(std::string_view text) {
 
 std::string status_screen(const json& status, bool is_coloured) {
     const std::string level = text_of(status, "level");
-    const json& reasons = at(status, "reasons");
-    std::string screen =
-        line("a351d", fmt::format("{}   {}   {}{}", text_of(status, "version"),
-                                  text_of(status, "now"), coloured(level, level, is_coloured),
-                                  reasons.empty() ? "" : ": " + joined(reasons)));
-    screen += line("verdict", verdict(status, is_coloured));
-    screen += line("occupation", occupation(status));
+    const std::string reasons = sentences_of(status, "reasons", "reason_parts");
+    std::string screen = line(
+        "a351d", fmt::format("{}   {}   {}{}", text_of(status, "version"), text_of(status, "now"),
+                             coloured(word_of(status, "level"), level, is_coloured),
+                             reasons.empty() ? "" : ": " + reasons));
+    screen += line(text::tr("verdict"), verdict(status, is_coloured));
+    screen += line(text::tr("occupation"), occupation(status));
     if (at(status, "occupation").is_object())
-        screen += line("set-up", set_up(status, "run a351ctl setup"));
-    if (at(status, "occupation/whole").is_object()) screen += line("reading", reading(status));
+        screen += line(text::tr("set-up"), set_up(status, text::tr("run {}", "a351ctl setup")));
+    if (at(status, "occupation/whole").is_object())
+        screen += line(text::tr("reading"), reading(status));
     screen += warnings(status, is_coloured);
-    if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
-    screen += line("device", device(status));
-    screen += line("sampling", rate(status));
-    screen += line("axes", axes(status));
-    screen += line("temperature", number_of(status, "sample/temperature_degc", "{:.3f} degC"));
-    screen += line("oven", oven(status));
-    screen += line("last sample", fmt::format("{} at {}, {}", text_of(status, "received"),
-                                              text_of(status, "sample/utc"),
-                                              number_of(status, "sample/age_s", "{:.1f} s ago")));
-    screen += line("journal", lag(status, "journaled"));
-    screen += line("archive", lag(status, "archived"));
-    screen += line("timing", timing(status));
-    if (at(status, "timing/rate/measured_hz").is_number()) {
-        screen +=
-            line("rate", number_of(status, "timing/rate/measured_hz", "{:.6f} Hz +- ") +
-                             number_of(status, "timing/rate/uncertainty_ppm", "{:.2f} ppm over ") +
-                             number_of(status, "timing/rate/span_h", "{:.1f} h"));
-    }
+    if (at(status, "tilt").is_object()) screen += line(text::tr("tilt"), tilt(status));
+    screen += line(text::tr("device"), device(status));
+    screen += line(text::tr("sampling"), rate(status));
+    screen += line(text::tr("axes"), axes(status));
     screen +=
-        line("counters", fmt::format("frames {}  sessions {}", text_of(status, "counters/frames"),
-                                     text_of(status, "counters/sessions")));
-    screen += line("troubles", troubles(status));
-    screen += line("disk", disk(status));
+        line(text::tr("temperature"), number_of(status, "sample/temperature_degc", "{:.3f} degC"));
+    screen += line(text::tr("oven"), oven(status));
+    screen +=
+        line(text::tr("last sample"),
+             text::tr("{} at {}, {}", text_of(status, "received"), text_of(status, "sample/utc"),
+                      text::tr("{} ago", number_of(status, "sample/age_s", "{:.1f} s"))));
+    screen += line(text::tr("journal"), lag(status, "journaled"));
+    screen += line(text::tr("archive"), lag(status, "archived"));
+    screen += line(text::tr("timing"), timing(status));
+    if (at(status, "timing/rate/measured_hz").is_number()) {
+        screen += line(
+            text::tr("rate"),
+            text::tr("{} +- {} over {}", number_of(status, "timing/rate/measured_hz", "{:.6f} Hz"),
+                     number_of(status, "timing/rate/uncertainty_ppm", "{:.2f} ppm"),
+                     number_of(status, "timing/rate/span_h", "{:.1f} h")));
+    }
+    screen += line(text::tr("counters"),
+                   text::tr("frames {}  sessions {}", text_of(status, "counters/frames"),
+                            text_of(status, "counters/sessions")));
+    screen += line(text::tr("troubles"), troubles(status));
+    screen += line(text::tr("disk"), disk(status));
     return screen;
 }
 
 std::string watch_screen(const json& status, const std::string& gravity, bool is_coloured) {
     const std::string level = text_of(status, "level");
-    const json& reasons = at(status, "reasons");
-    std::string screen = line("a351d", fmt::format("{}   {}{}", text_of(status, "now"),
-                                                   coloured(level, level, is_coloured),
-                                                   reasons.empty() ? "" : ": " + joined(reasons)));
-    screen += line("verdict", verdict(status, is_coloured));
-    screen += line("occupation", occupation(status));
+    const std::string reasons = sentences_of(status, "reasons", "reason_parts");
+    std::string screen =
+        line("a351d", fmt::format("{}   {}{}", text_of(status, "now"),
+                                  coloured(word_of(status, "level"), level, is_coloured),
+                                  reasons.empty() ? "" : ": " + reasons));
+    screen += line(text::tr("verdict"), verdict(status, is_coloured));
+    screen += line(text::tr("occupation"), occupation(status));
     if (at(status, "occupation").is_object()) {
-        screen += line("set-up", set_up(status, "press u"));
-        screen += line("reading", reading(status));
+        screen += line(text::tr("set-up"), set_up(status, text::tr("press {}", "u")));
+        screen += line(text::tr("reading"), reading(status));
         screen += warnings(status, is_coloured);
     }
-    if (at(status, "tilt").is_object()) screen += line("tilt", tilt(status));
-    if (!gravity.empty()) screen += line("gravity", gravity);
-    screen += line("device", device(status));
-    screen += line("signal", axes(status) +
-                                 number_of(status, "sample/temperature_degc", "   {:.3f} degC") +
-                                 number_of(status, "sample/age_s", "   {:.1f} s ago"));
-    screen += line("oven", oven(status));
-    screen += line("journal", lag(status, "journaled"));
-    screen += line("archive", lag(status, "archived"));
-    screen += line("timing", timing(status));
-    screen += line("troubles", troubles(status));
-    screen += line("disk", disk(status));
+    if (at(status, "tilt").is_object()) screen += line(text::tr("tilt"), tilt(status));
+    if (!gravity.empty()) screen += line(text::tr("gravity"), gravity);
+    screen += line(text::tr("device"), device(status));
+    screen += line(text::tr("signal"),
+                   axes(status) + number_of(status, "sample/temperature_degc", "   {:.3f} degC") +
+                       "   " + text::tr("{} ago", number_of(status, "sample/age_s", "{:.1f} s")));
+    screen += line(text::tr("oven"), oven(status));
+    screen += line(text::tr("journal"), lag(status, "journaled"));
+    screen += line(text::tr("archive"), lag(status, "archived"));
+    screen += line(text::tr("timing"), timing(status));
+    screen += line(text::tr("troubles"), troubles(status));
+    screen += line(text::tr("disk"), disk(status));
     return screen;
 }
 
@@ -340,13 +346,13 @@ std::string occupation_table(const json& answer) {
         if (!at(one, "reading/set_up_sd_mgal").is_number()) return;
         const json& mean = at(one, "reading");
         add_row(set_ups.front(), set_ups.back(), mean);
-        rows.back()[1] += " mean";
+        rows.back()[1] += text::tr(" mean");
         rows.back()[5] = number_of(mean, "set_up_error_mgal", "{:.2f}");
         rows.back()[6] = number_of(mean, "set_up_sd_mgal", "{:.2f}");
     };
     for (const auto& one : at(answer, "occupations"))
         add(one, text_of(one, "number"), text_of(one, "note"));
-    for (const auto& one : at(answer, "discarded")) add(one, "-", "discarded");
+    for (const auto& one : at(answer, "discarded")) add(one, "-", text::tr("discarded"));
     return table(rows);
 }
 

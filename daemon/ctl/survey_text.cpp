@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "daemon/ctl/requests.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::ctl {
 namespace {
@@ -30,14 +32,16 @@ std::string stay_name(const json& stay) {
 std::string state_of(const json& answer) {
     std::string state;
     if (const std::string reason = word_of(answer, "reason"); !reason.empty()) {
-        const std::string cause = word_of(answer, "reason_text");
-        state = fmt::format("no new figures: {}{}{}\n", reason, cause.empty() ? "" : ": ", cause);
+        const std::string cause = printable(sentence_of(answer, "reason_text", "reason_parts"));
+        state =
+            text::tr("no new figures: {}", cause.empty() ? reason : reason + ": " + cause) + "\n";
     }
     const std::string as_of = word_of(answer, "as_of_utc");
     if (!as_of.empty())
-        state +=
-            fmt::format("as of {}, data up to {}{}{}\n", as_of, word_of(answer, "data_to_utc"),
-                        answer.at("model").is_string() ? ", model " : "", word_of(answer, "model"));
+        state += text::tr("as of {}, data up to {}", as_of, word_of(answer, "data_to_utc")) +
+                 (answer.at("model").is_string() ? text::tr(", model {}", word_of(answer, "model"))
+                                                 : "") +
+                 "\n";
     return state;
 }
 
@@ -47,7 +51,7 @@ std::string survey_text(const json& answer) {
     std::string screen;
     for (const json& finding : answer.at("findings"))
         screen += fmt::format("{}{}\n", finding.value("is_headline", false) ? "! " : "  ",
-                              word_of(finding, "text"));
+                              printable(sentence_of(finding, "text", "text_parts")));
     std::vector<std::vector<std::string>> rows = {
         {"stay", "gravity_mgal", "u_mgal", "left_out_difference_mgal", "set_ups"}};
     std::string remarks;
@@ -55,12 +59,16 @@ std::string survey_text(const json& answer) {
         rows.push_back({stay_name(stay), mgal_of(stay, "gravity_mgal"), mgal_of(stay, "u_mgal"),
                         mgal_of(stay, "left_out_difference_mgal"),
                         std::to_string(stay.value("set_ups", 0))});
-        if (stay.value("is_running", false)) remarks += "  " + stay_name(stay) + ": running\n";
+        if (stay.value("is_running", false))
+            remarks += "  " + stay_name(stay) + ": " + text::tr("running") + "\n";
         if (stay.at("u_evening_mgal").is_number())
-            remarks += fmt::format("  {}: +- {} mGal after a return to the base\n", stay_name(stay),
-                                   mgal_of(stay, "u_evening_mgal"));
+            remarks +=
+                "  " + stay_name(stay) + ": " +
+                text::tr("+- {} mGal after a return to the base", mgal_of(stay, "u_evening_mgal")) +
+                "\n";
         for (const json& remark : stay.at("remarks"))
-            remarks += fmt::format("  {}: {}\n", stay_name(stay), word_of(remark, "text"));
+            remarks += fmt::format("  {}: {}\n", stay_name(stay),
+                                   printable(sentence_of(remark, "text", "text_parts")));
     }
     if (rows.size() > 1) screen += text::aligned(rows);
     return screen + remarks + state_of(answer);
@@ -73,12 +81,13 @@ std::string newest_gravity(const json& answer) {
         line = fmt::format("{}: {} +- {} mGal", stay_name(stay), mgal_of(stay, "gravity_mgal"),
                            mgal_of(stay, "u_mgal"));
         if (const json& known = stay.at("left_out_difference_mgal"); known.is_number())
-            line += fmt::format(", left out - known {:+.2f} mGal", known.get<double>());
+            line += text::tr(", left out - known {:+.2f} mGal", known.get<double>());
     }
-    if (!line.empty() && answer.at("reason").is_string()) line += " (old figures)";
+    if (!line.empty() && answer.at("reason").is_string()) line += text::tr(" (old figures)");
     for (const json& finding : answer.at("findings")) {
         if (!finding.value("is_headline", false)) continue;
-        return line + (line.empty() ? "! " : "; ! ") + word_of(finding, "text");
+        return line + (line.empty() ? "! " : "; ! ") +
+               printable(sentence_of(finding, "text", "text_parts"));
     }
     return line;
 }

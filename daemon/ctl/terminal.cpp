@@ -37,10 +37,17 @@ void leave() {
 }
 
 /// Returns the columns of a letter that begins with this byte of UTF-8; 0 within a letter.
-std::size_t columns_of(unsigned char byte) {
+std::size_t columns_of_letter(unsigned char byte) {
     constexpr unsigned char kFirstWide = 0xE3;  // U+3000
     if ((byte & 0xC0U) == 0x80) return 0;
     return byte >= kFirstWide ? 2 : 1;
+}
+
+/// Returns true if a line must not begin with the letter at this place: a Japanese comma, stop or
+/// closing bracket.
+bool ends_a_phrase(std::string_view text) {
+    return text.starts_with("\u3001") || text.starts_with("\u3002") || text.starts_with("\uFF09") ||
+           text.starts_with("\u300D");
 }
 
 }  // namespace
@@ -101,10 +108,17 @@ std::optional<std::string> Terminal::keys(int wait_ms) const {
     return std::string(bytes, static_cast<std::size_t>(got));
 }
 
+std::size_t columns_of(std::string_view text) {
+    std::size_t columns = 0;
+    for (const char c : text) columns += columns_of_letter(static_cast<unsigned char>(c));
+    return columns;
+}
+
 std::string fitted(const std::string& screen, std::size_t columns, std::size_t rows) {
     constexpr std::size_t kIndent = 13;  // that of line()
     std::string shown;
-    std::size_t row = 0, column = 0, last_blank = std::string::npos, after_blank = 0;
+    // The last place at which the line can be broken, the bytes of the blank there, and its column.
+    std::size_t row = 0, column = 0, break_at = std::string::npos, blank = 0, after_break = 0;
     for (std::size_t i = 0; i < screen.size() && row < rows; ++i) {
         const char c = screen[i];
         if (c == '\x1b') {  // A colour takes no place.
@@ -117,25 +131,28 @@ std::string fitted(const std::string& screen, std::size_t columns, std::size_t r
         if (c == '\n') {
             ++row;
             column = 0;
-            last_blank = std::string::npos;
+            break_at = std::string::npos;
             continue;
         }
-        const std::size_t width = columns_of(static_cast<unsigned char>(c));
+        const std::size_t width = columns_of_letter(static_cast<unsigned char>(c));
         if (width == 0) continue;
         column += width;
-        if (c == ' ' && column > kIndent) {
-            last_blank = shown.size() - 1;
-            after_blank = column;
+        const bool is_wide = width == 2 && !ends_a_phrase(std::string_view(screen).substr(i));
+        if ((c == ' ' || is_wide) && column > kIndent + 2) {
+            break_at = shown.size() - 1;
+            blank = is_wide ? 0 : 1;
+            after_break = is_wide ? column - 2 : column;
         }
-        if (column < columns || last_blank == std::string::npos) continue;
+        if (column < columns || break_at == std::string::npos) continue;
         if (++row == rows) {
-            shown.resize(last_blank);
-            if (shown.find('\x1b') != std::string::npos) shown += "\x1b[0m";  // It may not have ended.
+            shown.resize(break_at);
+            if (shown.find('\x1b') != std::string::npos)
+                shown += "\x1b[0m";  // It may not have ended.
             break;
         }
-        shown.replace(last_blank, 1, "\n" + std::string(kIndent, ' '));
-        column = column - after_blank + kIndent;
-        last_blank = std::string::npos;
+        shown.replace(break_at, blank, "\n" + std::string(kIndent, ' '));
+        column = column - after_break + kIndent;
+        break_at = std::string::npos;
     }
     // The line end of the last row would scroll the first one away.
     if (shown.ends_with('\n')) shown.pop_back();

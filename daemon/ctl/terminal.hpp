@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace a351::daemon::ctl {
 
@@ -15,8 +16,11 @@ namespace a351::daemon::ctl {
 /// set or empty.
 [[nodiscard]] bool wants_colour();
 
-/// Fits a screen to a terminal: long lines are broken at blanks and indented, and lines at the end
-/// that have no place are left out.  Letters from U+3000 on count as two columns.
+/// Returns the columns of a text on a terminal.  Letters from U+3000 on count as two.
+[[nodiscard]] std::size_t columns_of(std::string_view text);
+
+/// Fits a screen to a terminal: long lines are broken at blanks or before letters of two columns, and
+/// indented.  Lines at the end that have no place are left out.
 /// @param columns, rows  size of the terminal.
 [[nodiscard]] std::string fitted(const std::string& screen, std::size_t columns, std::size_t rows);
 

@@ -16,6 +16,7 @@
 #include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/terminal.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::ctl {
 namespace {
@@ -99,10 +100,10 @@ private:
         const bool is_coloured = wants_colour();
         std::string answer;
         if (!answer_.empty() && Clock::now() - answered_ < kAnswerShown)
-            answer =
-                fitted("answer       " + (is_refused_ ? warned(answer_, is_coloured) : answer_),
-                       size.columns, kAnswerRows) +
-                "\n";
+            answer = fitted(fmt::format("{:13}", text::tr("answer")) +
+                                (is_refused_ ? warned(answer_, is_coloured) : answer_),
+                            size.columns, kAnswerRows) +
+                     "\n";
         const auto lines = [](const std::string& text) {
             return static_cast<std::size_t>(std::ranges::count(text, '\n'));
         };
@@ -120,16 +121,16 @@ private:
     [[nodiscard]] std::string bottom_row(std::size_t columns) const {
         switch (question_) {
             case Question::site:
-                return prompt("start at (Tab completes, Esc cancels): ", columns);
+                return prompt(text::tr("start at (Tab completes, Esc cancels): "), columns);
             case Question::note:
-                return prompt("note (Esc cancels): ", columns);
+                return prompt(text::tr("note (Esc cancels): "), columns);
             case Question::other_site:
-                return fmt::format("did you mean {}? y start there, any other key: no",
-                                   printable(other_site_));
+                return text::tr("did you mean {}? y start there, any other key: no",
+                                printable(other_site_));
             case Question::stop: {
                 const std::string site = printable(asked_stay_.value("site", ""));
-                if (!moved_utc_) return fmt::format("stop {}? y stop, any other key: no", site);
-                return fmt::format(
+                if (!moved_utc_) return text::tr("stop {}? y stop, any other key: no", site);
+                return text::tr(
                     "stop {} at {}, when the box was moved? y there, n now, other keys: no", site,
                     to_rfc3339(*moved_utc_).substr(11, 8));
             }
@@ -137,18 +138,18 @@ private:
                 break;
         }
         const json running = stay();
-        if (!running.is_object()) return "s start   n note   q quit";
+        if (!running.is_object()) return text::tr("s start   n note   q quit");
         const bool is_next = running.value("propose_set_up", false);
-        return reversed("x stop", running.value("may_stop", false) && !is_next) + "   " +
-               reversed("u next set-up", is_next) +
-               (running.value("moved", json()).is_object() ? "   m not moved" : "") +
-               "   n note   q quit";
+        return reversed(text::tr("x stop"), running.value("may_stop", false) && !is_next) + "   " +
+               reversed(text::tr("u next set-up"), is_next) +
+               (running.value("moved", json()).is_object() ? "   " + text::tr("m not moved") : "") +
+               "   " + text::tr("n note   q quit");
     }
 
     /// Returns a question with the end of the typed text that has room behind it.
     [[nodiscard]] std::string prompt(const std::string& question, std::size_t columns) const {
         std::string shown = printable(typed_);
-        while (!shown.empty() && question.size() + shown.size() + 1 >= columns) {
+        while (!shown.empty() && columns_of(question) + columns_of(shown) + 1 >= columns) {
             std::size_t letter = 1;
             while (letter < shown.size() &&
                    (static_cast<unsigned char>(shown[letter]) & 0xC0U) == 0x80)
@@ -181,7 +182,7 @@ private:
         if (is_typing()) return take_letter(key);
         ask(Question::none);
         const bool is_now = question == Question::stop && moved_utc_ && key == 'n';
-        if (key != 'y' && !is_now) return say("nothing was changed");
+        if (key != 'y' && !is_now) return say(text::tr("nothing was changed"));
         if (question == Question::other_site) return start(other_site_);
         json order = asked_stay_;
         if (moved_utc_ && !is_now) order["at"] = to_rfc3339(*moved_utc_, 9);
@@ -194,20 +195,22 @@ private:
         if (key == 'n') return ask(Question::note);
         if (key == 's') {
             if (is_running)
-                return say(printable(running.value("site", "")) + " is running: stop it first",
-                           true);
+                return say(
+                    text::tr("{} is running: stop it first", printable(running.value("site", ""))),
+                    true);
             return ask_site();
         }
         if (key != 'x' && key != 'u' && key != 'm') return;
-        if (!is_running) return say("no occupation is running", true);
+        if (!is_running) return say(text::tr("no occupation is running"), true);
         if (key == 'm') return send("not_moved", named());
         if (key == 'u') return send("setup", named());
         const int made = running.value("set_up_count", 1);
         const int planned = running.value("planned_set_ups", 1);
         std::string doubts;
-        if (made < planned) doubts = fmt::format("{} of {} planned set-ups; ", made, planned);
-        say(doubts + "the verdict is " +
-            printable(status_.value("/verdict/state"_json_pointer, "unknown")));
+        if (made < planned) doubts = text::tr("{} of {} planned set-ups; ", made, planned);
+        const std::string state = status_.value("/verdict/state"_json_pointer, "unknown");
+        say(doubts +
+            text::tr("the verdict is {}", printable(text::translated(state, text::language()))));
         asked_stay_ = named();
         // A stay that was started too early has its move at the start: nothing to stop there.
         const json moved = running.value("moved", json());
@@ -236,16 +239,16 @@ private:
         } catch (const NoDaemon& error) {
             return say(printable(error.what()), true);
         }
-        say(sites_.empty() ? "there is no list of sites; any name is accepted"
-                           : "nearest sites: " + printable(sites_.beginning_with("")));
+        say(sites_.empty() ? text::tr("there is no list of sites; any name is accepted")
+                           : text::tr("nearest sites: {}", printable(sites_.beginning_with(""))));
         ask(Question::site);
     }
 
     void complete_site() {
         const auto completed = sites_.completed(typed_);
-        if (!completed) return say("no site begins with " + printable(typed_), true);
+        if (!completed) return say(text::tr("no site begins with {}", printable(typed_)), true);
         typed_ = *completed;
-        say("sites: " + printable(sites_.beginning_with(typed_)));
+        say(text::tr("sites: {}", printable(sites_.beginning_with(typed_))));
     }
 
     void enter_site() {
@@ -255,7 +258,7 @@ private:
         const auto meant = sites_.meant_by(typed);
         if (!meant) return start(typed);
         other_site_ = *meant;
-        say(printable(typed) + " is not in the list of sites");
+        say(text::tr("{} is not in the list of sites", printable(typed)));
         ask(Question::other_site);
     }
 

@@ -214,8 +214,9 @@ std::optional<Level> Record::level_against(UtcTime from, UtcTime to) const {
         level.tilt_arcmin[place++] = tilt;
         if (std::abs(tilt) <= kMostTiltArcmin) continue;
         level.is_within = false;
-        level.advice.push_back(fmt::format("{} the +{} side by {:.1f}'",
-                                           tilt > 0.0 ? "lower" : "raise", letter, std::abs(tilt)));
+        level.advice.push_back(
+            tilt > 0.0 ? text::message("lower the +{} side by {:.1f}'", letter, std::abs(tilt))
+                       : text::message("raise the +{} side by {:.1f}'", letter, std::abs(tilt)));
     }
     return level;
 }

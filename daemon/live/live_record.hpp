@@ -21,6 +21,7 @@
 #include "protocol/events/occupations.hpp"
 #include "protocol/journal/journal.hpp"
 #include "protocol/signal/moved_box.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon::live {
@@ -47,8 +48,8 @@ struct Level {
     std::array<char, 2> axes{'x', 'y'};  ///< Letters of the horizontal axes.
     /// Tilt of both; positive if the + end is higher than at the first set-up.
     std::array<double, 2> tilt_arcmin{};
-    bool is_within = true;            ///< Both are within kMostTiltArcmin.
-    std::vector<std::string> advice;  ///< "lower the +x side by 2.4'"; empty if within.
+    bool is_within = true;              ///< Both are within kMostTiltArcmin.
+    std::vector<text::Message> advice;  ///< "lower the +x side by 2.4'"; empty if within.
 };
 
 /// Limit of the tilt in arc minutes, 0.02 deg.  With 10 mg bias of a horizontal axis it changes the

@@ -21,7 +21,7 @@ constexpr std::size_t kEventsPerAnswer = 1000;
 
 constexpr std::string_view kReadable[] = {"/api/status",      "/api/events", "/api/sites",
                                           "/metrics",         "/api/token",  "/api/history",
-                                          "/api/occupations", "/api/survey"};
+                                          "/api/occupations", "/api/survey",  "/ja.json"};
 constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/stop",
                                             "/api/occupation/setup",
@@ -46,26 +46,30 @@ Response answer_of(const survey::Outcome& outcome,
     if (outcome.kind == survey::Outcome::Kind::refused) return refusal(409, outcome.message);
     if (outcome.kind == survey::Outcome::Kind::failed) return refusal(500, outcome.message);
     return ok({{"message", outcome.message},
+               {"message_parts", outcome.message.to_json()},
                {"occupation", running ? to_json(*running, running->start) : json()}});
 }
 
 /// Returns why the running stay is not the one that a request names; empty if it is, or if the
 /// request names none.
-std::string other_stay(const Order& order,
-                       const std::optional<events::RunningOccupation>& running) {
+text::Message other_stay(const Order& order,
+                         const std::optional<events::RunningOccupation>& running) {
     if (!running) return {};  // refused by Occupations
     if ((order.key.empty() || order.key == running->key) &&
         (order.site.empty() || order.site == running->site))
         return {};
-    return fmt::format("{} (stay {}) is running, not {}; nothing was changed", running->site,
-                       running->number, order.site.empty() ? order.key : order.site);
+    return text::message("{} (stay {}) is running, not {}; nothing was changed", running->site,
+                         running->number, order.site.empty() ? order.key : order.site);
 }
 
 /// Returns what was not steady when a stay was stopped, as the end of a sentence.
-std::string unsteadiness_of(const status::Status& status) {
-    std::string text;
-    for (const verdict::Reason& reason : status.verdict.reasons)
-        if (!reason.is_met) text += (text.empty() ? "; not stable: " : ", ") + reason.to_text();
+text::Message unsteadiness_of(const status::Status& status) {
+    text::Message text;
+    for (const verdict::Reason& reason : status.verdict.reasons) {
+        if (reason.is_met) continue;
+        text += text.empty() ? text::message("; not stable: ") : ", ";
+        text += reason.to_message();
+    }
     return text;
 }
 
@@ -153,9 +157,16 @@ Response Api::read(std::string_view path, std::string_view query, bool is_local)
     if (path == "/api/sites") return sites_around();
     if (path == "/api/occupations") return occupations_so_far();
     if (path == "/api/survey") return {.body = sources_.gravity_so_far()};
+    if (path == "/ja.json") {
+        json texts = json::object();
+        for (const auto& [english, other] : text::catalogue(text::Language::japanese))
+            texts[std::string(english)] = other;
+        return ok(texts);
+    }
     if (path == "/api/token") {
         if (!is_local)
-            return refusal(403, "the token is given out only on the computer of the daemon");
+            return refusal(
+                403, text::message("the token is given out only on the computer of the daemon"));
         return ok({{"token", token_}, {"listen", listen_}});
     }
     return assets_.answer(path, is_local);

@@ -83,6 +83,38 @@ std::string oven_body(const std::vector<live::OvenPoint>& found) {
     return body("oven", "degC", interval_s, points);
 }
 
+/// Returns the norm of the 2 s series.  Its points are doubles, because floats are 0.06 mGal apart at
+/// the Earth's gravity.
+std::string norm_body(const live::Record& live, UtcTime from, UtcTime to, std::size_t most) {
+    const double values = seconds_between(from, to) / verdict::kLiveStepSeconds;
+    const double joined = std::max(1.0, std::ceil(values / static_cast<double>(most)));
+    const auto interval = from_seconds(joined * verdict::kLiveStepSeconds);
+    std::string points = "[";
+    std::optional<UtcTime> begin;
+    double low = 0.0, high = 0.0;
+    const auto close = [&] {
+        if (!begin) return;
+        const auto ms = std::chrono::floor<std::chrono::milliseconds>(begin->time_since_epoch());
+        points += fmt::format("{}[{},{:.3f},{:.3f}]", points.ends_with('[') ? "" : ",", ms.count(),
+                              low, high);
+    };
+    for (const signal::MotionSample& one : live.motion(from, to)) {
+        const double norm_mgal =
+            std::hypot(one.axes[0].value(), one.axes[1].value(), one.axes[2].value());
+        if (!std::isfinite(norm_mgal)) continue;
+        const UtcTime bin(one.time.time_since_epoch() / interval * interval);
+        if (begin != bin) {
+            close();
+            begin = bin;
+            low = high = norm_mgal;
+        }
+        low = std::min(low, norm_mgal);
+        high = std::max(high, norm_mgal);
+    }
+    close();
+    return body("norm", "mGal", seconds_between(UtcTime{}, UtcTime(interval)), points);
+}
+
 }  // namespace
 
 std::string history_json(const live::Record& live, std::string_view query, UtcTime now) {
@@ -95,10 +127,11 @@ std::string history_json(const live::Record& live, std::string_view query, UtcTi
     const auto wanted = keys.find("channel");
     if (wanted == keys.end()) throw InputError("query: key channel is missing");
     if (wanted->second == "oven") return oven_body(live.oven_history(from, to, most));
+    if (wanted->second == "norm") return norm_body(live, from, to, most);
     const auto name = std::ranges::find(kNames, wanted->second);
     if (name == kNames.end()) {
-        throw InputError(fmt::format("query: key channel = {}; allowed: x, y, z, temperature, oven",
-                                     wanted->second));
+        throw InputError(fmt::format(
+            "query: key channel = {}; allowed: x, y, z, norm, temperature, oven", wanted->second));
     }
     const auto channel = static_cast<live::Channel>(name - kNames.begin());
     const auto found = live.history(channel, from, to, most);

@@ -41,8 +41,8 @@ std::vector<std::string> Request::values(std::string_view name) const {
     return found;
 }
 
-Response refusal(int status, std::string_view trouble) {
-    const nlohmann::json body = {{"error", std::string(trouble)}};
+Response refusal(int status, const text::Message& trouble) {
+    const nlohmann::json body = {{"error", trouble.english()}, {"error_parts", trouble.to_json()}};
     return {.status = status,
             .body = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"};
 }

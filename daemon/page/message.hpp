@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::page {
 
@@ -30,8 +31,8 @@ struct Response {
     std::vector<std::pair<std::string, std::string>> headers = {};
 };
 
-/// Returns `{"error": trouble}` with this status.
-[[nodiscard]] Response refusal(int status, std::string_view trouble);
+/// Returns `{"error": trouble, "error_parts": its parts}` with this status.
+[[nodiscard]] Response refusal(int status, const text::Message& trouble);
 
 /// @throws InputError  `key` is not in the list; names the part of the request and the list.
 void require_allowed(std::string_view part, const std::string& key,

@@ -27,12 +27,13 @@ Request plain(const HttpRequest& message, const tcp::socket& socket) {
     error_code error;
     const auto own = socket.local_endpoint(error);
     if (!error) {
-        request.address = config::to_string({.ip = own.address().to_string(),
-                                             .port = own.port(),
-                                             .is_v6 = own.address().is_v6()});
+        request.address = config::to_string(
+            {.ip = own.address().to_string(), .port = own.port(), .is_v6 = own.address().is_v6()});
     }
     const auto client = socket.remote_endpoint(error);
-    request.is_local = !error && client.address().is_loopback();
+    // A connection from this host to one of its own addresses has the same address at both ends.
+    request.is_local =
+        !error && (client.address().is_loopback() || client.address() == own.address());
     for (const auto& field : message)
         request.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
     return request;

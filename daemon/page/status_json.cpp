@@ -12,8 +12,16 @@ using nlohmann::json;
 
 const char* name(timing::State state) {
     // In the order of the enumerators.
-    constexpr std::array kTexts{"unlocked", "coarse", "locked", "holdover"};
+    constexpr std::array kTexts{text::marked("unlocked"), text::marked("coarse"),
+                                text::marked("locked"), text::marked("holdover")};
     return kTexts.at(static_cast<std::size_t>(state));
+}
+
+/// Returns the parts of several sentences, from which another program makes a translation.
+json parts_of(const std::vector<text::Message>& messages) {
+    json list = json::array();
+    for (const text::Message& one : messages) list.push_back(one.to_json());
+    return list;
 }
 
 template <class Number>
@@ -27,16 +35,18 @@ json or_null(const std::optional<Quantity<Unit>>& quantity) {
 }
 
 json verdict_of(const status::Status& status, Nanoseconds stale_after) {
-    const auto no_data = [&](const std::string& reason, std::optional<UtcTime> since) {
+    const auto no_data = [&](const text::Message& reason, std::optional<UtcTime> since) {
         json verdict = to_json(
             verdict::Verdict{verdict::State::no_data, since.value_or(UtcTime{}), {}}, status.now);
-        verdict["reasons"].push_back(reason);
+        verdict["reasons"].push_back(reason.english());
+        verdict["reason_parts"].push_back(reason.to_json());
         return verdict;
     };
-    if (!status.last_sample) return no_data("no sample has been received yet", std::nullopt);
+    if (!status.last_sample)
+        return no_data(text::message("no sample has been received yet"), std::nullopt);
     if (status.now - *status.last_sample <= stale_after) return to_json(status.verdict, status.now);
     return no_data(
-        fmt::format("last sample {:.1f} s ago", seconds_between(*status.last_sample, status.now)),
+        text::message("last sample {:.1f} s ago", seconds_between(*status.last_sample, status.now)),
         status.last_sample);
 }
 
@@ -53,6 +63,7 @@ json occupation_of(const survey::Occupations& occupations, const survey::FieldSt
     occupation["propose_set_up"] = field.plan.proposes_next;
     occupation["may_stop"] = field.plan.may_stop;
     occupation["warnings"] = field.warnings;
+    occupation["warning_parts"] = parts_of(field.warnings);
     occupation["moved"] = nullptr;
     if (field.moved)
         occupation["moved"] = {{"utc", to_rfc3339(field.moved->time, 3)},
@@ -88,7 +99,7 @@ json sample_of(const status::Status& status) {
 }
 
 json oven_of(const std::optional<source::OvenLinkStatus>& oven) {
-    if (!oven) return {{"state", "disabled"}};
+    if (!oven) return {{"state", text::marked("disabled")}};
     const auto& values = oven->values;
     const auto& age = oven->age;
     return {{"state", source::to_text(oven->state)},
@@ -128,7 +139,8 @@ json counters_of(const status::Status& status) {
 
 std::string_view to_text(status::Status::Level level) noexcept {
     // In the order of the enumerators.
-    constexpr std::array kTexts{"good", "warning", "fault"};
+    constexpr std::array kTexts{text::marked("good"), text::marked("warning"),
+                                text::marked("fault")};
     return kTexts.at(static_cast<std::size_t>(level));
 }
 
@@ -141,6 +153,7 @@ json to_json(const status::Status& status, const survey::Occupations& occupation
             {"version", status.version},
             {"level", to_text(status.level)},
             {"reasons", status.reasons},
+            {"reason_parts", parts_of(status.reasons)},
             {"session", status.session.empty() ? json() : json(status.session)},
             {"now", to_rfc3339(status.now, 3)},
             {"received", or_null(status.received)},
@@ -213,9 +226,13 @@ json to_json(const survey::SiteDistance& one) {
 }
 
 json to_json(const verdict::Verdict& verdict, UtcTime now) {
-    json reasons = json::array(), checks = json::array();
+    json reasons = json::array(), parts = json::array(), checks = json::array();
     for (const verdict::Reason& reason : verdict.reasons) {
-        if (!reason.is_met) reasons.push_back(reason.to_text());
+        if (!reason.is_met) {
+            const text::Message message = reason.to_message();
+            reasons.push_back(message.english());
+            parts.push_back(message.to_json());
+        }
         checks.push_back({{"quantity", reason.quantity},
                           {"value", reason.value},
                           {"error", reason.error > 0.0 ? json(reason.error) : json()},
@@ -231,6 +248,7 @@ json to_json(const verdict::Verdict& verdict, UtcTime now) {
             {"held_s", is_known ? json(seconds_between(verdict.since, now)) : json()},
             {"time_left_s", or_null(verdict.time_left_s)},
             {"reasons", reasons},
+            {"reason_parts", parts},
             {"checks", checks}};
 }
 
@@ -262,6 +280,7 @@ json tilt_of(const survey::FieldStatus& field) {
             {"limit_arcmin", live::kMostTiltArcmin},
             {"is_within", level ? json(level->is_within) : json()},
             {"advice", level ? json(level->advice) : json::array()},
+            {"advice_parts", level ? parts_of(level->advice) : json::array()},
             {"reference", {{"site", field.level_site}, {"utc", to_rfc3339(field.level_utc, 3)}}}};
 }
 

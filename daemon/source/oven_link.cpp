@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "daemon/source/port.hpp"
+#include "protocol/text/catalogue.hpp"
 
 namespace a351::daemon::source {
 namespace {
@@ -37,7 +38,8 @@ OvenLinkStatus::State state_after(OvenOutcome outcome) {
 
 const char* to_text(OvenLinkStatus::State state) noexcept {
     // In the order of the enumerators.
-    constexpr std::array kTexts{"searching", "silent", "disturbed", "answering"};
+    constexpr std::array kTexts{text::marked("searching"), text::marked("silent"),
+                                text::marked("disturbed"), text::marked("answering")};
     return kTexts.at(static_cast<std::size_t>(state));
 }
 

@@ -43,7 +43,9 @@ journal::SessionId random_session() {
 
 const char* to_text(LinkStatus::State state) noexcept {
     // In the order of the enumerators.
-    constexpr std::array kTexts{"searching", "handshake", "sampling", "waiting", "stopped"};
+    constexpr std::array kTexts{text::marked("searching"), text::marked("handshake"),
+                                text::marked("sampling"), text::marked("waiting"),
+                                text::marked("stopped")};
     return kTexts.at(static_cast<std::size_t>(state));
 }
 
@@ -104,7 +106,7 @@ void SensorLink::run() noexcept {
     }
     stop_sensor();
     port_.reset();
-    set_state(LinkStatus::State::stopped, "stopped");
+    set_state(LinkStatus::State::stopped, text::message("stopped"));
 }
 
 void SensorLink::open() {
@@ -140,7 +142,8 @@ bool SensorLink::adopt() {
     if (!journal::is_same_stream(last, expected) || last.port != expected.port ||
         !is_expected_device)
         return false;
-    set_state(LinkStatus::State::handshake, "checking whether the sensor is still sampling");
+    set_state(LinkStatus::State::handshake,
+              text::message("checking whether the sensor is still sampling"));
     const Listening listening = listen_for(*known_, heard, *port_, clock_, stop_);
     is_silent_ = listening.reads.empty();
     if (listening.outcome == Listening::Outcome::port_gone) lose_port();
@@ -159,7 +162,7 @@ bool SensorLink::adopt() {
 
 bool SensorLink::begin_sampling() {
     if (!port_) return false;
-    set_state(LinkStatus::State::handshake, "configuring the sensor");
+    set_state(LinkStatus::State::handshake, text::message("configuring the sensor"));
     if (!is_configurable()) return false;
     wire::Handshake handshake(*options_.profile, options_.settings,
                               options_.expected_serial_number);
@@ -210,9 +213,9 @@ void SensorLink::handle_failure(const wire::HandshakeFailure& failure, std::size
     const bool may_be_baud = failure.is_unanswered && (bytes_skipped > 0 || failures_in_a_row_ > 0);
     if (may_be_baud && try_next_baud()) return;
     bauds_tried_ = 0;
-    std::string trouble = failure.reason;
+    text::Message trouble = text::marked_message(failure.reason);
     if (failure.is_unanswered && bytes_skipped > 0)
-        trouble += "; bytes arrive, but none can be understood at any baud rate";
+        trouble += text::message("; bytes arrive, but none can be understood at any baud rate");
     back_off(trouble);
 }
 
@@ -241,7 +244,7 @@ void SensorLink::prepare_session(const journal::SessionId& session,
     if (is_adopted) ++status_.adoptions;
 }
 
-void SensorLink::back_off(const std::string& trouble) {
+void SensorLink::back_off(const text::Message& trouble) {
     const seconds span =
         kHandshakeBackOff[std::min(failures_in_a_row_++, kHandshakeBackOff.size() - 1)];
     set_state(LinkStatus::State::waiting, trouble);
@@ -279,7 +282,7 @@ void SensorLink::begin_session() {
 
     const std::lock_guard lock(mutex_);
     status_.state = LinkStatus::State::sampling;
-    status_.trouble.clear();
+    status_.trouble = {};
     if (is_new) ++status_.sessions;
 }
 
@@ -287,9 +290,10 @@ void SensorLink::begin_session() {
 // but sends no frames is configured after a pause, because it would otherwise begin one session after
 // another.
 void SensorLink::note_stall(End end) {
-    const std::string trouble = end == End::stalled    ? "no bytes from the sensor"
-                                : end == End::unframed ? "bytes arrive, but no valid frames"
-                                                       : "the sensor's output rate has changed";
+    const text::Message trouble = end == End::stalled ? text::message("no bytes from the sensor")
+                                  : end == End::unframed
+                                      ? text::message("bytes arrive, but no valid frames")
+                                      : text::message("the sensor's output rate has changed");
     {
         const std::lock_guard lock(mutex_);
         ++status_.stalls;
@@ -300,9 +304,9 @@ void SensorLink::note_stall(End end) {
 }
 
 /// Returns what the operator is to know of a port that was there and is gone.
-std::string SensorLink::unplugged() const {
-    return "sensor unplugged: the port is gone (" + options_.address.to_text() +
-           "); plug the cable in again";
+text::Message SensorLink::unplugged() const {
+    return text::message("sensor unplugged: the port is gone ({}); plug the cable in again",
+                         options_.address.to_text());
 }
 
 void SensorLink::lose_port() {
@@ -325,7 +329,7 @@ void SensorLink::wait(seconds instrument_span) {
     woken_.wait_for(lock, real_wait(instrument_span), [this] { return stop_.load(); });
 }
 
-void SensorLink::set_state(LinkStatus::State state, std::string trouble) {
+void SensorLink::set_state(LinkStatus::State state, text::Message trouble) {
     const std::lock_guard lock(mutex_);
     status_.state = state;
     status_.trouble = std::move(trouble);

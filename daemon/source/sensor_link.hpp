@@ -22,6 +22,7 @@
 #include "daemon/source/read_queue.hpp"
 #include "daemon/source/sampling_start.hpp"
 #include "protocol/journal/journal.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon::source {
@@ -41,9 +42,9 @@ struct LinkOptions {
 struct LinkStatus {
     enum class State { searching, handshake, sampling, waiting, stopped };
     State state = State::searching;
-    std::string trouble;  ///< Reason why it is not sampling; empty while sampling.
-    std::string port;     ///< Description of the port while open.
-    int baud = 0;         ///< Rate in use.
+    text::Message trouble;  ///< Reason why it is not sampling; empty while sampling.
+    std::string port;       ///< Description of the port while open.
+    int baud = 0;           ///< Rate in use.
     int configured_baud = 0;
     std::optional<wire::DeviceIdentity> device;  ///< Last one that answered.
     bool is_device_assumed = false;  ///< `device` is that of an adopted stream; it was not asked.
@@ -89,7 +90,7 @@ private:
     void prepare_session(const journal::SessionId& session, const wire::DeviceIdentity& device,
                          bool is_adopted, std::vector<journal::TxChunk> sent);
     void begin_session();
-    void back_off(const std::string& trouble);
+    void back_off(const text::Message& trouble);
     void wait_for_bytes(Nanoseconds real);
     void expect_stream(std::vector<Read> heard);
     void wait_for_journal();
@@ -97,10 +98,10 @@ private:
     [[nodiscard]] RawTime push_woken();
     void stop_sensor();
     void lose_port();
-    [[nodiscard]] std::string unplugged() const;
+    [[nodiscard]] text::Message unplugged() const;
     [[nodiscard]] Nanoseconds real_wait(std::chrono::seconds instrument_span) const;
     void wait(std::chrono::seconds instrument_span);
-    void set_state(LinkStatus::State state, std::string trouble);
+    void set_state(LinkStatus::State state, text::Message trouble);
 
     LinkOptions options_;
     const HostClock& clock_;

@@ -24,16 +24,16 @@ std::string printable(std::string text) {
 void assess_oven(Status& status, const source::OvenLinkStatus& oven) {
     using State = source::OvenLinkStatus::State;
     if (oven.state == State::searching) {
-        status.warn("oven: searching: " + oven.trouble);
+        status.warn(text::message("oven: searching: {}", oven.trouble));
     } else if (oven.is_stale) {
-        status.warn(
-            fmt::format("oven: {}; check the controller's cable (sensor data are not affected)",
-                        oven.state == State::answering ? "the last answer is old"
-                                                       : source::to_text(oven.state)));
+        status.warn(text::message(
+            "oven: {}; check the controller's cable (sensor data are not affected)",
+            oven.state == State::answering ? text::message("the last answer is old")
+                                           : text::marked_message(source::to_text(oven.state))));
     } else if (oven.values && oven::has_input_error(oven.values->status)) {
-        status.warn(
+        status.warn(text::message(
             "oven: input error, its temperature is not valid; check the controller's probe (sensor "
-            "data are not affected)");
+            "data are not affected)"));
     }
 }
 
@@ -48,13 +48,13 @@ void assess_rate(Status& status) {
         return;
     const double rate_hz = measured->rate.value();
     if (!status.declared_rate_hz) {
-        status.rate_advice =
-            fmt::format("measured over a day: set declared_rate_hz = {:.6f} in [storage]", rate_hz);
+        status.rate_advice = text::message(
+            "measured over a day: set declared_rate_hz = {:.6f} in [storage]", rate_hz);
         return;
     }
     const double departure_ppm = 1e6 * (rate_hz / *status.declared_rate_hz - 1.0);
     if (std::abs(departure_ppm) <= kTolerable_ppm + measured->uncertainty_ppm) return;
-    status.rate_advice = fmt::format(
+    status.rate_advice = text::message(
         "sample rate: {:.6f} Hz over a day, {:+.2f} ppm from declared_rate_hz (limit 0.2 ppm plus "
         "its uncertainty); change it only between deployments",
         rate_hz, departure_ppm);
@@ -62,15 +62,17 @@ void assess_rate(Status& status) {
 }
 
 /// Returns the sentence about a step of the host's clock, which is complete without the log.
-std::string sentence_of(const ClockStep& step) {
+text::Message sentence_of(const ClockStep& step) {
     const double by_s = seconds_between(step.before, step.after);
     const std::string before = to_rfc3339(step.before, 1), after = to_rfc3339(step.after, 1);
-    const std::string change =
-        fmt::format("the laptop's clock was set {} by {:.1f} s, from {} to {}",
-                    by_s > 0.0 ? "ahead" : "back", std::abs(by_s), before, after);
-    if (by_s > 0.0) return change + "; the sample times followed: no sample has a time in between";
-    return fmt::format("{}; the sample times followed: the times from {} to {} occur twice", change,
-                       after, before);
+    const text::Message change = text::message(
+        "the laptop's clock was set {} by {:.1f} s, from {} to {}",
+        by_s > 0.0 ? text::message("ahead") : text::message("back"), std::abs(by_s), before, after);
+    if (by_s > 0.0)
+        return change +
+               text::message("; the sample times followed: no sample has a time in between");
+    return text::message("{}; the sample times followed: the times from {} to {} occur twice",
+                         change, after, before);
 }
 
 /// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later
@@ -81,22 +83,23 @@ void assess_clock(Status& status) {
     constexpr std::chrono::hours kStepShown{1};
     if (status.clock_step && status.now - status.clock_step->after < kStepShown) {
         status.warn(sentence_of(*status.clock_step) +
-                    "; if it was wrong to set it, correct the times with a351-correct retime");
+                    text::message(
+                        "; if it was wrong to set it, correct the times with a351-correct retime"));
     }
     constexpr std::chrono::seconds kAhead{5};     // above the uncertainty of a locked clock
     constexpr std::chrono::seconds kUnknown{15};  // the kernel's bound of a clock never set is 16 s
     if (status.last_sample && *status.last_sample > status.now + kAhead) {
-        status.warn(
+        status.warn(text::message(
             "the samples are later than the clock: an emulator or a replay is faster than real "
             "time, or the clock was set back; start a351d with the emulator's --clock, or see "
-            "sim/relive");
+            "sim/relive"));
     }
     if (status.timing_uncertainty && *status.timing_uncertainty > kUnknown) {
         status.warn(
-            fmt::format("the laptop's clock was never synchronised: times may be wrong by {:.0f} "
-                        "s; synchronise "
-                        "it (timedatectl), and correct the times later with a351-correct retime",
-                        std::chrono::duration<double>(*status.timing_uncertainty).count()));
+            text::message("the laptop's clock was never synchronised: times may be wrong by {:.0f} "
+                          "s; synchronise "
+                          "it (timedatectl), and correct the times later with a351-correct retime",
+                          std::chrono::duration<double>(*status.timing_uncertainty).count()));
     }
 }
 
@@ -118,23 +121,23 @@ void fill(Status& status, const source::LinkStatus& link) {
                                  {"handshake_failures", link.handshake_failures},
                                  {"queue_full", link.queue_full}});
     if (link.waits_for_journal) {
-        status.warn(
+        status.warn(text::message(
             "the disk is too slow: the buffer is full, reading from the sensor waits and samples "
-            "may be lost; check the disk");
+            "may be lost; check the disk"));
     }
     if (link.state != source::LinkStatus::State::sampling) {
-        status.fail("no data: " + link.trouble);
+        status.fail(text::message("no data: {}", link.trouble));
     } else if (link.device && !link.device->has_expected_product_id) {
-        status.warn(fmt::format(
+        status.warn(text::message(
             "product identifier {} does not match the profile; check the sensor and sensor.profile",
             status.product_id));
     }
     const bool is_sampling = link.state == source::LinkStatus::State::sampling;
     if (is_sampling && link.baud != link.configured_baud) {
         status.warn(
-            fmt::format("the sensor runs at {} baud, not at the configured {}; recording "
-                        "continues, set sensor.baud to match",
-                        link.baud, link.configured_baud));
+            text::message("the sensor runs at {} baud, not at the configured {}; recording "
+                          "continues, set sensor.baud to match",
+                          link.baud, link.configured_baud));
     }
 }
 
@@ -145,30 +148,32 @@ void assess(Status& status) {
     if (!calibrated.empty() && !status.serial_number.empty() &&
         calibrated != status.serial_number) {
         status.warn(
-            fmt::format("the calibration is for unit {}, but the sensor is unit {}: the verdict "
-                        "uses another unit's behaviour; check survey.calibration",
-                        printable(calibrated), status.serial_number));
+            text::message("the calibration is for unit {}, but the sensor is unit {}: the verdict "
+                          "uses another unit's behaviour; check survey.calibration",
+                          printable(calibrated), status.serial_number));
     }
     assess_clock(status);
     if (status.timing_state == timing::State::unlocked) {
-        status.warn(
+        status.warn(text::message(
             "timing: unlocked, sample times are not known until 60 s of data have been received; "
-            "wait");
+            "wait"));
     } else if (status.timing_state == timing::State::holdover) {
-        status.warn(
+        status.warn(text::message(
             "timing: holdover, the host clock is not synchronised or has jumped; synchronise it, "
-            "and correct the times later with a351-correct retime");
+            "and correct the times later with a351-correct retime"));
     }
     if (status.counters.records_withheld > 0) {
         status.warn(
-            fmt::format("the host clock was not set: {} records are in the journal only; "
-                        "synchronise the clock, then run a351-correct retime",
-                        status.counters.records_withheld));
+            text::message("the host clock was not set: {} records are in the journal only; "
+                          "synchronise the clock, then run a351-correct retime",
+                          status.counters.records_withheld));
     }
     if (!status.disk_free_bytes)
-        status.warn("disk: the free space cannot be determined; check the disk of storage.root");
+        status.warn(text::message(
+            "disk: the free space cannot be determined; check the disk of storage.root"));
     else if (*status.disk_free_bytes < kLittleSpace_bytes)
-        status.warn("disk: less than 1 GiB free, at most 9 days at 50 Hz; make room");
+        status.warn(
+            text::message("disk: less than 1 GiB free, at most 9 days at 50 Hz; make room"));
 }
 
 }  // namespace a351::daemon::status

@@ -16,6 +16,7 @@
 #include "protocol/archive/archiver.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/timing/sample_clock.hpp"
 
 namespace a351::daemon::status {
@@ -31,16 +32,16 @@ struct Status {
     enum class Level { good, warning, fault };
 
     /// Adds a reason and raises the level to at least `least`.
-    void complain(Level least, std::string reason) {
+    void complain(Level least, text::Message reason) {
         level = std::max(level, least);
         reasons.push_back(std::move(reason));
     }
-    void warn(std::string reason) { complain(Level::warning, std::move(reason)); }
-    void fail(std::string reason) { complain(Level::fault, std::move(reason)); }
+    void warn(text::Message reason) { complain(Level::warning, std::move(reason)); }
+    void fail(text::Message reason) { complain(Level::fault, std::move(reason)); }
 
     std::string version;
     Level level = Level::good;
-    std::vector<std::string> reasons;  ///< Reasons why the level is not good; empty if it is.
+    std::vector<text::Message> reasons;  ///< Reasons why the level is not good; empty if it is.
 
     std::string session;          ///< Hexadecimal; empty before the first session.
     UtcTime now;                  ///< Instrument time of the snapshot.
@@ -56,7 +57,7 @@ struct Status {
     std::optional<ClockStep> clock_step;                 ///< Newest one of this run.
     std::optional<timing::MeasuredRate> measured_rate;
     std::optional<double> declared_rate_hz;  ///< Rate set in the configuration.
-    std::string rate_advice;                 ///< Advice on setting declared_rate_hz; empty if none.
+    text::Message rate_advice;               ///< Advice on setting declared_rate_hz; empty if none.
 
     std::string port;
     std::string link_state;  ///< searching, handshake, sampling, waiting, stopped.

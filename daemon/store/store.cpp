@@ -148,9 +148,9 @@ void Store::fill(status::Status& status) {
     }
 
     if (archive.is_replaying) {
-        status.warn(
+        status.warn(text::message(
             "archive: the last run's data are being added from the journal; occupations can be "
-            "started and stopped when this is finished");
+            "started and stopped when this is finished"));
     }
     const JournalStatus journal = journal_.status();
     const JournalKeeper::Status keeper = keeper_.status();
@@ -171,45 +171,49 @@ void Store::fill(status::Status& status) {
                                  {"journal_keeper_faults", keeper.faults},
                                  {"reserve_given_up", reserve.times_given_up}});
     if (keeper.faults > 0)
-        status.warn("closed journal segment: not compressed or removed: " + keeper.trouble);
+        status.warn(
+            text::message("closed journal segment: not compressed or removed: {}", keeper.trouble));
     if (journal.is_faulty) {
-        status.fail("journal: " + journal.trouble +
-                    "; new data wait in memory and a power cut would lose them; check the disk");
+        status.fail(text::message(
+            "journal: {}; new data wait in memory and a power cut would lose them; check the disk",
+            journal.trouble));
     }
-    if (archive.is_faulty) status.fail("archive: " + archive.trouble);
+    if (archive.is_faulty) status.fail(text::message("archive: {}", archive.trouble));
     const bool is_stalled = journal.present_sync >= kStall;
     if (journal.is_dropping) {
-        status.fail(
+        status.fail(text::message(
             "journal: writing has failed for so long that the buffer is full; the oldest data are "
-            "being discarded; check the disk");
+            "being discarded; check the disk"));
     }
     if (archive.chunks_lost + archive.records_dropped > 0) {
-        status.fail(
+        status.fail(text::message(
             "archive: some data could not be added; they are safe in the journal and will be added "
-            "at the next start");
+            "at the next start"));
     }
     {
         const std::lock_guard lock(metadata_mutex_);
-        if (!metadata_trouble_.empty()) status.warn("metadata: " + metadata_trouble_);
+        if (!metadata_trouble_.empty())
+            status.warn(text::message("metadata: {}", metadata_trouble_));
     }
     if (!archive.is_marking) {
-        status.warn(
+        status.warn(text::message(
             "archive: a sync failed or a chunk was lost, so newer data are not confirmed as "
-            "archived; they are safe in the journal and will be added at the next start");
+            "archived; they are safe in the journal and will be added at the next start"));
     }
 
     status.longest_sync = journal.longest_sync;
     if (is_stalled) {
-        status.warn(
+        status.warn(text::message(
             "the disk stalls: new data wait in memory and a power cut would lose them; check the "
-            "disk");
+            "disk"));
     }
 
     status.disk_free_bytes = files_.free_bytes(options_.root);
     status.disk_reserve = to_text(reserve.state);
     status.disk_reserve_trouble = reserve.trouble;
     if (reserve.is_space_short) {
-        status.fail("disk full: the archive waits so that the journal can continue; make room");
+        status.fail(text::message(
+            "disk full: the archive waits so that the journal can continue; make room"));
     }
 }
 

@@ -2,8 +2,6 @@
 /// @file
 /// Texts of the events that the operator's requests become.
 
-#include <fmt/core.h>
-
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,7 +13,13 @@ namespace a351::daemon::survey {
 /// Returns an instant as an operator reads it.
 inline std::string shown(UtcTime time) { return to_rfc3339(time, 1); }
 
-inline Outcome refused(std::string message) { return {Outcome::Kind::refused, std::move(message)}; }
+inline Outcome refused(text::Message message) {
+    return {Outcome::Kind::refused, std::move(message)};
+}
+
+inline text::Message no_sample() {
+    return text::message("no sample is available yet; see the status");
+}
 
 /// Adds a detail unless it is empty.
 inline void add(events::Event& event, const std::string& key, std::string_view text) {
@@ -29,8 +33,8 @@ inline void add(events::Event& event, const Remark& remark) {
 }
 
 /// Returns the name of a running or finished occupation.
-std::string named(const auto& occupation) {
-    return fmt::format("{} (stay {})", occupation.site, occupation.number);
+text::Message named(const auto& occupation) {
+    return text::message("{} (stay {})", occupation.site, occupation.number);
 }
 
 }  // namespace a351::daemon::survey

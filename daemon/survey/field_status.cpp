@@ -1,7 +1,5 @@
 #include "daemon/survey/field_status.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,17 +26,17 @@ std::vector<SetUp> set_ups_so_far(const events::RunningOccupation& running, UtcT
 }
 
 /// Returns warnings on the running stay.  A return to the first site of the day, the base, is none.
-std::vector<std::string> warnings_of(const events::RunningOccupation& running,
-                                     const std::vector<events::Occupation>& day, double running_s,
-                                     double planned_s) {
-    std::vector<std::string> warnings;
+std::vector<text::Message> warnings_of(const events::RunningOccupation& running,
+                                       const std::vector<events::Occupation>& day, double running_s,
+                                       double planned_s) {
+    std::vector<text::Message> warnings;
     if (std::ranges::count(day, running.site, &events::Occupation::site) > 0 &&
         running.site != day.front().site) {
         warnings.push_back(
-            fmt::format("the site was occupied before: this is stay {}", running.number));
+            text::message("the site was occupied before: this is stay {}", running.number));
     }
     if (running_s > kForgottenAfter * planned_s) {
-        warnings.push_back(fmt::format(
+        warnings.push_back(text::message(
             "running for {:.0f} min, planned {:.0f} min: stop it if the reading is finished",
             running_s / 60.0, planned_s / 60.0));
     }
@@ -107,7 +105,7 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
     field.warnings = warnings_of(*running, survey_day(occupations, now), running_s, planned_s);
     constexpr double kLeastMissing_s = 1.0;  // A shorter gap changes no reading.
     if (const double missing_s = live.missing_s(last.start, now); missing_s >= kLeastMissing_s) {
-        field.warnings.push_back(fmt::format("{:.0f} s are missing in this set-up", missing_s));
+        field.warnings.push_back(text::message("{:.0f} s are missing in this set-up", missing_s));
     }
     field.moved = move_prompt(live.motion(std::max(last.start, now - kMoveMemory), now),
                               running->not_moved_until);

@@ -37,7 +37,7 @@ struct FieldStatus {
     std::optional<verdict::RunningReading> reading;  ///< Reading of the running set-up.
     verdict::RunningReading whole;  ///< All set-ups; good enough only if the planned ones began.
     SetUpPlan plan;
-    std::vector<std::string> warnings;
+    std::vector<text::Message> warnings;
     std::optional<MovePrompt> moved;  ///< Question about a move of the box; also in the warnings.
 
     std::optional<live::Level> level;  ///< Tilt relative to the day's first set-up.

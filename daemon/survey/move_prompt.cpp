@@ -1,7 +1,5 @@
 #include "daemon/survey/move_prompt.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 namespace a351::daemon::survey {
@@ -24,11 +22,12 @@ std::optional<MovePrompt> move_prompt(std::span<const signal::MotionSample> samp
     return MovePrompt{samples[part.first].time, true};
 }
 
-std::string text_of(const MovePrompt& prompt) {
+text::Message text_of(const MovePrompt& prompt) {
     const std::string time = to_rfc3339(prompt.time, 0);
     return prompt.is_at_start
-               ? fmt::format("the box was moved until {}: begin there, or was it not moved?", time)
-               : fmt::format(
+               ? text::message("the box was moved until {}: begin there, or was it not moved?",
+                               time)
+               : text::message(
                      "the box was moved at {}: stop there, next set-up there, or was it not "
                      "moved?",
                      time);

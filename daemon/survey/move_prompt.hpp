@@ -32,6 +32,6 @@ struct MovePrompt {
                                                     std::optional<UtcTime> not_moved_until);
 
 /// Returns the question in words, with the time.
-[[nodiscard]] std::string text_of(const MovePrompt& prompt);
+[[nodiscard]] text::Message text_of(const MovePrompt& prompt);
 
 }  // namespace a351::daemon::survey

@@ -42,32 +42,35 @@ Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
 
 Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
     const auto latest = recorder_.latest();
-    if (!latest) return {std::nullopt, "no sample is available yet; see the status"};
+    if (!latest) return {std::nullopt, no_sample()};
     if (!at) return {latest, ""};
     if (*at > latest->utc) {
-        return {std::nullopt, fmt::format("{} is later than the last sample, {}", shown(*at),
-                                          shown(latest->utc))};
+        return {std::nullopt, text::message("{} is later than the last sample, {}", shown(*at),
+                                            shown(latest->utc))};
     }
     if (const auto placed = recorder_.at(*at)) return {placed, ""};
-    return {std::nullopt, shown(*at) + " is earlier than the data that the daemon keeps in memory"};
+    return {
+        std::nullopt,
+        text::message("{} is earlier than the data that the daemon keeps in memory", shown(*at))};
 }
 
 /// Places the stop or a set-up of the running occupation.
 Occupations::Placed Occupations::place_in_running(std::optional<UtcTime> at) {
-    if (!running()) return {std::nullopt, "no occupation is running"};
+    if (!running()) return {std::nullopt, text::message("no occupation is running")};
     auto placed = place(at);
     if (!placed.instant || placed.instant->utc > running()->set_ups.back()) return placed;
-    return {std::nullopt, fmt::format("{} is not after the start of the set-up at {}, {}",
-                                      shown(placed.instant->utc), running()->site,
-                                      shown(running()->set_ups.back()))};
+    return {std::nullopt, text::message("{} is not after the start of the set-up at {}, {}",
+                                        shown(placed.instant->utc), running()->site,
+                                        shown(running()->set_ups.back()))};
 }
 
-std::optional<std::string> Occupations::trouble_with_site(std::string_view site) const {
-    if (site.empty()) return "no site is given";
+std::optional<text::Message> Occupations::trouble_with_site(std::string_view site) const {
+    if (site.empty()) return text::message("no site is given");
     if (sites_.empty() || text::find_site(sites_, site)) return std::nullopt;
     const text::Site* const similar = text::similar_site(sites_, site);
-    return fmt::format("site {} is not one of the {} sites in the list{}", site, sites_.size(),
-                       similar ? fmt::format("; did you mean {}?", similar->name) : "");
+    return text::message(
+        "site {} is not one of the {} sites in the list{}", site, sites_.size(),
+        similar ? text::message("; did you mean {}?", similar->name) : text::Message());
 }
 
 /// Makes an event that needs no sample, because it must be possible with the sensor unplugged.
@@ -78,8 +81,8 @@ events::Event Occupations::about_now(std::string type) {
 
 Outcome Occupations::start(std::string_view site, const Remark& remark, std::optional<UtcTime> at) {
     if (running()) {
-        return refused(fmt::format("{} has been running since {}: stop or discard it first",
-                                   named(*running()), shown(running()->start)));
+        return refused(text::message("{} has been running since {}: stop or discard it first",
+                                     named(*running()), shown(running()->start)));
     }
     if (auto trouble = trouble_with_site(site)) return refused(*std::move(trouble));
     const auto placed = place(at);
@@ -87,7 +90,7 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
     for (const auto& one : list()) {
         if (one.set_ups.front().start <= placed.instant->utc &&
             placed.instant->utc < one.set_ups.back().end) {
-            return refused(fmt::format(
+            return refused(text::message(
                 "{} is within the occupation {}, {} to {}", shown(placed.instant->utc), named(one),
                 shown(one.set_ups.front().start), shown(one.set_ups.back().end)));
         }
@@ -96,11 +99,11 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
     add(event, "key", replay_.key_for(event.utc));
     add(event, "site", site);
     add(event, remark);
-    auto outcome =
-        commit(std::move(event), fmt::format("started {} at {}", site, shown(placed.instant->utc)));
+    auto outcome = commit(std::move(event),
+                          text::message("started {} at {}", site, shown(placed.instant->utc)));
     if (running() && running()->number > 1)
         outcome.message +=
-            fmt::format("; the site was occupied before: stay {}", running()->number);
+            text::message("; the site was occupied before: stay {}", running()->number);
     return outcome;
 }
 
@@ -111,22 +114,22 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     for (const auto& one : list()) {
         const auto begin = one.set_ups.front().start;
         if (running()->start < begin && begin < utc) {
-            return refused(fmt::format("{} lies between the start at {} and {}", named(one),
-                                       running()->site, shown(utc)));
+            return refused(text::message("{} lies between the start at {} and {}", named(one),
+                                         running()->site, shown(utc)));
         }
     }
     auto event = event_at("stop", *placed.instant);
     add(event, "site", running()->site);
     add(event, remark);
-    auto message = fmt::format("stopped {} at {}", named(*running()), shown(utc));
+    auto message = text::message("stopped {} at {}", named(*running()), shown(utc));
     if (const auto made = running()->set_ups.size();
         static_cast<int>(made) < options_.planned_set_ups) {
-        message += fmt::format("; {} of {} planned set-ups", made, options_.planned_set_ups);
+        message += text::message("; {} of {} planned set-ups", made, options_.planned_set_ups);
     }
     using Minutes = std::chrono::duration<double, std::ratio<60>>;
     if (const Nanoseconds stay = utc - running()->start; stay < options_.planned) {
-        message += fmt::format("; shorter than planned: {:.1f} of {:.0f} min",
-                               Minutes(stay).count(), Minutes(options_.planned).count());
+        message += text::message("; shorter than planned: {:.1f} of {:.0f} min",
+                                 Minutes(stay).count(), Minutes(options_.planned).count());
     }
     return commit(std::move(event), std::move(message));
 }
@@ -136,38 +139,41 @@ Outcome Occupations::setup(std::optional<UtcTime> at) {
     if (!placed.instant) return refused(placed.trouble);
     auto event = event_at("setup", *placed.instant);
     add(event, "site", running()->site);
-    return commit(std::move(event), fmt::format("further set-up at {} from {}", named(*running()),
-                                                shown(placed.instant->utc)));
+    return commit(std::move(event), text::message("further set-up at {} from {}", named(*running()),
+                                                  shown(placed.instant->utc)));
 }
 
 Outcome Occupations::set_target(MilliGal target) {
-    if (!is_target(target)) return refused("target: allowed: 0.01 to 1000 mGal");
+    if (!is_target(target)) return refused(text::message("target: allowed: 0.01 to 1000 mGal"));
     auto event = about_now("target");
-    if (event.utc == UtcTime{}) return refused("no sample is available yet; see the status");
+    if (event.utc == UtcTime{}) return refused(no_sample());
     const std::string digits = text::shortest(target.value());
     add(event, kTargetKey, digits);
     return commit(std::move(event),
-                  fmt::format("target set: good enough at a standard error of {} mGal", digits));
+                  text::message("target set: good enough at a standard error of {} mGal", digits));
 }
 
 Outcome Occupations::add_site(const text::Site& site) {
     const auto& file = options_.sites_file;
-    if (file.empty()) return refused("there is no list of sites; set sites in [survey]");
+    if (file.empty())
+        return refused(text::message("there is no list of sites; set sites in [survey]"));
     const text::Site* const similar = text::similar_site(sites_, site.name);
-    const std::string remark = similar ? "; a similar name is " + similar->name : "";
+    const text::Message remark =
+        similar ? text::message("; a similar name is {}", similar->name) : text::Message();
     try {
         sites_ = append_site(files::posix_files(), file, site);
     } catch (const InputError& error) {
-        return refused(error.what());
+        return refused(text::Message(error.what()));
     } catch (const std::system_error& error) {
-        return {Outcome::Kind::failed,
-                fmt::format("not added: {} cannot be written ({}); keep the list where the daemon "
-                            "may write, for example in /var/lib/a351/sites",
-                            file.string(), error.code().message())};
+        return {
+            Outcome::Kind::failed,
+            text::message("not added: {} cannot be written ({}); keep the list where the daemon "
+                          "may write, for example in /var/lib/a351/sites",
+                          file.string(), error.code().message())};
     }
     ++changes_;
-    return {Outcome::Kind::done, fmt::format("added {}: {} sites in {}{}", site.name, sites_.size(),
-                                             file.string(), remark)};
+    return {Outcome::Kind::done, text::message("added {}: {} sites in {}{}", site.name,
+                                               sites_.size(), file.string(), remark)};
 }
 
 void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& options) {
@@ -176,11 +182,11 @@ void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& op
     ++changes_;
 }
 
-Outcome Occupations::commit(events::Event event, std::string message) {
+Outcome Occupations::commit(events::Event event, text::Message message) {
     try {
         recorder_.commit(event);
     } catch (const std::system_error& error) {
-        return {Outcome::Kind::failed, std::string("not saved: ") + error.what()};
+        return {Outcome::Kind::failed, text::message("not saved: {}", error.what())};
     }
     replay_.take(event);
     note_aside(event);

@@ -11,6 +11,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/occupations.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon::survey {
@@ -23,7 +24,7 @@ struct Outcome {
         failed    ///< Not confirmed to be on disk; treated as not done.
     };
     Kind kind = Kind::done;
-    std::string message;  ///< One line for the operator.
+    text::Message message;  ///< One line for the operator.
 };
 
 /// Optional texts of a change; empty if not given.
@@ -121,27 +122,28 @@ public:
 private:
     struct Placed {
         std::optional<Instant> instant;
-        std::string trouble;
+        text::Message trouble;
     };
 
     /// A stay as it is now.
     struct Found {
         enum class State { running, finished, discarded };
         State state = State::finished;
-        std::string site, text;  ///< Site; site, number and times.
-        UtcTime start, end;      ///< A stay that still runs ends at the last sample.
+        std::string site;
+        text::Message text;  ///< Site, number and times.
+        UtcTime start, end;  ///< A stay that still runs ends at the last sample.
     };
 
-    [[nodiscard]] std::optional<Found> found(const Named& stay, std::string& trouble);
-    [[nodiscard]] std::string trouble_with_overlap(const std::string& key, UtcTime start,
-                                                   UtcTime end) const;
+    [[nodiscard]] std::optional<Found> found(const Named& stay, text::Message& trouble);
+    [[nodiscard]] text::Message trouble_with_overlap(const std::string& key, UtcTime start,
+                                                     UtcTime end) const;
     [[nodiscard]] events::Event change_of(std::string type, const Named& stay,
                                           const Remark& remark);
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
     [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);
-    [[nodiscard]] std::optional<std::string> trouble_with_site(std::string_view site) const;
+    [[nodiscard]] std::optional<text::Message> trouble_with_site(std::string_view site) const;
     [[nodiscard]] events::Event about_now(std::string type);
-    Outcome commit(events::Event event, std::string message);
+    Outcome commit(events::Event event, text::Message message);
     void note_aside(const events::Event& event);
 
     Recorder& recorder_;

@@ -13,6 +13,8 @@
 namespace a351::daemon::verdict {
 namespace {
 
+using text::marked;
+
 constexpr double kAheadHours = 600.0 / kSecondsPerHour;
 constexpr double kWatchedHours = 1.0;  ///< Time in which a box that was switched on warms up.
 
@@ -37,15 +39,21 @@ std::optional<double> waiting_time_s(std::span<const Reason> reasons) {
 
 std::string_view to_text(State state) noexcept {
     // In the order of the enumerators.
-    constexpr std::array kTexts{"no data", "warming up", "disturbed", "settling", "stable"};
+    constexpr std::array kTexts{marked("no data"), marked("warming up"), marked("disturbed"),
+                                marked("settling"), marked("stable")};
     return kTexts.at(static_cast<std::size_t>(state));
 }
 
-std::string Reason::to_text() const {
+text::Message Reason::to_message() const {
     const std::string in_unit = *unit ? std::string(" ") + unit : "";
-    return fmt::format("{} {:.3g}{}{}{}{} ({} {:.3g}{})", quantity, value,
-                       error > 0.0 ? fmt::format(" +- {:.2g}", error) : "", in_unit,
-                       *ending ? " " : "", ending, is_least ? "needs" : "limit", limit, in_unit);
+    text::Message measured =
+        text::marked_message(quantity) +
+        fmt::format(" {:.3g}{}{}{}", value, error > 0.0 ? fmt::format(" +- {:.2g}", error) : "",
+                    in_unit, *ending ? " " : "");
+    if (*ending) measured += text::marked_message(ending);
+    const std::string at = fmt::format("{:.3g}{}", limit, in_unit);
+    return measured +
+           (is_least ? text::message(" (needs {})", at) : text::message(" (limit {})", at));
 }
 
 const Verdict& Judge::take(const LiveSample& sample) {
@@ -101,19 +109,20 @@ const Verdict& Judge::at(UtcTime now) {
         return check({quantity, value, unit, ending, limit, true, value >= limit});
     };
     if (!last_good_) {
-        least("values so far (the first takes 20 s):", 0.0, "", 1.0);
+        least(marked("values so far (the first takes 20 s):"), 0.0, "", 1.0);
         return decide(State::no_data, now, std::move(reasons));
     }
-    if (!most("last good sample", seconds_between(*last_good_, now), "s", options_.gap_s, "ago") ||
-        !most("temperature unchanged for", seconds_between(*stuck_since_, now), "s",
+    if (!most(marked("last good sample"), seconds_between(*last_good_, now), "s", options_.gap_s,
+              marked("ago")) ||
+        !most(marked("temperature unchanged for"), seconds_between(*stuck_since_, now), "s",
               options_.stuck_s)) {
         return decide(State::no_data, now, std::move(reasons));
     }
     reasons.clear();
 
     const double off_degc = std::abs(last_degc_ - options_.operating_degc);
-    bool is_warm =
-        most("temperature differs from the set point by", off_degc, "degC", options_.warm_up_degc);
+    bool is_warm = most(marked("temperature differs from the set point by"), off_degc, "degC",
+                        options_.warm_up_degc);
 
     double on_h = options_.warm_up_h, warm_up_mgal = 0.0;
     if (switched_on_) {
@@ -124,33 +133,34 @@ const Verdict& Judge::at(UtcTime now) {
     bool is_settled = false;
     if (const auto outlook = trend_.outlook(warm_up_mgal)) {
         const double change = std::abs(outlook->change_mgal), error = outlook->error_mgal;
-        is_settled = check({"reading will change in 10 min by", outlook->change_mgal, "mGal", "",
-                            options_.change_mgal, false,
+        is_settled = check({marked("reading will change in 10 min by"), outlook->change_mgal,
+                            "mGal", "", options_.change_mgal, false,
                             change + sure * error <= options_.change_mgal, error});
-        is_settled &= most("temperature slope", std::abs(trend_.slope_degc_per_h()), "degC/h",
-                           options_.slope_degc_per_h);
+        is_settled &= most(marked("temperature slope"), std::abs(trend_.slope_degc_per_h()),
+                           "degC/h", options_.slope_degc_per_h);
     } else {
-        least("temperature known for", trend_.known_min(), "min", options_.history_min);
+        least(marked("temperature known for"), trend_.known_min(), "min", options_.history_min);
     }
     if (const auto& slope = slope_.slope()) {
         const double value = std::abs(slope->mgal_per_h), error = slope->error_mgal_per_h;
         const double limit = options_.change_mgal / kAheadHours;
-        is_settled &= check({"acceleration slope", value, "mGal/h", "", limit, false,
+        is_settled &= check({marked("acceleration slope"), value, "mGal/h", "", limit, false,
                              value - sure * error <= limit, error});
     }
     if (!is_settled && on_h < options_.warm_up_h)
-        is_warm = least("switched on", on_h, "h", options_.warm_up_h, "ago");
+        is_warm = least(marked("switched on"), on_h, "h", options_.warm_up_h, marked("ago"));
 
     const std::size_t thermal_count = reasons.size();
     bool is_quiet = true;
     const auto ago = [&](const char* event, std::optional<UtcTime> time, double limit_s) {
-        if (time) is_quiet &= least(event, seconds_between(*time, now), "s", limit_s, "ago");
+        if (time)
+            is_quiet &= least(event, seconds_between(*time, now), "s", limit_s, marked("ago"));
     };
-    ago("last knock", touches_.last_knock(), options_.quiet_s);
-    ago("box last touched", touches_.last_handled(), options_.watch_s);
-    ago("last shaking", touches_.last_shaking(), options_.shake_s);
-    is_quiet &=
-        most("noise", touches_.noise_ratio(), "", options_.noise_factor, "x its usual level");
+    ago(marked("last knock"), touches_.last_knock(), options_.quiet_s);
+    ago(marked("box last touched"), touches_.last_handled(), options_.watch_s);
+    ago(marked("last shaking"), touches_.last_shaking(), options_.shake_s);
+    is_quiet &= most(marked("noise"), touches_.noise_ratio(), "", options_.noise_factor,
+                     marked("x its usual level"));
 
     if (is_settled && is_warm) {
         if (!steady_since_) steady_since_ = now;

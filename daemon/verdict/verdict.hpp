@@ -12,6 +12,7 @@
 #include "daemon/verdict/temperature_trend.hpp"
 #include "daemon/verdict/touch_watch.hpp"
 #include "daemon/verdict/verdict_options.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::verdict {
 
@@ -33,7 +34,7 @@ struct Reason {
 
     /// Returns "temperature slope 0.31 degC/h (limit 0.25 degC/h)",
     /// "last knock 12 s ago (needs 72 s)" and the like.
-    [[nodiscard]] std::string to_text() const;
+    [[nodiscard]] text::Message to_message() const;
 };
 
 struct Verdict {

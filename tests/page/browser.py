@@ -87,10 +87,11 @@ return small;
 class Browser:
     """Browser for a `with` block.  The end of the block demands a clean console and no requests outside loopback."""
 
-    def __init__(self, allowed_errors=(), may_ask=(), rules="MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"):
+    def __init__(self, allowed_errors=(), may_ask=(), rules="MAP * ~NOTFOUND, EXCLUDE 127.0.0.1", language="en"):
         """@param allowed_errors  parts of console messages that the test provokes
         @param may_ask  hosts besides 127.0.0.1 that the test itself opens
         @param rules  Chromium's rules for resolving names; default: none but loopback
+        @param language  language that the browser asks for
         """
         chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not chromium or not driver:
@@ -104,6 +105,7 @@ class Browser:
         if os.geteuid() == 0:
             options.add_argument("--disable-dev-shm-usage")  # In containers /dev/shm has only 64 MB.
             options.add_argument("--no-sandbox")  # Chromium does not start as root with its sandbox.
+        options.add_experimental_option("prefs", {"intl.accept_languages": language})
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(service=Service(driver), options=options)
         self.set_zone("UTC")

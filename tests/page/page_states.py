@@ -218,7 +218,7 @@ def show_trouble(stub, browser):
     stub.status["counters"]["checksum_errors"] = 3
     browser.wait_for_text("health-rows", "checksum errors 3")
     stub.status["counters"]["gaps"], stub.status["counters"]["samples_missing"] = 1, 3000
-    browser.wait_for_text("health-rows", "1 gap, 3000 samples missing")
+    browser.wait_for_text("health-rows", "1, samples missing: 3000")
     browser.demand_readable("a fault")
     browser.shot("fault-1366")
 

@@ -12,6 +12,7 @@ import math
 import pathlib
 import random
 import struct
+import sys
 import threading
 import time
 import zlib
@@ -23,6 +24,13 @@ POLICY = ("default-src 'self'; script-src 'self'; style-src 'self'; object-src '
           "form-action 'none'; frame-ancestors 'none'")
 RATE_HZ = 50
 SCALE_MG = 1e-3
+
+
+def catalogue():
+    """Returns the Japanese catalogue as the daemon serves it."""
+    sys.path.insert(0, str(TOP / "protocol" / "text"))
+    from update_catalogue import CATALOGUE, entries
+    return {json.loads(f'"{text}"'): json.loads(f'"{translation}"') for text, translation in entries(CATALOGUE).items()}
 
 
 def rfc3339(seconds):
@@ -175,6 +183,8 @@ class StubDaemon:
             return self.reply(request, self.survey)
         if path == "/api/history":
             return self.reply(request, self.history(dict(part.split("=") for part in query.split("&"))))
+        if path == "/ja.json":
+            return self.reply(request, catalogue())
         name = "index.html" if path == "/" else path[1:]
         for directory in ASSETS:
             file = directory / name
@@ -193,14 +203,14 @@ class StubDaemon:
         while t < end:
             if not (self.history_gap and self.history_gap[0] <= t < self.history_gap[1]):
                 slow = math.sin(2 * math.pi * t / 900)
-                mid = {"x": -0.412, "y": 1.033, "z": 999.1 + 0.003 * slow, "temperature": 42.5 + 0.02 * slow,
+                mid = {"x": -0.412, "y": 1.033, "z": 999.1 + 0.003 * slow, "norm": 979_861.3 + 3.0 * slow, "temperature": 42.5 + 0.02 * slow,
                        "oven": round(42.5 + 0.06 * slow, 1)}[channel]
                 if self.peak_s is not None and abs(t - self.peak_s) < step and channel != "temperature":
                     mid += 2.0
                 half = 0.02 if channel == "temperature" else 0.008 + 0.004 * random.random()
                 points.append([1000 * t, mid, 42.5] if channel == "oven" else [1000 * t, mid - half, mid + half])
             t += step
-        return {"channel": channel, "unit": "degC" if channel in ("temperature", "oven") else "mg", "interval_s": step,
+        return {"channel": channel, "unit": "degC" if channel in ("temperature", "oven") else "mGal" if channel == "norm" else "mg", "interval_s": step,
                 "points": points}
 
     def post(self, request):

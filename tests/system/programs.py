@@ -21,6 +21,7 @@ IS_LONG = os.environ.get("A351_LONG") == "1"
 IS_SANITIZED = bool(os.environ.get("A351_PRESET_SANITIZE"))
 SKIPPED = 77
 MEMORY = pathlib.Path("/dev/shm")
+os.environ["A351_LANG"] = "en"  # Tests read English, whatever the host speaks.
 
 # Last part of a test's scenario: one site and a constant ambient temperature.
 ONE_SITE = """[[site]]

@@ -2,6 +2,7 @@
 // browsers allow sound only after a press.
 
 import { by_id, set_text } from "./dom.js";
+import { tr } from "./language.js";
 
 const kTone_s = 0.16;
 const kStep_s = 0.22; // From one tone to the next.
@@ -36,7 +37,7 @@ function sound(tones_hz) {
 
 function toggle() {
     is_on = !is_on;
-    set_text("sound-switch", is_on ? "Sound is on" : "Sound is off");
+    set_text("sound-switch", is_on ? tr("Sound is on") : tr("Sound is off"));
     by_id("sound-switch").setAttribute("aria-pressed", is_on);
     if (!is_on) return;
     audio ??= new AudioContext();

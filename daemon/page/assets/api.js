@@ -2,6 +2,7 @@
 
 import { by_id, show } from "./dom.js";
 import * as fragment from "./fragment.js";
+import { sentence, tr } from "./language.js";
 import { recalled, remember } from "./memory.js";
 
 // On another device the page does not contain the token; it is in the address, or the operator types it in.
@@ -20,10 +21,11 @@ async function asked(path, options) {
     try {
         reply = await fetch(path, options);
     } catch {
-        throw new Error("the daemon does not answer");
+        throw new Error(tr("the daemon does not answer"));
     }
     const body = await reply.json().catch(() => ({}));
-    const trouble = reply.ok ? null : body.error ?? `the daemon answered with status ${reply.status}`;
+    const said = body.error && sentence(body.error_parts, body.error);
+    const trouble = reply.ok ? null : said ?? tr("the daemon answered with status {}", reply.status);
     return { is_forbidden: reply.status === 403, trouble, body };
 }
 

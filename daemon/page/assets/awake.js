@@ -1,23 +1,25 @@
 // Keeps the screen on while the field view is shown, where the browser allows it, and else says what to set by hand.
 
 import { set_text, show } from "./dom.js";
+import { tr } from "./language.js";
 import { is_field } from "./view.js";
 
-const kByHand = "set the screen timeout of this device to 30 minutes or more by hand";
 let lock = null;
 let refusal = ""; // Why the browser does not keep the screen on.
 
 function reason() {
     if (navigator.wakeLock) return refusal;
-    return isSecureContext ? "this browser cannot keep the screen on"
-        : "over plain http from another device browsers do not keep the screen on";
+    return isSecureContext ? tr("this browser cannot keep the screen on")
+        : tr("over plain http from another device browsers do not keep the screen on");
 }
 
 function say() {
     show("awake", is_field() && reason() !== "");
-    set_text("help-screen", reason() ? `Screen: ${reason()}. Therefore ${kByHand}.` : "Screen: it stays on while the field view is shown.");
-    set_text("help-vibration", navigator.vibrate ? "Vibration: it comes with the sounds, if the device has it."
-        : "Vibration: this browser has none, or allows it only over https.");
+    set_text("help-screen", reason()
+        ? tr("Screen: {}. Therefore set the screen timeout of this device to 30 minutes or more by hand.", reason())
+        : tr("Screen: it stays on while the field view is shown."));
+    set_text("help-vibration", navigator.vibrate ? tr("Vibration: it comes with the sounds, if the device has it.")
+        : tr("Vibration: this browser has none, or allows it only over https."));
 }
 
 /** Asks for the lock, or releases it; browsers release it by themselves while the page is hidden. */
@@ -29,7 +31,7 @@ async function keep_awake() {
         else if (!is_wanted) await lock?.release();
         refusal = "";
     } catch {
-        refusal = "this browser does not keep the screen on now, perhaps to save the battery";
+        refusal = tr("this browser does not keep the screen on now, perhaps to save the battery");
     }
     say();
 }

@@ -3,11 +3,12 @@
 import { get } from "./api.js";
 import { by_id, set_text, show } from "./dom.js";
 import { number, signed, visible } from "./format.js";
+import { tr } from "./language.js";
 import { kMgalPerMg, kMinute_ms } from "./samples.js";
 import { time_of_day } from "./time.js";
 
 const kHour_s = 3600;
-const kNames = { x: "x", y: "y", z: "z", norm: "norm", temperature: "sensor", oven: "oven" };
+const kNames = { x: "x", y: "y", z: "z", norm: tr("norm"), temperature: tr("sensor"), oven: tr("oven") };
 const kLeftOut = 0.2; // Share of bins that do not affect the frame: cars pass a tenth of the time.
 const kLabel_px = 18; // With 110 px and steps of 1, 2 or 5 each axis then has two labels or more.
 const kRoom = 0.6; // Space added to the frame on either side, relative to its height.
@@ -88,7 +89,7 @@ function oven_rows(points, interval_ms) {
 }
 
 function range_text(low_mgal, high_mgal) {
-    return `${signed(low_mgal, 0)} to ${signed(high_mgal, 0)} mGal`;
+    return tr("{} to {} mGal", signed(low_mgal, 0), signed(high_mgal, 0));
 }
 
 export class Charts {
@@ -113,7 +114,6 @@ export class Charts {
                 this.spans_s[group] = Number(event.target.value);
                 this.asked_ms[group] = -Infinity;
                 for (const name of this.names(group)) this.clear(name);
-                show("figure-norm", this.spans_s.signal === 60);
                 show("signal-end", this.spans_s.signal === 60);
             });
         }
@@ -157,13 +157,13 @@ export class Charts {
     draw_minute() {
         const end_ms = this.minute.newest_ms;
         if (end_ms === null) return false;
-        set_text("signal-end", `to ${time_of_day(end_ms, 2)}`);
+        set_text("signal-end", tr("to {}", time_of_day(end_ms, 2)));
         for (const name of this.names("signal")) {
             if (!this.in_view.has(`chart-${name}`)) continue;
             const shown = this.minute.shown(name, by_id(`chart-${name}`).clientWidth || 300);
             this.update(name, ["UTC", name], false, shown.rows, end_ms - kMinute_ms, end_ms);
             const mean = name === "norm" ? `${number(shown.mean, 1)} mGal` : `${number(shown.mean, 3)} mg`;
-            set_text(`caption-${name}`, `${name}: mean ${mean}, ${range_text(shown.low, shown.high)}`);
+            set_text(`caption-${name}`, tr("{}: mean {}, {}", kNames[name], mean, range_text(shown.low, shown.high)));
         }
         return true;
     }
@@ -172,7 +172,6 @@ export class Charts {
     async ask(group, now_ms, span_s) {
         const from_ms = now_ms - 1000 * span_s;
         for (const name of this.names(group)) {
-            if (name === "norm") continue; // Not in the history.
             let history;
             try {
                 history = await get("/api/history", {
@@ -186,7 +185,7 @@ export class Charts {
                 continue;
             }
             if (span_s !== this.spans_s[group]) return;
-            if (history.points.length === 0) set_text(`caption-${name}`, `${kNames[name]}: no data in this span`);
+            if (history.points.length === 0) set_text(`caption-${name}`, tr("{}: no data in this span", kNames[name]));
             else if (name === "oven") this.draw_oven(history, from_ms, now_ms);
             else this.draw_envelope(name, history, from_ms, now_ms);
         }
@@ -199,25 +198,25 @@ export class Charts {
         if (name === "temperature") {
             const rows = envelope_rows(points, 1000 * history.interval_s, 1, 0);
             this.update(name, ["UTC", name], true, rows, from_ms, to_ms);
-            set_text("caption-temperature", `sensor: ${number(low, 3)} to ${number(high, 3)} °C`);
+            set_text("caption-temperature", tr("sensor: {} to {} °C", number(low, 3), number(high, 3)));
             return;
         }
         const middle = quantile(points.map((point) => 0.5 * (point[1] + point[2])), 0.5);
-        const rows = envelope_rows(points, 1000 * history.interval_s, kMgalPerMg, middle);
-        const frame = frame_of(points, kMgalPerMg, middle);
+        const [factor, median] = name === "norm" ? [1, `${number(middle, 1)} mGal`] : [kMgalPerMg, `${number(middle, 3)} mg`];
+        const rows = envelope_rows(points, 1000 * history.interval_s, factor, middle);
+        const frame = frame_of(points, factor, middle);
         this.update(name, ["UTC", name], true, rows, from_ms, to_ms, frame);
-        const [low_mgal, high_mgal] = [kMgalPerMg * (low - middle), kMgalPerMg * (high - middle)];
+        const [low_mgal, high_mgal] = [factor * (low - middle), factor * (high - middle)];
         const is_cut = low_mgal < frame[0] || high_mgal > frame[1];
-        set_text(`caption-${name}`, `${name}: median ${number(middle, 3)} mg, ` +
-            `${range_text(low_mgal, high_mgal)}${is_cut ? ", peaks cut" : ""}`);
+        set_text(`caption-${name}`, tr("{}: median {}, {}", kNames[name], median,
+            range_text(low_mgal, high_mgal)) + (is_cut ? tr(", peaks cut") : ""));
     }
 
     draw_oven(history, from_ms, to_ms) {
         const rows = oven_rows(history.points, 1000 * history.interval_s);
         this.update("oven", ["UTC", "oven", "set point"], false, rows, from_ms, to_ms);
         const [, value, set_point] = history.points.at(-1);
-        set_text("caption-oven",
-            `oven: ${number(value, 1)} °C (blue), set point ${number(set_point, 1)} °C (brown, dashed)`);
+        set_text("caption-oven", tr("oven: {} °C (blue), set point {} °C (brown, dashed)", number(value, 1), number(set_point, 1)));
     }
 
     /** Shades the stays in a chart of hours, with their sites where there is room. */

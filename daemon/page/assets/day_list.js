@@ -1,7 +1,8 @@
 // The list of the day's stays, each in one line so that a whole day is visible, and the buttons that change the chosen one.
 
 import { by_id, make, show } from "./dom.js";
-import { counted, duration, number, visible } from "./format.js";
+import { duration, number, visible } from "./format.js";
+import { tr } from "./language.js";
 import { time_of_day, zone } from "./time.js";
 
 const kResume_ms = 10 * 60 * 1000; // The daemon's limit (kLongestResume) is the same.
@@ -28,8 +29,8 @@ function start_text(start) {
 function remark_text(one) {
     const sd_mgal = one.reading?.set_up_sd_mgal ?? null;
     const set_ups = one.set_ups.length > 1 &&
-        counted(one.set_ups.length, "set-up") + (sd_mgal === null ? "" : `, sd ${number(sd_mgal, 2)} mGal`);
-    return [one.is_discarded && "discarded", set_ups, visible(one.note)].filter(Boolean).join("; ");
+        tr("{} set-ups", one.set_ups.length) + (sd_mgal === null ? "" : tr(", sd {} mGal", number(sd_mgal, 2)));
+    return [one.is_discarded && tr("discarded"), set_ups, visible(one.note)].filter(Boolean).join("; ");
 }
 
 function name_of(one) {

@@ -2,6 +2,7 @@
 
 import { by_id, set_text, show } from "./dom.js";
 import { visible } from "./format.js";
+import { tr } from "./language.js";
 
 export class Dialog {
     /** The elements are ID, ID-form, ID-no and ID-error.
@@ -30,7 +31,7 @@ export class Dialog {
             await send(...order());
             by_id(this.id).close();
         } catch (error) {
-            set_text(`${this.id}-error`, `Not done: ${visible(error.message)}`);
+            set_text(`${this.id}-error`, tr("Not done: {}", visible(error.message)));
             show(`${this.id}-error`, true);
         } finally {
             this.is_sending = false;

@@ -1,5 +1,7 @@
 // Formatting of numbers, times and texts of unknown origin for the page.
 
+import { tr } from "./language.js";
+
 /** Formats a number with a true minus sign; a dash if it is not known. */
 export function number(value, digits = 2) {
     if (!Number.isFinite(value)) return "–";
@@ -18,18 +20,13 @@ export function signed(value, digits = 1) {
     return value > 0 ? "+" + text : text;
 }
 
-/** Formats a count with its noun: 1 gap, 2 gaps. */
-export function counted(count, noun) {
-    return `${count} ${noun}${count === 1 ? "" : "s"}`;
-}
-
 /** Formats seconds as 45 s, 3 min 20 s or 2 h 05 min. */
 export function duration(seconds) {
     if (!Number.isFinite(seconds)) return "–";
     const s = Math.max(0, Math.round(seconds));
-    if (s < 60) return `${s} s`;
-    if (s < 3600) return `${Math.floor(s / 60)} min ${String(s % 60).padStart(2, "0")} s`;
-    return `${Math.floor(s / 3600)} h ${String(Math.floor((s % 3600) / 60)).padStart(2, "0")} min`;
+    if (s < 60) return tr("{} s", s);
+    if (s < 3600) return tr("{} min {} s", Math.floor(s / 60), String(s % 60).padStart(2, "0"));
+    return tr("{} h {} min", Math.floor(s / 3600), String(Math.floor((s % 3600) / 60)).padStart(2, "0"));
 }
 
 /** Formats seconds that are left as 2:10; 0:00 only if none is left. */

@@ -3,13 +3,14 @@
 import { get } from "./api.js";
 import { by_id, make, set_items, set_text, show } from "./dom.js";
 import { number, signed, visible } from "./format.js";
+import { sentence, tr } from "./language.js";
 import { time_with_utc } from "./time.js";
 
 const kRefresh_ms = 5000;
 const kGravityReasons = {
-    not_yet: "not computed yet",
-    off: "switched off by gravity_every_min = 0",
-    no_sites: "the configuration names no table of sites",
+    not_yet: tr("not computed yet"),
+    off: tr("switched off by gravity_every_min = 0"),
+    no_sites: tr("the configuration names no table of sites"),
 };
 
 let shown = "";
@@ -18,11 +19,11 @@ let next_ms = 0;
 
 function state_text(survey) {
     const figures = survey.as_of_utc
-        ? `As of ${time_with_utc(survey.as_of_utc)}, data up to ${time_with_utc(survey.data_to_utc)}${
-            survey.model ? `, model ${visible(survey.model)}` : ""}.` : "";
+        ? tr("As of {}, data up to {}{}.", time_with_utc(survey.as_of_utc), time_with_utc(survey.data_to_utc),
+            survey.model ? tr(", model {}", visible(survey.model)) : "") : "";
     if (!survey.reason) return figures;
-    const reason = kGravityReasons[survey.reason] ?? survey.reason_text ?? survey.reason;
-    const head = survey.stays.some((stay) => stay.gravity_mgal !== null) ? "These figures are old" : "No figures";
+    const reason = kGravityReasons[survey.reason] ?? sentence(survey.reason_parts, survey.reason_text) ?? survey.reason;
+    const head = survey.stays.some((stay) => stay.gravity_mgal !== null) ? tr("These figures are old") : tr("No figures");
     return `${head}: ${visible(reason)}. ${figures}`;
 }
 
@@ -31,9 +32,9 @@ function row_of(stay) {
     if (stay.is_running) row.className = "running";
     const u = Number.isFinite(stay.u_mgal) ? ` ± ${number(stay.u_mgal, 2)}` : "";
     const value = Number.isFinite(stay.gravity_mgal) ? number(stay.gravity_mgal, 2) + u : "–";
-    const remarks = [stay.is_running && "running", stay.set_ups > 1 && `${stay.set_ups} set-ups`,
-        Number.isFinite(stay.u_evening_mgal) && `± ${number(stay.u_evening_mgal, 2)} mGal after a return to the base`,
-        ...stay.remarks.map((remark) => visible(remark.text))];
+    const remarks = [stay.is_running && tr("running"), stay.set_ups > 1 && tr("{} set-ups", stay.set_ups),
+        Number.isFinite(stay.u_evening_mgal) && tr("± {} mGal after a return to the base", number(stay.u_evening_mgal, 2)),
+        ...stay.remarks.map((remark) => visible(sentence(remark.text_parts, remark.text)))];
     row.append(make("td", `${visible(stay.site)} (${stay.occupation})`, "foreign"), make("td", value),
         make("td", signed(stay.left_out_difference_mgal ?? NaN, 2)),
         make("td", remarks.filter(Boolean).join("; "), "foreign"));
@@ -53,7 +54,7 @@ function show_gravity(survey) {
     set_text("gravity-state", state_text(survey));
     const findings = [...survey.findings].sort((one, other) => other.is_headline - one.is_headline);
     show("gravity-findings", findings.length > 0);
-    set_items("gravity-findings", findings.map((one) => [visible(one.text), one.is_headline ? "headline" : ""]));
+    set_items("gravity-findings", findings.map((one) => [visible(sentence(one.text_parts, one.text)), one.is_headline ? "headline" : ""]));
     by_id("gravity-rows").replaceChildren(...survey.stays.map(row_of).reverse()); // The newest first.
     show("gravity-table", survey.stays.length > 0);
 }
@@ -65,7 +66,7 @@ export async function refresh_gravity() {
     try {
         show_gravity(await get("/api/survey"));
     } catch (error) {
-        set_text("gravity-state", `No figures: ${visible(error.message)}`);
+        set_text("gravity-state", tr("No figures: {}", visible(error.message)));
         shown = "";
         current = [];
     }

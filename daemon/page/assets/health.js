@@ -1,29 +1,30 @@
 // The health panel: reception, storage and timing of the data.
 
 import { by_id, make } from "./dom.js";
-import { counted, duration, number, visible, volume } from "./format.js";
+import { duration, number, visible, volume } from "./format.js";
+import { sentences, tr } from "./language.js";
 
-const kReserve = { present: "in place", given_up: "released", unavailable: "not possible" };
+const kReserve = { present: tr("in place"), given_up: tr("released"), unavailable: tr("not possible") };
 
 function behind(newest, kept, rate_hz) {
     if (newest === null || kept === null || !rate_hz) return "";
-    return ` (${number((newest - kept) / rate_hz, 1)} s behind)`;
+    return tr(" ({} s behind)", number((newest - kept) / rate_hz, 1));
 }
 
 function timing_text(timing) {
     const rate = timing.rate;
-    const measured = rate.measured_hz === null ? "" : `; rate ${number(rate.measured_hz, 5)} Hz ` +
-        `± ${number(rate.uncertainty_ppm, 2)} ppm over ${number(rate.span_h, 1)} h`;
-    return `${timing.state}, ± ${number(timing.uncertainty_ms, 2)} ms${measured}`;
+    const measured = rate.measured_hz === null ? "" : tr("; rate {} Hz ± {} ppm over {} h",
+        number(rate.measured_hz, 5), number(rate.uncertainty_ppm, 2), number(rate.span_h, 1));
+    return `${tr(timing.state)}, ± ${number(timing.uncertainty_ms, 2)} ms${measured}`;
 }
 
 function oven_text(oven) {
-    if (oven.state === "disabled") return "not enabled ([oven] enabled = false)";
+    if (oven.state === "disabled") return tr("not enabled ([oven] enabled = false)");
     const values = oven.process_value_degc === null && oven.set_point_degc === null ? "" :
-        `, ${number(oven.process_value_degc, oven.decimals)} °C, set point ` +
-        `${number(oven.set_point_degc, oven.decimals)} °C, heating ${number(oven.heating_percent, 0)} %`;
-    const age = oven.age_s === null ? "" : `, ${number(oven.age_s, 1)} s ago`;
-    return `${oven.state}${values}${age}${oven.trouble ? `; ${oven.trouble}` : ""}`;
+        tr(", {} °C, set point {} °C, heating {} %", number(oven.process_value_degc, oven.decimals),
+            number(oven.set_point_degc, oven.decimals), number(oven.heating_percent, 0));
+    const age = oven.age_s === null ? "" : tr(", {} s ago", number(oven.age_s, 1));
+    return `${tr(oven.state)}${values}${age}${oven.trouble ? `; ${oven.trouble}` : ""}`;
 }
 
 // Counters that also rise without trouble, and those with a row of their own.
@@ -35,7 +36,7 @@ const kNoTrouble = new Set(["bytes", "frames", "sessions", "link_sessions", "int
 function trouble_counts(counters) {
     const parts = Object.entries(counters).filter(([name, count]) => count && !kNoTrouble.has(name))
         .map(([name, count]) => `${name.replaceAll("_", " ")} ${count}`);
-    return parts.length ? parts.join(", ") : "none";
+    return parts.length ? parts.join(", ") : tr("none");
 }
 
 /** Shows the panel.
@@ -43,25 +44,25 @@ function trouble_counts(counters) {
 export function show_health(status, page) {
     const { device, disk, counters } = status;
     const rate_hz = status.live?.rate_hz;
-    const level = status.level === "good" ? "good"
-        : `${status.level.toUpperCase()}: ${status.reasons.join("; ")}`;
+    const level = status.level === "good" ? tr("good")
+        : `${tr(status.level).toUpperCase()}: ${sentences(status.reason_parts, status.reasons).join("; ")}`;
     const rows = [
-        ["State", level],
-        ["Sensor", `${device.state}${device.trouble ? `: ${device.trouble}` : ""}, ${device.port || "no port"}`],
-        ["Device", `${device.profile} ${device.product_id} serial ${device.serial_number || "–"}, ` +
-            `${device.output_rate_hz} Hz, ${device.filter}${device.assumed ? ", assumed as in the last session" : ""}`],
-        ["Received", `sample ${status.received ?? "–"}`],
-        ["Journaled", `sample ${status.journaled ?? "–"}${behind(status.received, status.journaled, rate_hz)}`],
-        ["Archived", `sample ${status.archived ?? "–"}${behind(status.received, status.archived, rate_hz)}`],
-        ["Gaps", `${counted(counters.gaps, "gap")}, ${counted(counters.samples_missing, "sample")} missing`],
-        ["Errors", trouble_counts(counters)],
-        ["Time", timing_text(status.timing)],
-        ["Oven", oven_text(status.oven)],
-        ["Disk", `${volume(disk.free_bytes)} free, reserve ${kReserve[disk.reserve] ?? disk.reserve}, ` +
-            `longest sync ${disk.longest_sync_ms} ms`],
-        ["Page", `drawn in ${number(page.redraw_ms, 1)} ms, at most ${number(page.longest_redraw_ms, 1)} ms; ` +
-            `connected for ${duration(page.connected_s)}, connections lost: ${page.losses}`],
-        ["Version", `a351d ${status.version}, interface ${status.api}`],
+        [tr("State"), level],
+        [tr("Sensor"), `${tr(device.state)}${device.trouble ? `: ${device.trouble}` : ""}, ${device.port || "no port"}`],
+        [tr("Device"), tr("{} {} serial {}", device.profile, device.product_id, device.serial_number || "–") +
+            `, ${device.output_rate_hz} Hz, ${device.filter}${device.assumed ? tr(", assumed as in the last session") : ""}`],
+        [tr("Received"), tr("sample {}", status.received ?? "–")],
+        [tr("Journaled"), `${tr("sample {}", status.journaled ?? "–")}${behind(status.received, status.journaled, rate_hz)}`],
+        [tr("Archived"), `${tr("sample {}", status.archived ?? "–")}${behind(status.received, status.archived, rate_hz)}`],
+        [tr("Gaps"), tr("{}, samples missing: {}", counters.gaps, counters.samples_missing)],
+        [tr("Errors"), trouble_counts(counters)],
+        [tr("Time"), timing_text(status.timing)],
+        [tr("Oven"), oven_text(status.oven)],
+        [tr("Disk"), tr("{} free, reserve {}, longest sync {} ms", volume(disk.free_bytes),
+            kReserve[disk.reserve] ?? disk.reserve, disk.longest_sync_ms)],
+        [tr("Page"), tr("drawn in {} ms, at most {} ms; connected for {}, connections lost: {}", number(page.redraw_ms, 1),
+            number(page.longest_redraw_ms, 1), duration(page.connected_s), page.losses)],
+        [tr("Version"), tr("a351d {}, interface {}", status.version, status.api)],
     ];
     const list = by_id("health-rows");
     if (list.childElementCount === 0) {

@@ -2,6 +2,7 @@
 
 import { Dialog } from "./dialog.js";
 import { by_id } from "./dom.js";
+import { tr } from "./language.js";
 
 const kNumbers = [["latitude_deg", "new-site-latitude", true], ["longitude_deg", "new-site-longitude", true],
     ["altitude_m", "new-site-height", false], ["gravity_mgal", "new-site-gravity", false]];
@@ -9,12 +10,12 @@ const kNumbers = [["latitude_deg", "new-site-latitude", true], ["longitude_deg",
 /** Returns the order.  @throws Error with a line for the operator. */
 function order() {
     const body = { site: by_id("new-site-name").value.trim() };
-    if (!body.site) throw new Error("the name is empty");
+    if (!body.site) throw new Error(tr("the name is empty"));
     for (const [key, id, is_needed] of kNumbers) {
         const text = by_id(id).value.trim().replace(",", ".");
         if (!text && !is_needed) continue;
         if (!text || !Number.isFinite(Number(text))) {
-            throw new Error(`${by_id(id).parentElement.firstChild.data.trim()}: not a number; allowed: such as 36.25`);
+            throw new Error(tr("{}: not a number; allowed: such as 36.25", by_id(id).parentElement.firstChild.data.trim()));
         }
         body[key] = Number(text);
     }

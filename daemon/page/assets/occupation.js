@@ -5,6 +5,7 @@ import { DayList, may_resume, reading_text } from "./day_list.js";
 import { by_id, make, set_items, set_text, set_value, show } from "./dom.js";
 import { countdown, duration, number, signed, visible } from "./format.js";
 import { gravity_of } from "./gravity.js";
+import { sentence, sentences, tr } from "./language.js";
 import { recalled, remember } from "./memory.js";
 import { NewSite } from "./new_site.js";
 import { StayDialogs } from "./stay_dialogs.js";
@@ -20,14 +21,14 @@ function distance_text(metres) {
 /** Returns where the running stay is in its plan. */
 function plan_text(one) {
     const planned = Math.max(one.planned_set_ups, one.set_up_count); // A further set-up may follow the plan.
-    const left = one.may_stop ? "the stay may be stopped" : `${countdown(one.set_up_left_s)} left`;
-    return `set-up ${one.set_up_count} of ${planned}: ${left}`;
+    const left = one.may_stop ? tr("the stay may be stopped") : tr("{} left", countdown(one.set_up_left_s));
+    return tr("set-up {} of {}: {}", one.set_up_count, planned, left);
 }
 
 /** Returns by how much the gravity of a known benchmark differs from its reference, as the end of a sentence. */
 function difference_text(gravity) {
     const difference_mgal = gravity?.left_out_difference_mgal ?? null;
-    return difference_mgal === null ? "" : `, left out − known ${signed(difference_mgal, 2)} mGal`;
+    return difference_mgal === null ? "" : tr(", left out − known {} mGal", signed(difference_mgal, 2));
 }
 
 export class OccupationPanel {
@@ -91,12 +92,17 @@ export class OccupationPanel {
         this.changes = null;
     }
 
+    async answer_to(path, body) {
+        const { message, message_parts } = await post(path, body);
+        return sentence(message_parts, message);
+    }
+
     /** Sends an order to the daemon and shows its answer.  @throws Error with a line for the operator. */
     async send(path, body) {
         by_id("answer").classList.remove("error");
         set_text("answer", "…");
         try {
-            set_text("answer", visible((await post(path, body)).message));
+            set_text("answer", visible(await this.answer_to(path, body)));
             this.forget_lists();
         } catch (error) {
             this.refuse(visible(error.message));
@@ -123,7 +129,7 @@ export class OccupationPanel {
     /** Shows why an order was not carried out. */
     refuse(text) {
         by_id("answer").classList.add("error");
-        set_text("answer", `Not done: ${text}`);
+        set_text("answer", tr("Not done: {}", text));
     }
 
     chosen(kind) {
@@ -139,7 +145,7 @@ export class OccupationPanel {
         if (by_id("start-at").value) {
             // The latest such instant up to an hour ahead, which the daemon refuses: a watch may be fast.
             const instant_ms = nearest_instant(by_id("start-at").value, this.now_ms - 11 / 24 * kDay_ms);
-            if (instant_ms === null) return this.refuse("started at: allowed: HH:MM or HH:MM:SS, HH:MMZ in UTC");
+            if (instant_ms === null) return this.refuse(tr("started at: allowed: HH:MM or HH:MM:SS, HH:MMZ in UTC"));
             order.at = new Date(instant_ms).toISOString();
         }
         if (await this.order("/api/occupation/start", order)) {
@@ -150,7 +156,7 @@ export class OccupationPanel {
     async set_target() {
         const target_mgal = Number(by_id("target").value.replace(",", "."));
         if (!(target_mgal > 0)) {
-            return this.refuse("the target must be a number of mGal above 0");
+            return this.refuse(tr("the target must be a number of mGal above 0"));
         }
         await this.order("/api/target", { target_mgal });
     }
@@ -188,7 +194,7 @@ export class OccupationPanel {
         select.required = has_list && kind === "start";
         by_id(`${kind}-name`).hidden = has_list;
         const chosen = (kind === "start" && this.wanted_site) || select.value;
-        const first = make("option", "choose …");
+        const first = make("option", tr("choose …"));
         first.value = "";
         select.replaceChildren(first, ...this.sites.map((site) => {
             const option = make("option", visible(site.site).slice(0, 200) + distance_text(site.distance_m));
@@ -207,8 +213,8 @@ export class OccupationPanel {
         const before = site && site !== today[0]?.site ? today.filter((one) => one.site === site) : [];
         show("start-warning", before.length > 0);
         if (before.length) {
-            set_text("start-warning", `This site was occupied at ${before
-                .map((one) => time_with_utc(one.set_ups[0].start)).join(", ")}: is it the right one?`);
+            set_text("start-warning", tr("This site was occupied at {}: is it the right one?",
+                before.map((one) => time_with_utc(one.set_ups[0].start)).join(", ")));
         }
     }
 
@@ -224,7 +230,7 @@ export class OccupationPanel {
     show_resume() {
         const last = this.list.at(-1);
         show("resume-last", this.running === null && may_resume(last, this.now_ms));
-        if (last) set_text("resume-last", `Undo the stop of ${visible(last.site).slice(0, 40)}`);
+        if (last) set_text("resume-last", tr("Undo the stop of {}", visible(last.site).slice(0, 40)));
         this.day.show_resume(this.running, this.now_ms);
     }
 
@@ -234,9 +240,9 @@ export class OccupationPanel {
         show("last-stay", last !== undefined);
         if (!last) return;
         const gravity = gravity_of(last.key);
-        set_text("last-name", `Last stay: ${visible(last.site)} (${last.number})${difference_text(gravity)}`);
+        set_text("last-name", tr("Last stay: {}", `${visible(last.site)} (${last.number})`) + difference_text(gravity));
         set_value("last-value", gravity ? gravity.gravity_mgal : last.reading?.value_mgal,
-            gravity ? gravity.u_mgal : last.reading?.standard_error_mgal, gravity ? "gravity so far" : "reading");
+            gravity ? gravity.u_mgal : last.reading?.standard_error_mgal, gravity ? tr("gravity so far") : tr("reading"));
     }
 
     /** Shows the panel.  @param status  the complete status of the daemon. */
@@ -262,10 +268,10 @@ export class OccupationPanel {
 
     show_running(one) {
         set_text("run-site", visible(one.site));
-        set_text("run-stay", `stay ${one.number}, since ${time_with_utc(one.start)}`);
-        set_text("run-time", `running ${duration(one.running_s)}`);
-        set_text("run-remark", [one.operator && `Operator: ${visible(one.operator)}`,
-            one.note && `Note: ${visible(one.note)}`].filter(Boolean).join("\n"));
+        set_text("run-stay", tr("stay {}, since {}", one.number, time_with_utc(one.start)));
+        set_text("run-time", tr("running {}", duration(one.running_s)));
+        set_text("run-remark", [one.operator && tr("Operator: {}", visible(one.operator)),
+            one.note && tr("Note: {}", visible(one.note))].filter(Boolean).join("\n"));
         set_text("run-plan", plan_text(one));
         const gravity = gravity_of(one.key);
         by_id("running").classList.toggle("has-gravity", gravity !== null);
@@ -275,18 +281,18 @@ export class OccupationPanel {
         set_value("run-value", whole?.value_mgal, whole?.standard_error_mgal);
         set_text("run-judgement", this.judgement(whole));
         by_id("run-judgement").className = whole?.is_good_enough ? "good" : "";
-        set_text("run-used", whole ? `${duration(whole.used_s)} of data used, ${duration(whole.left_out_s)} left out` : "");
+        set_text("run-used", whole ? tr("{} of data used, {} left out", duration(whole.used_s), duration(whole.left_out_s)) : "");
         show("run-whole", one.set_up_count > 1);
         if (one.set_up_count > 1) {
-            set_text("run-whole", `This set-up, since ${time_with_utc(one.set_up)}: ${reading_text(one.reading)} mGal.` +
-                (whole?.set_ups > 1 ? ` Scatter of ${whole.set_ups} set-ups: ${number(whole.set_up_sd_mgal, 2)} mGal, of their ` +
-                    `mean ${number(whole.set_up_error_mgal, 2)} mGal.` : ""));
+            set_text("run-whole", tr("This set-up, since {}: {} mGal.", time_with_utc(one.set_up), reading_text(one.reading)) +
+                (whole?.set_ups > 1 ? tr(" Scatter of {} set-ups: {} mGal, of their mean {} mGal.", whole.set_ups,
+                    number(whole.set_up_sd_mgal, 2), number(whole.set_up_error_mgal, 2)) : ""));
         }
         const is_proposed = Boolean(one.propose_set_up);
         show("run-propose", is_proposed);
         by_id("setup").classList.toggle("proposed", is_proposed);
         this.show_move(one);
-        const warnings = one.warnings ?? [];
+        const warnings = sentences(one.warning_parts, one.warnings ?? []);
         show("run-warnings", warnings.length > 0);
         set_items("run-warnings", warnings.map((text) => [`⚠ ${visible(text)}`, ""]));
     }
@@ -297,10 +303,10 @@ export class OccupationPanel {
         show("run-moved", moved !== null);
         if (!moved) return;
         const time = time_of_day(moved.utc);
-        set_text("moved-text", moved.is_at_start ? `The box was moved until ${time_with_utc(moved.utc)}, after the start.`
-            : `The box was moved at ${time_with_utc(moved.utc)} while ${visible(one.site)} runs.`);
-        set_text("moved-stop", moved.is_at_start ? `Begin at ${time}` : `Stop at ${time}`);
-        set_text("moved-setup", `Next set-up at ${time}`);
+        set_text("moved-text", moved.is_at_start ? tr("The box was moved until {}, after the start.", time_with_utc(moved.utc))
+            : tr("The box was moved at {} while {} runs.", time_with_utc(moved.utc), visible(one.site)));
+        set_text("moved-stop", moved.is_at_start ? tr("Begin at {}", time) : tr("Stop at {}", time));
+        set_text("moved-setup", tr("Next set-up at {}", time));
         show("moved-setup", !moved.is_at_start);
     }
 
@@ -314,14 +320,14 @@ export class OccupationPanel {
 
     judgement(reading) {
         if (!reading) return "";
-        const target = `target ${number(reading.target_mgal, 2)} mGal`;
-        if (reading.is_good_enough) return `✓ GOOD ENOUGH (${target})`;
+        const target = tr("target {} mGal", number(reading.target_mgal, 2));
+        if (reading.is_good_enough) return tr("✓ GOOD ENOUGH ({})", target);
         if (reading.needed_s === null) {
             const one = this.running;
             const is_missing = one !== null && one.set_up_count < one.planned_set_ups;
-            return `not yet good enough (${target}); ${is_missing ? "a set-up is missing" : "time needed not known yet"}`;
+            return tr("not yet good enough ({}); {}", target, is_missing ? tr("a set-up is missing") : tr("time needed not known yet"));
         }
-        return reading.needed_s > 0 ? `still about ${duration(reading.needed_s)} needed (${target})`
-            : `error below the ${target}; waiting for a stable verdict`;
+        return reading.needed_s > 0 ? tr("still about {} needed ({})", duration(reading.needed_s), target)
+            : tr("error below the {}; waiting for a stable verdict", target);
     }
 }

@@ -8,6 +8,7 @@ import { number, visible } from "./format.js";
 import { refresh_gravity } from "./gravity.js";
 import { show_health } from "./health.js";
 import "./help.js";
+import { sentences, tr } from "./language.js";
 import { OccupationPanel } from "./occupation.js";
 import { Minute } from "./samples.js";
 import { Stream } from "./stream.js";
@@ -79,10 +80,10 @@ function refresh() {
     document.body.classList.toggle("stale", is_stale);
     show("banner", is_stale);
     if (is_stale) {
-        set_text("banner-word", is_connected ? "STALE: no new data." : "CONNECTION LOST: trying again.");
-        set_text("banner-age", `The data shown are ${number(age_s, 0)} s old.`);
+        set_text("banner-word", is_connected ? tr("STALE: no new data.") : tr("CONNECTION LOST: trying again."));
+        set_text("banner-age", tr("The data shown are {} s old.", number(age_s, 0)));
     }
-    set_text("age", `${number(age_s, 1)} s old`);
+    set_text("age", tr("{} s old", number(age_s, 1)));
     if (!status) return;
     set_text("clock", date_with_utc(status.now));
     for (const id of ["signal-zone", "warmth-zone"]) set_text(id, zone(status.now));
@@ -90,7 +91,8 @@ function refresh() {
     show("trouble", !is_good);
     if (!is_good) {
         by_id("trouble").dataset.level = status.level;
-        set_text("trouble", `${status.level.toUpperCase()}: ${visible(status.reasons.join("; "))}`);
+        set_text("trouble", `${tr(status.level).toUpperCase()}: ${
+            visible(sentences(status.reason_parts, status.reasons).join("; "))}`);
     }
     const word = show_verdict(status.verdict, is_stale && status.verdict.state !== "no data" ? age_s : null);
     show_tilt(status.tilt);

@@ -4,25 +4,27 @@
 import { Dialog } from "./dialog.js";
 import { by_id, set_items, set_text, show } from "./dom.js";
 import { duration, number, visible } from "./format.js";
+import { sentences, tr } from "./language.js";
 import { nearest_instant, span_with_utc, time_of_day, time_with_utc } from "./time.js";
 
 /** Returns a stay in words.  A running one has no end. */
 function described(stay) {
-    const times = stay.end ? span_with_utc(stay.start, stay.end) : `running since ${time_with_utc(stay.start)}`;
-    return `${visible(stay.site)} (stay ${stay.number}), ${times}`;
+    const times = stay.end ? span_with_utc(stay.start, stay.end) : tr("running since {}", time_with_utc(stay.start));
+    return tr("{} (stay {}), {}", visible(stay.site), stay.number, times);
 }
 
 /** Returns what speaks against stopping now, as texts. */
 function doubts(stay, verdict) {
     const list = [];
     if (stay.planned_s && stay.running_s < stay.planned_s) {
-        list.push(`It is shorter than planned: ${duration(stay.running_s)} of ${number(stay.planned_s / 60, 0)} min.`);
+        list.push(tr("It is shorter than planned: {} of {} min.", duration(stay.running_s), number(stay.planned_s / 60, 0)));
     }
     if (stay.set_up_count < stay.planned_set_ups) {
-        list.push(`Only ${stay.set_up_count} of ${stay.planned_set_ups} planned set-ups were made.`);
+        list.push(tr("Only {} of {} planned set-ups were made.", stay.set_up_count, stay.planned_set_ups));
     }
     if (verdict.state !== "stable") {
-        list.push(`The verdict is ${visible(verdict.state)}, not stable: ${visible(verdict.reasons.join("; "))}`);
+        list.push(tr("The verdict is {}, not stable: {}", tr(visible(verdict.state)),
+            visible(sentences(verdict.reason_parts, verdict.reasons).join("; "))));
     }
     return list;
 }
@@ -47,16 +49,16 @@ export class StayDialogs {
     open(kind, stay, verdict = null) {
         this.stay = stay;
         if (kind === "stop") {
-            set_text("confirm-stop-text", `Stop ${described(stay)}?`);
+            set_text("confirm-stop-text", tr("Stop {}?", described(stay)));
             set_items("confirm-stop-doubts", doubts(stay, verdict).map((text) => [`⚠ ${text}`, ""]));
         } else if (kind === "discard") {
-            set_text("discard-text", stay.end ? `Discard ${described(stay)}?`
-                : `Discard the running occupation at ${visible(stay.site)}, ${duration(stay.running_s)} old?`);
+            set_text("discard-text", stay.end ? tr("Discard {}?", described(stay))
+                : tr("Discard the running occupation at {}, {} old?", visible(stay.site), duration(stay.running_s)));
         } else if (kind === "rename") {
             by_id("rename-site").value = by_id("rename-name").value = "";
-            set_text("rename-text", `Choose the correct site for ${described(stay)}:`);
+            set_text("rename-text", tr("Choose the correct site for {}:", described(stay)));
         } else {
-            set_text("times-text", `Correct the times of ${described(stay)}:`);
+            set_text("times-text", tr("Correct the times of {}:", described(stay)));
             by_id("times-from").value = time_of_day(stay.start);
             by_id("times-to").value = stay.end ? time_of_day(stay.end) : "";
             show("times-end", Boolean(stay.end));
@@ -72,7 +74,7 @@ export class StayDialogs {
 
     renamed() {
         const site = this.new_site();
-        if (!site) throw new Error("no site is chosen");
+        if (!site) throw new Error(tr("no site is chosen"));
         return this.order("rename", { site }, "rename-reason");
     }
 
@@ -83,10 +85,10 @@ export class StayDialogs {
             const text = by_id(`times-${key}`).value;
             if (!old || text === time_of_day(old)) continue;
             const instant_ms = nearest_instant(text, Date.parse(old));
-            if (instant_ms === null) throw new Error(`${text} is no time of day; allowed: HH:MM or HH:MM:SS, HH:MMZ in UTC`);
+            if (instant_ms === null) throw new Error(tr("{} is no time of day; allowed: HH:MM or HH:MM:SS, HH:MMZ in UTC", text));
             body[key] = new Date(instant_ms).toISOString();
         }
-        if (!body.from && !body.to) throw new Error("the times are as before");
+        if (!body.from && !body.to) throw new Error(tr("the times are as before"));
         return this.order("retime", body, "times-reason");
     }
 }

@@ -1,5 +1,7 @@
 // Times of day in the operator's zone, which is that of the browser, with UTC beside them.
 
+import { tr } from "./language.js";
+
 function two(value) {
     return String(value).padStart(2, "0");
 }
@@ -28,8 +30,8 @@ export function time_with_utc(instant) {
 
 /** Formats the time between two instants likewise. */
 export function span_with_utc(from, to) {
-    const utc = `${utc_of_day(from)} to ${utc_of_day(to)} UTC`;
-    return is_utc(from) ? utc : `${time_of_day(from)} to ${time_of_day(to)} (${utc})`;
+    const utc = `${tr("{} to {}", utc_of_day(from), utc_of_day(to))} UTC`;
+    return is_utc(from) ? utc : `${tr("{} to {}", time_of_day(from), time_of_day(to))} (${utc})`;
 }
 
 /** Formats date and time likewise. */

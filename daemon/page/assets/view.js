@@ -3,6 +3,7 @@
 
 import { by_id, set_text } from "./dom.js";
 import "./fragment.js"; // Removes the token.
+import { tr } from "./language.js";
 import { choices } from "./memory.js";
 
 const kField = "#field"; // Fragment of the address that opens the field view.
@@ -22,7 +23,7 @@ export function is_dark() {
 function show_view() {
     const view = [kField, kPage].includes(location.hash) ? location.hash : choices.recalled("view");
     document.documentElement.classList.toggle("field", view === kField);
-    set_text("view-switch", is_field() ? "Full page" : "Field view");
+    set_text("view-switch", is_field() ? tr("Full page") : tr("Field view"));
     dispatchEvent(new Event("resize")); // The charts have another width, or none.
     dispatchEvent(new Event("view"));
 }
@@ -39,7 +40,7 @@ function switch_view() {
 function show_scheme() {
     const scheme = choices.recalled("scheme") || (system_scheme.matches ? "dark" : "light");
     document.documentElement.dataset.scheme = scheme;
-    set_text("scheme-switch", is_dark() ? "Light" : "Dark");
+    set_text("scheme-switch", is_dark() ? tr("Light") : tr("Dark"));
     dispatchEvent(new Event("scheme"));
 }
 

@@ -121,7 +121,7 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
     CHECK(discarded.exit == 0);
     CHECK(has(discarded, "discard: No.0, stay 1 (20260314T081000Z), 2026-03-14T08:11:00.000Z"));
     CHECK(has(daemon.ctl("list"), "discarded"));
-    CHECK(has(daemon.ctl("discard"), "there is no stay to discard"));
+    CHECK(has(daemon.ctl("discard"), "there is no stay for this command"));
     CHECK(daemon.ctl("restore 20260314T081000Z").exit == 0);
     CHECK(has(daemon.ctl("note --stay 20260314T081000Z calm"), "for No.0 (stay 1)"));
     CHECK(daemon.ctl("resume").exit == 1);  // stopped half an hour ago

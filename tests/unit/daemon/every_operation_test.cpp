@@ -165,7 +165,7 @@ TEST_CASE_METHOD(SteppedRig,
     CHECK(read_journal(root).bytes == bytes);
     const Status alarmed = status_of(store);
     CHECK(alarmed.level == Status::Level::fault);
-    CHECK(alarmed.reasons.at(0).find("journal: ") == 0);
+    CHECK(alarmed.reasons.at(0).english().find("journal: ") == 0);
     CHECK(alarmed.journaled.value() > fed - 100);
     advance(store, seconds(10));
     CHECK(status_of(store).level == Status::Level::good);

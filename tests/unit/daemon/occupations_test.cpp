@@ -12,8 +12,8 @@ using Kind = Outcome::Kind;
 namespace {
 
 bool mentions(const Outcome& outcome, const std::string& text) {
-    CAPTURE(outcome.message);
-    return outcome.message.find(text) != std::string::npos;
+    CAPTURE(outcome.message.english());
+    return outcome.message.english().find(text) != std::string::npos;
 }
 
 /// Names the stay that was entered for this minute.

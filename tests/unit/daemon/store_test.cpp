@@ -217,7 +217,7 @@ TEST_CASE_METHOD(Rig, "damaged station metadata are set aside and written again"
     REQUIRE(eventually([&] { return status_of(store).received == 99; }));
     CHECK(store.stop());
     bool is_told = false;
-    for (const auto& reason : status_of(store).reasons) is_told |= reason.find("metadata: ") == 0;
+    for (const auto& reason : status_of(store).reasons) is_told |= reason.english().find("metadata: ") == 0;
     CHECK(is_told);
 }
 

@@ -38,7 +38,7 @@ TEST_CASE_METHOD(Rig, "a sync that hangs for 10 s loses nothing, and the status 
     const Status hanging = status_of(store);
     CHECK(hanging.longest_sync >= std::chrono::seconds(10));
     CHECK(hanging.level == Status::Level::warning);
-    CHECK(hanging.reasons.at(0).find("the disk stalls") == 0);
+    CHECK(hanging.reasons.at(0).english().find("the disk stalls") == 0);
     CHECK(hanging.journaled == 99);
     feed(500);
     files.does_sync_hang = false;

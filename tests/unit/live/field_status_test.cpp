@@ -66,7 +66,7 @@ TEST_CASE("a stay is good enough only with its planned set-ups", "[field]") {
     CHECK_FALSE(now.whole.needed_s);  // time alone does not help
     CHECK(now.plan.proposes_next);
     const auto stopped = field.occupations.stop({}, minute(30));
-    CHECK(stopped.message.ends_with(
+    CHECK(stopped.message.english().ends_with(
         "; 1 of 2 planned set-ups; shorter than planned: 10.0 of 12 min"));
     (void)field.occupations.start("No.1", {}, minute(30));
     (void)field.occupations.setup(minute(34));
@@ -75,7 +75,7 @@ TEST_CASE("a stay is good enough only with its planned set-ups", "[field]") {
     CHECK(now.whole.set_ups == 2);
     CHECK(now.plan.running == 2);
     CHECK(now.plan.may_stop);
-    CHECK(field.occupations.stop({}, minute(42)).message.find("planned") == std::string::npos);
+    CHECK(field.occupations.stop({}, minute(42)).message.english().find("planned") == std::string::npos);
 }
 
 TEST_CASE("a further set-up is proposed at half time, once only", "[field]") {
@@ -105,9 +105,9 @@ TEST_CASE("a forgotten stop and a repeated site give a warning", "[field]") {
     REQUIRE(forgotten.size() == 1);
     CHECK(forgotten[0] == "running for 31 min, planned 10 min: stop it if the reading is finished");
     const auto stopped = field.occupations.stop({}, minute(3));
-    CHECK(stopped.message.ends_with("; shorter than planned: 2.0 of 10 min"));
+    CHECK(stopped.message.english().ends_with("; shorter than planned: 2.0 of 10 min"));
     const auto again = field.occupations.start("No.0", {}, minute(4));
-    CHECK(again.message.ends_with("; the site was occupied before: stay 2"));
+    CHECK(again.message.english().ends_with("; the site was occupied before: stay 2"));
     (void)field.occupations.stop({}, minute(6));
     for (const int at : {7, 10}) {
         (void)field.occupations.start("No.1", {}, minute(at));
@@ -142,7 +142,7 @@ TEST_CASE("missing samples of the running set-up are said, those before it are n
     (void)occupations.start("No.0", {}, minute(10));
     const auto said = [&](int at) { return field_status(occupations, live, minute(at)).warnings; };
     CHECK(said(11).empty());
-    CHECK(said(15) == std::vector<std::string>{"90 s are missing in this set-up"});
+    CHECK(said(15) == std::vector<text::Message>{"90 s are missing in this set-up"});
     (void)occupations.setup(minute(14));
     CHECK(said(16).empty());
 }

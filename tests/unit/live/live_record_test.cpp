@@ -221,7 +221,7 @@ TEST_CASE("tilt is given relative to a set-up, with the side to turn", "[live][l
     CHECK(level->tilt_arcmin[0] == Approx(2.4).margin(0.001));
     CHECK(level->tilt_arcmin[1] == Approx(-0.9).margin(0.001));
     CHECK_FALSE(level->is_within);
-    CHECK(level->advice == std::vector<std::string>{"lower the +x side by 2.4'"});
+    CHECK(level->advice == std::vector<text::Message>{"lower the +x side by 2.4'"});
     for (std::int64_t i = 6200; i < 6400; ++i)
         record.take(placed(i, mgal_of(30.5), mgal_of(-20.9), 980000.0));
     CHECK(record.level_against(kZero, after(120.0))->is_within);
@@ -239,7 +239,7 @@ TEST_CASE("the level of a sensor on its side is that of its horizontal axes", "[
     REQUIRE(level);
     CHECK(level->axes == std::array{'y', 'z'});
     CHECK(level->tilt_arcmin[0] == Approx(0.5).margin(0.001));
-    CHECK(level->advice == std::vector<std::string>{"raise the +z side by 2.0'"});
+    CHECK(level->advice == std::vector<text::Message>{"raise the +z side by 2.0'"});
 }
 
 TEST_CASE("lifting the box at the end of a set-up does not change the level of that set-up",

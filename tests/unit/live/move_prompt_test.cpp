@@ -86,7 +86,7 @@ TEST_CASE("an answer ends the question, and a later move raises another", "[surv
     REQUIRE(asked.has_value());
     CHECK_FALSE(asked->is_at_start);
     CHECK(std::abs(seconds_between(UtcTime{}, asked->time) - 300.0) < 20.0);
-    CHECK(text_of(*asked).find("the box was moved at ") == 0);
+    CHECK(text_of(*asked).english().find("the box was moved at ") == 0);
     const UtcTime now = box.samples().back().time;
     CHECK_FALSE(move_prompt(box.samples(), now).has_value());
     box.shake(12.0, 20000.0);
@@ -107,6 +107,6 @@ TEST_CASE("a start on the way is asked about, and nothing while the box is not a
     REQUIRE(asked.has_value());
     CHECK(asked->is_at_start);
     CHECK(std::abs(seconds_between(UtcTime{}, asked->time) - down_s) <= 14.0);
-    CHECK(text_of(*asked).find("the box was moved until ") == 0);
+    CHECK(text_of(*asked).english().find("the box was moved until ") == 0);
     CHECK_FALSE(move_prompt({}, std::nullopt).has_value());
 }

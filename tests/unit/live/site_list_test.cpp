@@ -148,7 +148,7 @@ TEST_CASE("a new site is used at once, and a list that cannot be written names t
     CHECK(added.message == "added No.2: 2 sites in " + list.file.string());
     CHECK(occupations.changes() == changes + 1);
     CHECK(occupations.start("No.2", {}, minute(1)).kind == Outcome::Kind::done);
-    CHECK(occupations.add_site(new_site("no 2")).message.ends_with("; a similar name is No.2"));
+    CHECK(occupations.add_site(new_site("no 2")).message.english().ends_with("; a similar name is No.2"));
     std::filesystem::remove(list.file);
     const auto gone = occupations.add_site(new_site("No.3"));
     CHECK(gone.kind == Outcome::Kind::failed);

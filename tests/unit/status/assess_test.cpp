@@ -37,7 +37,7 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     link.trouble = "/dev/x: not plugged in";
     fill(status, link);
     CHECK(status.level == Status::Level::fault);
-    CHECK(status.reasons == std::vector<std::string>{"no data: /dev/x: not plugged in"});
+    CHECK(status.reasons == std::vector<text::Message>{"no data: /dev/x: not plugged in"});
 
     status = healthy();
     status.timing_state = timing::State::unlocked;
@@ -53,7 +53,7 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     status.disk_free_bytes.reset();
     assess(status);
     CHECK(status.reasons ==
-          std::vector<std::string>{"disk: the free space cannot be determined; check the disk of "
+          std::vector<text::Message>{"disk: the free space cannot be determined; check the disk of "
                                    "storage.root"});
 
     status = healthy();
@@ -71,7 +71,7 @@ TEST_CASE("another baud rate is reported of a sensor that answers only", "[daemo
         Status status = healthy();
         link.state = state;
         fill(status, link);
-        CHECK((status.reasons.back().find("230400 baud") != std::string::npos) ==
+        CHECK((status.reasons.back().english().find("230400 baud") != std::string::npos) ==
               (state == LinkStatus::State::sampling));
     }
 }
@@ -85,7 +85,7 @@ TEST_CASE("samples from the future are a warning with the remedy", "[daemon][ass
     status.last_sample = status.now + std::chrono::seconds(847);
     assess(status);
     REQUIRE(status.reasons.size() == 1);
-    CHECK_THAT(status.reasons[0], ContainsSubstring("--clock") && ContainsSubstring("later than"));
+    CHECK_THAT(status.reasons[0].english(), ContainsSubstring("--clock") && ContainsSubstring("later than"));
     CHECK(status.level == Status::Level::warning);
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("a step of the clock is a warning for an hour, and an overlap is annou
     status.now = status.clock_step->after + std::chrono::minutes(59);
     assess(status);
     REQUIRE(status.reasons.size() == 1);
-    CHECK_THAT(status.reasons[0],
+    CHECK_THAT(status.reasons[0].english(),
                ContainsSubstring("set ahead by 3600.0 s, from 2026-03-14T12:00:00.0Z to "
                                  "2026-03-14T13:00:00.0Z") &&
                    !ContainsSubstring("twice"));
@@ -108,7 +108,7 @@ TEST_CASE("a step of the clock is a warning for an hour, and an overlap is annou
     status.now = noon;
     assess(status);
     REQUIRE(status.reasons.size() == 1);
-    CHECK_THAT(status.reasons[0], ContainsSubstring("set back by 80.0 s") &&
+    CHECK_THAT(status.reasons[0].english(), ContainsSubstring("set back by 80.0 s") &&
                                       ContainsSubstring("the times from 2026-03-14T11:58:40.0Z to "
                                                         "2026-03-14T12:00:00.0Z occur twice"));
 
@@ -127,7 +127,7 @@ TEST_CASE("a clock that was never synchronised is a warning with its size", "[da
     status.timing_uncertainty = std::chrono::milliseconds(16002);
     assess(status);
     REQUIRE(status.reasons.size() == 1);
-    CHECK_THAT(status.reasons[0], ContainsSubstring("never synchronised") &&
+    CHECK_THAT(status.reasons[0].english(), ContainsSubstring("never synchronised") &&
                                       ContainsSubstring("wrong by 16 s") &&
                                       ContainsSubstring("a351-correct retime"));
 }
@@ -142,7 +142,7 @@ TEST_CASE("an oven that is not enabled is no trouble, an oven that does not answ
         CHECK((status.level == Status::Level::warning) == !status.reasons.empty());
         return status.reasons;
     };
-    using Reasons = std::vector<std::string>;
+    using Reasons = std::vector<text::Message>;
     CHECK(reasons() == Reasons{"oven: searching: not asked yet"});
 
     link.state = OvenLinkStatus::State::answering;
@@ -191,7 +191,7 @@ TEST_CASE("a rate measured over a day is compared with the declared one", "[daem
     status.declared_rate_hz = 50.000613;
     assess(status);
     CHECK(status.level == Status::Level::warning);
-    CHECK(status.rate_advice.find("-0.26 ppm") != std::string::npos);
+    CHECK(status.rate_advice.english().find("-0.26 ppm") != std::string::npos);
 
     status = healthy();
     SECTION("not if it was measured for less than a day") {

@@ -65,7 +65,7 @@ TEST_CASE("without a sample the verdict is no data, with the reason", "[verdict]
     CHECK(verdict.state == State::no_data);
     CHECK(verdict.since == kStart);
     REQUIRE(verdict.reasons.size() == 1);
-    CHECK(verdict.reasons[0].to_text() == "values so far (the first takes 20 s): 0 (needs 1)");
+    CHECK(verdict.reasons[0].to_message() == "values so far (the first takes 20 s): 0 (needs 1)");
 }
 
 TEST_CASE(
@@ -100,7 +100,7 @@ TEST_CASE("a moving temperature gives the verdict settling, with slope and chang
     CHECK_FALSE(first.is_met);
     // The filter assumes that every ramp ends, and attributes part of the cycle to it.
     CHECK(find(verdict, "temperature slope")->value == Approx(0.5).margin(0.15));
-    CHECK(find(verdict, "temperature slope")->to_text().find("degC/h (limit") != std::string::npos);
+    CHECK(find(verdict, "temperature slope")->to_message().english().find("degC/h (limit") != std::string::npos);
     const double change_mgal = find(verdict, "reading will change in 10 min by")->value;
     CHECK(change_mgal < -2.0);  // A rising temperature lowers the reading.
     CHECK_FALSE(verdict.time_left_s);
@@ -216,7 +216,7 @@ TEST_CASE("a reading that drifts at steady temperature is not stable, and its sl
     CHECK_FALSE(slope->is_met);
     CHECK(slope->value == Approx(30.0).margin(0.5));
     CHECK(slope->error < 1.0);
-    CHECK(slope->to_text().rfind("acceleration slope 30 +- ", 0) == 0);
+    CHECK(slope->to_message().english().rfind("acceleration slope 30 +- ", 0) == 0);
 
     Series slow;
     slow.drift_mgal_per_h = 5.0;
@@ -278,7 +278,7 @@ TEST_CASE("a gap above its limit is no data, and after a long gap steadiness mus
     const Verdict& verdict = series.judge.at(series.now() + from_seconds(9.0));
     CHECK(verdict.state == State::no_data);
     CHECK(verdict.since > last);
-    CHECK(verdict.reasons.front().to_text().rfind("last good sample", 0) == 0);
+    CHECK(verdict.reasons.front().to_message().english().rfind("last good sample", 0) == 0);
 
     series.skip(60.0);
     CHECK(series.run(30.0).state == State::stable);

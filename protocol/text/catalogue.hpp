@@ -1,0 +1,40 @@
+#pragma once
+/// @file
+/// Translations of the texts that people read.  English is the source text in the code and the key of
+/// the catalogue; the catalogue of a language is a .po file, which the build compiles into the
+/// programs.  The C library's locales are not used: they must be installed on the host, and numbers
+/// would change with them.
+
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace a351::text {
+
+enum class Language { english, japanese };
+
+/// Returns the language of a code such as "ja", or of a locale such as "ja_JP.UTF-8"; std::nullopt if
+/// there is no catalogue for it.
+[[nodiscard]] std::optional<Language> parse_language(std::string_view locale) noexcept;
+
+/// Returns the language that the first of A351_LANG, LC_ALL, LC_MESSAGES and LANG names which is set
+/// and not empty.  English, if there is no catalogue for it.
+[[nodiscard]] Language language_of_environment() noexcept;
+
+/// Sets and returns the language in which this program writes to people, at first English.  It is set
+/// before the first text, and never while other threads run.
+void write_in(Language language) noexcept;
+[[nodiscard]] Language language() noexcept;
+
+/// Returns the translation of an English text; the text itself if there is none.
+[[nodiscard]] std::string_view translated(std::string_view english, Language language) noexcept;
+
+/// Returns all texts of a catalogue with their translations, in the order of the texts.
+[[nodiscard]] std::vector<std::pair<std::string_view, std::string_view>> catalogue(
+    Language language);
+
+/// Marks a text for the catalogue that is translated elsewhere.
+[[nodiscard]] constexpr const char* marked(const char* text) noexcept { return text; }
+
+}  // namespace a351::text

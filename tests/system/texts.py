@@ -1,0 +1,24 @@
+"""Completeness of the Japanese catalogue: every text of the sources is in it and translated, none is left over or marked fuzzy, and
+both languages have the same places for arguments.  Then the programs themselves: they answer in the language of the environment,
+without installed locales, and their machine-readable output stays the same.
+"""
+
+import subprocess
+import sys
+
+from programs import BIN, TOP, demand, run
+
+check = subprocess.run([TOP / "protocol" / "text" / "update_catalogue.py", "--check"], capture_output=True, text=True)
+if check.returncode != 0:
+    print(check.stdout, check.stderr, sep="\n")
+    sys.exit("the catalogue does not agree with the sources: CONTRIBUTING.md, \"A new text\"")
+print(check.stdout.strip())
+
+answers = {}
+for language, variables in (("en", {"A351_LANG": "en"}), ("ja", {"A351_LANG": "ja"}), ("locale", {"A351_LANG": "", "LC_ALL": "ja_JP.UTF-8"}),
+                            ("unknown", {"A351_LANG": "", "LC_ALL": "fr_FR.UTF-8"})):
+    answers[language] = run(BIN / "a351ctl", "--url", "http://127.0.0.1:9", "note", "x", check=False, env=variables).stderr
+    print(f"{language}: {answers[language].strip()}")
+demand("English and Japanese differ", answers["en"] != answers["ja"])
+demand("A351_LANG and the locale give the same text", answers["ja"] == answers["locale"])
+demand("a language without a catalogue is English", answers["en"] == answers["unknown"])

@@ -1,0 +1,61 @@
+#include "protocol/text/message.hpp"
+
+#include "tests/support/catch.hpp"
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace text = a351::text;
+using text::Language, text::message;
+using Sentence = text::Message;
+
+TEST_CASE("a message is its English text, and its translation in another language", "[text]") {
+    const Sentence one = message("{} is later than the last sample, {}", "10:00", "09:59");
+    CHECK(one == "10:00 is later than the last sample, 09:59");
+    CHECK(one.in(Language::english) == one.english());
+    CHECK(one.in(Language::japanese) == "10:00 は最新サンプル 09:59 より後です");
+}
+
+TEST_CASE("arguments keep their formats, and change places with the translation", "[text]") {
+    const Sentence one = message("the laptop's clock was set {} by {:.1f} s, from {} to {}",
+                                message("back"), 2.345, "A", "B");
+    CHECK(one == "the laptop's clock was set back by 2.3 s, from A to B");
+    CHECK(one.in(Language::japanese) == "PC の時計が A から B へ、2.3 秒戻して設定されました");
+}
+
+TEST_CASE("parts are translated each by itself, and names not at all", "[text]") {
+    Sentence one = message("started {} at {}", "stable", "10:00");
+    one += "; ";
+    one += message("stable");
+    CHECK(one == "started stable at 10:00; stable");
+    CHECK(one.in(Language::japanese) == "stable を 10:00 に開始しました; 安定");
+}
+
+TEST_CASE("a message read from JSON is the one that was written", "[text]") {
+    const Sentence one = message("restored {}", message("{} (stay {})", "No.1", 2)) + "!";
+    const Sentence said = text::parse_message(one.to_json(), "");
+    CHECK(said == one);
+    CHECK(said.in(Language::japanese) == one.in(Language::japanese));
+    CHECK(text::parse_message(nlohmann::json(3), "plain") == "plain");
+    CHECK(text::parse_message(nlohmann::json::parse("[[4]]"), "plain") == "plain");
+}
+
+TEST_CASE("a text without a translation stays English", "[text]") {
+    CHECK(text::translated("no such text", Language::japanese) == "no such text");
+    CHECK(text::translated("", Language::japanese).empty());
+    CHECK(text::catalogue(Language::english).empty());
+    CHECK(text::catalogue(Language::japanese).size() > 100);
+}
+
+TEST_CASE("the language follows A351_LANG, then the locale's variables", "[text]") {
+    for (const char* const name : {"A351_LANG", "LC_ALL", "LC_MESSAGES", "LANG"}) unsetenv(name);
+    CHECK(text::language_of_environment() == Language::english);
+    setenv("LANG", "ja_JP.UTF-8", 1);
+    CHECK(text::language_of_environment() == Language::japanese);
+    setenv("LC_ALL", "C.UTF-8", 1);
+    CHECK(text::language_of_environment() == Language::english);
+    setenv("A351_LANG", "ja", 1);
+    CHECK(text::language_of_environment() == Language::japanese);
+    setenv("A351_LANG", "de", 1);
+    CHECK(text::language_of_environment() == Language::english);
+    for (const char* const name : {"A351_LANG", "LC_ALL", "LANG"}) unsetenv(name);
+}
