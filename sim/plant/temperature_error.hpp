@@ -1,6 +1,7 @@
 #pragma once
 
 #include "protocol/core/units.hpp"
+#include "sim/plant/lag.hpp"
 
 namespace a351::sim::plant {
 
@@ -28,8 +29,7 @@ struct TemperatureErrorTerms {
 ///
 ///     err = rA (Tb - T0) + qA (Tb - T0)^2 + kA (lag(Tb, tauA) - Tb) + rC (lag(Tb, tauC) - T0) + B exp(-t/tauW)
 ///
-/// lag is first order and starts in equilibrium; it is exact for a temperature that changes in
-/// straight lines between steps.  Tb is the temperature of the body, t the time since power-on.
+/// lag is first order and starts in equilibrium (Lag).  Tb is the temperature of the body, t the time since power-on.
 /// The crystals respond to a change before the thermometer that compensates them (kA).  The
 /// oscillator that counts them responds later (rC).  The coefficients are fitted to the statistics
 /// of the published record.
@@ -44,17 +44,6 @@ public:
     [[nodiscard]] const TemperatureErrorTerms& terms() const noexcept { return terms_; }
 
 private:
-    /// The body's temperature after a first-order lag.
-    class Lag {
-    public:
-        Lag(double tau_s, double step_s, double degc);
-        [[nodiscard]] double next(double from_degc, double to_degc) noexcept;
-
-    private:
-        double keep_, of_rise_;
-        double degc_;
-    };
-
     TemperatureErrorParameters p_;
     double body_degc_;  ///< Body at the last step.
     Lag crystal_, clock_;

@@ -113,7 +113,10 @@ struct SlowNoiseParameters {
     double drift_linear_mgal_per_h = 0.0;
     double drift_quadratic_mgal_per_h2 = 0.0;
     double drift_walk_mgal_per_sqrt_h = 0.0;
-    double ripple_mgal = 0.0;  ///< Amplitude on the vertical.
+    double drift_links_mgal_per_h_per_degc =
+        0.0;                        ///< Drift rate by the temperature after the links.
+    double drift_link_tau_s = 0.0;  ///< Time constant of each of the three links.
+    double ripple_mgal = 0.0;       ///< Amplitude on the vertical.
     double ripple_period_s = 0.0;
     double ripple_wander = 0.0;    ///< Rms of the period, relative.
     double ripple_wander_s = 0.0;  ///< Time constant of the wander.

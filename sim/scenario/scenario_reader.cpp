@@ -189,6 +189,8 @@ void read_slow_noise(Section& s, SlowNoiseParameters& p) {
     s.number("drift_linear_mgal_per_h", p.drift_linear_mgal_per_h, -1000.0, 1000.0);
     s.number("drift_quadratic_mgal_per_h2", p.drift_quadratic_mgal_per_h2, -1000.0, 1000.0);
     s.number("drift_walk_mgal_per_sqrt_h", p.drift_walk_mgal_per_sqrt_h, 0.0, 1000.0);
+    s.number("drift_links_mgal_per_h_per_degc", p.drift_links_mgal_per_h_per_degc, -1e4, 1e4);
+    s.number("drift_link_tau_s", p.drift_link_tau_s, 1.0, 1e6);
     s.number("ripple_mgal", p.ripple_mgal, 0.0, 1000.0);
     s.number("ripple_period_s", p.ripple_period_s, 10.0, 1e5);
     s.number("ripple_wander", p.ripple_wander, 0.0, 0.3);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "sim/signal/earth_tide.hpp"
 
@@ -17,6 +18,11 @@ plant::ThermalPlant running_plant(const plant::OvenParameters& oven, DegC ambien
     const auto steps = std::llround(3600.0 * oven.run_in_h / plant::ThermalPlant::kStepSeconds);
     for (long long i = 0; i < steps; ++i) plant.step(ambient);
     return plant;
+}
+
+std::array<plant::Lag, 3> equal_links(double tau_s, DegC body) {
+    const plant::Lag link(tau_s, SlowSignal::kStepSeconds, body.value());
+    return {link, link, link};
 }
 
 }  // namespace
@@ -38,13 +44,26 @@ SlowSignal::SlowSignal(const scenario::Scenario& scenario,
       white_(seed, "slow white"),
       walk_(seed, "random walk"),
       wander_(seed, "ripple wander"),
-      temperature_(seed, "slow temperature") {}
+      temperature_(seed, "slow temperature"),
+      links_(equal_links(scenario.slow_noise.drift_link_tau_s, plant_.body())),
+      body_degc_(plant_.body().value()) {}
+
+double SlowSignal::links_rate_mgal_per_h() {
+    double before_degc = body_degc_, degc = body_degc_ = plant_.body().value();
+    for (plant::Lag& link : links_) {
+        const double from_degc = std::exchange(before_degc, link.degc());
+        degc = link.next(from_degc, degc);
+    }
+    return scenario_.slow_noise.drift_links_mgal_per_h_per_degc *
+           (degc - scenario_.error.reference_degc);
+}
 
 double SlowSignal::drift_mgal(double elapsed_h) {
     const scenario::SlowNoiseParameters& p = scenario_.slow_noise;
     walk_mgal_ += p.drift_walk_mgal_per_sqrt_h * std::sqrt(kStepSeconds / 3600.0) * walk_.normal();
+    links_mgal_ += links_rate_mgal_per_h() * kStepSeconds / 3600.0;
     return elapsed_h * (p.drift_linear_mgal_per_h + elapsed_h * p.drift_quadratic_mgal_per_h2) +
-           walk_mgal_;
+           walk_mgal_ + links_mgal_;
 }
 
 double SlowSignal::ripple_mgal() {

@@ -6,6 +6,7 @@
 
 #include "protocol/core/units.hpp"
 #include "sim/noise/noise.hpp"
+#include "sim/plant/lag.hpp"
 #include "sim/plant/temperature_error.hpp"
 #include "sim/plant/thermal_plant.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -57,6 +58,7 @@ public:
 
 private:
     [[nodiscard]] double drift_mgal(double elapsed_h);
+    [[nodiscard]] double links_rate_mgal_per_h();
     [[nodiscard]] double ripple_mgal();
 
     const scenario::Scenario& scenario_;
@@ -71,6 +73,9 @@ private:
     std::int64_t step_ = 0;
     std::size_t set_up_ = 0;
     double walk_mgal_ = 0.0;
+    std::array<plant::Lag, 3> links_;  ///< One behind the other, the first behind the body.
+    double body_degc_;                 ///< Body at the last step.
+    double links_mgal_ = 0.0;          ///< Drift by the temperature behind the links.
     double wander_value_ = 0.0;
     double ripple_phase_rad_ = 0.0;
 };

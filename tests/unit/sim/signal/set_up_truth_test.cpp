@@ -101,6 +101,7 @@ TEST_CASE("each term of the truth agrees with its effect on the norm of the samp
         {"flicker_mgal", "[slow_noise]\nflicker_mgal = 3\n", 0.05},
         {"resonant_mgal", "[slow_noise]\nresonant_mgal = 3\n", 0.05},
         {"drift_mgal", "[slow_noise]\ndrift_linear_mgal_per_h = 5\n", 0.9},
+        {"drift_mgal", "[slow_noise]\ndrift_links_mgal_per_h_per_degc = 30\n", 0.5},
         {"ripple_mgal", "[slow_noise]\nripple_mgal = 2\nripple_period_s = 5000\n", 0.05},
         {"tilt_mgal", "[sensor]\nlevelling_sigma_deg = 2\nhorizontal_bias_max_mgal = 2000\n", 0.5},
         {"burst_mgal", "[vibration]\nvehicles_per_h = 60\nvehicle_hz = [0.1, 0.1]\n", 0.05},
