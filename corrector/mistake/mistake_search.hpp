@@ -9,8 +9,9 @@
 ///     });
 ///
 /// The search takes one mistake after another, each time the one that explains most.  It compares
-/// them by the scatter that is left, with a penalty for an unknown size.  A mistake is kept if such a
-/// share of the scatter is explained in fewer than kMistakeAlpha of simulated surveys without one.
+/// them by the scatter that is left, with a penalty for an unknown size and for the number of its
+/// class.  A mistake is kept if fewer than kMistakeAlpha of simulated surveys without one contain
+/// anything as clear.
 ///
 /// Method, false alarms and power: corrector/methods.md, "Search for mistakes".
 
@@ -43,7 +44,7 @@ struct Mistake {
     /// difference of both references.
     double size_mgal = 0.0;
     double u_mgal = 0.0;  ///< Standard uncertainty; 0 for a swap.
-    /// Probability that a survey without a mistake shows one of its class as clear as this.
+    /// Probability that a survey without a mistake shows one of any kind as clear as this.
     double p = 1.0;
     /// It was sure only when another one was put right on trial; then `p` is somewhat too small.
     bool needed_trial = false;
@@ -65,12 +66,12 @@ struct SearchedReading {
 using ResidualsOf = std::function<std::optional<residual::Residuals>(
     const std::vector<Mistake>& known, const std::vector<Mistake>& quiet)>;
 
-/// Probability that a mistake of one class is found where there is none.  There are three classes:
-/// readings, swaps, steps.
-inline constexpr double kMistakeAlpha = 0.009;
-/// The same for one that is sure only when another one was put right on trial.  Reason: up to three
-/// searches have a chance to find it.
-inline constexpr double kTrialAlpha = kMistakeAlpha / 3.0;
+/// Probability that a mistake is found where there is none.
+inline constexpr double kMistakeAlpha = 0.02;
+/// The same for one that is sure only when another one was put right on trial.  Reason: there are two
+/// such searches, which may add a fifth to the false alarms; large mistakes that hid each other are
+/// far below it.
+inline constexpr double kTrialAlpha = kMistakeAlpha / 10.0;
 
 /// Returns the mistakes that were found, in the order in which they were.
 ///

@@ -16,8 +16,8 @@ using reading::Finding;
 using reading::SurveyRow;
 
 /// Greatest p of a headline.  Reason: one clean day in a thousand may be told something false in its
-/// first line, and three classes of mistakes are searched.
-constexpr double kHeadlineP = 0.001 / 3.0;
+/// first line.
+constexpr double kHeadlineP = 0.001;
 /// Greatest distance from a reference at which a reading is said to be of that site, in standard
 /// uncertainties.  Reason: one right name in a hundred is missed.
 constexpr double kNameReach = 2.5;

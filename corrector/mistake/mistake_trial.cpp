@@ -23,11 +23,6 @@ constexpr double kFewestTrialDof = 8.0;
 /// Simulated surveys: first enough to see that nothing is found, then to know a small probability.
 constexpr int kFewDraws = 500, kManyDraws = 20000;
 
-std::size_t class_of(MistakeKind kind) {
-    if (kind == MistakeKind::swap) return static_cast<std::size_t>(Class::swap);
-    return static_cast<std::size_t>(kind == MistakeKind::step ? Class::step : Class::reading);
-}
-
 /// Returns the effect of 1 mGal in some of the readings.
 Eigen::VectorXd effect_of(const std::vector<std::size_t>& readings, std::size_t count) {
     Eigen::VectorXd effect = Eigen::VectorXd::Zero(static_cast<Index>(count));
@@ -173,31 +168,42 @@ double share_of(const Suspect& suspect, const Seen& seen) {
     return gain / (gain + rest);
 }
 
+/// Sets what each suspect costs: ln(number of its class), and for an unknown size what one within
+/// kSizeRange_mgal costs.  Classes are readings and stations, swaps, steps.
+void set_costs(std::vector<Suspect>& suspects) {
+    const auto class_of = [](const Suspect& suspect) {
+        const MistakeKind kind = suspect.mistake.kind;
+        return kind == MistakeKind::swap || kind == MistakeKind::step ? kind : MistakeKind::station;
+    };
+    std::map<MistakeKind, double> counts;
+    for (const Suspect& suspect : suspects) ++counts[class_of(suspect)];
+    for (Suspect& suspect : suspects) {
+        suspect.cost = std::log(counts[class_of(suspect)]);
+        if (!suspect.has_size())
+            suspect.cost +=
+                std::log(kSizeRange_mgal * suspect.length / std::sqrt(2.0 * std::numbers::pi));
+    }
+}
+
 }  // namespace
 
 Trial::Trial(residual::Residuals residuals, const std::vector<SearchedReading>& readings,
              const std::vector<Mistake>& known)
     : residuals_(std::move(residuals)),
+      dof_(residuals_.dof()),
       suspects_(suspects_of(residuals_, readings, known, directions_)) {
-    for (const Suspect& suspect : suspects_) ++counts_.at(class_of(suspect.mistake.kind));
+    set_costs(suspects_);
 }
 
-bool Trial::is_possible() const { return !suspects_.empty() && residuals_.dof() >= kFewestDof; }
+bool Trial::is_possible() const { return !suspects_.empty() && dof_ >= kFewestDof; }
 
-bool Trial::allows_trial() const { return residuals_.dof() >= kFewestTrialDof; }
+bool Trial::allows_trial() const { return dof_ >= kFewestTrialDof; }
 
 std::vector<Scored> Trial::best(std::size_t count) const {
     const Seen seen = seen_in(residuals_.values);
-    const double dof = residuals_.dof();
     std::vector<std::pair<double, const Suspect*>> scores;
-    for (const Suspect& suspect : suspects_) {
-        const double share = share_of(suspect, seen);
-        double score =
-            -0.5 * dof * std::log1p(-share) - std::log(counts_.at(class_of(suspect.mistake.kind)));
-        if (!suspect.has_size())
-            score -= std::log(kSizeRange_mgal * suspect.length / std::sqrt(2.0 * std::numbers::pi));
-        scores.emplace_back(score, &suspect);
-    }
+    for (const Suspect& suspect : suspects_)
+        scores.emplace_back(score_of(suspect, seen), &suspect);
     std::ranges::stable_sort(scores, std::ranges::greater(),
                              &std::pair<double, const Suspect*>::first);
     std::vector<Scored> best;
@@ -217,8 +223,7 @@ void Trial::measure(Mistake& mistake) const {
         return;
     }
     mistake = measured(*found);
-    const double share = share_of(*found, seen_in(residuals_.values));
-    mistake.p = probability(class_of(mistake.kind), share);
+    mistake.p = probability(score_of(*found, seen_in(residuals_.values)));
 }
 
 Mistake Trial::measured(const Suspect& suspect) const {
@@ -236,25 +241,26 @@ Seen Trial::seen_in(const Eigen::VectorXd& values) const {
             scatter.squaredNorm()};
 }
 
-/// Returns the largest share of each class.
-Shares Trial::largest(const Eigen::VectorXd& values) const {
-    const Seen seen = seen_in(values);
-    Shares most{};
-    for (const Suspect& suspect : suspects_) {
-        double& of_class = most.at(class_of(suspect.mistake.kind));
-        of_class = std::max(of_class, share_of(suspect, seen));
-    }
-    return most;
+double Trial::score_of(const Suspect& suspect, const Seen& seen) const {
+    return -0.5 * dof_ * std::log1p(-share_of(suspect, seen)) - suspect.cost;
 }
 
-/// Returns the probability of such a share in a class, if there is no mistake.
-double Trial::probability(std::size_t of_class, double share) const {
+/// Returns the highest score of all suspects.
+double Trial::best_score(const Eigen::VectorXd& values) const {
+    const Seen seen = seen_in(values);
+    double best = -HUGE_VAL;
+    for (const Suspect& suspect : suspects_) best = std::max(best, score_of(suspect, seen));
+    return best;
+}
+
+/// Returns the probability that anything has such a score, if there is no mistake.
+double Trial::probability(double score) const {
     std::mt19937_64 generator(1);  // fixed seed: the same day gives the same probability
-    int larger = 0, draws = 0;
+    int higher = 0, draws = 0;
     const auto draw_until = [&](int count) {
         for (; draws < count; ++draws)
-            if (largest(residuals_.simulated(generator)).at(of_class) >= share) ++larger;
-        return (1.0 + larger) / (1.0 + draws);
+            if (best_score(residuals_.simulated(generator)) >= score) ++higher;
+        return (1.0 + higher) / (1.0 + draws);
     };
     const double p = draw_until(kFewDraws);
     return p > 5.0 * kMistakeAlpha ? p : draw_until(kManyDraws);

@@ -11,7 +11,6 @@
 ///     }
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -36,6 +35,7 @@ struct Suspect {
     double size = 1.0;
     double length = 0.0;  ///< Length of the effect of 1 mGal; of a swap that of the whole effect.
     double scatter_square = 0.0;  ///< Square of the length of the effect's part in the scatter.
+    double cost = 0.0;            ///< Subtracted from the score: number of its class, unknown size.
 
     [[nodiscard]] bool has_size() const { return other >= 0; }
     /// Returns the product of the effect with something, from its products with the directions.
@@ -55,12 +55,6 @@ struct Seen {
     double square = 0.0;               ///< Square of the length of the whole scatter.
 };
 
-/// Classes of mistakes, whose probabilities are separate: readings and stations, swaps, steps.
-enum class Class : std::size_t { reading, swap, step };
-inline constexpr std::size_t kClasses = 3;
-/// Largest share of the scatter, or another number, for each class.
-using Shares = std::array<double, kClasses>;
-
 /// The residuals of a survey with everything that may explain them.
 class Trial {
 public:
@@ -73,8 +67,8 @@ public:
     /// Returns true if enough readings are left to put a mistake right on trial.
     [[nodiscard]] bool allows_trial() const;
 
-    /// Returns the mistakes that explain most, the best first, by -dof / 2 ln(1 - share) less what an
-    /// unknown size and the number of its class cost; with their sizes.
+    /// Returns the mistakes with the highest score, the best first, with their sizes.  The score is
+    /// -dof / 2 ln(1 - share) less Suspect::cost.
     [[nodiscard]] std::vector<Scored> best(std::size_t count) const;
 
     /// Sets the size of a mistake and its probability; 1 if the residuals contain nothing of it.
@@ -83,13 +77,14 @@ public:
 private:
     [[nodiscard]] Mistake measured(const Suspect& suspect) const;
     [[nodiscard]] Seen seen_in(const Eigen::VectorXd& values) const;
-    [[nodiscard]] Shares largest(const Eigen::VectorXd& values) const;
-    [[nodiscard]] double probability(std::size_t of_class, double share) const;
+    [[nodiscard]] double score_of(const Suspect& suspect, const Seen& seen) const;
+    [[nodiscard]] double best_score(const Eigen::VectorXd& values) const;
+    [[nodiscard]] double probability(double score) const;
 
     residual::Residuals residuals_;
     Directions directions_;
+    double dof_ = 0.0;  ///< Degrees of freedom of the scatter.
     std::vector<Suspect> suspects_;
-    Shares counts_{};  ///< Number of suspects of each class.
 };
 
 }  // namespace a351::corrector::mistake
