@@ -17,12 +17,13 @@ std::string detail(const Event& event, const std::string& key) {
     return found == event.details.end() ? std::string() : found->second;
 }
 
-void add_note(std::string& notes, const Event& event) {
-    const std::string note = detail(event, "note");
-    if (note.empty()) return;
+void add_text(std::string& notes, const std::string& text) {
+    if (text.empty()) return;
     if (!notes.empty()) notes += "; ";
-    notes += note;
+    notes += text;
 }
+
+void add_note(std::string& notes, const Event& event) { add_text(notes, detail(event, "note")); }
 
 /// Returns the set-ups between these limits, without those of no duration.
 std::vector<Occupation::SetUp> set_ups_of(const std::vector<UtcTime>& starts, UtcTime end) {
@@ -82,6 +83,9 @@ void OccupationReplay::apply(const Event& event) {
     if (!running_) return;
     if (event.type == "setup") running_->set_ups.push_back(event.utc);
     if (event.type == "stop") {
+        const std::string site = detail(event, "site");
+        if (!site.empty() && site != running_->site)
+            add_text(running_->note, "its stop names " + site);
         add_note(running_->note, event);
         end_running(event.utc, true);
     }

@@ -8,6 +8,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv_reader.hpp"
+#include "protocol/text/echo.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::text {
@@ -49,7 +50,8 @@ std::optional<double> CsvTable::number_if_given(std::size_t row, std::string_vie
 void CsvTable::refuse(std::size_t row, std::string_view column, std::string_view trouble,
                       std::string_view allowed) const {
     throw InputError(fmt::format("{}:{}: {} = {}: {}; allowed: {}", origin_.string(),
-                                 rows_.at(row).line, column, cell(row, column), trouble, allowed));
+                                 rows_.at(row).line, column, echoed(cell(row, column)), trouble,
+                                 allowed));
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {

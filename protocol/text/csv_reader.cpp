@@ -8,6 +8,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/echo.hpp"
 
 namespace a351::text {
 namespace {
@@ -53,7 +54,7 @@ CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
     for (auto cell = cells_.begin(); cell != cells_.end(); ++cell) {
         if (std::find(cells_.begin(), cell, *cell) != cell) {
             throw InputError(fmt::format("{}:{}: column {} appears twice; allowed: once",
-                                         origin_.string(), line_, *cell));
+                                         origin_.string(), line_, echoed(*cell)));
         }
     }
     columns_.assign(cells_.begin(), cells_.end());
@@ -92,7 +93,8 @@ bool CsvReader::next_line() {
 void CsvReader::refuse(std::size_t column, std::string_view trouble,
                        std::string_view allowed) const {
     throw InputError(fmt::format("{}:{}: {} = {}: {}; allowed: {}", origin_.string(), line_,
-                                 columns_.at(column), cells_.at(column), trouble, allowed));
+                                 echoed(columns_.at(column)), echoed(cells_.at(column)), trouble,
+                                 allowed));
 }
 
 std::size_t column_index(const std::vector<std::string>& columns, std::string_view column,
@@ -100,7 +102,7 @@ std::size_t column_index(const std::vector<std::string>& columns, std::string_vi
     const auto found = std::ranges::find(columns, column);
     if (found == columns.end()) {
         throw InputError(fmt::format("{}:1: column {} is missing; there are: {}", origin.string(),
-                                     column, joined(columns, ",")));
+                                     column, echoed(joined(columns, ","))));
     }
     return static_cast<std::size_t>(found - columns.begin());
 }

@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <boost/locale/utf.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/echo.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::text {
@@ -46,15 +46,25 @@ std::vector<double> filled_column(const CsvTable& table, std::string_view column
     return values;
 }
 
-bool is_utf8(std::string_view text) {
-    using boost::locale::utf::code_point;
-    for (const char* at = text.data(); at != text.data() + text.size();) {
-        const code_point point =
-            boost::locale::utf::utf_traits<char>::decode(at, text.data() + text.size());
-        if (point == boost::locale::utf::illegal || point == boost::locale::utf::incomplete)
-            return false;
+struct Trouble {
+    std::string_view trouble, allowed;
+};
+
+/// Returns what is wrong with the characters of a name; an empty text if nothing is.
+Trouble trouble_with_characters(std::string_view name) {
+    if (std::string_view("=+-@").find(name.front()) != std::string_view::npos)
+        return {"begins with =, +, - or @, which a spreadsheet takes as a formula",
+                "a letter or digit first"};
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(name[i]);
+        const auto next = i + 1 < name.size() ? static_cast<unsigned char>(name[i + 1]) : 0U;
+        // U+0080 to U+009F are control characters too; in UTF-8 they begin with C2.
+        if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && next >= 0x80 && next <= 0x9F))
+            return {"has a control character", "visible characters"};
+        if (byte == ',') return {"has a comma, which separates the columns", "no comma"};
+        if (byte == '"') return {"has a quotation mark, which programs read differently", "no \""};
     }
-    return true;
+    return {};
 }
 
 /// Returns a name in lower case without blanks and punctuation.
@@ -93,6 +103,8 @@ std::vector<Site> parse_sites(std::string_view text, const std::filesystem::path
         if (name.empty()) table.refuse(row, "site", "empty", "a name");
         if (!is_utf8(name))
             table.refuse(row, "site", "not UTF-8", "UTF-8; in a spreadsheet: save as CSV UTF-8");
+        if (const auto [trouble, allowed] = trouble_with_characters(name); !trouble.empty())
+            table.refuse(row, "site", trouble, allowed);
         if (find_site(sites, name) != nullptr)
             table.refuse(row, "site", "appears twice", "each site once");
         Site site{name,
@@ -122,15 +134,9 @@ std::string trouble_with_site_name(std::string_view name) {
     const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
     if (is_blank(name.front()) || is_blank(name.back()))
         return "the name of the site begins or ends with a blank; leave it out";
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(name[i]);
-        const auto next = i + 1 < name.size() ? static_cast<unsigned char>(name[i + 1]) : 0U;
-        // U+0080 to U+009F are control characters too; in UTF-8 they begin with C2.
-        if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && next >= 0x80 && next <= 0x9F))
-            return "the name of the site has a control character; allowed: visible characters";
-        if (byte == ',') return "the name of the site has a comma, which separates the columns";
-    }
-    return {};
+    const auto [trouble, allowed] = trouble_with_characters(name);
+    return trouble.empty() ? ""
+                           : fmt::format("the name of the site {}; allowed: {}", trouble, allowed);
 }
 
 const Site* find_site(const std::vector<Site>& sites, std::string_view name) {

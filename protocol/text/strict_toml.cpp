@@ -10,6 +10,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/echo.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::text {
@@ -29,7 +30,18 @@ std::string as_written(const toml::node& node) {
     if (const auto* const number = node.as_floating_point()) return shortest(**number);
     std::ostringstream out;
     node.visit([&out](const auto& value) { out << value; });
-    return out.str();
+    return echoed(out.str());
+}
+
+/// Returns a line of a text, without blanks before it; lines are counted from 1.
+std::string_view line_of(std::string_view text, std::size_t number) {
+    for (; number > 1; --number) {
+        const std::size_t end = text.find('\n');
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+    text = text.substr(0, text.find_first_of("\r\n"));
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    return text;
 }
 
 /// Returns true if a key differs from another in a few letters: one of four, at least one.
@@ -75,7 +87,7 @@ void TomlTable::refuse(std::string_view key, std::string_view trouble,
                                              : nowhere;
     std::string message = position(document_->origin, source) + ": ";
     if (!name_.empty()) message += name_ + ".";
-    message += key;
+    message += echoed(key);
     if (node != nullptr && !node->is_table() && !node->is_array_of_tables())
         message += " = " + as_written(*node);
     throw InputError(fmt::format("{}: {}; allowed: {}", message, trouble, allowed));
@@ -88,7 +100,7 @@ void TomlTable::refuse_misspelt(std::string_view right) const {
         if (asked_.contains(key.str()) || !is_misspelt(key.str(), right)) continue;
         throw InputError(fmt::format("{}: {}{}{}: unknown key; did you mean {}?",
                                      position(document_->origin, node.source()), name_,
-                                     name_.empty() ? "" : ".", key.str(), right));
+                                     name_.empty() ? "" : ".", echoed(key.str()), right));
     }
 }
 
@@ -212,8 +224,10 @@ TomlTable parse_toml(std::string_view text, std::filesystem::path origin) {
     try {
         document->root = toml::parse(text);
     } catch (const toml::parse_error& error) {
-        throw InputError(fmt::format("{}: not TOML: {}", position(document->origin, error.source()),
-                                     error.description()));
+        throw InputError(fmt::format(
+            "{}: not TOML: {}; the line is {}; allowed: key = value, with texts in quotes",
+            position(document->origin, error.source()), error.description(),
+            echoed(line_of(text, error.source().begin.line))));
     }
     const toml::table* const root = &document->root;
     return TomlTable(std::move(document), root, "");

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "protocol/core/utc_time.hpp"
 #include "sim/truth/truth_file.hpp"
@@ -29,6 +30,9 @@ public:
     /// Returns true if so many bytes wait to be read that the device should pause.  Sending more
     /// loses nothing but uses memory.
     [[nodiscard]] virtual bool is_full() const = 0;
+
+    /// Takes back the bytes that the host has not seen yet.  A line without a buffer returns none.
+    [[nodiscard]] virtual std::vector<std::byte> take_back() { return {}; }
 };
 
 /// A device that speaks the sensor's protocol at the far end of a line.  No I/O and no clock.

@@ -134,6 +134,17 @@ void Line::unplug(UtcTime simulated) {
     remove(pending_size(), Way::unplugged, simulated);
 }
 
+std::vector<std::byte> Line::take_back() {
+    const std::vector<std::byte> pending(
+        queue_.begin() + static_cast<std::ptrdiff_t>(queue_start_), queue_.end());
+    transport_.take(pending.size());
+    queue_.clear();
+    queue_start_ = 0;
+    gone_ += pending.size();
+    marks_.clear();
+    return pending;
+}
+
 void Line::remove(std::size_t byte_count, Way way, UtcTime simulated) {
     const std::uint64_t end = gone_ + byte_count;
     while (!marks_.empty() && marks_.front().begin <= end) {

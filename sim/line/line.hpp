@@ -98,6 +98,9 @@ public:
 
     /// Ends the line: bytes still under way never arrive.
     void abandon(UtcTime simulated) { remove(pending_size(), Way::abandoned, simulated); }
+
+    [[nodiscard]] std::vector<std::byte> take_back() override;
+
     void plug_in() noexcept { is_plugged_in_ = true; }
 
     [[nodiscard]] const Report& report() const noexcept { return report_; }

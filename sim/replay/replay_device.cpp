@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace a351::sim::replay {
 namespace {
@@ -43,7 +44,12 @@ void Device::install_unit(Nanoseconds now) {
 void Device::receive(std::span<const std::byte> bytes, const device::Instant& now,
                      device::LineSink& line) {
     answers_.clear();
+    const bool was_sampling = machine_->is_sampling();
     machine_->receive(bytes, now.steady, answers_);
+    if (was_sampling && (!machine_->is_sampling() || machine_->sampling_run() != run_)) {
+        const auto unseen = line.take_back();
+        taken_back_.insert(taken_back_.begin(), unseen.begin(), unseen.end());
+    }
     if (!answers_.empty()) line.send(answers_, now.simulated, nullptr);
     if (machine_->is_sampling() && machine_->sampling_run() != run_) begin_sampling(now.simulated);
 }
@@ -67,6 +73,8 @@ UtcTime Device::simulated(UtcTime recorded) const {
 void Device::advance_to(const device::Instant& now, device::LineSink& line) {
     now_ = now.simulated;
     if (is_over_ || !machine_->is_sampling()) return;
+    if (!taken_back_.empty())
+        line.send(std::exchange(taken_back_, {}), std::max(now_, sampling_since_), nullptr);
     while (const auto due = recording_->next_due(*machine_)) {
         if (simulated(*due) > now_ || line.is_full()) return;
         recording_->send_next(*machine_, std::max(simulated(*due), sampling_since_), line);

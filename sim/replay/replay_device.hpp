@@ -22,8 +22,8 @@ struct Report {
 
 /// Answers commands as the recorded unit does in configuration mode.  The recording is sent while
 /// the host samples with the recorded settings.  A piece that was due before is sent at once, so
-/// that nothing is left out if the host is late.  When the host stops and starts again, the next
-/// piece follows.  At the end of a session the device is silent in configuration mode; the next
+/// that nothing is left out if the host is late.  When the host stops, bytes that it has not seen
+/// are taken back from the line; when it starts again, they and the next piece follow.  At the end of a session the device is silent in configuration mode; the next
 /// session begins when the host starts sampling again.
 class Device final : public device::LineDevice {
 public:
@@ -61,6 +61,7 @@ private:
     UtcTime sampling_since_;
     UtcTime now_;  ///< Simulated time of the last call.
     std::vector<std::byte> answers_;
+    std::vector<std::byte> taken_back_;  ///< Recorded bytes to send before the next piece.
     Report report_;
 };
 

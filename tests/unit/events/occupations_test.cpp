@@ -28,6 +28,18 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
+TEST_CASE("a stop that names another site ends the stay, and its notes say so",
+          "[record][occupations]") {
+    Event other = stop("09:10");
+    other.details["site"] = "B";
+    const auto stays = occupations_of({start("09:00", "C"), other});
+    REQUIRE(stays.size() == 1);
+    CHECK(stays[0].site == "C");
+    CHECK(stays[0].note == "its stop names B");
+    other.details["site"] = "C";
+    CHECK(occupations_of({start("09:00", "C"), other})[0].note.empty());
+}
+
 TEST_CASE("start and stop make an occupation", "[record][occupations]") {
     CHECK(shown({start("09:00", "A"), stop("09:10")}) == Lines{"A#1 09:00-09:10"});
 }

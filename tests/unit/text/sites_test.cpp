@@ -96,6 +96,16 @@ TEST_CASE("a site whose name is not UTF-8 is refused with the remedy", "[text][s
     CHECK(read_sites(written(kHeader + "\xE5\xB1\xB1,140,36,0,\n")).size() == 1);
 }
 
+TEST_CASE("names that a spreadsheet or another program would change are refused", "[text][sites]") {
+    for (const std::string_view name : {"=1+1", "+A", "-A", "@A", "A\x01", "A\xC2\x85", "A\"B"}) {
+        CAPTURE(name);
+        CHECK_THROWS_WITH(parse_sites(kHeader + std::string(name) + ",1,2,3,\n", "sites.csv"),
+                          StartsWith("sites.csv:2: site = ") && ContainsSubstring("allowed: "));
+        CHECK_FALSE(trouble_with_site_name(name).empty());
+    }
+    CHECK(parse_sites(kHeader + "No.0-1 (\xC3\xA9),1,2,3,\n", "s.csv").size() == 1);
+}
+
 TEST_CASE("a mistyped name is recognised if only one site is like it", "[text][sites]") {
     std::vector<Site> sites(4);
     sites[0].name = "No.6";

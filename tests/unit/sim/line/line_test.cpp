@@ -45,6 +45,18 @@ TEST_CASE("a frame counts as sent once its last byte has gone", "[sim][line]") {
     CHECK(line.is_empty());
 }
 
+TEST_CASE("bytes that the host has not seen are taken back from the line", "[sim][line]") {
+    Line line({}, 1, UtcTime(0s), [](const truth::Record&) {});
+    std::vector<std::byte> bytes(48);
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i);
+    line.send(bytes, UtcTime(1s), nullptr);
+    line.handed_over(7, UtcTime(1s));
+    CHECK(line.take_back() == std::vector<std::byte>(bytes.begin() + 7, bytes.end()));
+    CHECK(line.is_empty());
+    line.send(kFrame, UtcTime(2s), nullptr);
+    CHECK(line.shown(UtcTime(2s)).size() == kFrame.size());
+}
+
 TEST_CASE("the steady lateness is the largest of the minima over blocks of fifty frames",
           "[sim][line]") {
     Line line({}, 1, UtcTime(0s), [](const truth::Record&) {});

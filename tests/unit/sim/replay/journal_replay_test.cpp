@@ -264,6 +264,22 @@ TEST_CASE("a host that stops and starts again continues with the next recorded b
     CHECK(device.report().sessions == 1);
 }
 
+TEST_CASE("bytes that a host has not seen when it stops are replayed when it starts again",
+          "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    Device device = recorded.device();
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    host.wait_until(kStart + 6s);
+    host.line.seen = 1;
+    host.stop();
+    CHECK(text_of(host.line) == "one");
+    host.configure({}, kProfile);
+    host.listen();
+    CHECK(text_of(host.line) == "twothree");
+}
+
 TEST_CASE("a clock step of the recording host is not replayed within a boot, a step back never",
           "[sim][replay]") {
     Recorded recorded;

@@ -23,6 +23,12 @@ public:
         pieces.push_back({{bytes.begin(), bytes.end()}, leaves});
     }
     [[nodiscard]] bool is_full() const override { return pieces.size() >= capacity; }
+    [[nodiscard]] std::vector<std::byte> take_back() override {
+        SentPieces unseen;
+        for (; pieces.size() > seen; pieces.pop_back())
+            unseen.pieces.insert(unseen.pieces.begin(), pieces.back());
+        return unseen.bytes();
+    }
 
     [[nodiscard]] std::vector<std::byte> bytes() const {
         std::vector<std::byte> all;
@@ -34,6 +40,7 @@ public:
 
     std::vector<Piece> pieces;
     std::size_t capacity = SIZE_MAX;
+    std::size_t seen = SIZE_MAX;  ///< Pieces that have reached the host.
 };
 
 /// A host whose clocks move only in the test's calls.  Simulated time begins at `now`.

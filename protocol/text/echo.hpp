@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace a351::text {
+
+/// Returns true if a text is valid UTF-8.
+[[nodiscard]] bool is_utf8(std::string_view text);
+
+/// Returns text of an input file as an error line shows it: at most 100 bytes of it, then "..." and
+/// its length.  Bytes that are not UTF-8 and control characters become \xHH.
+[[nodiscard]] std::string echoed(std::string_view text);
+
+}  // namespace a351::text
