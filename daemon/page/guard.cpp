@@ -11,6 +11,8 @@
 namespace a351::daemon::page {
 namespace {
 
+constexpr std::string_view kHttp = "http://", kHttps = "https://";
+
 std::string lower(std::string_view text) {
     std::string result(text);
     for (char& c : result)
@@ -21,6 +23,13 @@ std::string lower(std::string_view text) {
 bool has_port(std::string_view host) {
     const auto colon = host.rfind(':');
     return colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos;
+}
+
+/// Returns a host without the port that browsers leave out: 80 of http, 443 of https.
+std::string without_usual_port(std::string_view scheme, std::string_view host) {
+    const std::string_view usual = scheme == kHttps ? ":443" : ":80";
+    if (host.ends_with(usual)) host.remove_suffix(usual.size());
+    return std::string(host);
 }
 
 /// Returns true for application/json, with or without parameters.
@@ -50,14 +59,38 @@ bool is_same_secret(std::string_view given, std::string_view expected) noexcept 
 Guard::Guard(std::uint16_t port, const std::vector<std::string>& hosts, std::string token)
     : token_(std::move(token)) {
     const std::string suffix = fmt::format(":{}", port);
-    for (const char* name : {"127.0.0.1", "localhost", "[::1]"}) hosts_.push_back(name + suffix);
-    for (const auto& host : hosts) hosts_.push_back(lower(has_port(host) ? host : host + suffix));
+    for (const char* name : {"127.0.0.1", "localhost", "[::1]"}) add(kHttp, name + suffix);
+    for (const auto& given : hosts) {
+        const std::string host = lower(given);
+        if (host.starts_with(kHttps))
+            add(kHttps, host.substr(kHttps.size()));
+        else if (host.starts_with(kHttp))
+            add(kHttp, host.substr(kHttp.size()));
+        else
+            add(kHttp, has_port(host) ? host : host + suffix);
+    }
+}
+
+void Guard::add(std::string_view scheme, const std::string& host) {
+    for (const std::string& name : {host, without_usual_port(scheme, host)}) {
+        hosts_.push_back(name);
+        origins_.push_back(std::string(scheme) + name);
+    }
 }
 
 std::optional<Response> Guard::refuse(const Request& request) const {
-    const auto is_listed = [&](std::string_view name) {
-        return std::ranges::count(hosts_, lower(name)) > 0 ||
-               (!request.address.empty() && lower(name) == request.address);
+    const auto is_own_address = [&](std::string_view name) {
+        return !request.address.empty() &&
+               (name == request.address || name == without_usual_port(kHttp, request.address));
+    };
+    const auto is_listed = [&](std::string_view host) {
+        const std::string name = lower(host);
+        return std::ranges::count(hosts_, name) > 0 || is_own_address(name);
+    };
+    const auto is_own_origin = [&](std::string_view given) {
+        const std::string origin = lower(given);
+        return std::ranges::count(origins_, origin) > 0 ||
+               (origin.starts_with(kHttp) && is_own_address(origin.substr(kHttp.size())));
     };
     const auto host = request.values("Host");
     if (host.size() != 1 || !is_listed(host.front()))
@@ -66,11 +99,9 @@ std::optional<Response> Guard::refuse(const Request& request) const {
     const bool is_stream = asks_for_stream(request);
     if (is_read && !is_stream) return std::nullopt;
 
-    constexpr std::string_view kScheme = "http://";
     const auto origins = request.values("Origin");
     for (const auto& origin : origins) {
-        if (!lower(origin).starts_with(kScheme) || !is_listed(origin.substr(kScheme.size())))
-            return refusal(403, "Origin is not a name of this daemon");
+        if (!is_own_origin(origin)) return refusal(403, "Origin is not a name of this daemon");
     }
     if (is_read && !origins.empty()) return std::nullopt;
     const auto type = request.values("Content-Type");

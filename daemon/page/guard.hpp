@@ -20,7 +20,8 @@ class Guard {
 public:
     /// @param port   the server's port.
     /// @param hosts  names in addition to 127.0.0.1, localhost and [::1]; those without a port get
-    ///               `port`.
+    ///               `port`.  An origin such as https://name is that of a proxy.  The ports 80 of
+    ///               http and 443 of https may be left out, as browsers do.
     Guard(std::uint16_t port, const std::vector<std::string>& hosts, std::string token);
 
     /// Returns the refusal, or std::nullopt for a request that may be answered:
@@ -32,7 +33,10 @@ public:
     [[nodiscard]] std::optional<Response> refuse(const Request& request) const;
 
 private:
-    std::vector<std::string> hosts_;  ///< name:port, lower case.
+    void add(std::string_view scheme, const std::string& host);
+
+    std::vector<std::string> hosts_;    ///< Values of Host, lower case.
+    std::vector<std::string> origins_;  ///< Values of Origin, lower case.
     std::string token_;
 };
 

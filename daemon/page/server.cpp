@@ -1,13 +1,17 @@
 #include "daemon/page/server.hpp"
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "daemon/page/asio.hpp"
 #include "daemon/page/guard.hpp"
 #include "daemon/page/live_stream.hpp"
+#include "daemon/page/seats.hpp"
 
 namespace a351::daemon::page {
 namespace {
@@ -15,8 +19,11 @@ namespace {
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
 constexpr std::uint64_t kBodyLimit = std::uint64_t{16} * 1024;
 constexpr std::string_view kLivePath = "/live";
-constexpr std::size_t kMostConnections = 32;  // At once: bounds the cost of a client that leaks.
-constexpr std::size_t kMostStreams = 20;      // Part of the connections; 12 remain for requests.
+constexpr std::size_t kMostStreams = 20;  // Part of the connections; 12 remain for requests.
+constexpr std::size_t kMostTurnedAway = Seats::kMost;
+// From accepting a connection to the end of its first header: a request of a slow network takes
+// less than a second.
+constexpr std::chrono::milliseconds kFirstHeader{2000};
 constexpr std::chrono::seconds kRefusalLinger{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};
 
@@ -155,32 +162,52 @@ private:
     }
 
     void welcome(tcp::socket socket) {
-        // Connections that are refused also need a socket for a moment.
-        auto& taken = api_->use().connections;
-        if (taken + turned_away_ >= 2 * kMostConnections) return;
-        error_code ignored;
-        socket.set_option(tcp::no_delay(true), ignored);
-        if (taken >= kMostConnections)
-            asio::co_spawn(io_, turn_away(std::move(socket), Seat(turned_away_)), asio::detached);
-        else
-            asio::co_spawn(io_, serve(std::move(socket), Seat(taken)), asio::detached);
+        error_code error;
+        socket.set_option(tcp::no_delay(true), error);
+        const auto client = socket.remote_endpoint(error);
+        if (error) return;
+        const auto stream = std::make_shared<beast::tcp_stream>(std::move(socket));
+        const auto place = seats_.seat({.address = client.address().to_string(),
+                                        .is_loopback = client.address().is_loopback(),
+                                        .leave = [stream] { stream->close(); }});
+        if (place != seats_.end()) {
+            asio::co_spawn(io_, hold_seat(stream, place), asio::detached);
+        } else if (turned_away_ < kMostTurnedAway) {
+            // A connection that is refused also needs a socket for a moment.
+            asio::co_spawn(io_, turn_away(stream, Seat(turned_away_)), asio::detached);
+        }
     }
 
-    asio::awaitable<void> turn_away(tcp::socket socket, Seat) {
-        beast::tcp_stream stream(std::move(socket));
-        co_await refuse(stream, refusal(503, "too many connections; try again later"));
+    asio::awaitable<void> hold_seat(std::shared_ptr<beast::tcp_stream> stream, Seats::Place place) {
+        struct Leave {
+            Seats& seats;
+            Seats::Place place;
+            ~Leave() { seats.leave(place); }
+        } const leave{seats_, place};
+        const Seat seat(api_->use().connections);
+        co_await serve(*stream, place);
     }
 
-    asio::awaitable<void> serve(tcp::socket socket, Seat) {
-        beast::tcp_stream stream(std::move(socket));
+    static asio::awaitable<void> turn_away(std::shared_ptr<beast::tcp_stream> stream, Seat) {
+        co_await refuse(*stream, refusal(503, "too many connections; try again later"));
+    }
+
+    asio::awaitable<void> serve(beast::tcp_stream& stream, Seats::Place place) {
+        auto header_limit = std::min(kFirstHeader, options_.request_limit);
         beast::flat_buffer buffer(kHeaderLimit + kBodyLimit);
         for (;;) {
             http::request_parser<http::string_body> parser;
             parser.header_limit(kHeaderLimit);
             parser.body_limit(kBodyLimit);
             error_code error;
-            stream.expires_after(options_.request_limit);
-            co_await http::async_read(stream, buffer, parser, into(error));
+            stream.expires_after(std::exchange(header_limit, options_.request_limit));
+            co_await http::async_read_header(stream, buffer, parser, into(error));
+            if (!error && !parser.is_done()) {
+                stream.expires_after(options_.request_limit);
+                co_await http::async_read(stream, buffer, parser, into(error));
+            }
+            if (place->is_leaving) co_return;
+            Seats::request_came(place);
             if (error) {
                 const auto trouble = complaint(error);
                 if (trouble) co_await refuse(stream, *trouble);
@@ -203,6 +230,7 @@ private:
             stream.expires_after(options_.request_limit);
             co_await http::async_write(stream, reply, into(error));
             if (error || !message.keep_alive()) co_return;
+            seats_.was_answered(place);
         }
     }
 
@@ -235,6 +263,7 @@ private:
     // Coroutines end with io_ and then free their seats in these members.
     std::optional<Api> api_;
     std::size_t turned_away_ = 0;
+    Seats seats_;
     asio::io_context io_{1};
     std::optional<LiveStream> live_;
     std::vector<tcp::acceptor> acceptors_;

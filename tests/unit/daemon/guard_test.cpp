@@ -21,12 +21,12 @@ int refused_with(const Guard& guard, const Request& request) {
 TEST_CASE("a request for an unknown Host is answered 421", "[daemon][page]") {
     const Guard guard(8351, {"Gravbox", "field.example:80"}, kToken);
     for (const char* host : {"127.0.0.1:8351", "localhost:8351", "LocalHost:8351", "[::1]:8351",
-                             "gravbox:8351", "GRAVBOX:8351", "field.example:80"}) {
+                             "gravbox:8351", "GRAVBOX:8351", "field.example:80", "field.example"}) {
         CHECK(refused_with(guard, with(get("/"), "Host", host)) == 200);
     }
     for (const char* host :
          {"evil.example:8351", "127.0.0.1", "127.0.0.1:80", "localhost", "localhost:83511", "",
-          "field.example", "gravbox", "127.0.0.1:8351.evil.example", "localhost:8351 "}) {
+          "gravbox", "127.0.0.1:8351.evil.example", "localhost:8351 "}) {
         CHECK(refused_with(guard, with(get("/"), "Host", host)) == 421);
         CHECK(refused_with(guard, with(post("/api/note"), "Host", host)) == 421);
     }
@@ -38,6 +38,28 @@ TEST_CASE("a request for an unknown Host is answered 421", "[daemon][page]") {
     auto two = get("/");
     two.headers.emplace_back("host", "127.0.0.1:8351");
     CHECK(refused_with(guard, two) == 421);
+}
+
+TEST_CASE("port 80 and a proxy with TLS are reached by names without a port", "[daemon][page]") {
+    const Guard usual(80, {"gravbox"}, kToken);
+    for (const char* host : {"gravbox", "gravbox:80", "127.0.0.1", "localhost:80", "[::1]"})
+        CHECK(refused_with(usual, with(get("/"), "Host", host)) == 200);
+    auto phone = with(get("/"), "Host", "192.0.2.7");
+    phone.address = "192.0.2.7:80";
+    CHECK(refused_with(usual, phone) == 200);
+
+    const Guard proxied(8351, {"https://gravbox.example", "https://other.example:8443"}, kToken);
+    const auto change = [&](const char* host, const char* origin) {
+        return refused_with(proxied, with(with(post("/api/note"), "Host", host), "Origin", origin));
+    };
+    CHECK(change("gravbox.example", "https://gravbox.example") == 200);
+    CHECK(change("GravBox.example", "HTTPS://GravBox.example") == 200);
+    CHECK(change("other.example:8443", "https://other.example:8443") == 200);
+    CHECK(change("127.0.0.1:8351", "https://gravbox.example") == 200);  // a proxy that sets Host
+    CHECK(change("gravbox.example", "http://gravbox.example") == 403);
+    CHECK(change("gravbox.example", "https://evil.example") == 403);
+    CHECK(change("gravbox.example:8351", "https://gravbox.example") == 421);
+    CHECK(change("other.example", "https://other.example:8443") == 421);
 }
 
 TEST_CASE("under DNS rebinding Host and Origin agree, and the request is still refused",
