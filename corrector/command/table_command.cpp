@@ -51,7 +51,8 @@ void correct_table(TableOptions options) {
         .pressure = options.pressure,
         .admittance_mgal_per_hpa = number_option("--admittance", options.admittance_mgal_per_hpa,
                                                  reduction::kLeastAdmittance_mgal_per_hpa,
-                                                 reduction::kGreatestAdmittance_mgal_per_hpa)};
+                                                 reduction::kGreatestAdmittance_mgal_per_hpa),
+        .is_admittance_fitted = options.survey.network.fits_admittance};
     const std::vector<std::string> reduced =
         reduction::reduce_rows(rows, sites, reduction::read_gradients(options.sites), reduction);
     const std::optional<double> density = options.bouguer_density_kg_per_m3;
@@ -133,6 +134,8 @@ void add_table_command(CLI::App& program) {
         "Air pressure at the stations, time,pressure_hpa, for readings without pressure_hpa");
     add_with_default(command, "--admittance", "MGAL/HPA", options->admittance_mgal_per_hpa,
                      "Effect of the air pressure on gravity");
+    command.add_flag("--fit-admittance", options->survey.network.fits_admittance,
+                     "network: fit the effect of the air pressure instead");
     add_option(command, "--bouguer-density", "KG/M3", options->bouguer_density_kg_per_m3,
                "Add normal gravity (GRS80), free-air anomaly and simple Bouguer anomaly of the "
                "stations, with a plate of this density (usual: 2670)");

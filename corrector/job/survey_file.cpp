@@ -63,6 +63,8 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.reduction.admittance_mgal_per_hpa = table.number_or(
         "admittance_mgal_per_hpa", survey.reduction.admittance_mgal_per_hpa,
         reduction::kLeastAdmittance_mgal_per_hpa, reduction::kGreatestAdmittance_mgal_per_hpa);
+    survey.reduction.is_admittance_fitted = survey.survey.network.fits_admittance =
+        table.boolean_or("fit_admittance", false);
     survey.bouguer_density_kg_per_m3 =
         table.number("bouguer_density_kg_per_m3", reduction::kLeastDensity_kg_per_m3,
                      reduction::kGreatestDensity_kg_per_m3);

@@ -3,7 +3,8 @@
 /// One least-squares adjustment of all readings for unknown stations, known stations and
 /// instrument:
 ///
-///     reading_i = g(station_i) + constant + drift (t_i - t0)^k + bT (T_i - T0) + bR R_i + error_i
+///     reading_i = g(station_i) + constant + drift (t_i - t0)^k + bT (T_i - T0) + bR R_i
+///                 [+ bP (p_i - p_n)] + error_i
 ///     datum:      g(k) = reference_k +- u_k or datum_sd    one row for each station held
 ///     prior:      coefficient = mean +- sd                 one row for each prior
 ///
@@ -34,6 +35,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "corrector/model/prior.hpp"
@@ -61,11 +63,16 @@ inline constexpr double kLeastRedundancy = 1e-9;
 /// drift at most; a higher degree follows the readings.
 inline constexpr int kGreatestDriftDegree = 3;
 
+/// Name of the effect of the air pressure among the terms.
+inline constexpr std::string_view kAdmittanceTerm = "admittance_mgal_per_hpa";
+
 /// Options of the adjustment.
 struct NetworkOptions {
     /// Standard deviation of a reference that has none of its own, mGal.  Default: typical of gravity
     /// networks, and a hundredth of what this sensor can achieve.  It must be above 0; this is not checked.
     double datum_sd_mgal = 0.01;
+    /// True: the admittance of the air pressure is an unknown; the readings are not reduced for it.
+    bool fits_admittance = false;
     int drift_degree = 1;  ///< 0 to kGreatestDriftDegree; column k is (t - t0)^k, t in h.
     /// Instants after which the readings of the same loop have an unknown offset, ascending.
     std::vector<UtcTime> steps;

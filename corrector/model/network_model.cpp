@@ -47,7 +47,7 @@ void set_rows(Fit& result, const NetworkAdjustment& network, const std::vector<b
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
         out.is_used = in_use[i];
-        double constant = 0.0, drift = 0.0, temperature = 0.0, rate = 0.0;
+        double constant = 0.0, drift = 0.0, temperature = 0.0, rate = 0.0, pressure = 0.0;
         for (std::size_t k = 0; k < network.terms.size(); ++k) {
             const double effect = network.effect_mgal(i, k);
             const std::string& name = network.terms[k];
@@ -55,11 +55,16 @@ void set_rows(Fit& result, const NetworkAdjustment& network, const std::vector<b
              : name.starts_with("time")        ? drift
              : name.starts_with("step")        ? drift
              : name.starts_with("temperature") ? temperature
+             : name == kAdmittanceTerm         ? pressure
                                                : rate) += effect;
         }
         out.temperature_correction = MilliGal(-constant - temperature);
         out.rate_correction = MilliGal(-rate);
         out.drift_correction = MilliGal(-drift);
+        if (out.row.pressure_correction) {
+            out.row.acceleration = out.row.acceleration - MilliGal(pressure);
+            *out.row.pressure_correction = *out.row.pressure_correction - MilliGal(pressure);
+        }
         out.corrected = out.row.acceleration - out.row.tide + out.temperature_correction +
                         out.rate_correction + out.drift_correction;
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;
@@ -71,6 +76,43 @@ void set_rows(Fit& result, const NetworkAdjustment& network, const std::vector<b
         out.leverage = 1.0 - network.rows[reading].redundancy;
         out.studentised_residual = network.studentised(reading++);
     }
+}
+
+/// Correlation of the pressure with the readings, over the rows in use.
+double pressure_correlation(const std::vector<CorrectedRow>& rows,
+                            const std::vector<bool>& in_use) {
+    double n = 0.0, p = 0.0, g = 0.0, pp = 0.0, gg = 0.0, pg = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const reading::SurveyRow& row = rows[i].row;
+        if (!in_use[i] || !row.pressure_hpa) continue;
+        // From the first row, to keep the digits.
+        const double x = *row.pressure_hpa - rows.front().row.pressure_hpa.value_or(0.0);
+        const double y = (row.measured() - row.tide - rows.front().row.measured()).value();
+        n += 1.0;
+        p += x;
+        g += y;
+        pp += x * x;
+        gg += y * y;
+        pg += x * y;
+    }
+    return (pg - p * g / n) / std::sqrt((pp - p * p / n) * (gg - g * g / n));
+}
+
+/// Returns the fitted admittance in words, and if the readings can distinguish it from gravity.
+std::string admittance_remark(const Fit& result, const std::vector<bool>& in_use) {
+    // Real admittances are -0.0002 to -0.0004 mGal/hPa: a value with a larger error is not better
+    // than the usual one.
+    constexpr double kUsual_mgal_per_hpa = -0.0003, kGoodError_mgal_per_hpa = 0.0001;
+    const Coefficient& admittance =
+        *std::ranges::find(result.coefficients, kAdmittanceTerm, &Coefficient::name);
+    const double u = admittance.standard_error.value();
+    return fmt::format(
+        "admittance {:.5f} +- {:.5f} mGal/hPa, fitted; pressure and readings correlate by {:.3f}{}",
+        admittance.value, u, pressure_correlation(result.rows, in_use),
+        u <= kGoodError_mgal_per_hpa
+            ? ""
+            : fmt::format(": it cannot be distinguished from gravity and drift, use the fixed {}",
+                          kUsual_mgal_per_hpa));
 }
 
 StationValue adjusted_station(const Fit& result, const NetworkAdjustment& network, std::size_t k) {
@@ -218,6 +260,8 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
             {network.terms[k], network.unknowns(at), std::sqrt(network.covariance(at, at))});
     }
     set_rows(result, network, choice.accepted, sd);
+    if (options.network.fits_admittance)
+        result.remarks.push_back(admittance_remark(result, choice.accepted));
     set_stations(result, network, sd);
     set_station_errors(result, network);
     leave_out_untied(result, network);

@@ -116,6 +116,7 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
                   "separated from the constant and is left out"
                 : "no temperature is given: the readings are taken as corrected for it");
     if (has_rate) network.terms.emplace_back("rate_mgal_per_degc_per_h");
+    if (options.fits_admittance) network.terms.emplace_back(kAdmittanceTerm);
     std::vector<Eigen::VectorXd> steps;
     for (std::size_t k = 0; k < options.steps.size(); ++k) {
         Eigen::VectorXd column = step_column(rows, in_use, loops, options.steps[k]);
@@ -148,7 +149,8 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
             line(k + power) = line(k + power - 1) * hours;
         k = static_cast<Eigen::Index>(loops.count) * (degree + 1);
         if (has_temperature) line(k++) = (rows[i].temperature - kReferenceTemperature).value();
-        if (has_rate) line(k) = rows[i].rate_degc_per_h;
+        if (has_rate) line(k++) = rows[i].rate_degc_per_h;
+        if (options.fits_admittance) line(k) = rows[i].excess_pressure_hpa.value_or(0.0);
     }
     if (of_gravimeters.size() > 1) network.remarks.push_back(text::joined(of_gravimeters, "; "));
     for (std::size_t k = 0; k < steps.size(); ++k)

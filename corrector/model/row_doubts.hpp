@@ -18,6 +18,10 @@
 
 namespace a351::corrector::model {
 
+/// Distance from the temperatures of the fit that is not worth a remark, degC.  Reason: it is twice
+/// the swing of the oven, and 1.5 mGal at the published -29 mGal/degC.
+inline constexpr double kOutsideTemperature_degc = 0.05;
+
 /// Residuals of a fit to some rows.
 struct StudentisedRows {
     /// (n) Studentised residuals of all rows, in use or not; absent: undefined, never doubted.
@@ -67,5 +71,16 @@ void doubt_by_prediction(Fit& result);
 /// Both kinds of doubt are listed, in the order of the rows.  The text ends with a newline.
 /// @param result  with doubts set, as correct_survey() returns it.
 [[nodiscard]] std::string doubts_text(const SurveyCorrection& result);
+
+/// Returns a remark on readings of unknown stations whose temperature is outside that of the
+/// readings in the fit at known stations, by more than kOutsideTemperature_degc; empty if there are
+/// none, or if the rows have no temperature.
+///
+/// The temperature correction of such a reading is extrapolated: an error of the coefficient acts
+/// on the whole distance.
+/// @param rows   rows of the fit.
+/// @param datum  stations whose reference is held; empty: all.
+[[nodiscard]] std::string temperature_remark(const std::vector<CorrectedRow>& rows,
+                                             const std::vector<std::string>& datum);
 
 }  // namespace a351::corrector::model

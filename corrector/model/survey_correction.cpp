@@ -7,6 +7,7 @@
 
 #include "corrector/model/model.hpp"
 #include "corrector/model/outlier_tests.hpp"
+#include "corrector/model/row_doubts.hpp"
 #include "corrector/reading/refused.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -121,6 +122,7 @@ bool is_plain_network(const SurveyOptions& options) {
     const NetworkOptions usual;
     return options.model == kNetwork && options.network.drift_degree == usual.drift_degree &&
            options.network.datum_sd_mgal == usual.datum_sd_mgal &&
+           !options.network.fits_admittance &&
            std::ranges::none_of(options.priors.values,
                                 [](const auto& prior) { return prior.has_value(); });
 }
@@ -224,6 +226,10 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     require_row_of(rows, applied.base, "base");
     for (const std::string& site : applied.datum) require_row_of(rows, site, "datum");
     choose_for_gravimeter(applied, rows);
+    if (applied.network.fits_admittance && applied.model != kNetwork)
+        throw InputError(fmt::format(
+            "model = {}: it does not fit the admittance of the air pressure; allowed: {}",
+            applied.model, kNetwork));
 
     const SurveyProblem problem{rows, applied, day};
     const RowChoice unflagged = choose_rows(rows, applied.datum, true);
@@ -239,6 +245,8 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     static_cast<Fit&>(result) = std::get<Fit>(std::move(chosen.fit));
     value_stations_outside(result);
     remark_unused_uncertainties(result, *chosen.model);
+    if (std::string remark = temperature_remark(result.rows, applied.datum); !remark.empty())
+        result.remarks.insert(result.remarks.begin(), std::move(remark));
     if (chosen.model->name == kPaper && !applied.steps.empty())
         result.remarks.emplace_back(
             "paper does not know steps: those of the amendments are not used");

@@ -105,7 +105,12 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
                          ": has no pressure at the time of any reading; allowed: a record of the "
                          "day, in steps of at most 3 h");
     reduce_heights(rows, gradients, warnings);
-    reduce_pressures(rows, sites, choice.admittance_mgal_per_hpa, warnings);
+    reduce_pressures(rows, sites,
+                     choice.is_admittance_fitted ? 0.0 : choice.admittance_mgal_per_hpa, warnings);
+    if (choice.is_admittance_fitted && !rows.front().excess_pressure_hpa)
+        throw InputError(
+            "the admittance cannot be fitted without air pressure; allowed: with pressure_hpa or a "
+            "file of the pressure");
     if (day == nullptr) return warnings;
     for (reading::DayBin& bin : day->bins) {
         const reading::SurveyRow& row = rows[bin.set_up];
@@ -118,7 +123,10 @@ void describe_reduction(nlohmann::ordered_json& settings, const ReductionChoice&
     settings["instrument_height_m"] =
         choice.height ? nlohmann::ordered_json(choice.height->value()) : nullptr;
     settings["pressure"] = choice.pressure.filename().string();
-    settings["admittance_mgal_per_hpa"] = choice.admittance_mgal_per_hpa;
+    if (choice.is_admittance_fitted)
+        settings["admittance_mgal_per_hpa"] = "fitted";
+    else
+        settings["admittance_mgal_per_hpa"] = choice.admittance_mgal_per_hpa;
 }
 
 }  // namespace a351::corrector::reduction

@@ -43,6 +43,8 @@ struct ReductionChoice {
     std::optional<Metres> height;    ///< Height of the sensor in rows that give none.
     std::filesystem::path pressure;  ///< CSV for AirPressure::read(); empty: that of the rows.
     double admittance_mgal_per_hpa = kAdmittance_mgal_per_hpa;
+    /// True: the network fits the admittance, and the readings are not reduced for the pressure.
+    bool is_admittance_fitted = false;
 };
 
 /// Gradients by site, mGal/m; sites without one are absent.
@@ -62,7 +64,7 @@ using Gradients = std::map<std::string, double>;
 /// @param gradients  read_gradients() of the same table.
 /// @param day        record of these rows; null: there are only averages.
 /// @return warnings, in sentences.
-/// @throws InputError  as AirPressure::read(); a pressure so far from the standard one that altitude
+/// @throws InputError  as AirPressure::read(); no pressure, if the admittance is fitted; a pressure so far from the standard one that altitude
 ///                     and pressure do not belong together (kMostExcess_hpa).
 [[nodiscard]] std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
                                                    const std::vector<text::Site>& sites,

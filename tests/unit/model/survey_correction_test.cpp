@@ -44,6 +44,27 @@ TEST_CASE("a station without a reference gets its true value", "[survey]") {
     CHECK(result.rows[6].corrected.value() == Approx(truth.value()).epsilon(0).margin(1e-6));
 }
 
+TEST_CASE("an unknown station at a temperature outside those of the fit is named", "[survey]") {
+    auto rows = made_up::day();
+    const auto remark_of = [](const std::vector<SurveyRow>& survey) {
+        for (const std::string& remark : correct_survey(survey, with_model("t-rate")).remarks)
+            if (remark.starts_with("temperature outside")) return remark;
+        return std::string();
+    };
+    CHECK(remark_of(rows).empty());
+    rows[6].reference.reset();  // S5 at 42.64 degC
+    CHECK(remark_of(rows).empty());
+    rows[6].temperature = DegC(42.94);  // The warmest known reading has 42.90 degC.
+    CHECK(remark_of(rows).empty());
+    rows[6].temperature = DegC(43.10);
+    CHECK(
+        remark_of(rows) ==
+        "temperature outside 42.30 to 42.90 degC, that of the known stations in the fit, by up to "
+        "0.20 degC: the temperature correction is extrapolated for S5 (1)");
+    rows[6].is_excluded = true;
+    CHECK(remark_of(rows).empty());
+}
+
 TEST_CASE("stations outside the datum are not in the fit but have a residual", "[survey]") {
     auto options = with_model("t");
     options.datum = {"B", "S2", "S3"};

@@ -88,6 +88,9 @@ TEST_CASE("the standard atmosphere has the pressures of its tables", "[reduction
     CHECK(normal_pressure_hpa(Metres(0.0)) == 1013.25);
     CHECK(normal_pressure_hpa(Metres(1000.0)) == Approx(898.75).margin(0.02));
     CHECK(normal_pressure_hpa(Metres(3000.0)) == Approx(701.09).margin(0.02));
+    // The nominal pressures of an absolute gravimeter, tests/golden/usgs/rg26_ and rg36_2017-12-01.
+    CHECK(normal_pressure_hpa(Metres(1630.83)) == Approx(832.07).epsilon(0.0).margin(0.005));
+    CHECK(normal_pressure_hpa(Metres(1630.0)) == Approx(832.16).epsilon(0.0).margin(0.005));
 }
 
 TEST_CASE("a value that is not a number gives none", "[reduction]") {

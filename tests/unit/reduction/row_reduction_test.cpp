@@ -36,6 +36,16 @@ TEST_CASE("a reading above the mark is raised by the gradient of its site", "[re
     CHECK_FALSE(rows[0].pressure_correction);
 }
 
+TEST_CASE("an absolute value at its transfer height comes down to that of the mark",
+          "[reduction]") {
+    // tests/golden/usgs/rg26_2017-12-01: at 100 cm, gradient -3.000 uGal/cm; absolute.csv: the mark.
+    std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
+    rows[0].acceleration = MilliGal(979197.57592);
+    rows[0].instrument_height = Metres(1.0);
+    CHECK(reduce_rows(rows, kSites, {{"base", 0.3}}, {}).empty());
+    CHECK(rows[0].acceleration.value() == Approx(979197.8759).epsilon(0.0).margin(0.00005));
+}
+
 TEST_CASE("the height of the survey serves readings without one, and a bin has that of its row",
           "[reduction]") {
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00"), row("peak", "02:00:00")};
@@ -81,6 +91,17 @@ TEST_CASE("a pressure reduced to sea level is refused at a mountain", "[reductio
     CHECK_THROWS_WITH(reduce_rows(rows, kSites, {}, {}),
                       ContainsSubstring("peak (1): pressure_hpa = 1053") &&
                           ContainsSubstring("not reduced to sea level"));
+}
+
+TEST_CASE("a reading is not reduced for the pressure if the admittance is fitted", "[reduction]") {
+    std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
+    const ReductionChoice fitted{.height = {}, .pressure = {}, .is_admittance_fitted = true};
+    CHECK_THROWS_WITH(reduce_rows(rows, kSites, {}, fitted),
+                      ContainsSubstring("cannot be fitted without air pressure"));
+    rows[0].pressure_hpa = 1023.25;
+    static_cast<void>(reduce_rows(rows, kSites, {}, fitted));
+    CHECK(rows[0].pressure_correction->value() == 0.0);
+    CHECK(rows[0].excess_pressure_hpa.value() == Approx(10.0));
 }
 
 TEST_CASE("a file of the pressure of another day is refused", "[reduction]") {
