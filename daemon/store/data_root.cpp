@@ -18,7 +18,7 @@ DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path&
     files.sync_directory(root);  // A start that was killed may not have synced it.
     try {
         lock(root, root, O_RDONLY | O_DIRECTORY);
-        lock(root, root / "state" / "lock", O_RDWR | O_CREAT);
+        lock(root, root / "state" / "lock", O_RDWR | O_CREAT | O_NOFOLLOW);
     } catch (...) {
         for (const int descriptor : descriptors_) close(descriptor);
         throw;

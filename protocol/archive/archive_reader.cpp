@@ -24,6 +24,11 @@ bool continues(const ChannelData& data, UtcTime start, double rate_hz) {
            from_seconds(0.5 / rate_hz);
 }
 
+bool is_of(const journal::StationCodes& codes, const RecordHeader& header) {
+    return header.network == codes.network && header.station == codes.station &&
+           header.location == codes.location;
+}
+
 }  // namespace
 
 void RecordJoiner::take(const DecodedRecord& record) {
@@ -56,8 +61,10 @@ UtcTime Segment::time_of(std::size_t i) const {
 }
 
 std::string to_text(const Damage& damage) {
-    return fmt::format("{}: offset {}: {} bytes are not a record", damage.file.filename().string(),
-                       damage.offset, damage.byte_count);
+    return fmt::format(
+        "{}: offset {}: {} bytes are {}", damage.file.filename().string(), damage.offset,
+        damage.byte_count,
+        damage.is_of_another_station ? "a record of another station" : "not a record");
 }
 
 ChannelData read_channel(const fs::path& archive, const journal::StationCodes& codes,
@@ -76,7 +83,10 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
             const auto record = next_record(bytes, channel, at);
             const std::size_t found = record ? at - kRecordSize : at;
             if (found > unread) data.damage.push_back({file, unread, found - unread});
-            if (record) joiner.take(*record);
+            if (record && !is_of(codes, record->header))
+                data.damage.push_back({file, found, kRecordSize, true});
+            else if (record)
+                joiner.take(*record);
         }
     }
     std::ranges::stable_sort(data.segments, {},

@@ -54,9 +54,11 @@ struct Damage {
     std::filesystem::path file;    ///< Day file, with its folders.
     std::uint64_t offset = 0;      ///< First damaged byte, from the begin of the file.
     std::uint64_t byte_count = 0;  ///< Bytes up to the next record, or to the end of the file.
+    bool is_of_another_station = false;  ///< A record with other codes of network or station.
 };
 
-/// Returns "FILE: offset O: N bytes are not a record", FILE without its folder.
+/// Returns "FILE: offset O: N bytes are not a record" or "... are a record of another station",
+/// FILE without its folder.
 [[nodiscard]] std::string to_text(const Damage& damage);
 
 /// Result of read_channel().

@@ -17,12 +17,15 @@ namespace {
                             std::string(operation) + " " + path.string());
 }
 
+// In a data root that others may write, a link would let them choose a file that root writes.
+constexpr int kNoLink = O_NOFOLLOW;
+
 class Descriptor {
 public:
     Descriptor(const std::filesystem::path& path, int flags) {
         do fd_ = ::open(path.c_str(), flags | O_CLOEXEC, 0644);
         while (fd_ < 0 && errno == EINTR);
-        if (fd_ < 0) fail("open", path, errno);
+        if (fd_ < 0) fail(errno == ELOOP ? "open without following a link" : "open", path, errno);
     }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
@@ -38,7 +41,7 @@ private:
 class PosixAppendFile : public AppendFile {
 public:
     explicit PosixAppendFile(const std::filesystem::path& path)
-        : path_(path), file_(path, O_WRONLY | O_CREAT | O_APPEND) {
+        : path_(path), file_(path, O_WRONLY | O_CREAT | O_APPEND | kNoLink) {
         struct stat status {};
         if (::fstat(file_.get(), &status) != 0) fail("stat", path_, errno);
         size_ = static_cast<std::uint64_t>(status.st_size);
@@ -97,7 +100,7 @@ public:
     }
 
     void truncate(const std::filesystem::path& file, std::uint64_t size) override {
-        const Descriptor opened(file, O_WRONLY);
+        const Descriptor opened(file, O_WRONLY | kNoLink);
         if (::ftruncate(opened.get(), static_cast<off_t>(size)) != 0) fail("truncate", file, errno);
         if (::fsync(opened.get()) != 0) fail("sync", file, errno);
     }
@@ -111,7 +114,7 @@ public:
     }
 
     void allocate(const std::filesystem::path& file, std::uint64_t size) override {
-        const Descriptor opened(file, O_RDWR | O_CREAT);
+        const Descriptor opened(file, O_RDWR | O_CREAT | kNoLink);
         const int error = ::posix_fallocate(opened.get(), 0, static_cast<off_t>(size));
         if (error != 0) fail("allocate", file, error);
         if (::fsync(opened.get()) != 0) fail("sync", file, errno);
@@ -147,7 +150,9 @@ bool has_shape(std::string_view name, std::string_view shape) noexcept {
 void write_file_atomically(FileLayer& files, const std::filesystem::path& file,
                            std::span<const std::byte> content, std::filesystem::path temporary) {
     if (temporary.empty()) temporary = file.string() + ".tmp";
-    if (std::filesystem::exists(temporary)) files.remove(temporary);  // Left by a crash.
+    // Left by a crash; or a link, which leads nowhere or to a file of somebody else.
+    if (std::filesystem::exists(std::filesystem::symlink_status(temporary)))
+        files.remove(temporary);
     const auto opened = files.open_append(temporary);
     opened->append(content);
     opened->sync();

@@ -54,6 +54,22 @@ private:
 
 }  // namespace
 
+TEST_CASE("records of another station in a day file are damage, and are named as such",
+          "[record][archive_reader]") {
+    Archive archive;
+    for (int i = 0; i < 3; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
+    auto bytes = test::read_bytes(archive.day_file());
+    bytes[kRecordSize + 8] = std::byte{'B'};  // station code: A351 becomes B351
+    test::write_bytes(archive.day_file(), bytes);
+    const auto data = archive.read();
+    REQUIRE(data.segments.size() == 2);
+    CHECK(data.segments[0].counts.size() == 100);
+    REQUIRE(data.damage.size() == 1);
+    CHECK(data.damage[0].offset == kRecordSize);
+    CHECK(
+        to_text(data.damage[0]).ends_with("offset 512: 512 bytes are a record of another station"));
+}
+
 TEST_CASE("records without a gap between them form one segment", "[record][archive_reader]") {
     Archive archive;
     for (int i = 0; i < 5; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);

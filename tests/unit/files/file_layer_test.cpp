@@ -52,6 +52,28 @@ TEST_CASE("a failure names operation and path", "[record][file_layer]") {
     CHECK_THROWS_AS(files.sync_directory(absent), std::system_error);
 }
 
+TEST_CASE("a link in place of a file is not followed", "[record][file_layer]") {
+    const test::TemporaryDirectory directory;
+    const auto victim = directory.path() / "victim", link = directory.path() / "log";
+    for (const bool exists : {true, false}) {
+        if (exists) test::write_bytes(victim, bytes_of("secret"));
+        if (!exists) std::filesystem::remove(victim);
+        std::filesystem::remove(link);
+        std::filesystem::create_symlink(victim, link);
+        auto& files = posix_files();
+        CHECK_THROWS_WITH(files.open_append(link), ContainsSubstring("without following a link"));
+        CHECK_THROWS_AS(files.truncate(link, 0), std::system_error);
+        CHECK_THROWS_AS(files.allocate(link, 4096), std::system_error);
+        // A link in place of the temporary file is removed, and the file itself is replaced.
+        std::filesystem::create_symlink(victim, directory.path() / "table.tmp");
+        replace_file(files, directory.path() / "table", bytes_of("new"));
+        CHECK(text_in(directory.path() / "table") == "new");
+        CHECK_FALSE(std::filesystem::is_symlink(directory.path() / "table"));
+        CHECK(std::filesystem::exists(victim) == exists);
+        if (exists) CHECK(text_in(victim) == "secret");
+    }
+}
+
 TEST_CASE("appending to a full disk is an error", "[record][file_layer]") {
     if (!std::filesystem::exists("/dev/full")) {
         WARN("skipped: this system has no /dev/full");
