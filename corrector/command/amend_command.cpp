@@ -67,10 +67,11 @@ std::size_t amend_again(const std::filesystem::path& file) {
                       [](const reading::Finding& finding) { return finding.amendment.empty(); });
         for (const reading::Finding& finding : findings) try {
                 job::add_amendments(job::read_survey_file(file), {finding}, {});
-                std::cout << finding.text << '\n';
+                std::cout << text::in_words(finding.text) << '\n';
                 ++count;
             } catch (const InputError&) {
-                std::cout << finding.text << " (contradicts an amendment, not carried out)\n";
+                std::cout << text::in_words(finding.text)
+                          << " (contradicts an amendment, not carried out)\n";
             }
         if (count == before) break;
     }
@@ -82,7 +83,7 @@ void amend_survey(const AmendOptions& options) {
     const std::vector<reading::Finding> findings = findings_of(survey);
     if (!options.is_all && options.findings.empty()) {
         for (std::size_t k = 0; k < findings.size(); ++k)
-            std::cout << fmt::format("# {}. {}\n{}", k + 1, findings[k].text,
+            std::cout << fmt::format("# {}. {}\n{}", k + 1, text::in_words(findings[k].text),
                                      findings[k].amendment);
         if (findings.empty()) std::cout << "# nothing was found\n";
         return;
@@ -93,7 +94,8 @@ void amend_survey(const AmendOptions& options) {
         return;
     }
     const std::filesystem::path file = job::add_amendments(survey, chosen, options.out);
-    for (const reading::Finding& finding : chosen) std::cout << finding.text << '\n';
+    for (const reading::Finding& finding : chosen)
+        std::cout << text::in_words(finding.text) << '\n';
     const std::size_t count = chosen.size() + (options.is_all ? amend_again(options.survey) : 0);
     std::cout << fmt::format("{} amendment{} written to {}; correct the survey again\n", count,
                              count == 1 ? "" : "s", file.string());

@@ -8,6 +8,7 @@
 
 #include "corrector/command/commands.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/catalogue.hpp"
 
 namespace {
 
@@ -26,6 +27,7 @@ int report(std::string message, int status) {
 int main(int argc, char** argv) {
     using namespace a351;
     using namespace a351::corrector;
+    text::write_in(text::language_of_environment());
     CLI::App program("Corrects the readings of an M-A351 accelerometer to gravity.",
                      "a351-correct");
     program.set_version_flag("--version", "a351-correct " A351_VERSION);

@@ -8,6 +8,7 @@
 #include "corrector/figure/row_marks.hpp"
 #include "corrector/grade/reading_grade.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 namespace {
@@ -82,7 +83,7 @@ std::string error_lines(const model::SurveyCorrection& result, const Mark& mark)
 
 /// Returns the errors of the readings; no clauses if no row has a reference.
 Panel error_panel(const model::SurveyCorrection& result, FigureData& data) {
-    Panel panel{210, "Reference - value (mGal)", "", {}};
+    Panel panel{210, text::tr("Reference - value (mGal)"), "", {}};
     for (const Mark& mark : marks()) {
         const std::string source = data.add(mark.title + ": time_utc error_mgal u_corrected_mgal",
                                             error_lines(result, mark));
@@ -103,7 +104,8 @@ Panel sample_panel(const model::SurveyCorrection& result,
                    const std::vector<ReadingRecord>& records) {
     if (records.empty()) return {};
     const std::string half = text::fixed(half_range_of_samples(result, records), 3);
-    Panel panel{150, "Samples - mean (mGal)", fmt::format("set yrange [-{0}:{0}]\n", half), {}};
+    Panel panel{
+        150, text::tr("Samples - mean (mGal)"), fmt::format("set yrange [-{0}:{0}]\n", half), {}};
     for (const ReadingRecord& record : records)
         panel.clauses.push_back(fmt::format(
             "'{}.dat' index 0 using ({}+60*$1):($2-{}) with lines lw 0.7 lc rgb {} notitle",
@@ -128,7 +130,7 @@ Panel temperature_panel(const model::SurveyCorrection& result,
         reading_lines += fmt::format("{} {}{}", to_rfc3339(row.time),
                                      datum(row.temperature.value(), 4), comment(result, i));
     }
-    Panel panel{170, "Temperature (°C)", "set yrange [*:*]\n", {}};
+    Panel panel{170, text::tr("Temperature (°C)"), "set yrange [*:*]\n", {}};
     const std::string means =
         data.add("means of a minute: time_utc temperature_degc", course_lines);
     if (!means.empty())
@@ -165,23 +167,23 @@ std::string time_label(UtcTime first, UtcTime last) {
 }
 
 std::string caption_of(const model::SurveyCorrection& result, bool has_records, bool has_course) {
+    using text::tr;
     const std::string errors =
         result.as<model::WholeDayPart>() != nullptr
-            ? "reference minus the value of the reading if its station is left out "
-              "(cross-validated); bars: standard uncertainty u of this value."
-            : fmt::format(
-                  "residuals, reference minus corrected value (in sample); bars: standard "
-                  "uncertainty u {}.",
-                  result.as<model::NetworkAdjustment>() != nullptr
-                      ? "of a single reading, a priori"
-                      : "as of a new station, from the scatter in sample");
-    return fmt::format(
-        "The day. Above: {}{} Below: temperature of the {}. Shaded: stays (grey), averaged "
-        "intervals (blue), stays without a value (red).",
-        errors,
-        has_records ? " Middle: samples of 2 s minus the mean of the reading, knocks are cut off."
-                    : "",
-        has_course ? "sensor and of the readings" : "readings");
+            ? tr("The day. Above: reference minus the value of the reading if its station is left "
+                 "out (cross-validated); bars: standard uncertainty u of this value.")
+        : result.as<model::NetworkAdjustment>() != nullptr
+            ? tr("The day. Above: residuals, reference minus corrected value (in sample); bars: "
+                 "standard uncertainty u of a single reading, a priori.")
+            : tr("The day. Above: residuals, reference minus corrected value (in sample); bars: "
+                 "standard uncertainty u as of a new station, from the scatter in sample.");
+    return errors +
+           (has_records ? tr(" Middle: samples of 2 s minus the mean of the reading, knocks are "
+                             "cut off.")
+                        : "") +
+           (has_course ? tr(" Below: temperature of the sensor and of the readings.")
+                       : tr(" Below: temperature of the readings.")) +
+           tr(" Shaded: stays (grey), averaged intervals (blue), stays without a value (red).");
 }
 
 }  // namespace

@@ -33,22 +33,25 @@ struct NoteText {
 /// The flags of representative_value.hpp and of amendments, in words.
 constexpr std::array<NoteText, 14> kNoteTexts{{
     {"fallback", Grade::care,
-     "the trend has too few extrema for the usual interval (fallback): look at the record"},
+     text::marked(
+         "the trend has too few extrema for the usual interval (fallback): look at the record")},
     {"disturbed_start", Grade::trust,
-     "only the part after a disturbance at its start was averaged"},
-    {"disturbed_end", Grade::trust, "only the part before a disturbance at its end was averaged"},
-    {"pulse", Grade::care, "a knock split the record; its longest part was used"},
-    {"gap", Grade::care, "samples are missing"},
+     text::marked("only the part after a disturbance at its start was averaged")},
+    {"disturbed_end", Grade::trust,
+     text::marked("only the part before a disturbance at its end was averaged")},
+    {"pulse", Grade::care, text::marked("a knock split the record; its longest part was used")},
+    {"gap", Grade::care, text::marked("samples are missing")},
     {"no-stop", Grade::care,
-     "not stopped: it lasts until the next start, or until the box was moved"},
-    {"moved", Grade::care, "the box was moved during the stay: the part before or after was used"},
-    {"shaken", Grade::repeat, "the box was never at rest"},
-    {"unsettled", Grade::care, "the smoother did not converge: look at the record"},
-    {"excluded", Grade::repeat, "excluded by an amendment"},
-    {"included", Grade::trust, "included by an amendment"},
-    {"retimed", Grade::trust, "its times were amended"},
-    {"renamed", Grade::trust, "its site was amended"},
-    {"divided", Grade::trust, "divided into set-ups by an amendment"},
+     text::marked("not stopped: it lasts until the next start, or until the box was moved")},
+    {"moved", Grade::care,
+     text::marked("the box was moved during the stay: the part before or after was used")},
+    {"shaken", Grade::repeat, text::marked("the box was never at rest")},
+    {"unsettled", Grade::care, text::marked("the smoother did not converge: look at the record")},
+    {"excluded", Grade::repeat, text::marked("excluded by an amendment")},
+    {"included", Grade::trust, text::marked("included by an amendment")},
+    {"retimed", Grade::trust, text::marked("its times were amended")},
+    {"renamed", Grade::trust, text::marked("its site was amended")},
+    {"divided", Grade::trust, text::marked("divided into set-ups by an amendment")},
 }};
 
 /// Flags of the trend and its interval.
@@ -61,14 +64,15 @@ constexpr std::array<std::string_view, 4> kTrendNotes{"fallback", "disturbed_sta
 void add_note(ReadingGrade& reading, const std::string& note, bool is_day) {
     if (is_day && std::ranges::count(kTrendNotes, note) > 0) return;
     if (is_day && note == "pulse") {
-        add(reading, Grade::care, {note, {}, "a knock: the samples around it were left out"});
+        add(reading, Grade::care,
+            {note, {}, text::message("a knock: the samples around it were left out")});
         return;
     }
     const auto known = std::ranges::find(kNoteTexts, note, &NoteText::note);
     if (known == kNoteTexts.end()) {
         add(reading, Grade::care, {note, {}, note});
     } else {
-        add(reading, known->grade, {note, {}, std::string(known->text)});
+        add(reading, known->grade, {note, {}, text::marked_message(known->text)});
     }
 }
 
@@ -79,11 +83,12 @@ void add_temperature(ReadingGrade& reading, const model::CorrectedRow& row, bool
     add(reading, corrects_rate ? Grade::care : Grade::repeat,
         {"temperature_moving",
          {row.row.rate_degc_per_h, row.rate_correction.value()},
-         fmt::format("temperature not steady: {}{}", doubt,
-                     corrects_rate
-                         ? fmt::format("; the value depends on a rate correction of {} mGal",
-                                       text::fixed(row.rate_correction.value(), 1))
-                         : ", which the model does not correct")});
+         corrects_rate
+             ? text::message(
+                   "temperature not steady: {}; the value depends on a rate correction of {} mGal",
+                   doubt, text::fixed(row.rate_correction.value(), 1))
+             : text::message("temperature not steady: {}, which the model does not correct",
+                             doubt)});
 }
 
 /// Adds a reason if the residual is large.
@@ -97,11 +102,13 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
     add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
         {"off_reference",
          {-ratio * row.u_corrected->value(), std::abs(ratio)},
-         fmt::format("{} mGal {} its reference{}, {} times its uncertainty",
-                     text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
-                     ratio > 0.0 ? "below" : "above",
-                     is_left_out ? " when its station is left out" : "",
-                     text::fixed(std::abs(ratio), 1))});
+         text::message(
+             "{} mGal {}{}, {} times its uncertainty",
+             text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
+             ratio > 0.0 ? text::message("below its reference")
+                         : text::message("above its reference"),
+             is_left_out ? text::message(" when its station is left out") : text::Message(),
+             text::fixed(std::abs(ratio), 1))});
 }
 
 /// Adds the findings that concern the reading.
@@ -126,16 +133,16 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
         add(reading, Grade::repeat,
             {"scattered",
              {error->value(), u.value()},
-             fmt::format(
+             text::message(
                  "the scatter of its samples alone gives {} mGal, more than its u of {} mGal",
                  text::fixed(error->value(), 1), text::fixed(u.value(), 1))});
     if (by_shaking > u)
         add(reading, Grade::repeat,
             {"shaken",
              {by_shaking.value(), u.value()},
-             fmt::format("the box was shaken as on a drive: this changes the norm of its samples "
-                         "by {} mGal, more than its u of {} mGal",
-                         text::fixed(by_shaking.value(), 1), text::fixed(u.value(), 1))});
+             text::message("the box was shaken as on a drive: this changes the norm of its samples "
+                           "by {} mGal, more than its u of {} mGal",
+                           text::fixed(by_shaking.value(), 1), text::fixed(u.value(), 1))});
 }
 
 void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {
@@ -145,25 +152,25 @@ void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {
     add(reading, Grade::care,
         {"trends_differ",
          {difference},
-         fmt::format("its two trends (smoother, EEMD) differ by {} mGal",
-                     text::fixed(difference, 2))});
+         text::message("its two trends (smoother, EEMD) differ by {} mGal",
+                       text::fixed(difference, 2))});
 }
 
 /// Scatter of readings of one station after all corrections.
 struct ReadingScatter {
-    std::string name;
+    text::Message name;
     double mgal = 0.0;
 };
 
 std::optional<ReadingScatter> scatter_of(const model::SurveyCorrection& result) {
     if (result.as<model::WholeDayPart>() == nullptr) {
         if (!result.score.s_mgal) return std::nullopt;
-        return ReadingScatter{"s", *result.score.s_mgal};
+        return ReadingScatter{text::message("s"), *result.score.s_mgal};
     }
     // The readings are corrected for all other terms of this model.
     for (const model::Coefficient& coefficient : result.coefficients) {
         if (coefficient.name == "placement_mgal")
-            return ReadingScatter{"placement", coefficient.value};
+            return ReadingScatter{text::message("placement"), coefficient.value};
     }
     return std::nullopt;
 }
@@ -183,10 +190,10 @@ void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrect
             return Reason{
                 "differs",
                 {std::abs(pair.after_all.value()), ratio},
-                fmt::format("differs by {} mGal from {}, {} times the value expected from {}",
-                            text::fixed(std::abs(pair.after_all.value()), 1),
-                            reading_name(result.rows, other), text::fixed(ratio, 1),
-                            scatter->name)};
+                text::message("differs by {} mGal from {}, {} times the value expected from {}",
+                              text::fixed(std::abs(pair.after_all.value()), 1),
+                              reading_name(result.rows, other), text::fixed(ratio, 1),
+                              scatter->name)};
         };
         add(readings[pair.earlier], Grade::care, reason(pair.later));
         add(readings[pair.later], Grade::care, reason(pair.earlier));
@@ -201,8 +208,15 @@ std::string reason_text(const ReadingGrade& reading) {
     return text::joined(texts, "; ");
 }
 
+std::string reason_in_words(const ReadingGrade& reading) {
+    std::vector<text::Message> texts;
+    for (const Reason& reason : reading.reasons) texts.push_back(reason.text);
+    return text::in_words(texts, "; ");
+}
+
 std::string_view grade_name(Grade grade) noexcept {
-    constexpr std::array<std::string_view, 3> kNames{"trust", "care", "repeat"};
+    constexpr std::array<std::string_view, 3> kNames{text::marked("trust"), text::marked("care"),
+                                                     text::marked("repeat")};
     return kNames[static_cast<std::size_t>(grade)];
 }
 
@@ -226,8 +240,9 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
             add(reading, row.is_used ? Grade::care : Grade::repeat,
                 {"flagged",
                  {},
-                 std::string("marked by the operator as not to be used") +
-                     (row.is_used ? ", but in the fit" : "")});
+                 row.is_used
+                     ? text::message("marked by the operator as not to be used, but in the fit")
+                     : text::message("marked by the operator as not to be used")});
         }
         add_temperature(reading, row, corrects_rate);
         add_residual(reading, row, is_day);
@@ -249,10 +264,10 @@ ReadingGrade grade_of_station(const model::SurveyCorrection& result,
     if (station.grade == Grade::trust) return station;
     for (std::size_t i = 0; i < grades.size(); ++i) {
         if (result.rows[i].row.site != site || grades[i].grade != station.grade) continue;
-        std::string name = reading_name(result.rows, i) + ": ";
+        text::Message name = reading_name(result.rows, i) + ": ";
         for (const Reason& reason : grades[i].reasons)
             station.reasons.push_back(
-                {reason.code, reason.numbers, std::exchange(name, "") + reason.text});
+                {reason.code, reason.numbers, std::exchange(name, {}) + reason.text});
     }
     return station;
 }

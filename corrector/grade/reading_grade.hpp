@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::grade {
 
@@ -34,7 +35,7 @@ enum class Grade {
 struct Reason {
     std::string code;             ///< Which sentence the text is.
     std::vector<double> numbers;  ///< Numbers of the sentence, unrounded, in its order.
-    std::string text;             ///< The reason in words, without the reading's name.
+    text::Message text;           ///< The reason in words, without the reading's name.
 };
 
 /// Limits of |error| / u above which a value gets `care` and `repeat`.  Reason: one in 22 Gaussian
@@ -51,8 +52,9 @@ struct ReadingGrade {
     std::vector<Reason> reasons;
 };
 
-/// Returns the reasons as one text, joined by "; ".
+/// Returns the reasons as one text, joined by "; ": in English, and in the language of the program.
 [[nodiscard]] std::string reason_text(const ReadingGrade& reading);
+[[nodiscard]] std::string reason_in_words(const ReadingGrade& reading);
 
 /// Returns the error to which u_corrected belongs, mGal: reference - corrected, or for `day`
 /// reference - left_out.  Absent without a reference, and for `day` if only this station is held.

@@ -67,9 +67,10 @@ private:
     }
 
     /// Returns "12.3 +- 1.5 mGal too high".
-    static std::string off_by(double size_mgal, double u_mgal) {
-        return fmt::format("{} +- {} mGal too {}", in_mgal(std::abs(size_mgal), u_mgal),
-                           in_mgal(u_mgal, u_mgal), size_mgal > 0.0 ? "high" : "low");
+    static text::Message off_by(double size_mgal, double u_mgal) {
+        const std::string size = in_mgal(std::abs(size_mgal), u_mgal), u = in_mgal(u_mgal, u_mgal);
+        return size_mgal > 0.0 ? text::message("{} +- {} mGal too high", size, u)
+                               : text::message("{} +- {} mGal too low", size, u);
     }
 
     /// Returns a size with the decimals that its uncertainty allows: readings of a spring gravimeter
@@ -133,7 +134,7 @@ private:
         std::string doubt = model::temperature_doubt(first(mistake));
         if (doubt.empty()) return;
         if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
-        finding.text += fmt::format("; its temperature was not steady ({})", doubt);
+        finding.text += text::message("; its temperature was not steady ({})", doubt);
     }
 
     /// Says that a stay at an end of the day may be good, and the instrument have stepped next to it.
@@ -141,8 +142,8 @@ private:
         const auto after = step_beside(mistake);
         if (!after) return;
         finding.code += "_or_step";
-        finding.text += fmt::format("; or the instrument stepped between {} and {}",
-                                    name_of(rows_[*after - 1]), name_of(rows_[*after]));
+        finding.text += text::message("; or the instrument stepped between {} and {}",
+                                      name_of(rows_[*after - 1]), name_of(rows_[*after]));
     }
 
     /// Returns the first reading after a step that would look like this mistake, if there is one.
@@ -173,7 +174,7 @@ private:
         finding.size_mgal = mistake.size_mgal;
         finding.u_mgal = mistake.u_mgal;
         finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
-        finding.text = fmt::format(
+        finding.text = text::message(
             "between {} and {} the instrument stepped: from then on the readings are {}",
             name_of(rows_[after - 1]), name_of(rows_[after]),
             off_by(mistake.size_mgal, mistake.u_mgal));
@@ -202,8 +203,8 @@ private:
         finding.size_mgal = size_mgal;
         finding.u_mgal.reset();
         finding.other_site = other.site;
-        finding.text = fmt::format("{} reads like {}, and {} like {}: the names were swapped",
-                                   name_of(row), other.site, name_of(other), row.site);
+        finding.text = text::message("{} reads like {}, and {} like {}: the names were swapped",
+                                     name_of(row), other.site, name_of(other), row.site);
         finding.amendment = rename(row, other.site, "names swapped");
         return finding;
     }
@@ -215,18 +216,18 @@ private:
         const text::Site& other = *others.front().site;
         Finding finding = finding_of(mistake, "other_name", "other_name", row);
         finding.other_site = other.name;
-        std::vector<std::string> names;
-        for (const Candidate& candidate : others)
-            if (names.size() < kMostNames)
-                names.push_back(fmt::format("{} ({} mGal)", candidate.site->name,
-                                            in_mgal(candidate.distance_mgal, mistake.u_mgal)));
-        finding.text =
-            fmt::format("{} is {}; it reads like {}", name_of(row),
-                        off_by(mistake.size_mgal, mistake.u_mgal), text::joined(names, " or "));
+        text::Message names;
+        for (std::size_t i = 0; i < std::min(kMostNames, others.size()); ++i) {
+            if (i > 0) names += text::message(" or ");
+            names += fmt::format("{} ({} mGal)", others[i].site->name,
+                                 in_mgal(others[i].distance_mgal, mistake.u_mgal));
+        }
+        finding.text = text::message("{} is {}; it reads like {}", name_of(row),
+                                     off_by(mistake.size_mgal, mistake.u_mgal), names);
         if (mistake.kind == MistakeKind::station) {
             finding.code = "other_name_or_reference";
-            finding.text += fmt::format("; if the name is right, the reference of {} is {}",
-                                        row.site, off_by(-mistake.size_mgal, mistake.u_mgal));
+            finding.text += text::message("; if the name is right, the reference of {} is {}",
+                                          row.site, off_by(-mistake.size_mgal, mistake.u_mgal));
         }
         finding.amendment = rename(row, other.name, "reads like " + other.name);
         return finding;
@@ -236,13 +237,13 @@ private:
         const SurveyRow& row = first(mistake);
         Finding finding = finding_of(mistake, "reference", "reference", row);
         finding.size_mgal = -mistake.size_mgal;
-        finding.text = fmt::format("the reference of {} is {}", row.site,
-                                   off_by(-mistake.size_mgal, mistake.u_mgal));
+        finding.text = text::message("the reference of {} is {}", row.site,
+                                     off_by(-mistake.size_mgal, mistake.u_mgal));
         const bool is_one_stay = std::ranges::all_of(
             mistake.readings, [&](std::size_t i) { return rows_[i].occupation == row.occupation; });
         if (is_one_stay) {
             finding.code = "reference_or_reading";
-            finding.text += ", or its only stay is bad: look at both";
+            finding.text += text::message(", or its only stay is bad: look at both");
         }
         if (!row.listed.site.empty())
             finding.amendment = fmt::format(
@@ -255,8 +256,8 @@ private:
         const SurveyRow& row = first(mistake);
         Finding finding = finding_of(mistake, "bad_reading", "stay_disagrees", row);
         finding.text =
-            fmt::format("{} is {}, unlike the other readings of {}: repeat it", name_of(row),
-                        off_by(mistake.size_mgal, mistake.u_mgal), row.site);
+            text::message("{} is {}, unlike the other readings of {}: repeat it", name_of(row),
+                          off_by(mistake.size_mgal, mistake.u_mgal), row.site);
         finding.amendment = amendment("exclude", row, false,
                                       fmt::format("reason = \"off by {} mGal\"\n",
                                                   in_mgal(mistake.size_mgal, mistake.u_mgal)));
@@ -275,8 +276,8 @@ private:
                 ? *row.listed.set_up
                 : 1 + std::count_if(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i),
                                     is_same_stay);
-        finding.text = fmt::format("set-up {} of {} is {}, unlike the others: repeat it", number,
-                                   name_of(row), off_by(mistake.size_mgal, mistake.u_mgal));
+        finding.text = text::message("set-up {} of {} is {}, unlike the others: repeat it", number,
+                                     name_of(row), off_by(mistake.size_mgal, mistake.u_mgal));
         finding.amendment = amendment("exclude", row, true,
                                       fmt::format("reason = \"off by {} mGal\"\n",
                                                   in_mgal(mistake.size_mgal, mistake.u_mgal)));

@@ -84,9 +84,9 @@ std::optional<Finding> misfit(const model::SurveyCorrection& result) {
             return Finding{
                 .kind = "misfit",
                 .code = "curvature",
-                .text = fmt::format(
+                .text = text::message(
                     "the model does not fit this day: the residuals follow the square of the {}",
-                    test.place == 0 ? "temperature" : "time")};
+                    test.place == 0 ? text::message("temperature") : text::message("time"))};
     return std::nullopt;
 }
 
@@ -108,9 +108,9 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
     return Finding{
         .kind = "unusable_day",
         .code = "unusable_day",
-        .text = fmt::format("this day is not usable as it is: stations left out are predicted "
-                            "with an error of {} mGal, {} with the mistakes below put right",
-                            text::fixed(*loso, 1), text::fixed(*amended_loso_mgal, 1)),
+        .text = text::message("this day is not usable as it is: stations left out are predicted "
+                              "with an error of {} mGal, {} with the mistakes below put right",
+                              text::fixed(*loso, 1), text::fixed(*amended_loso_mgal, 1)),
         .is_headline = true};
 }
 

@@ -45,16 +45,16 @@ std::vector<Finding> moving_temperatures(const model::SurveyCorrection& result) 
         Finding& finding = findings.emplace_back(
             Finding{.kind = "temperature_moving", .code = "temperature_moving"});
         set_stay(finding, row.row.site, row.row.occupation, row.row.key, row.row.time);
-        finding.text = fmt::format(
+        finding.text = text::message(
             "{} ({}): its temperature was still moving ({}; limits: {} degC/h, {} degC), {}",
             row.row.site, row.row.occupation, doubt,
             text::fixed(model::kGreatestRate_degc_per_h, 1),
             text::fixed(model::kGreatestRange_degc, 2),
-            !row.is_used     ? "and it is not in the fit"
-            : !corrects_rate ? "which the model does not correct"
-                             : fmt::format("and its u is {} mGal, {} in the middle of the day's",
-                                           text::fixed(row.u_corrected->value(), 1),
-                                           text::fixed(usual_mgal, 1)));
+            !row.is_used     ? text::message("and it is not in the fit")
+            : !corrects_rate ? text::message("which the model does not correct")
+                             : text::message("and its u is {} mGal, {} in the middle of the day's",
+                                             text::fixed(row.u_corrected->value(), 1),
+                                             text::fixed(usual_mgal, 1)));
     }
     return findings;
 }
@@ -70,9 +70,9 @@ std::optional<Finding> base_not_revisited(const model::SurveyCorrection& result)
     if (stays.size() < kFewestStays || std::ranges::count_if(stays, is_base) != 1)
         return std::nullopt;
     Finding finding{.kind = "base_not_revisited", .code = "base_not_revisited", .site = base};
-    finding.text =
-        fmt::format("the base {} has 1 stay of {}, at least 2 show a drift without the references",
-                    base, stays.size());
+    finding.text = text::message(
+        "the base {} has 1 stay of {}, at least 2 show a drift without the references", base,
+        stays.size());
     return finding;
 }
 
@@ -87,8 +87,8 @@ std::optional<Finding> not_visited(const std::vector<reading::SurveyRow>& rows,
     Finding finding{.kind = "not_visited", .code = "not_visited"};
     const std::size_t more = names.size() - std::min(names.size(), kMostNames);
     names.resize(names.size() - more);
-    finding.text = fmt::format("without a reading in this day: {}{}", text::joined(names),
-                               more == 0 ? "" : fmt::format(" and {} more", more));
+    finding.text = text::message("without a reading in this day: {}{}", text::joined(names),
+                                 more == 0 ? text::Message() : text::message(" and {} more", more));
     return finding;
 }
 

@@ -62,7 +62,8 @@ nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
             json_or_null(finding.size_mgal.value_or(0.0), finding.size_mgal.has_value());
         one["u_mgal"] = json_or_null(finding.u_mgal.value_or(0.0), finding.u_mgal.has_value());
         one["other_site"] = json_or_null(finding.other_site, !finding.other_site.empty());
-        one["text"] = finding.text;
+        one["text"] = finding.text.english();
+        one["text_parts"] = finding.text.to_json();
         one["amendment"] = json_or_null(finding.amendment, !finding.amendment.empty());
         list.push_back(std::move(one));
     }
@@ -72,8 +73,8 @@ nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
 std::string findings_text(const std::vector<Finding>& findings) {
     std::string text;
     for (std::size_t k = 0; k < findings.size(); ++k)
-        text += fmt::format("  {}. {}\n", k + 1, findings[k].text);
-    return text.empty() ? text : "found in this day:\n" + text;
+        text += fmt::format("  {}. {}\n", k + 1, text::in_words(findings[k].text));
+    return text.empty() ? text : text::tr("found in this day:") + "\n" + text;
 }
 
 }  // namespace a351::corrector::reading

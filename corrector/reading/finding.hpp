@@ -8,6 +8,7 @@
 
 #include "corrector/reading/survey_row.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::reading {
 
@@ -40,7 +41,7 @@ struct Finding {
     std::optional<UtcTime> time = {};    ///< When it happened.
     std::optional<double> size_mgal = {}, u_mgal = {};
     std::string other_site = {};
-    std::string text = {};       ///< One sentence.
+    text::Message text = {};     ///< One sentence.
     std::string amendment = {};  ///< Amendment that carries out the proposal, TOML; may be empty.
     bool is_headline = false;    ///< So certain that it belongs to the first line.
 };

@@ -63,7 +63,7 @@ Finding missed_set_up(const OccupationWindow& window,
                              fmt::format("time_utc = \"{}\"\nreason = \"lifted and set down\"\n",
                                          to_rfc3339(time_of(move), 3));
     }
-    finding.text = fmt::format(
+    finding.text = text::message(
         "{} ({}): box lifted and set down at {} without a set-up (its level changed by "
         "{:.3f} deg); only the part before is used",
         window.site, window.number, times, moves.front().tilt_deg);
@@ -86,8 +86,8 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
         moved.finding = {
             .kind = "bad_reading",
             .code = "never_at_rest",
-            .text = fmt::format("{} ({}): the box was never at rest: repeat the reading",
-                                window.site, window.number),
+            .text = text::message("{} ({}): the box was never at rest: repeat the reading",
+                                  window.site, window.number),
             .amendment = amendment_head("exclude", window.listed) + "reason = \"never at rest\"\n",
             .is_headline = true};
         set_stay(moved.finding, window.site, window.number, window.key, window.start);
@@ -106,24 +106,24 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     }
     finding = {.kind = "moved_box", .code = "moved_at_end", .is_headline = true};
     set_stay(finding, window.site, window.number, window.key, still.end);
-    std::string what;
+    text::Message what;
     if (still.start != window.start) {
         finding.time = still.start;
         finding.kind = finding.code = "early_start";
         finding.is_headline = false;
-        what = fmt::format("moved until {}, {} after its start; the stay begins there",
-                           to_rfc3339(still.start), in_minutes(still.start - window.start));
+        what = text::message("moved until {}, {} after its start; the stay begins there",
+                             to_rfc3339(still.start), in_minutes(still.start - window.start));
     }
     if (still.end != window.end) {
         finding.time = still.end;
         finding.kind = "moved_box";
         finding.is_headline = true;
         finding.code = what.empty() ? "moved_at_end" : "moved_at_both_ends";
-        what += fmt::format("{}moved at {}, {} before its end was entered; the stay ends there",
-                            what.empty() ? "" : "; ", to_rfc3339(still.end),
-                            in_minutes(window.end - still.end));
+        if (!what.empty()) what += "; ";
+        what += text::message("moved at {}, {} before its end was entered; the stay ends there",
+                              to_rfc3339(still.end), in_minutes(window.end - still.end));
     }
-    finding.text = fmt::format("{} ({}): box {}", window.site, window.number, what);
+    finding.text = text::message("{} ({}): box {}", window.site, window.number, what);
     finding.amendment =
         amendment_head("retime", window.listed) +
         fmt::format("start_utc = \"{}\"\nend_utc = \"{}\"\nreason = \"box moved\"\n",

@@ -41,9 +41,10 @@ void add_missing_stops(std::vector<Finding>& findings,
             continue;
         Finding& finding = findings.emplace_back(remark("no_stop", window, window.end));
         if (window.is_last) finding.code = "no_stop_last";
-        finding.text = fmt::format(
+        finding.text = text::message(
             "{} ({}) has no stop: it lasts until the {}, at {}", window.site, window.number,
-            window.is_last ? "end of the record" : "next start", to_rfc3339(window.end));
+            window.is_last ? text::message("end of the record") : text::message("next start"),
+            to_rfc3339(window.end));
     }
 }
 
@@ -74,7 +75,7 @@ void add_short_stays(std::vector<Finding>& findings, const std::vector<Occupatio
         if (stay.length >= std::min<Nanoseconds>(kLongEnough, median / kShortDivisor)) continue;
         Finding& finding =
             findings.emplace_back(remark("short_stay", *stay.first, stay.first->start));
-        finding.text = fmt::format(
+        finding.text = text::message(
             "{} ({}) has {}, less than half the day's median of {}: its noise is averaged less",
             stay.first->site, stay.first->number, in_minutes(stay.length), in_minutes(median));
     }
@@ -107,7 +108,7 @@ std::optional<Finding> uncertain_times(const std::vector<OccupationWindow>& wind
     }
     if (uncertain == 0) return std::nullopt;
     Finding finding{.kind = "clock", .code = "clock_uncertain"};
-    finding.text = fmt::format(
+    finding.text = text::message(
         "the times of {} of {} set-ups are uncertain by up to {:.0f} s: the host's clock was not "
         "synchronised",
         uncertain, windows.size(), uncertainty_s(worst_percent));
@@ -123,8 +124,8 @@ void add_steps_back(std::vector<Finding>& findings, const archive::ChannelData& 
             Finding& finding = findings.emplace_back(
                 Finding{.kind = "clock", .code = "clock_set_back", .time = start});
             finding.text =
-                fmt::format("the host's clock was set back by {:.1f} s: two records are of {}",
-                            seconds_between(start, end), to_rfc3339(start));
+                text::message("the host's clock was set back by {:.1f} s: two records are of {}",
+                              seconds_between(start, end), to_rfc3339(start));
         }
         end = std::max(end, segment.time_of(segment.counts.size()));
     }

@@ -23,11 +23,12 @@ Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr)
 
 /// Refusals that are usual in the field; the others keep their message.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kRefusals{{
-    {"no_stay", "no stay was started"},
-    {"no_metadata", "no data were recorded yet"},
-    {"no_reading", "no stay has enough samples for a reading yet"},
-    {"too_few_readings", "one reading alone cannot be corrected: read a second benchmark"},
-    {"no_reference", "no benchmark with known gravity was read yet"},
+    {"no_stay", text::marked("no stay was started")},
+    {"no_metadata", text::marked("no data were recorded yet")},
+    {"no_reading", text::marked("no stay has enough samples for a reading yet")},
+    {"too_few_readings",
+     text::marked("one reading alone cannot be corrected: read a second benchmark")},
+    {"no_reference", text::marked("no benchmark with known gravity was read yet")},
 }};
 
 /// Findings that say what is still to be done in the day; they mean nothing before its end.
@@ -104,9 +105,11 @@ Json remarks_of(const Stay& stay, const std::vector<grade::ReadingGrade>& grades
     Json remarks = Json::array();
     std::set<std::string> texts;
     const auto add = [&](const grade::Reason& reason) {
-        if (texts.insert(reason.text).second)
-            remarks.push_back(
-                {{"code", reason.code}, {"numbers", reason.numbers}, {"text", reason.text}});
+        if (texts.insert(reason.text.english()).second)
+            remarks.push_back({{"code", reason.code},
+                               {"numbers", reason.numbers},
+                               {"text", reason.text.english()},
+                               {"text_parts", reason.text.to_json()}});
     };
     for (const std::size_t i : stay.left_out) add({"left_out", {}, left_out[i].reason});
     if (!grades.empty())
@@ -140,6 +143,9 @@ Json to_json(const GravitySoFar& so_far) {
     json["data_to_utc"] = instant(so_far.read ? so_far.read->data_end : std::nullopt);
     json["reason"] = text_or_null(so_far.reason);
     json["reason_text"] = text_or_null(so_far.reason_text);
+    json["reason_parts"] = so_far.reason_text.empty()
+                               ? Json(nullptr)
+                               : Json(text::marked_message(so_far.reason_text).to_json());
     json["model"] = so_far.result ? Json(so_far.result->model) : Json(nullptr);
     json["stays"] = Json::array();
     std::vector<reading::LeftOut> left_out;

@@ -8,13 +8,14 @@
 
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/inline_svg.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {
 namespace {
 
 constexpr const char* kStyle = R"(
 @page { size: A4; margin: 14mm 13mm; }
-body { font: 15px/1.45 "Liberation Sans", Arial, Helvetica, sans-serif; color: #111;
+body { font: 15px/1.45 "Liberation Sans", Arial, Helvetica, "Noto Sans CJK JP", sans-serif; color: #111;
   max-width: 70em; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; margin: 0 0 .2em; }
 h2 { font-size: 1.2em; margin: 1.8em 0 .4em; border-bottom: 1px solid #999; }
@@ -55,10 +56,15 @@ pre { font-size: .85em; white-space: pre-wrap; border-left: 3px solid #999; padd
 }
 )";
 
-/// Returns the name of a section for links.
+/// Returns the name of a section for links; letters outside ASCII stay.
 std::string anchor(std::string title) {
     std::ranges::replace_if(
-        title, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '-');
+        title,
+        [](char c) {
+            const auto byte = static_cast<unsigned char>(c);
+            return byte < 0x80 && std::isalnum(byte) == 0;
+        },
+        '-');
     return "section-" + title;
 }
 
@@ -79,7 +85,7 @@ void add_figure(pugi::xml_node parent, const figure::Figure& figure,
         std::ranges::find(drawing.pictures, figure.name + ".svg", &text::NamedText::first);
     if (picture == drawing.pictures.end() ||
         !figure::add_svg(node, picture->second, figure.name + "-"))
-        add(add_part(node, "p"), "em", "This figure is missing.");
+        add(add_part(node, "p"), "em", text::tr("This figure is missing."));
     const pugi::xml_node caption = add(node, "figcaption", figure.caption + ' ');
     add(caption, "code", figure.name + ".gp");
 }
@@ -90,7 +96,7 @@ Page::Page(const std::string& title) {
     document_.append_child(pugi::node_doctype).set_value("html");
     pugi::xml_node html = document_.append_child("html");
     html.append_attribute("xmlns") = "http://www.w3.org/1999/xhtml";
-    html.append_attribute("lang") = "en";
+    html.append_attribute("lang") = text::language() == text::Language::japanese ? "ja" : "en";
     pugi::xml_node head = html.append_child("head");
     head.append_child("meta").append_attribute("charset") = "utf-8";
     pugi::xml_node viewport = head.append_child("meta");
@@ -145,9 +151,11 @@ void add_table(pugi::xml_node parent, const std::string& caption, std::string_vi
 
 void add_table(pugi::xml_node parent, const std::string& caption, const result::Table& table) {
     HtmlCells headings = table.headings;
-    for (std::string& heading : headings)
+    for (std::string& heading : headings) {
+        heading = text::translated(heading, text::language());
         if (const auto at = heading.find("degC"); at != std::string::npos)
             heading.replace(at, 4, "\u00B0C");
+    }
     add_table(parent, caption, table.alignment, headings, table.rows);
 }
 
@@ -172,8 +180,8 @@ void add_figures(pugi::xml_node parent, const std::vector<figure::Figure>& figur
 std::vector<std::string> missing_lines(const std::vector<std::string>& troubles) {
     if (troubles.empty()) return {};
     const std::size_t others = troubles.size() - 1;
-    return {fmt::format("figures are missing: {}{}", figure::clean_utf8(troubles.front()),
-                        others == 0 ? "" : fmt::format("; {} more such", others))};
+    return {text::tr("figures are missing: {}", figure::clean_utf8(troubles.front())) +
+            (others == 0 ? "" : text::tr("; {} more such", others))};
 }
 
 void add_figure_files(std::vector<text::NamedText>& files,

@@ -160,7 +160,8 @@ void add_joint_actions(pugi::xml_node parent, const std::vector<JointDay>& days,
     std::vector<std::string> items;
     for (const JointDay& day : days)
         for (const reading::Finding& finding : day.result->findings)
-            if (finding.is_headline) items.push_back(fmt::format("{}: {}", day.name, finding.text));
+            if (finding.is_headline)
+                items.push_back(fmt::format("{}: {}", day.name, text::in_words(finding.text)));
     std::array<std::vector<std::string>, 3> sites;  // by grade
     std::array<std::vector<HtmlCells>, 3> reasons;
     for (const result::JointStation& station : result::join_days(results)) {

@@ -7,9 +7,12 @@
 #include "corrector/report/html.hpp"
 #include "corrector/report/result_tables.hpp"
 #include "corrector/report/summary.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {
 namespace {
+
+using text::tr;
 
 /// The figures of a survey by their places in the page.
 struct SurveyFigures {
@@ -50,28 +53,28 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
     std::vector<std::string> warnings = sources.warnings;
     warnings.insert(warnings.end(), result.remarks.begin(), result.remarks.end());
 
-    Page page("Gravity survey " + sources.title);
+    Page page(tr("Gravity survey {}", sources.title));
     add_head(page.body(), result, warnings, report.warnings);
     if (!result.findings.empty())
-        add_findings(page.add_section("Found in this day"), result.findings);
-    add_figures(page.add_section("The day"), figures.day, drawing);
-    add_actions(page.add_section("What to do"), result);
-    const pugi::xml_node stations = page.add_section("Stations");
+        add_findings(page.add_section(tr("Found in this day")), result.findings);
+    add_figures(page.add_section(tr("The day")), figures.day, drawing);
+    add_actions(page.add_section(tr("What to do")), result);
+    const pugi::xml_node stations = page.add_section(tr("Stations"));
     add_stations(stations, result);
     add_figures(stations, figures.map, drawing);
-    const pugi::xml_node accuracy = page.add_section("Accuracy");
+    const pugi::xml_node accuracy = page.add_section(tr("Accuracy"));
     add_accuracy(accuracy, result);
     add_budget(accuracy, result);
-    add_readings(page.add_section("Readings"), result);
-    add_corrections(page.add_section("Corrections"), result);
-    add_closures(page.add_section("Repeated stations"), result);
-    add_models(page.add_section("Models"), result);
+    add_readings(page.add_section(tr("Readings")), result);
+    add_corrections(page.add_section(tr("Corrections")), result);
+    add_closures(page.add_section(tr("Repeated stations")), result);
+    add_models(page.add_section(tr("Models")), result);
     if (!figures.publication.empty())
-        add_figures(page.add_section("Comparison with the references"), figures.publication,
+        add_figures(page.add_section(tr("Comparison with the references")), figures.publication,
                     drawing);
     if (!figures.records.empty())
-        add_figures(page.add_section("Records"), figures.records, drawing);
-    add_provenance(page.add_section("Settings, inputs, warnings"), settings, sources.inputs,
+        add_figures(page.add_section(tr("Records")), figures.records, drawing);
+    add_provenance(page.add_section(tr("Settings, inputs, warnings")), settings, sources.inputs,
                    warnings);
     report.files.emplace_back("report.html", page.text());
     add_figure_files(report.files, all, drawing);

@@ -13,9 +13,12 @@
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {
 namespace {
+
+using text::tr;
 
 template <class Value>
 std::string cell(const std::optional<Value>& value, int decimals) {
@@ -50,39 +53,40 @@ std::vector<result::Column<model::CorrectedRow>> reading_columns(
 
 std::string reading_caption(const model::SurveyCorrection& result) {
     const std::string text =
-        "Gravity of the readings in mGal, with all corrections. Residual = reference - corrected, "
-        "in sample where the reading is in the fit. ";
+        tr("Gravity of the readings in mGal, with all corrections. Residual = reference - "
+           "corrected, in sample where the reading is in the fit. ");
+    if (result.as<model::NetworkAdjustment>() != nullptr)
+        return text + tr("u: standard uncertainty of a single reading, a priori; t: studentised "
+                         "residual.");
     if (result.as<model::WholeDayPart>() == nullptr)
-        return fmt::format("{}u: standard uncertainty of a {}; t: studentised residual.", text,
-                           result.as<model::NetworkAdjustment>() != nullptr
-                               ? "single reading, a priori"
-                               : "new station, from the scatter in sample");
+        return text + tr("u: standard uncertainty of a new station, from the scatter in sample; t: "
+                         "studentised residual.");
     return text +
-           "The model day averages all undisturbed samples between the two instants; column s is "
-           "their duration in seconds. The residual is the error of placing the box, one value for "
-           "each set-up. Left out: the value of the reading if the reference of its station is not "
-           "used (cross-validated); u is the standard uncertainty of this value, and t = "
-           "(reference "
-           "- left out) / u.";
+           tr("The model day averages all undisturbed samples between the two instants; column s "
+              "is their duration in seconds. The residual is the error of placing the box, one "
+              "value for each set-up. Left out: the value of the reading if the reference of its "
+              "station is not used (cross-validated); u is the standard uncertainty of this value, "
+              "and t = (reference - left out) / u.");
 }
 
 std::string station_caption(const model::SurveyCorrection& result, const result::Table& table) {
     const auto has = [&table](std::string_view heading) {
         return std::ranges::find(table.headings, heading) != table.headings.end();
     };
-    return fmt::format(
-        "Residuals are in sample.{} u is a standard uncertainty, {}.{}{}",
-        has("Left out mGal")
-            ? " Left out: value without the station's own reference (cross-validated)."
-            : "",
-        result.as<model::WholeDayPart>() != nullptr        ? "as if the station were unknown"
-        : result.as<model::NetworkAdjustment>() != nullptr ? "a priori"
-                                                           : "from the scatter in sample",
-        has("U 95 % mGal")
-            ? " Gravity of an unknown station is within ± U of the value with a probability of "
-              "95 %."
-            : "",
-        has("Flagged only") ? " Flagged only: only readings that were left out of the fit." : "");
+    return tr("Residuals are in sample.") +
+           (has("Left out mGal")
+                ? tr(" Left out: value without the station's own reference (cross-validated).")
+                : "") +
+           (result.as<model::WholeDayPart>() != nullptr
+                ? tr(" u is a standard uncertainty, as if the station were unknown.")
+            : result.as<model::NetworkAdjustment>() != nullptr
+                ? tr(" u is a standard uncertainty, a priori.")
+                : tr(" u is a standard uncertainty, from the scatter in sample.")) +
+           (has("U 95 % mGal") ? tr(" Gravity of an unknown station is within ± U of the value "
+                                    "with a probability of 95 %.")
+                               : "") +
+           (has("Flagged only") ? tr(" Flagged only: only readings that were left out of the fit.")
+                                : "");
 }
 
 /// Returns the mean of the temperature corrections, rounded as they are shown.  It contains the
@@ -106,14 +110,15 @@ void add_stations(pugi::xml_node parent, const model::SurveyCorrection& result) 
 void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const result::Table table = result::budget_table(result);
     if (table.rows.empty()) return;
-    add(parent, "h3", "Sources of the uncertainty");
-    add_table(parent,
-              "Standard uncertainties in mGal; the sum of their squares is u squared. Placement "
-              "becomes smaller with further set-ups. Levelling: unknown biases of the horizontal "
-              "axes; smaller if the box is level, or with a tilt series. Thermal: the unit's "
-              "response to temperature; smaller with a calibration or more known stations. Datum: "
-              "the references.",
-              table);
+    add(parent, "h3", tr("Sources of the uncertainty"));
+    add_table(
+        parent,
+        tr("Standard uncertainties in mGal; the sum of their squares is u squared. Placement "
+           "becomes smaller with further set-ups. Levelling: unknown biases of the horizontal "
+           "axes; smaller if the box is level, or with a tilt series. Thermal: the unit's "
+           "response to temperature; smaller with a calibration or more known stations. Datum: "
+           "the references."),
+        table);
 }
 
 void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result) {
@@ -122,7 +127,8 @@ void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result) 
     const std::size_t first = is_recorded ? 3 : 2;  // columns before those of the declaration
     result::Table table = result::empty_table(columns);
     const HtmlCells leading =
-        is_recorded ? HtmlCells{"Reading", "Averaged UTC", "s"} : HtmlCells{"Reading", "Time UTC"};
+        is_recorded ? HtmlCells{text::marked("Reading"), text::marked("Averaged UTC"), "s"}
+                    : HtmlCells{text::marked("Reading"), text::marked("Time UTC")};
     table.headings.insert(table.headings.begin(), leading.begin(), leading.end());
     table.alignment.insert(0, is_recorded ? "nnr" : "nn");
     const auto add_row = [&](std::size_t i) {
@@ -172,11 +178,11 @@ void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& resul
         table.rows[i].insert(table.rows[i].begin(), grade::reading_name(result.rows, i));
     add_table(
         parent,
-        fmt::format(
-            "From acceleration to gravity, in mGal: corrected = acceleration - tide + constant "
-            "+ the other columns. The constant of {} contains the bias of the sensor and the "
-            "mean effect of its temperature; T corr. is the rest of this effect.{}",
-            number(constant), is_day ? " °C/h is the rate that the model's fast term uses." : ""),
+        tr("From acceleration to gravity, in mGal: corrected = acceleration - tide + constant "
+           "+ the other columns. The constant of {} contains the bias of the sensor and the "
+           "mean effect of its temperature; T corr. is the rest of this effect.",
+           number(constant)) +
+            (is_day ? tr(" °C/h is the rate that the model's fast term uses.") : ""),
         table);
 }
 
@@ -184,8 +190,8 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
     const std::vector<grade::Closure> closures = grade::close_stations(result);
     if (closures.empty()) {
         add(parent, "p",
-            "No station was read twice, so there are no closures; drift is visible only against "
-            "the references.");
+            tr("No station was read twice, so there are no closures; drift is visible only against "
+               "the references."));
         return;
     }
     std::vector<HtmlCells> rows;
@@ -197,45 +203,47 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
                         number(pair.after_all), cell(pair.drift_mgal_per_h, 3)});
     }
     const grade::ClosureRms rms = grade::rms_of(closures).value();
-    rows.push_back({fmt::format("RMS of {}", closures.size()), "", "", number(rms.before),
+    rows.push_back({tr("RMS of {}", closures.size()), "", "", number(rms.before),
                     number(rms.after_tide), number(rms.after_temperature), number(rms.after_rate),
                     number(rms.after_all), ""});
     add_table(parent,
-              "Later minus earlier reading of one station, in mGal. Drift: the drift that this "
-              "pair alone would mean, the difference after rate divided by the time between the "
-              "readings. The last differences are in sample, "
-              "because the coefficients were fitted to the same readings.",
+              tr("Later minus earlier reading of one station, in mGal. Drift: the drift that this "
+                 "pair alone would mean, the difference after rate divided by the time between the "
+                 "readings. The last differences are in sample, "
+                 "because the coefficients were fitted to the same readings."),
               "nnrrrrrrr",
-              {"Earlier", "Later", "Hours", "As read", "After tide", "After temperature",
-               "After rate, tilt", "After drift (all)", "Drift mGal/h"},
+              {tr("Earlier"), tr("Later"), tr("Hours"), tr("As read"), tr("After tide"),
+               tr("After temperature"), tr("After rate, tilt"), tr("After drift (all)"),
+               tr("Drift mGal/h")},
               rows);
 }
 
 void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {
-    add_table(parent,
-              "Errors of all models. RMS and s: in sample. LOO: RMS error of a reading predicted "
-              "without it (leave-one-out). LOSO: RMS error of the readings of a station predicted "
-              "without them (leave-one-station-out).",
-              result::models_table(result));
+    add_table(
+        parent,
+        tr("Errors of all models. RMS and s: in sample. LOO: RMS error of a reading predicted "
+           "without it (leave-one-out). LOSO: RMS error of the readings of a station predicted "
+           "without them (leave-one-station-out)."),
+        result::models_table(result));
     if (result.choice)
         add(parent, "p",
-            fmt::format("Chosen: among the models within one standard error of the least "
-                        "leave-one-station-out error, up to {} mGal, the one with the fewest "
-                        "terms.",
-                        text::fixed(result.choice->limit_mgal, 3)));
+            tr("Chosen: among the models within one standard error of the least "
+               "leave-one-station-out error, up to {} mGal, the one with the fewest "
+               "terms.",
+               text::fixed(result.choice->limit_mgal, 3)));
     std::vector<HtmlCells> coefficients;
     for (const model::Coefficient& c : result.coefficients)
         coefficients.push_back({c.name, text::fixed(c.value, 4), cell(c.standard_error, 4)});
-    add(parent, "h3", "Coefficients of " + result.model);
-    add_table(parent, "Standard errors are those of the fit (in sample).", "lrr",
-              {"Coefficient", "Value", "Standard error"}, coefficients);
+    add(parent, "h3", tr("Coefficients of {}", result.model));
+    add_table(parent, tr("Standard errors are those of the fit (in sample)."), "lrr",
+              {tr("Coefficient"), tr("Value"), tr("Standard error")}, coefficients);
 }
 
 void add_provenance(pugi::xml_node parent, const nlohmann::ordered_json& settings,
                     const std::vector<text::InputFile>& inputs,
                     const std::vector<std::string>& warnings) {
-    add(parent, "h3", "Warnings");
-    if (warnings.empty()) add(parent, "p", "None.");
+    add(parent, "h3", tr("Warnings"));
+    if (warnings.empty()) add(parent, "p", tr("None."));
     add_list(parent, warnings);
     std::vector<HtmlCells> rows;
     for (const auto& [key, value] : settings.items()) {
@@ -246,14 +254,15 @@ void add_provenance(pugi::xml_node parent, const nlohmann::ordered_json& setting
                                               nlohmann::ordered_json::error_handler_t::replace)});
     }
     rows.push_back({"program", "a351-correct " A351_VERSION});
-    add(parent, "h3", "Settings");
-    add_table(parent, "Options of the run.", "ll", {"Setting", "Value"}, rows);
+    add(parent, "h3", tr("Settings"));
+    add_table(parent, tr("Options of the run."), "ll", {tr("Setting"), tr("Value")}, rows);
     std::vector<HtmlCells> files;
     for (const text::InputFile& input : inputs)
         files.push_back({input.role, input.name, std::to_string(input.byte_count),
                          fmt::format("{:08x}", input.crc32)});
-    add(parent, "h3", "Inputs");
-    add_table(parent, "Files that were read.", "llrr", {"Role", "File", "Bytes", "CRC-32"}, files);
+    add(parent, "h3", tr("Inputs"));
+    add_table(parent, tr("Files that were read."), "llrr",
+              {tr("Role"), tr("File"), tr("Bytes"), "CRC-32"}, files);
 }
 
 }  // namespace a351::corrector::report

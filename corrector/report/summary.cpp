@@ -13,11 +13,13 @@
 #include "corrector/report/html.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {
 
 using grade::Grade;
 using grade::ReadingGrade;
+using text::tr;
 
 namespace {
 
@@ -42,20 +44,22 @@ void add_reasons(pugi::xml_node parent, const model::SurveyCorrection& result,
     for (const Grade wanted : {Grade::repeat, Grade::care, Grade::trust}) {
         for (std::size_t i = 0; i < grades.size(); ++i) {
             if (grades[i].grade != wanted || grades[i].reasons.empty()) continue;
-            rows.push_back({grade::reading_name(result.rows, i),
-                            std::string(grade::grade_name(wanted)),
-                            text::fixed_or(grade::error_of(result.rows[i]), 2, "-"),
-                            text::fixed_or(result.rows[i].u_corrected, 2, "-"),
-                            grade::reason_text(grades[i])});
+            rows.push_back(
+                {grade::reading_name(result.rows, i),
+                 std::string(text::translated(grade::grade_name(wanted), text::language())),
+                 text::fixed_or(grade::error_of(result.rows[i]), 2, "-"),
+                 text::fixed_or(result.rows[i].u_corrected, 2, "-"),
+                 grade::reason_in_words(grades[i])});
         }
     }
     if (rows.empty()) return;
     add_table(parent,
-              is_day ? "Readings with remarks. Error: reference minus value if the station is left "
-                       "out (cross-validated); u: standard uncertainty of this value."
-                     : "Readings with remarks. Error: residual, reference minus corrected (in "
-                       "sample); u: standard uncertainty.",
-              "nnrrl", {"Reading", "Grade", "Error mGal", "u mGal", "Why"}, rows);
+              is_day
+                  ? tr("Readings with remarks. Error: reference minus value if the station is left "
+                       "out (cross-validated); u: standard uncertainty of this value.")
+                  : tr("Readings with remarks. Error: residual, reference minus corrected (in "
+                       "sample); u: standard uncertainty."),
+              "nnrrl", {tr("Reading"), tr("Grade"), tr("Error mGal"), "u mGal", tr("Why")}, rows);
 }
 
 void add_scores(pugi::xml_node parent, const model::SurveyCorrection& result) {
@@ -65,44 +69,40 @@ void add_scores(pugi::xml_node parent, const model::SurveyCorrection& result) {
                              const std::string& error, const std::string& kind) {
         if (value) rows.push_back({quantity, text::fixed(*value, 3), error, kind});
     };
-    add("RMS of the residuals", score.rms_mgal,
-        text::fixed_or(standard_error_of_rms(score), 2, "-"), "in sample");
-    add(fmt::format("s, with the degrees of freedom ({}) for divisor", score.dof), score.s_mgal, "",
-        "in sample");
-    add("RMS error of a reading left out", score.loo_mgal, "", "cross-validated (leave-one-out)");
-    add("RMS error of a station left out", score.loso_mgal, "",
-        "cross-validated (leave-one-station-out)");
-    add("the same, with the model chosen again each time", result.choice_loso_mgal, "",
-        "cross-validated (leave-one-station-out)");
+    add(tr("RMS of the residuals"), score.rms_mgal,
+        text::fixed_or(standard_error_of_rms(score), 2, "-"), tr("in sample"));
+    add(tr("s, with the degrees of freedom ({}) for divisor", score.dof), score.s_mgal, "",
+        tr("in sample"));
+    add(tr("RMS error of a reading left out"), score.loo_mgal, "",
+        tr("cross-validated (leave-one-out)"));
+    add(tr("RMS error of a station left out"), score.loso_mgal, "",
+        tr("cross-validated (leave-one-station-out)"));
+    add(tr("the same, with the model chosen again each time"), result.choice_loso_mgal, "",
+        tr("cross-validated (leave-one-station-out)"));
     add_table(
         parent,
-        "Errors of the model. In sample: the fit has seen the references; cross-validated: it "
-        "has not.",
-        "lrrl", {"Quantity", "mGal", "its standard error", "Kind"}, rows);
+        tr("Errors of the model. In sample: the fit has seen the references; cross-validated: it "
+           "has not."),
+        "lrrl", {tr("Quantity"), "mGal", tr("its standard error"), tr("Kind")}, rows);
 }
 
 bool is_unusable(const model::SurveyCorrection& result) {
     return std::ranges::count(result.findings, "unusable_day", &reading::Finding::kind) > 0;
 }
 
-std::string counted(std::size_t count, const std::string& what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 std::string headline(const model::SurveyCorrection& result) {
     const auto* const network = result.as<model::NetworkAdjustment>();
-    return fmt::format(
-        "{} to {}: {} of {}, base {}. Model {}{}; {} in the fit, {}{}, {} degrees of freedom.",
-        to_rfc3339(result.rows.front().row.time), to_rfc3339(result.rows.back().row.time),
-        counted(result.rows.size(), "reading"), counted(result.stations.size(), "station"),
-        result.options.base, result.model, result::choice_text(result),
-        counted(result.score.row_count, "reading"),
-        counted(result.score.parameter_count, network != nullptr ? "unknown" : "coefficient"),
-        network != nullptr
-            ? fmt::format(", of which {} ({} held)", counted(network->stations.size(), "station"),
-                          network->datum_count)
-            : "",
-        result.score.dof);
+    const std::string day =
+        tr("{} to {}. Readings: {}. Stations: {}, base {}. Model {}{}; readings in the fit: {}.",
+           to_rfc3339(result.rows.front().row.time), to_rfc3339(result.rows.back().row.time),
+           result.rows.size(), result.stations.size(), result.options.base, result.model,
+           result::choice_text(result), result.score.row_count);
+    if (network == nullptr)
+        return day + tr(" Coefficients: {}, degrees of freedom: {}.", result.score.parameter_count,
+                        result.score.dof);
+    return day + tr(" Unknowns: {}, of which stations: {} ({} held); degrees of freedom: {}.",
+                    result.score.parameter_count, network->stations.size(), network->datum_count,
+                    result.score.dof);
 }
 
 }  // namespace
@@ -125,16 +125,16 @@ std::vector<std::string> actions(const model::SurveyCorrection& result,
     }
     std::vector<std::string> list;
     const auto add = [&list](const std::string& what, const std::vector<std::string>& names) {
-        if (!names.empty()) list.push_back(fmt::format("{}: {}.", what, text::joined(names)));
+        if (!names.empty()) list.push_back(tr("{}: {}.", what, text::joined(names)));
     };
     for (const auto& [reason, names] : left_out_by_reason(result))
-        add(fmt::format("Repeat, without a value ({})", reason), names);
-    add("Repeat, the station has no other reading to trust", urgent);
-    add("Repeat if there is time, the station has another reading to trust", optional);
+        add(tr("Repeat, without a value ({})", reason), names);
+    add(tr("Repeat, the station has no other reading to trust"), urgent);
+    add(tr("Repeat if there is time, the station has another reading to trust"), optional);
     if (list.empty() && std::ranges::none_of(result.findings, &reading::Finding::is_headline))
-        list.emplace_back("No reading needs to be repeated.");
-    add("Use with care", care);
-    add("Trust", trusted);
+        list.emplace_back(tr("No reading needs to be repeated."));
+    add(tr("Use with care"), care);
+    add(tr("Trust"), trusted);
     return list;
 }
 
@@ -145,10 +145,10 @@ std::vector<std::string> limits_of(const model::SurveyCorrection& result) {
         }));
     std::vector<std::string> limits;
     if (base_count < model::kFewestBaseStays) {
-        limits.push_back(fmt::format(
-            "The base {} has {} in the fit; three readings spread over the day separate drift from "
-            "a bad reading.",
-            result.options.base, counted(base_count, "reading")));
+        limits.push_back(tr(
+            "Readings of the base {} in the fit: {}; three readings spread over the day separate "
+            "drift from a bad reading.",
+            result.options.base, base_count));
     }
     std::size_t single_count = 0;
     std::vector<std::string> unchecked;
@@ -158,14 +158,14 @@ std::vector<std::string> limits_of(const model::SurveyCorrection& result) {
         if (!station.reference) unchecked.push_back(station.site);
     }
     if (single_count > 0) {
-        limits.push_back(fmt::format(
-            "{} of {} stations have only one reading: an error there can be seen only if the "
-            "reference is known.",
-            single_count, result.stations.size()));
+        limits.push_back(
+            tr("{} of {} stations have only one reading: an error there can be seen only if the "
+               "reference is known.",
+               single_count, result.stations.size()));
     }
     if (!unchecked.empty()) {
-        limits.push_back(fmt::format("One reading and no reference, so nothing checks them: {}.",
-                                     text::joined(unchecked)));
+        limits.push_back(tr("One reading and no reference, so nothing checks them: {}.",
+                            text::joined(unchecked)));
     }
     return limits;
 }
@@ -178,26 +178,26 @@ std::optional<double> standard_error_of_rms(const model::Score& score) {
 std::string scatter_sentence(const model::Score& score) {
     const bool has_priors = score.model == model::kWholeDay || score.model == model::kNetwork;
     if (has_priors && !score.loso_mgal)
-        return fmt::format(
+        return tr(
             "n = {}: no known station can be left out as a test, because no other reference would "
             "remain. For a new station quote its u, which includes what is not known of the "
             "instrument.",
             score.row_count);
     const auto error = standard_error_of_rms(score);
     const std::string scatter =
-        error ? fmt::format(
-                    "the scatter of {} mGal (in sample) has itself a standard error of about {} "
-                    "mGal, RMS / sqrt(2 dof) with {} degrees of freedom. Smaller differences "
-                    "between models are not significant.",
-                    text::fixed(*score.rms_mgal, 2), text::fixed(*error, 2), score.dof)
-              : "no degree of freedom is left in the fit, so the residuals say nothing about "
-                "accuracy.";
+        error ? tr("the scatter of {} mGal (in sample) has itself a standard error of about {} "
+                   "mGal, RMS / sqrt(2 dof) with {} degrees of freedom. Smaller differences "
+                   "between models are not significant.",
+                   text::fixed(*score.rms_mgal, 2), text::fixed(*error, 2), score.dof)
+              : tr("no degree of freedom is left in the fit, so the residuals say nothing about "
+                   "accuracy.");
     const std::string quote =
         score.loso_mgal
-            ? text::fixed(*score.loso_mgal, 2) + " mGal (cross-validated, leave-one-station-out)."
-            : "the leave-one-station-out error; it cannot be computed for this model and these "
-              "readings.";
-    return fmt::format("n = {}: {} For a new station quote {}", score.row_count, scatter, quote);
+            ? tr("{} mGal (cross-validated, leave-one-station-out).",
+                 text::fixed(*score.loso_mgal, 2))
+            : tr("the leave-one-station-out error; it cannot be computed for this model and these "
+                 "readings.");
+    return tr("n = {}: {} For a new station quote {}", score.row_count, scatter, quote);
 }
 
 void add_head(pugi::xml_node parent, const model::SurveyCorrection& result,
@@ -206,7 +206,7 @@ void add_head(pugi::xml_node parent, const model::SurveyCorrection& result,
     std::vector<std::string> remarks = missing;
     if (!warnings.empty())
         remarks.push_back(
-            fmt::format("Warnings about the input: {}, see the last section.", warnings.size()));
+            tr("Warnings about the input: {}, see the last section.", warnings.size()));
     add_list(parent, remarks);
 }
 
@@ -215,16 +215,16 @@ void add_findings(pugi::xml_node parent, const std::vector<reading::Finding>& fi
     std::string amendments;
     for (const reading::Finding& finding : findings) {
         if (finding.is_headline) {
-            add(add_part(list, "li"), "b", finding.text);
+            add(add_part(list, "li"), "b", text::in_words(finding.text));
         } else {
-            add(list, "li", finding.text);
+            add(list, "li", text::in_words(finding.text));
         }
         amendments += finding.amendment;
     }
     if (amendments.empty()) return;
     add(parent, "p",
-        "To carry out the proposals: a351-correct amend SURVEY.toml --all, or paste into the "
-        "amendments file what is right:");
+        tr("To carry out the proposals: a351-correct amend SURVEY.toml --all, or paste into the "
+           "amendments file what is right:"));
     pugi::xml_node block = add_part(parent, "pre");
     std::istringstream lines(amendments);
     for (std::string line; std::getline(lines, line);) {
@@ -242,10 +242,11 @@ void add_actions(pugi::xml_node parent, const model::SurveyCorrection& result) {
 void add_accuracy(pugi::xml_node parent, const model::SurveyCorrection& result) {
     add_scores(parent, result);
     add(parent, "p",
-        is_unusable(result) ? "Correct the mistakes of this day before you use any of its values."
-                            : scatter_sentence(result.score));
+        is_unusable(result)
+            ? tr("Correct the mistakes of this day before you use any of its values.")
+            : scatter_sentence(result.score));
     const std::vector<std::string> limits = limits_of(result);
-    if (!limits.empty()) add(parent, "h3", "Limits");
+    if (!limits.empty()) add(parent, "h3", tr("Limits"));
     add_list(parent, limits);
 }
 

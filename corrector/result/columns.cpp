@@ -6,6 +6,7 @@
 #include "corrector/grade/reading_grade.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/catalogue.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -69,7 +70,9 @@ Columns columns_of_records() {
 }
 
 Column<model::CorrectedRow> tilt_column() {
-    return {"tilt_correction_mgal", of(&model::CorrectedRow::tilt_correction), {"Tilt corr."}};
+    return {"tilt_correction_mgal",
+            of(&model::CorrectedRow::tilt_correction),
+            {text::marked("Tilt corr.")}};
 }
 
 /// Returns the last columns of occupations.csv.  Cells of CSV have no comma.
@@ -85,7 +88,7 @@ Columns columns_of_grades(const model::SurveyCorrection& result) {
         std::replace(text.begin(), text.end(), ',', ';');
         return text;
     };
-    return {{"grade", name, {"Grade", 0, 'n'}}, {"grade_reason", reason}};
+    return {{"grade", name, {text::marked("Grade"), 0, 'n'}}, {"grade_reason", reason}};
 }
 
 /// Returns the half width of the interval that contains 95 %.
@@ -116,8 +119,9 @@ Columns columns_of_day() {
     using Day = model::WholeDayRow;
     return {of_model("averaged_s", &Day::averaged_s, {"s", 0}),
             of_model("fast_rate_degc_per_h", &Day::fast_rate_degc_per_h, {"degC/h"}), tilt_column(),
-            of_model("flicker_correction_mgal", &Day::flicker_correction, {"Flicker corr."}),
-            of_model("left_out_mgal", &Day::left_out, {"Left out"})};
+            of_model("flicker_correction_mgal", &Day::flicker_correction,
+                     {text::marked("Flicker corr.")}),
+            of_model("left_out_mgal", &Day::left_out, {text::marked("Left out")})};
 }
 
 }  // namespace
@@ -125,32 +129,44 @@ Columns columns_of_day() {
 std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyCorrection& result) {
     using Row = const model::CorrectedRow&;
     Columns columns{
-        {"site", [](Row row) { return row.row.site; }, {"Site", 0, 'n'}},
+        {"site", [](Row row) { return row.row.site; }, {text::marked("Site"), 0, 'n'}},
         {"occupation",
          [](Row row) { return static_cast<std::int64_t>(row.row.occupation); },
-         {"Occ."}},
-        {"time_utc", [](Row row) { return cell(row.row.time); }, {"Time UTC", 0, 'n'}},
+         {text::marked("Occ.")}},
+        {"time_utc",
+         [](Row row) { return cell(row.row.time); },
+         {text::marked("Time UTC"), 0, 'n'}},
         {"start_utc", [](Row row) { return cell(row.row.start); }},
         {"end_utc", [](Row row) { return cell(row.row.end); }},
-        {"used", of(&model::CorrectedRow::is_used), {"In fit", 0, 'l'}},
-        {"flags", [&result](Row row) { return flags_of(row, result.options); }, {"Flags", 0, 'l'}},
-        {"acceleration_mgal", [](Row row) { return cell(row.row.measured()); }, {"Acceleration"}},
+        {"used", of(&model::CorrectedRow::is_used), {text::marked("In fit"), 0, 'l'}},
+        {"flags",
+         [&result](Row row) { return flags_of(row, result.options); },
+         {text::marked("Flags"), 0, 'l'}},
+        {"acceleration_mgal",
+         [](Row row) { return cell(row.row.measured()); },
+         {text::marked("Acceleration")}},
         {"temperature_degc",
          [](Row row) {
              return row.row.has_temperature ? Cell(row.row.temperature.value()) : Cell();
          },
          {"T degC"}},
         {"rate_degc_per_h", [](Row row) { return row.row.rate_degc_per_h; }, {"degC/h"}},
-        {"tide_mgal", [](Row row) { return cell(row.row.tide); }, {"Tide"}},
-        {"difference_mgal", of(&model::CorrectedRow::difference), {"Difference"}},
+        {"tide_mgal", [](Row row) { return cell(row.row.tide); }, {text::marked("Tide")}},
+        {"difference_mgal", of(&model::CorrectedRow::difference), {text::marked("Difference")}},
         {"temperature_correction_mgal",
          of(&model::CorrectedRow::temperature_correction),
-         {"T corr."}},
-        {"rate_correction_mgal", of(&model::CorrectedRow::rate_correction), {"Rate corr."}},
-        {"drift_correction_mgal", of(&model::CorrectedRow::drift_correction), {"Drift corr."}},
-        {"corrected_mgal", of(&model::CorrectedRow::corrected), {"Corrected"}},
-        {"reference_mgal", [](Row row) { return cell(row.row.reference); }, {"Reference"}},
-        {"residual_mgal", of(&model::CorrectedRow::residual), {"Residual"}},
+         {text::marked("T corr.")}},
+        {"rate_correction_mgal",
+         of(&model::CorrectedRow::rate_correction),
+         {text::marked("Rate corr.")}},
+        {"drift_correction_mgal",
+         of(&model::CorrectedRow::drift_correction),
+         {text::marked("Drift corr.")}},
+        {"corrected_mgal", of(&model::CorrectedRow::corrected), {text::marked("Corrected")}},
+        {"reference_mgal",
+         [](Row row) { return cell(row.row.reference); },
+         {text::marked("Reference")}},
+        {"residual_mgal", of(&model::CorrectedRow::residual), {text::marked("Residual")}},
         {"leverage", of(&model::CorrectedRow::leverage)},
         {"u_corrected_mgal", of(&model::CorrectedRow::u_corrected), {"u", 2}},
         {"studentised_residual", of(&model::CorrectedRow::studentised_residual), {"t", 2}},
@@ -188,20 +204,22 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
 std::vector<Column<model::StationValue>> station_columns(
     const std::vector<model::StationValue>& stations) {
     std::vector<Column<model::StationValue>> columns{
-        {"site", of(&model::StationValue::site), {"Station", 0, 'n'}},
+        {"site", of(&model::StationValue::site), {text::marked("Station"), 0, 'n'}},
         {"n", of(&model::StationValue::row_count), {"n"}},
-        {"gravity_mgal", of(&model::StationValue::gravity), {"Gravity mGal"}},
+        {"gravity_mgal", of(&model::StationValue::gravity), {text::marked("Gravity mGal")}},
         {"u_gravity_mgal", of(&model::StationValue::u_gravity), {"u mGal", 2}},
-        {"reference_mgal", of(&model::StationValue::reference), {"Reference mGal"}},
-        {"residual_mgal", of(&model::StationValue::residual), {"Residual mGal"}},
-        {"redundancy", of(&model::StationValue::redundancy), {"Redundancy", 2}},
-        {"flagged_only", of(&model::StationValue::is_flagged_only), {"Flagged only", 0, 'l'}},
+        {"reference_mgal", of(&model::StationValue::reference), {text::marked("Reference mGal")}},
+        {"residual_mgal", of(&model::StationValue::residual), {text::marked("Residual mGal")}},
+        {"redundancy", of(&model::StationValue::redundancy), {text::marked("Redundancy"), 2}},
+        {"flagged_only",
+         of(&model::StationValue::is_flagged_only),
+         {text::marked("Flagged only"), 0, 'l'}},
         {"u_a_posteriori_mgal", of(&model::StationValue::u_a_posteriori)},
-        {"left_out_mgal", of(&model::StationValue::left_out), {"Left out mGal"}},
+        {"left_out_mgal", of(&model::StationValue::left_out), {text::marked("Left out mGal")}},
         {"u_left_out_mgal", of(&model::StationValue::u_left_out)},
         {"dof", of(&model::StationValue::dof)},
         {"k_95", of(&model::StationValue::coverage_factor)},
-        {"expanded_u_mgal", expanded_uncertainty, {"U 95 % mGal", 2}},
+        {"expanded_u_mgal", expanded_uncertainty, {text::marked("U 95 % mGal"), 2}},
         part_column("u_placement_mgal", "Placement", whole_day::ErrorSource::placement),
         part_column("u_flicker_mgal", "Flicker", whole_day::ErrorSource::flicker),
         part_column("u_white_mgal", "White", whole_day::ErrorSource::white),
@@ -236,20 +254,26 @@ std::vector<Column<model::StationDifference>> difference_columns() {
 std::vector<Column<ScoreRow>> score_columns(const model::SurveyCorrection& result) {
     using Row = const ScoreRow&;
     return {
-        {"model", [](Row row) { return row.score->model; }, {"Model", 0, 'n'}},
-        {"rows", [](Row row) { return row.set->rows; }, {"Rows", 0, 'l'}},
+        {"model", [](Row row) { return row.score->model; }, {text::marked("Model"), 0, 'n'}},
+        {"rows", [](Row row) { return row.set->rows; }, {text::marked("Rows"), 0, 'l'}},
         {"n", [](Row row) { return cell_of_count(row.score->row_count); }, {"n"}},
         {"p", [](Row row) { return cell_of_count(row.score->parameter_count); }, {"p"}},
-        {"rms_mgal", [](Row row) { return cell(row.score->rms_mgal); }, {"RMS mGal (in sample)"}},
-        {"s_mgal", [](Row row) { return cell(row.score->s_mgal); }, {"s mGal (in sample)"}},
+        {"rms_mgal",
+         [](Row row) { return cell(row.score->rms_mgal); },
+         {text::marked("RMS mGal (in sample)")}},
+        {"s_mgal",
+         [](Row row) { return cell(row.score->s_mgal); },
+         {text::marked("s mGal (in sample)")}},
         {"loo_mgal",
          [](Row row) { return cell(row.score->loo_mgal); },
-         {"LOO mGal (cross-validated)"}},
+         {text::marked("LOO mGal (cross-validated)")}},
         {"loso_mgal",
          [](Row row) { return cell(row.score->loso_mgal); },
-         {"LOSO mGal (cross-validated)"}},
+         {text::marked("LOSO mGal (cross-validated)")}},
         {"aicc", [](Row row) { return cell(row.score->aicc); }, {"AICc", 2}},
-        {"selected", [&result](Row row) { return is_selected(result, row); }, {"Applied", 0, 'l'}},
+        {"selected",
+         [&result](Row row) { return is_selected(result, row); },
+         {text::marked("Applied"), 0, 'l'}},
         {"rms_before_drift_mgal", [](Row row) { return cell(row.score->rms_before_drift_mgal); }},
         {"dof", [](Row row) { return cell_of_count(row.score->dof); }, {"dof"}},
         {"calibration",

@@ -6,7 +6,7 @@ without installed locales, and their machine-readable output stays the same.
 import subprocess
 import sys
 
-from programs import BIN, TOP, demand, run
+from programs import BIN, TOP, Scratch, demand, run
 
 check = subprocess.run([TOP / "protocol" / "text" / "update_catalogue.py", "--check"], capture_output=True, text=True)
 if check.returncode != 0:
@@ -22,3 +22,13 @@ for language, variables in (("en", {"A351_LANG": "en"}), ("ja", {"A351_LANG": "j
 demand("English and Japanese differ", answers["en"] != answers["ja"])
 demand("A351_LANG and the locale give the same text", answers["ja"] == answers["locale"])
 demand("a language without a catalogue is English", answers["en"] == answers["unknown"])
+
+with Scratch() as scratch:
+    run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 3, "--out", "day", cwd=scratch)
+    for language in ("en", "ja"):
+        run(BIN / "a351-correct", "survey", "day/survey.toml", "--out", language, cwd=scratch, env={"A351_LANG": language})
+    differing = {file.name for file in (scratch / "en").iterdir()
+                 if file.is_file() and file.read_bytes() != (scratch / "ja" / file.name).read_bytes()}
+    demand(f"only the report depends on the language, not JSON and CSV: {differing}", differing == {"report.html"})
+    report = (scratch / "ja" / "report.html").read_text()
+    demand("the report is in Japanese", 'lang="ja"' in report and "すべきこと" in report and "What to do" not in report)

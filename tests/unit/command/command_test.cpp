@@ -116,8 +116,8 @@ TEST_CASE("a network with one datum reports its deviation from the other known r
     CHECK(json["models"].back()["dof"] == 4);  // 19 readings, a datum and a prior; 14 + 3 unknowns
     CHECK_THAT(
         text::read_text_file(folder.path() / "a/report.html"),
-        ContainsSubstring("16 readings in the fit, 16 unknowns, of which 13 stations (1 held), "
-                          "2 degrees of freedom"));
+        ContainsSubstring("readings in the fit: 16. Unknowns: 16, of which stations: 13 (1 held); "
+                          "degrees of freedom: 2"));
     CHECK(run(folder, arguments + "--out b").status == 0);
     CHECK(text::read_text_file(folder.path() / "a/result.json") ==
           text::read_text_file(folder.path() / "b/result.json"));

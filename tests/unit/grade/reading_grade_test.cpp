@@ -36,7 +36,7 @@ Grade first_grade(const SurveyCorrection& result) { return grade_readings(result
 std::string first_reasons(const SurveyCorrection& result) {
     std::string text;
     const ReadingGrade first = grade_readings(result).front();
-    for (const Reason& reason : first.reasons) text += reason.text + '|';
+    for (const Reason& reason : first.reasons) text += reason.text.english() + '|';
     return text;
 }
 

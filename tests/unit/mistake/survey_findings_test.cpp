@@ -75,7 +75,7 @@ TEST_CASE("a wrong reference is named with its size and an amendment", "[mistake
         REQUIRE(kinds(findings) == Kinds{"unusable_day", "reference", "not_visited"});
         CHECK(findings[1].site == "S2");
         CHECK(std::abs(*findings[1].size_mgal - 50.0) < 3.0);
-        CHECK(findings[1].text.find("mGal too high") != std::string::npos);
+        CHECK(findings[1].text.english().find("mGal too high") != std::string::npos);
         CHECK(findings[1].amendment.find("[[reference]]\nsite = \"S2\"\nuse = false\n") == 0);
         CHECK(findings[1].is_headline);
     }
@@ -120,7 +120,7 @@ TEST_CASE("swapped names are two findings, a step has its time", "[mistake]") {
         CHECK(std::abs(*step->size_mgal + 30.0) < 3.0);
         CHECK(*step->time > stepped.rows[5].time);
         CHECK(*step->time < stepped.rows[6].time);
-        CHECK(step->text.find("too low") != std::string::npos);
+        CHECK(step->text.english().find("too low") != std::string::npos);
         CHECK(step->amendment.find("[[step]]\ntime_utc = ") == 0);
     }
 }
@@ -159,7 +159,7 @@ TEST_CASE("a temperature that moved is named if the model does not correct it", 
     CHECK(of_row("paper").text.empty());
     day.rows[3].is_excluded = false;
     day.rows[3].is_flagged = true;
-    CHECK_THAT(of_row("t-rate-drift").text, ContainsSubstring("and it is not in the fit"));
+    CHECK_THAT(of_row("t-rate-drift").text.english(), ContainsSubstring("and it is not in the fit"));
 }
 
 TEST_CASE("a base with one stay is named", "[mistake]") {
@@ -190,7 +190,7 @@ TEST_CASE("findings have all keys, and null for what does not apply", "[mistake]
     CHECK(
         json.dump() ==
         R"([{"kind":"not_visited","code":"not_visited","is_headline":false,"site":null,"occupation":null,)"
-        R"("key":null,"time_utc":null,"size_mgal":null,"u_mgal":null,"other_site":null,"text":"x","amendment":null}])");
+        R"("key":null,"time_utc":null,"size_mgal":null,"u_mgal":null,"other_site":null,"text":"x","text_parts":["x"],"amendment":null}])");
 }
 
 TEST_CASE("a mistake does not decide which model is chosen", "[mistake]") {

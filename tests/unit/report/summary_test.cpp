@@ -86,7 +86,7 @@ TEST_CASE("the limits name the readings and stations that nothing checks", "[rep
     CHECK_THAT(limits[1], EndsWith("nothing checks them: S6."));
     rows[4].is_flagged = true;  // the second reading of the base
     CHECK_THAT(limits_of(corrected(rows)).front(),
-               StartsWith("The base B has 2 readings in the fit"));
+               StartsWith("Readings of the base B in the fit: 2;"));
 }
 
 TEST_CASE("the scatter is given with its own standard error", "[report][summary]") {
@@ -145,8 +145,8 @@ TEST_CASE("the stations of a network count as unknowns, not as coefficients of i
     CHECK_THAT(scatter_sentence(result.score), ContainsSubstring("with 9 degrees of freedom"));
     CHECK_THAT(
         summary_text(result, {}, {}),
-        ContainsSubstring("12 readings in the fit, 11 unknowns, of which 8 stations (8 held), "
-                          "9 degrees of freedom."));
+        ContainsSubstring("readings in the fit: 12. Unknowns: 11, of which stations: 8 (8 held); "
+                                 "degrees of freedom: 9."));
 }
 
 TEST_CASE("a prior adds a degree of freedom", "[report][summary]") {
