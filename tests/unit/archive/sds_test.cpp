@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <cstdio>
 #include <system_error>
 #include "tests/support/catch.hpp"
 
@@ -49,6 +51,32 @@ std::vector<int> sequences_in(const fs::path& file) {
 }
 
 }  // namespace
+
+// The calendar is counted here day by day, and not taken from the library.
+TEST_CASE("every day from 1970 to 2099 has its day file and reads back as the same day",
+          "[record][sds]") {
+    UtcTime midnight{};
+    int days = 0;
+    for (int year = 1970; year <= 2099; ++year) {
+        const bool is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+        const int in_year[] = {31, is_leap ? 29 : 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+        int of_year = 0;
+        for (int month = 1; month <= 12; ++month) {
+            for (int day = 1; day <= in_year[month - 1]; ++day, ++days) {
+                char date[32], name[32];
+                std::snprintf(date, sizeof date, "%04d-%02d-%02dT00:00:00Z", year, month, day);
+                std::snprintf(name, sizeof name, ".%04d.%03d", year, ++of_year);
+                REQUIRE(to_rfc3339(midnight, 0) == date);
+                REQUIRE(parse_rfc3339(date) == midnight);
+                const UtcTime next = midnight + std::chrono::hours(24);
+                for (const UtcTime time : {midnight, next - Nanoseconds(1)})
+                    REQUIRE(sds_file("", StationCodes{}, "BNZ", time).string().ends_with(name));
+                midnight = next;
+            }
+        }
+    }
+    CHECK(days == 47'482);
+}
 
 TEST_CASE("a day file is named by the SDS rules", "[record][sds]") {
     StationCodes codes;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include "tests/support/catch.hpp"
 
@@ -55,6 +56,52 @@ std::string offset_of(const Bytes& frame, std::size_t end, const Bytes& pattern)
 }
 
 }  // namespace
+
+// Two flipped bits cancel in the sum if they have the same weight and opposite signs; of the highest
+// bit both signs are the same modulo 65536.  With n words of data, k of which have a one at a bit:
+// k (n - k) pairs of data words, and each data word whose bit equals that of the checksum; at the
+// highest bit n (n - 1) / 2 and n.
+TEST_CASE("the word sum sees every flipped bit, and of two all but those that cancel",
+          "[wire][burst_frame]") {
+    BurstValues values;
+    values.flag = 0x8E00;
+    values.temperature = -1975 * 65'536 + 12'345;
+    values.axes = {123'456, -7'654'321, 16'777'216};
+    values.count = 54'321;
+    Bytes frame = encode(0xC703, values);
+    const std::span<std::byte> words(frame.data() + 1, frame.size() - 2);
+    const auto is_accepted = [&] {
+        const auto data = words.first(words.size() - 2);
+        return burst_checksum(data) == word_at(words, data.size());
+    };
+    const auto flip = [&](std::size_t bit) {
+        words[bit / 8] ^= static_cast<std::byte>(0x80U >> (bit % 8));
+    };
+    REQUIRE(is_accepted());
+    std::size_t derived = 0;
+    const std::size_t n = words.size() / 2 - 1;
+    for (unsigned bit = 0; bit < 16; ++bit) {
+        const auto is_one = [&](std::size_t word) { return word_at(words, 2 * word) >> bit & 1U; };
+        std::size_t ones = 0;
+        for (std::size_t word = 0; word < n; ++word) ones += is_one(word);
+        derived +=
+            bit == 15 ? n * (n - 1) / 2 + n : ones * (n - ones) + (is_one(n) ? ones : n - ones);
+    }
+    std::size_t accepted = 0;
+    const std::size_t bits = 8 * words.size();
+    for (std::size_t one = 0; one < bits; ++one) {
+        flip(one);
+        REQUIRE_FALSE(is_accepted());
+        for (std::size_t other = one + 1; other < bits; ++other) {
+            flip(other);
+            if (is_accepted()) ++accepted;
+            flip(other);
+        }
+        flip(one);
+    }
+    std::printf("%zu of %zu errors of two bits are not seen\n", accepted, bits * (bits - 1) / 2);
+    CHECK(accepted == derived);
+}
 
 TEST_CASE("each of the 112 layouts has its fields at the offsets of the reference table",
           "[wire][burst_layout]") {
