@@ -149,21 +149,6 @@ std::vector<double> band_squares(const std::vector<double>& values, double step_
 
 }  // namespace
 
-double allan_deviation(const std::vector<double>& values, std::size_t samples) {
-    std::vector<double> sums(values.size() + 1, 0.0);
-    const double mean = correlation::mean_of(values);
-    for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
-    // With cumulative sums s: sigma^2 = 1/2 mean ((s[i+2m] - 2 s[i+m] + s[i]) / m)^2
-    const std::size_t count = values.size() - 2 * samples + 1;
-    double squares = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double change = (sums[i + 2 * samples] - 2.0 * sums[i + samples] + sums[i]) /
-                              static_cast<double>(samples);
-        squares += change * change;
-    }
-    return std::sqrt(0.5 * squares / static_cast<double>(count));
-}
-
 AppliedCalibration apply_calibration(const unit::ThermalResponse& thermal,
                                      const RecordSegment& segment, const RecordAnalysis& analysis,
                                      double averaged_below_s) {

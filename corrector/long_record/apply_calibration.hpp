@@ -85,20 +85,4 @@ struct AppliedCalibration {
                                                    const RecordAnalysis& analysis,
                                                    double averaged_below_s);
 
-/// Returns the overlapping Allan deviation of averages over m = `samples` neighbours, in the unit
-/// of the values:
-///
-///     sigma^2 = 1/2 mean over i of (y[i + m] - y[i])^2,  y[i] = mean of x[i] ... x[i + m - 1]
-///
-/// Accuracy: a ramp gives slope x m / sqrt(2), samples of +-1 in turn give sqrt(2) for m = 1 and 0
-/// for m = 2 (apply_calibration_test.cpp).
-///
-/// Cost: O(n), whatever m.  The mean is subtracted first, so that the level of the record costs no
-/// digits of the sums.  A NaN gives NaN.
-/// @param values   x (n) finite, n >= 2 m.
-/// @param samples  m >= 1.
-/// Source: D. W. Allan, Proc. IEEE 54, 221-230, 1966; overlapping: W. J. Riley, NIST SP 1065, 2008,
-/// 5.2.4.
-[[nodiscard]] double allan_deviation(const std::vector<double>& values, std::size_t samples);
-
 }  // namespace a351::corrector::long_record

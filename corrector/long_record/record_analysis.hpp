@@ -19,6 +19,7 @@
 
 #include "corrector/eemd/eemd.hpp"
 #include "corrector/long_record/pair_statistics.hpp"
+#include "corrector/long_record/record_noise.hpp"
 #include "corrector/long_record/record_segments.hpp"
 #include "corrector/long_record/response.hpp"
 #include "corrector/long_record/two_path_fit.hpp"
@@ -75,6 +76,7 @@ struct RecordAnalysis {
     /// record that is needed.
     std::string reading;
     TwoPathFit two_paths;
+    RecordNoise noise;  ///< Noise of the acceleration.
     std::vector<std::string> remarks;  ///< Doubtful or impossible results, with the reason.
 };
 

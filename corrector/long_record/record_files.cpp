@@ -116,6 +116,27 @@ Json segments_json(const RecordResult& result) {
     return list;
 }
 
+Json noise_json(const RecordNoise& noise) {
+    Json json{{"white_mgal_sqrt_s", noise.white_mgal_sqrt_s},
+              {"flicker_mgal", noise.flicker_mgal},
+              {"walk_mgal_per_sqrt_s", noise.walk_mgal_per_sqrt_s},
+              {"useful_average_s", noise.useful ? Json(noise.useful->averaging_s) : nullptr},
+              {"stays", Json::array()},
+              {"allan", Json::array()},
+              {"spectrum", Json::array()}};
+    for (const StayScatter& stay : noise.stays)
+        json["stays"].push_back(
+            {{"averaging_s", stay.averaging_s}, {"scatter_mgal", stay.scatter_mgal}});
+    for (const AllanDeviation& point : noise.allan)
+        json["allan"].push_back({{"averaging_s", point.averaging_s},
+                                 {"deviation_mgal", point.deviation_mgal},
+                                 {"model_mgal", point.model_mgal}});
+    for (const NoiseBand& band : noise.spectrum)
+        json["spectrum"].push_back(
+            {{"period_s", band.period_s}, {"density_mgal2_per_hz", band.density_mgal2_per_hz}});
+    return json;
+}
+
 /// Returns record.csv: `time_utc,acceleration_mgal,temperature_degc,segment`, one row per sample.
 /// Cells of missing values are empty.  Segments are numbered from 1; empty outside all.  With a
 /// calibration `parametric_mgal` and `by_modes_mgal` follow, filled within the analysed segment.
@@ -197,6 +218,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["response_by_spectrum"] = points_json(analysis.by_spectrum);
     json["response_by_modes"] = points_json(analysis.by_modes);
     json["two_paths"] = two_paths_json(analysis.two_paths);
+    json["noise"] = noise_json(analysis.noise);
     json["applied"] = applied_json(result);
     json["remarks"] = analysis.remarks;
     return json.dump(2) + '\n';

@@ -104,7 +104,8 @@ std::string record_text(const RecordResult& result) {
     if (const std::string modes = chosen_modes(result); !modes.empty()) text += modes + '\n';
     text += '\n' + analysis.reading + "\n\n" + text::aligned(response_table(result)) +
             lines_of(refused_bands(result)) + '\n' + text::aligned(two_paths_table(result)) +
-            two_paths_reading(result) + "\n\n";
+            two_paths_reading(result) + "\n\n" + text::aligned(noise_table(result)) +
+            noise_reading(result) + "\n\n";
     return text + applied_text(result) + lines_of(analysis.remarks);
 }
 
@@ -147,6 +148,31 @@ TextTable two_paths_table(const RecordResult& result) {
                         parameter.is_determined ? "" : parameter.needed});
     }
     return rows;
+}
+
+TextTable noise_table(const RecordResult& result) {
+    TextTable rows{{"averages of s", "Allan deviation mGal", "by the noise model"}};
+    for (const AllanDeviation& point : result.analysis.noise.allan)
+        rows.push_back({text::fixed(point.averaging_s, 0), text::fixed(point.deviation_mgal, 3),
+                        text::fixed(point.model_mgal, 3)});
+    return rows;
+}
+
+std::string noise_reading(const RecordResult& result) {
+    const RecordNoise& noise = result.analysis.noise;
+    std::string text = fmt::format(
+        "Noise: white {} mGal in 1 s, flicker {} mGal, random walk {} mGal in 1 h. How long to "
+        "stay: ",
+        text::fixed(noise.white_mgal_sqrt_s, 2), text::fixed(noise.flicker_mgal, 3),
+        text::fixed(noise.walk_mgal_per_sqrt_s * std::sqrt(kSecondsPerHour), 3));
+    if (!noise.useful) return text + "not known; needed: a record of 3 h";
+    return text + fmt::format(
+                      "averages 1 h apart scatter by {} mGal over {} s, and by {} mGal over "
+                      "{} s; a longer stay gains less than a tenth",
+                      text::fixed(noise.stays.front().scatter_mgal, 2),
+                      text::fixed(noise.stays.front().averaging_s, 0),
+                      text::fixed(noise.useful->scatter_mgal, 2),
+                      text::fixed(noise.useful->averaging_s, 0));
 }
 
 std::vector<std::string> refused_parts(const RecordResult& result) {

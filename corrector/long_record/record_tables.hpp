@@ -31,6 +31,11 @@ using TextTable = std::vector<std::vector<std::string>>;
 /// The value of an undetermined parameter is mostly that of its prior.
 [[nodiscard]] TextTable two_paths_table(const RecordResult& result);
 
+/// Returns the Allan deviations, with those of the model of three noises.
+[[nodiscard]] TextTable noise_table(const RecordResult& result);
+/// Returns how long an average is useful, and the levels of the three noises, in sentences.
+[[nodiscard]] std::string noise_reading(const RecordResult& result);
+
 /// Returns one line per part of the record that is not analysed: start, end and reason; no lines if
 /// nothing was refused.
 [[nodiscard]] std::vector<std::string> refused_parts(const RecordResult& result);

@@ -73,6 +73,10 @@ Report make_long_record_page(const long_record::RecordResult& result,
                    "Parameters of the two paths with their standard errors, from the fit (in "
                    "sample).",
                    "lrrll", long_record::two_paths_table(result));
+    section = document.add_section("Noise, and how long to stay");
+    add(section, "p", fmt::format("{}.", long_record::noise_reading(result)));
+    add_text_table(section, "Allan deviation of the record by averaging time.", "rrr",
+                   long_record::noise_table(result));
     section = document.add_section("The publication's statistics");
     add_text_table(section, "Statistics of this record beside the published ones.", "lrll",
                    long_record::statistics_table(result));
