@@ -5,7 +5,8 @@ namespace a351::daemon::store {
 void Progress::parsed(std::uint64_t chunk, const journal::SessionId& session,
                       std::optional<std::int64_t> last_index) {
     const std::lock_guard lock(mutex_);
-    if (indices_.session != session) {
+    const bool is_counted_anew = last_index && indices_.received && *last_index < *indices_.received;
+    if (indices_.session != session || is_counted_anew) {
         indices_ = {session, {}, {}, {}};
         unsynced_.clear();
     }
@@ -32,7 +33,8 @@ void Progress::journal_synced(std::uint64_t chunk) {
 
 void Progress::archive_synced(const journal::SessionId& session, std::int64_t index) {
     const std::lock_guard lock(mutex_);
-    if (indices_.session != session) return;
+    // After the sensor's counter restarted, records of the samples before can still come.
+    if (indices_.session != session || index > indices_.received) return;
     indices_.archived = index;
 }
 

@@ -22,6 +22,7 @@ public:
     };
 
     /// Notes that the archive thread parsed a chunk; `last_index` is the session's last one so far.
+    /// If it is smaller than before, the sensor's counter restarted, and all is counted from there.
     void parsed(std::uint64_t chunk, const journal::SessionId& session,
                 std::optional<std::int64_t> last_index);
 

@@ -1,5 +1,6 @@
 #include "protocol/archive/archive_writer.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <fstream>
@@ -49,7 +50,7 @@ Writer::ArchivedRecord Writer::describe(const DecodedRecord& record) {
     const std::string_view bytes(reinterpret_cast<const char*>(record.samples.data()),
                                  record.samples.size() * sizeof(std::int32_t));
     return {record.samples.size(), std::hash<std::string_view>()(bytes),
-            last_sample_of(record) + from_seconds(0.5 / record.rate_hz())};
+            last_sample_of(record) + from_seconds(0.5 / record.rate_hz()), {}, 0};
 }
 
 void Writer::end_replay() {
@@ -77,10 +78,19 @@ void Writer::load(Channel& channel, const std::filesystem::path& day_file) const
         files_.sync_directory(directory);
     auto in = open_day_file(day_file);
     std::array<std::byte, kRecordSize> bytes{};
-    while (read_record(in, bytes)) {
+    for (std::uint64_t offset = 0; read_record(in, bytes); offset += kRecordSize) {
         const auto record = decode_record(bytes);
-        if (record) channel.held.emplace(record->header.start, describe(*record));
+        if (!record) continue;
+        ArchivedRecord archived = describe(*record);
+        archived.day_file = day_file;
+        archived.offset = offset;
+        channel.held.emplace(record->header.start, std::move(archived));
     }
+}
+
+bool Writer::Channel::is_older(const ArchivedRecord& record) const {
+    const auto last = matched.find(record.day_file);
+    return last != matched.end() && record.offset < last->second;
 }
 
 void Writer::begin_session() {
@@ -129,13 +139,15 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
         if (held->second.sample_count != made.sample_count ||
             held->second.samples_hash != made.samples_hash)
             continue;
+        channel.matched[held->second.day_file] = held->second.offset;
         channel.held.erase(held);
         return Found::same;
     }
-    const bool overlaps =
-        begin != end || (end != channel.held.end() && end->first < made.end) ||
-        (begin != channel.held.begin() && std::prev(begin)->second.end > record.start);
-    return overlaps ? Found::other : Found::nothing;
+    const auto overlaps = [&](const auto& held) {
+        return held.first < made.end && held.second.end > record.start &&
+               !channel.is_older(held.second);
+    };
+    return std::ranges::any_of(channel.held, overlaps) ? Found::other : Found::nothing;
 }
 
 int Writer::newest_sequence(const std::string& channel) const {

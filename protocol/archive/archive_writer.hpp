@@ -61,7 +61,9 @@ public:
     /// Writes a record.  In a replay, a record with the same start and samples as one in the
     /// archive is skipped.  Each record of the archive counts once, because times repeat after a
     /// clock was set back.  A record that overlaps other records, not yet matched by the replay, is
-    /// a conflict: it is skipped too, the archive is right, and sync() does not report it.
+    /// a conflict: it is skipped too, the archive is right, and sync() does not report it.  Records
+    /// of older sessions are no conflict, also if a clock was set back into their time: in their day
+    /// file they are before a record that the replay has matched.
     /// @param record      result of pack_record(); its sequence number is replaced.
     /// @param last_index  index of the last sample of the record, reported by sync().
     /// @throws std::system_error  the archive cannot be written.  The record can be given again.
@@ -97,6 +99,8 @@ private:
         std::size_t sample_count = 0;
         std::size_t samples_hash = 0;
         UtcTime end;  ///< Half a sample after the last sample.
+        std::filesystem::path day_file;
+        std::uint64_t offset = 0;  ///< Place in the day file.
     };
     struct Newest {
         PackedRecord record;
@@ -108,6 +112,11 @@ private:
         std::set<std::filesystem::path> days_read;  ///< Day files read in this replay.
         std::multimap<UtcTime, ArchivedRecord>
             held;  ///< Records not yet matched in the replay, by start.
+        /// Offset of the last record matched, by day file.  Records before it were written earlier,
+        /// so the replay does not make them again: they belong to older sessions.
+        std::map<std::filesystem::path, std::uint64_t> matched;
+
+        [[nodiscard]] bool is_older(const ArchivedRecord& record) const;
     };
     enum class Found { nothing, same, other };
 

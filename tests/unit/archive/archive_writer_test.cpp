@@ -114,3 +114,23 @@ TEST_CASE(
     writer.record("BNZ", record_at(kStart + 20ms, {2, 3}), 2);
     CHECK(writer.records_written() == 1);
 }
+
+TEST_CASE("a replay writes records into the time of an older session, when a clock was set back",
+          "[record][archive_writer]") {
+    DataRoot root;
+    {
+        archive::Writer writer(posix_files(), root.archive(), {});
+        writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);  // Of an older session.
+        writer.record("BNZ", record_at(kStart - 60ms, {11, 12}), 1);
+        writer.record("BNZ", record_at(kStart - 20ms, {13}), 2);
+    }
+    archive::Writer writer(posix_files(), root.archive(), {});
+    writer.begin_replay();
+    writer.record("BNZ", record_at(kStart - 60ms, {11, 12}), 1);
+    writer.record("BNZ", record_at(kStart - 20ms, {13}), 2);
+    writer.record("BNZ", record_at(kStart, {14, 15}), 4);
+    CHECK(writer.records_skipped() == 2);
+    CHECK(writer.replay_conflicts() == 0);
+    CHECK(writer.records_written() == 1);
+    CHECK(writer.sync().at(0).index == 4);
+}

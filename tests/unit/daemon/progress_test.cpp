@@ -41,3 +41,22 @@ TEST_CASE("indices of one session never count for another", "[daemon][progress]"
     progress.archive_synced(kSession, 9);
     CHECK(progress.indices().archived == std::nullopt);
 }
+
+TEST_CASE("indices before a restart of the sensor's counter never count after it",
+          "[daemon][progress]") {
+    Progress progress;
+    progress.parsed(1, kSession, 900);
+    progress.journal_synced(1);
+    progress.parsed(2, kSession, 950);
+    progress.parsed(3, kSession, 4);
+    CHECK(progress.indices().received == 4);
+    CHECK(progress.indices().journaled == std::nullopt);
+    progress.archive_synced(kSession, 900);
+    CHECK(progress.indices().archived == std::nullopt);
+    progress.journal_synced(2);
+    CHECK(progress.indices().journaled == std::nullopt);
+    progress.journal_synced(3);
+    CHECK(progress.indices().journaled == 4);
+    progress.archive_synced(kSession, 3);
+    CHECK(progress.indices().archived == 3);
+}
