@@ -54,6 +54,7 @@ Writer::ArchivedRecord Writer::describe(const DecodedRecord& record) {
 }
 
 void Writer::end_replay() {
+    settle();
     is_replaying_ = false;
     for (auto& [name, channel] : channels_) {
         channel.held.clear();
@@ -86,11 +87,6 @@ void Writer::load(Channel& channel, const std::filesystem::path& day_file) const
         archived.offset = offset;
         channel.held.emplace(record->header.start, std::move(archived));
     }
-}
-
-bool Writer::Channel::is_older(const ArchivedRecord& record) const {
-    const auto last = matched.find(record.day_file);
-    return last != matched.end() && record.offset < last->second;
 }
 
 void Writer::begin_session() {
@@ -130,6 +126,7 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
     Channel& channel = replayed(name, record.start);
     if (channel.held.empty()) return Found::nothing;
     if (channel.held.rbegin()->second.end <= record.start) {
+        settle(name, channel, nullptr);
         channel.held.clear();
         return Found::nothing;
     }
@@ -139,15 +136,40 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
         if (held->second.sample_count != made.sample_count ||
             held->second.samples_hash != made.samples_hash)
             continue;
+        settle(name, channel, &held->second);
         channel.matched[held->second.day_file] = held->second.offset;
         channel.held.erase(held);
         return Found::same;
     }
     const auto overlaps = [&](const auto& held) {
-        return held.first < made.end && held.second.end > record.start &&
-               !channel.is_older(held.second);
+        return held.first < made.end && held.second.end > record.start;
     };
     return std::ranges::any_of(channel.held, overlaps) ? Found::other : Found::nothing;
+}
+
+/// Decides on the records held back before a match, or at the end if it is null.
+void Writer::settle(const std::string& name, Channel& channel, const ArchivedRecord* next) {
+    const auto is_between_matches = [&](const ArchivedRecord& held) {
+        const auto last = channel.matched.find(held.day_file);
+        if (last != channel.matched.end() && held.offset < last->second) return false;
+        return next == nullptr || held.day_file != next->day_file || held.offset < next->offset;
+    };
+    for (; !channel.held_back.empty(); channel.held_back.pop_front()) {
+        const Newest& made = channel.held_back.front();
+        const UtcTime end = describe(*decode_record(made.record.bytes)).end;
+        const auto is_in_its_place = [&](const auto& held) {
+            return held.first < end && held.second.end > made.record.start &&
+                   is_between_matches(held.second);
+        };
+        if (std::ranges::any_of(channel.held, is_in_its_place))
+            ++replay_conflicts_;
+        else
+            write(name, channel, made);
+    }
+}
+
+void Writer::settle() {
+    for (auto& [name, channel] : channels_) settle(name, channel, nullptr);
 }
 
 int Writer::newest_sequence(const std::string& channel) const {
@@ -166,26 +188,35 @@ int Writer::newest_sequence(const std::string& channel) const {
 
 void Writer::record(const std::string& name, const PackedRecord& record, std::int64_t last_index) {
     const Found found = find(name, record);
-    if (found == Found::other) {
-        ++replay_conflicts_;
-        return;
-    }
     Channel& channel = channels_[name];
-    if (found == Found::same) {
-        ++records_skipped_;
-    } else {
-        if (!channel.sequence) channel.sequence = newest_sequence(name);
-        const int sequence = *channel.sequence % kLargestSequence + 1;
-        PackedRecord numbered = record;
-        stamp_sequence(numbered, sequence);
-        sds_->append(name, numbered);
-        channel.sequence = sequence;
-        ++records_written_;
+    const Newest made{record, last_index};
+    switch (found) {
+        case Found::other:
+            channel.held_back.push_back(made);
+            break;
+        case Found::same:
+            ++records_skipped_;
+            channel.newest = made;
+            break;
+        case Found::nothing:
+            write(name, channel, made);
+            break;
     }
-    channel.newest = Newest{record, last_index};
+}
+
+void Writer::write(const std::string& name, Channel& channel, const Newest& made) {
+    if (!channel.sequence) channel.sequence = newest_sequence(name);
+    const int sequence = *channel.sequence % kLargestSequence + 1;
+    PackedRecord numbered = made.record;
+    stamp_sequence(numbered, sequence);
+    sds_->append(name, numbered);
+    channel.sequence = sequence;
+    ++records_written_;
+    channel.newest = made;
 }
 
 std::vector<journal::ChannelMark> Writer::sync() {
+    settle();
     sds_->sync();
     std::vector<journal::ChannelMark> marks;
     for (const auto& [name, channel] : channels_) {

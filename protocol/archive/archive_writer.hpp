@@ -15,6 +15,7 @@
 /// and comparing them.
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -60,15 +61,22 @@ public:
 
     /// Writes a record.  In a replay, a record with the same start and samples as one in the
     /// archive is skipped.  Each record of the archive counts once, because times repeat after a
-    /// clock was set back.  A record that overlaps other records, not yet matched by the replay, is
-    /// a conflict: it is skipped too, the archive is right, and sync() does not report it.  Records
-    /// of older sessions are no conflict, also if a clock was set back into their time: in their day
-    /// file they are before a record that the replay has matched.
+    /// clock was set back.
+    ///
+    /// A record that overlaps others, which the replay has not matched, is held back.  The replay
+    /// makes records in the order in which they were written.  If one of the others stands between
+    /// the matches before and after it, it is a conflict: the archive is right, the record is
+    /// skipped, and sync() does not report it.  If not, they have its time only because a clock was
+    /// set back, and the record is written with the next match, or by settle().
     /// @param record      result of pack_record(); its sequence number is replaced.
     /// @param last_index  index of the last sample of the record, reported by sync().
     /// @throws std::system_error  the archive cannot be written.  The record can be given again.
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override;
+    /// Decides on the records held back, when no more of the replay is to come for now.  sync() and
+    /// end_replay() do so too.
+    /// @throws std::system_error  the archive cannot be written; call it again.
+    void settle();
     /// Returns the number of samples of an archived record that the replay has not matched yet.
     /// std::nullopt if there is none with this start, or outside a replay.
     [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
@@ -112,17 +120,17 @@ private:
         std::set<std::filesystem::path> days_read;  ///< Day files read in this replay.
         std::multimap<UtcTime, ArchivedRecord>
             held;  ///< Records not yet matched in the replay, by start.
-        /// Offset of the last record matched, by day file.  Records before it were written earlier,
-        /// so the replay does not make them again: they belong to older sessions.
+        /// Offset of the last record matched, by day file.  Records before it were written earlier.
         std::map<std::filesystem::path, std::uint64_t> matched;
-
-        [[nodiscard]] bool is_older(const ArchivedRecord& record) const;
+        std::deque<Newest> held_back;  ///< In the order of the replay.
     };
     enum class Found { nothing, same, other };
 
     Channel& replayed(const std::string& name, UtcTime start) const;
     void load(Channel& channel, const std::filesystem::path& day_file) const;
     [[nodiscard]] Found find(const std::string& name, const PackedRecord& record);
+    void settle(const std::string& name, Channel& channel, const ArchivedRecord* next);
+    void write(const std::string& name, Channel& channel, const Newest& made);
     [[nodiscard]] int newest_sequence(const std::string& channel) const;
     static ArchivedRecord describe(const DecodedRecord& record);
 

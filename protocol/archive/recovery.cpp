@@ -66,6 +66,7 @@ bool replay_journal(files::FileLayer& files, const std::filesystem::path& archiv
         }
     }
     report.damage.insert(report.damage.end(), chunks.damage().begin(), chunks.damage().end());
+    writer.settle();
     report.records_added += writer.records_written();
     report.records_confirmed += writer.records_skipped();
     report.records_conflicting += writer.replay_conflicts();

@@ -104,6 +104,7 @@ TEST_CASE(
     writer.record("BNZ", record_at(kStart, {1, 2}), 1);
     writer.record("BNZ", record_at(kStart + 20ms, {2, 3}), 2);
     writer.record("BNZ", record_at(kStart - 20ms, {0, 1}), 0);
+    writer.settle();
     CHECK(root.files() == before);
     CHECK(writer.replay_conflicts() == 4);
     CHECK(writer.records_written() == 0);
@@ -129,8 +130,32 @@ TEST_CASE("a replay writes records into the time of an older session, when a clo
     writer.record("BNZ", record_at(kStart - 60ms, {11, 12}), 1);
     writer.record("BNZ", record_at(kStart - 20ms, {13}), 2);
     writer.record("BNZ", record_at(kStart, {14, 15}), 4);
+    writer.settle();
     CHECK(writer.records_skipped() == 2);
     CHECK(writer.replay_conflicts() == 0);
     CHECK(writer.records_written() == 1);
     CHECK(writer.sync().at(0).index == 4);
+}
+
+TEST_CASE("a replay fills a hole before records that a set-back clock put into its time",
+          "[record][archive_writer]") {
+    DataRoot root;
+    {
+        archive::Writer writer(posix_files(), root.archive(), {});
+        writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);
+        // A failed sync lost the record that followed.
+        writer.record("BNZ", record_at(kStart + 120ms, {7, 8}), 7);
+        writer.record("BNZ", record_at(kStart + 60ms, {9, 10}), 9);  // The clock was set back.
+    }
+    archive::Writer writer(posix_files(), root.archive(), {});
+    writer.begin_replay();
+    writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);
+    writer.record("BNZ", record_at(kStart + 60ms, {4, 5, 6}), 5);
+    CHECK(writer.records_written() == 0);  // The next match decides.
+    writer.record("BNZ", record_at(kStart + 120ms, {7, 8}), 7);
+    CHECK(writer.records_written() == 1);
+    writer.record("BNZ", record_at(kStart + 60ms, {9, 10}), 9);
+    CHECK(writer.records_skipped() == 3);
+    CHECK(writer.replay_conflicts() == 0);
+    CHECK(writer.sync().at(0).index == 9);
 }
