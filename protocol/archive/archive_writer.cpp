@@ -33,11 +33,6 @@ void stamp_sequence(PackedRecord& record, int sequence) {
             std::byte(static_cast<unsigned char>('0' + sequence % 10));
 }
 
-UtcTime last_sample_of(const DecodedRecord& record) {
-    return record.header.start +
-           from_seconds(static_cast<double>(record.samples.size() - 1) / record.rate_hz());
-}
-
 }  // namespace
 
 Writer::Writer(files::FileLayer& files, std::filesystem::path archive, journal::StationCodes codes)
@@ -50,7 +45,7 @@ Writer::ArchivedRecord Writer::describe(const DecodedRecord& record) {
     const std::string_view bytes(reinterpret_cast<const char*>(record.samples.data()),
                                  record.samples.size() * sizeof(std::int32_t));
     return {record.samples.size(), std::hash<std::string_view>()(bytes),
-            last_sample_of(record) + from_seconds(0.5 / record.rate_hz()), {}, 0};
+            record.last_sample() + from_seconds(0.5 / record.rate_hz()), {}, 0};
 }
 
 void Writer::end_replay() {
@@ -222,7 +217,7 @@ std::vector<journal::ChannelMark> Writer::sync() {
     for (const auto& [name, channel] : channels_) {
         if (!channel.newest) continue;
         const auto record = decode_record(channel.newest->record.bytes);
-        marks.push_back({name, channel.newest->last_index, last_sample_of(*record)});
+        marks.push_back({name, channel.newest->last_index, record->last_sample()});
     }
     return marks;
 }

@@ -330,6 +330,10 @@ double DecodedRecord::rate_hz() const {
     return header.declared_rate_hz.value_or(header.nominal_rate.value());
 }
 
+UtcTime DecodedRecord::last_sample() const {
+    return header.start + from_seconds(static_cast<double>(samples.size() - 1) / rate_hz());
+}
+
 int timing_quality_percent(Nanoseconds uncertainty) {
     const double decades = std::log10(static_cast<double>(uncertainty.count()) / 1e6);
     if (!(decades > 0.0)) return 100;

@@ -84,6 +84,8 @@ struct DecodedRecord {
 
     /// Returns the rate of blockette 100 if present, else that of the fixed header, in Hz.
     [[nodiscard]] double rate_hz() const;
+    /// Returns the time of the last sample.
+    [[nodiscard]] UtcTime last_sample() const;
 };
 
 /// Reads a record written by pack_record(), not any miniSEED: every header field that determines

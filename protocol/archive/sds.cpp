@@ -95,17 +95,27 @@ std::uint64_t end_of_whole_records(const fs::path& day_file) {
 }
 
 /// Returns the end of the records that can be kept after a power failure: the first damaged one
-/// after those that were synced.
+/// after those that were synced.  These end with the record whose last sample is at `synced_until`.
+/// Without such a record they are those that begin until then; times alone do not tell, because they
+/// repeat after a clock was set back.
 std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until) {
     const auto bytes = files::read_bytes(day_file);
+    std::optional<std::uint64_t> spoilt, newest_synced, spoilt_after_newest;
     std::uint64_t good = 0;
-    std::optional<std::uint64_t> spoilt;
     for (; good + kRecordSize <= bytes.size(); good += kRecordSize) {
         const auto record = decode_record(std::span(bytes).subspan(good, kRecordSize));
-        if (!record && !spoilt) spoilt = good;
-        if (record && record->header.start <= synced_until) spoilt.reset();
+        if (!record) {
+            if (!spoilt) spoilt = good;
+            if (!spoilt_after_newest) spoilt_after_newest = good;
+            continue;
+        }
+        if (record->header.start <= synced_until) spoilt.reset();
+        if (record->last_sample() == synced_until) {
+            newest_synced = good;
+            spoilt_after_newest.reset();
+        }
     }
-    return spoilt.value_or(good);
+    return (newest_synced ? spoilt_after_newest : spoilt).value_or(good);
 }
 
 }  // namespace

@@ -196,6 +196,27 @@ TEST_CASE("a tail of the size of a record that does not decode is cut off too", 
     CHECK(fs::file_size(file) == kRecordSize);
 }
 
+TEST_CASE("a hole behind the synced records is cut off although a set-back clock repeats their time",
+          "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    const auto file = directory.path() / "day";
+    std::vector<std::byte> bytes;
+    const auto append = [&](const char* start) {
+        const auto record = record_at(start);
+        bytes.insert(bytes.end(), record.bytes.begin(), record.bytes.end());
+    };
+    append("2026-03-01T12:00:00Z");
+    append("2026-03-01T12:01:00Z");
+    const auto newest_synced = decode_record(std::span(bytes).last(kRecordSize))->last_sample();
+    bytes.resize(3 * kRecordSize);
+    append("2026-03-01T12:00:30Z");
+    test::write_bytes(file, bytes);
+    const auto tail = repair_tail(posix_files(), file, directory.path() / "state", newest_synced);
+    REQUIRE(tail);
+    CHECK(tail->byte_count == 2 * kRecordSize);
+    CHECK(fs::file_size(file) == 2 * kRecordSize);
+}
+
 TEST_CASE("an empty day file is removed", "[record][sds]") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "day";
