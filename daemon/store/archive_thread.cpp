@@ -174,9 +174,11 @@ void ArchiveThread::watch_clock(const journal::Chunk& chunk) {
 void ArchiveThread::take(const NumberedChunk& numbered) {
     const auto* const header = std::get_if<journal::Header>(&numbered.chunk);
     const std::lock_guard lock(mutex_);
+    const bool is_next_session = header != nullptr && session_ != header->session;
     if (header != nullptr) begin_session(*header);
     outbox_.chunk = numbered.number;
     archiver_->take(numbered.chunk);
+    if (is_next_session) outbox_.held.clear();  // Not before: the last session's records end now.
     if (header != nullptr) outbox_.session = header->session;
     status_.counters = archiver_->counters();
     status_.last_sample = outbox_.last_sample;
@@ -190,10 +192,7 @@ void ArchiveThread::begin_session(const journal::Header& header) {
     // The first header of a session has the time of its start.
     if (undescribed_.empty() || undescribed_.back().session != header.session)
         undescribed_.push_back(header);
-    if (session_ != header.session) {
-        outbox_.last_sample.reset();
-        outbox_.held.clear();
-    }
+    if (session_ != header.session) outbox_.last_sample.reset();
     note_session(header.session);
     has_recorded_ = true;
 }
@@ -284,6 +283,7 @@ void ArchiveThread::write_outbox() {
         const std::lock_guard lock(mutex_);
         ++status_.records;
     }
+    writer_->settle();  // New records never match archived ones, so nothing is to be waited for.
 }
 
 void ArchiveThread::write_record(const Outbox::Entry& entry) {

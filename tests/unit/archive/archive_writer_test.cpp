@@ -159,3 +159,16 @@ TEST_CASE("a replay fills a hole before records that a set-back clock put into i
     CHECK(writer.replay_conflicts() == 0);
     CHECK(writer.sync().at(0).index == 9);
 }
+
+TEST_CASE("a record held back is judged by the archive before a replay passes its end",
+          "[record][archive_writer]") {
+    DataRoot root;
+    archive::Writer(posix_files(), root.archive(), {})
+        .record("BNZ", record_at(kStart, {1, 2, 3}), 2);
+    archive::Writer writer(posix_files(), root.archive(), {});
+    writer.begin_replay();
+    writer.record("BNZ", record_at(kStart, {1, 2, 3, 4}), 3);
+    writer.record("BNZ", record_at(kStart + 80ms, {5}), 4);
+    CHECK(writer.replay_conflicts() == 1);
+    CHECK(writer.records_written() == 1);
+}

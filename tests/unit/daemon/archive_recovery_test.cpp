@@ -226,3 +226,22 @@ TEST_CASE_METHOD(RecoveryRig, "a host clock at 1970 starts no epoch of the stati
     CHECK_THAT(xml, ContainsSubstring("startDate=\"" + to_rfc3339(start, 6) + "\""));
     CHECK(store.stop());
 }
+
+TEST_CASE_METHOD(RecoveryRig,
+                 "records that a stop ended early are continued although another session follows soon",
+                 "[daemon][store][recovery]") {
+    {
+        Store store(files, options(), clock, reads);
+        begin_session(1);
+        advance(store, seconds(60));
+        REQUIRE(store.stop());
+    }
+    Store store(files, options(), clock, reads);
+    begin_session(1);  // The stream was adopted.
+    advance(store, seconds(2));
+    begin_session(2);
+    advance(store, seconds(20));
+    CHECK(store.stop());
+    CHECK(status_of(store).more_counters.at("archive_conflicts") == 0);
+    check_archived_once(root);
+}
