@@ -110,7 +110,7 @@ void SensorLink::run() noexcept {
 }
 
 void SensorLink::open() {
-    port_ = open_port(options_.address, bauds_.front());
+    port_ = options_.open(options_.address, bauds_.front());
     may_continue_ = true;
     was_open_ = true;
 }

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -37,6 +38,8 @@ struct LinkOptions {
     journal::Header header = {};
     /// End of the stream that the journal contains.  The stream is adopted if it continues.
     std::optional<journal::StreamEnd> known = {};
+    /// Opens the port; a simulation has ports of its own.
+    std::function<std::unique_ptr<Port>(const PortAddress&, int baud)> open = open_port;
 };
 
 struct LinkStatus {
