@@ -38,9 +38,7 @@ Request plain(const HttpRequest& message, const tcp::socket& socket) {
             {.ip = own.address().to_string(), .port = own.port(), .is_v6 = own.address().is_v6()});
     }
     const auto client = socket.remote_endpoint(error);
-    // A connection from this host to one of its own addresses has the same address at both ends.
-    request.is_local =
-        !error && (client.address().is_loopback() || client.address() == own.address());
+    request.is_local = !error && client.address().is_loopback();
     for (const auto& field : message)
         request.headers.emplace_back(std::string(field.name_string()), std::string(field.value()));
     return request;

@@ -60,15 +60,13 @@ def show_code(session, scratch):
 
 
 class PhoneSession(Session):
-    address = "127.0.0.1"  # By which this host reaches the daemon.
-
     def run(self, *words, check=True):
-        result = run(BIN / "a351ctl", "--url", f"http://{self.address}:{self.port}", *words, check=check)
+        result = run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{self.port}", *words, check=check)
         return result.stdout if check else (result.returncode, result.stderr)
 
     def ctl_get(self, path):
         return run("python3", "-c", "import sys, urllib.request; print(urllib.request.urlopen(sys.argv[1]).read().decode())",
-                   f"http://{self.address}:{self.port}{path}").stdout
+                   f"http://127.0.0.1:{self.port}{path}").stdout
 
 
 def open_on_phone(session, browser, url, token):
@@ -113,10 +111,3 @@ with Scratch() as scratch, Browser(allowed_errors=["status of 403"], may_ask={AD
     code, said = open_session.run("phone", "192.0.2.8", check=False)
     demand(f"another address is refused: {said.strip()}", code == 1 and f"allowed: {ADDRESS}" in said)
     open_on_phone(open_session, page, *show_code(open_session, scratch))
-with Scratch() as scratch:
-    class OneInterface(PhoneSession):
-        address = ADDRESS
-
-    one = OneInterface(scratch, speed=1, host=ADDRESS)
-    one.wait_for_frames(20)
-    show_code(one, scratch)
