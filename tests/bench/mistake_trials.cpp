@@ -67,7 +67,8 @@ void count(Count& total, const std::vector<Finding>& findings, int wanted, IsRig
         if (is_right(finding)) continue;
         is_wrong = true;
         is_headline = is_headline || finding.is_headline;
-        if (std::getenv("A351_SHOW") != nullptr) std::printf("# %s\n", finding.text.c_str());
+        if (std::getenv("A351_SHOW") != nullptr)
+            std::printf("# %s\n", finding.text.english().c_str());
     }
     total.otherwise += is_wrong ? 1 : 0;
     total.otherwise_in_headline += is_headline ? 1 : 0;
@@ -227,7 +228,8 @@ public:
                     ? 1
                     : 0;
             count(total, findings, 1, [&](const Finding& finding) {
-                return is_of_stay(finding) && finding.text.find(right + " (") != std::string::npos;
+                return is_of_stay(finding) &&
+                       finding.text.english().find(right + " (") != std::string::npos;
             });
         }
         std::printf("likeliest_name %d %d 0 0\n", total.trials, likeliest);
