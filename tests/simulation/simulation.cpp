@@ -27,6 +27,10 @@
 #include "tests/support/temporary_directory.hpp"
 
 namespace a351::simulation {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, broken, signal_s, simulated_s, faults, runs, samples,
+                                   promised, archived, events, turns, digest)
+
 namespace {
 
 using namespace std::chrono_literals;
@@ -338,39 +342,13 @@ void write_all(int descriptor, std::string_view text) {
     }
 }
 
-std::string to_json(const Outcome& outcome) {
-    return nlohmann::json{{"broken", outcome.broken},
-                          {"signal_s", outcome.signal_s},
-                          {"simulated_s", outcome.simulated_s},
-                          {"faults", outcome.faults},
-                          {"runs", outcome.runs},
-                          {"samples", outcome.samples},
-                          {"promised", outcome.promised},
-                          {"archived", outcome.archived},
-                          {"events", outcome.events},
-                          {"turns", outcome.turns},
-                          {"digest", outcome.digest}}
-        .dump();
-}
-
 Outcome outcome_of(const std::string& text) {
     const auto json = nlohmann::json::parse(text, nullptr, false);
     Outcome outcome;
-    if (json.is_discarded()) {
+    if (json.is_discarded())
         outcome.broken = "the simulated process crashed";
-        return outcome;
-    }
-    json.at("broken").get_to(outcome.broken);
-    json.at("signal_s").get_to(outcome.signal_s);
-    json.at("simulated_s").get_to(outcome.simulated_s);
-    json.at("faults").get_to(outcome.faults);
-    json.at("runs").get_to(outcome.runs);
-    json.at("samples").get_to(outcome.samples);
-    json.at("promised").get_to(outcome.promised);
-    json.at("archived").get_to(outcome.archived);
-    json.at("events").get_to(outcome.events);
-    json.at("turns").get_to(outcome.turns);
-    json.at("digest").get_to(outcome.digest);
+    else
+        json.get_to(outcome);
     return outcome;
 }
 
@@ -384,7 +362,7 @@ Outcome simulate(std::uint64_t seed, bool is_traced) {
     if (child == 0) {
         ::alarm(kLongest_s);
         Simulation simulation(seed, is_traced, [&](const Outcome& outcome) {
-            write_all(ends[1], to_json(outcome));
+            write_all(ends[1], nlohmann::json(outcome).dump());
             ::_exit(0);
         });
         simulation.run();
