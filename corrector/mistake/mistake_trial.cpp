@@ -15,6 +15,10 @@ using Index = Eigen::Index;
 /// Range of the size of a mistake, mGal.  Reason: benchmarks of a survey lie within tens of mGal, and
 /// so do slips in a table.
 constexpr double kSizeRange_mgal = 100.0;
+/// The range is at most so many uncertainties of a usual mistake of unknown size: 100 mGal at 0.5 mGal.
+/// Reason: a gravimeter of 0.005 mGal has no slips of 100 mGal, and against swaps, which have no such
+/// cost, its steps would have to be twice as large.
+constexpr double kLargestSize_u = 200.0;
 /// Least degrees of freedom of the scatter.  Reason: with fewer, everything is explained.
 constexpr double kFewestDof = 4.0;
 /// The same if a mistake is only put right on trial.  Reason: each trial takes one of them, and
@@ -168,8 +172,19 @@ double share_of(const Suspect& suspect, const Seen& seen) {
     return gain / (gain + rest);
 }
 
+/// Returns the range of the size of a mistake, mGal.
+double size_range_mgal(const std::vector<Suspect>& suspects) {
+    std::vector<double> lengths;
+    for (const Suspect& suspect : suspects)
+        if (!suspect.has_size()) lengths.push_back(suspect.length);
+    if (lengths.empty()) return kSizeRange_mgal;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::ranges::nth_element(lengths, middle);
+    return std::min(kSizeRange_mgal, kLargestSize_u / *middle);
+}
+
 /// Sets what each suspect costs: ln(number of its class), and for an unknown size what one within
-/// kSizeRange_mgal costs.  Classes are readings and stations, swaps, steps.
+/// size_range_mgal() costs.  Classes are readings and stations, swaps, steps.
 void set_costs(std::vector<Suspect>& suspects) {
     const auto class_of = [](const Suspect& suspect) {
         const MistakeKind kind = suspect.mistake.kind;
@@ -177,11 +192,12 @@ void set_costs(std::vector<Suspect>& suspects) {
     };
     std::map<MistakeKind, double> counts;
     for (const Suspect& suspect : suspects) ++counts[class_of(suspect)];
+    const double range_mgal = size_range_mgal(suspects);
     for (Suspect& suspect : suspects) {
         suspect.cost = std::log(counts[class_of(suspect)]);
         if (!suspect.has_size())
             suspect.cost +=
-                std::log(kSizeRange_mgal * suspect.length / std::sqrt(2.0 * std::numbers::pi));
+                std::log(range_mgal * suspect.length / std::sqrt(2.0 * std::numbers::pi));
     }
 }
 
