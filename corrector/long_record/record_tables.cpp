@@ -166,13 +166,16 @@ std::string noise_reading(const RecordResult& result) {
         text::fixed(noise.white_mgal_sqrt_s, 2), text::fixed(noise.flicker_mgal, 3),
         text::fixed(noise.walk_mgal_per_sqrt_s * std::sqrt(kSecondsPerHour), 3));
     if (!noise.useful) return text + "not known; needed: a record of 3 h";
+    const bool is_longest = noise.useful->averaging_s >= noise.stays.back().averaging_s;
     return text + fmt::format(
                       "averages 1 h apart scatter by {} mGal over {} s, and by {} mGal over "
-                      "{} s; a longer stay gains less than a tenth",
+                      "{} s; {}",
                       text::fixed(noise.stays.front().scatter_mgal, 2),
                       text::fixed(noise.stays.front().averaging_s, 0),
                       text::fixed(noise.useful->scatter_mgal, 2),
-                      text::fixed(noise.useful->averaging_s, 0));
+                      text::fixed(noise.useful->averaging_s, 0),
+                      is_longest ? "longer stays were not compared"
+                                 : "a longer stay gains less than a tenth");
 }
 
 std::vector<std::string> refused_parts(const RecordResult& result) {

@@ -107,10 +107,12 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
     reduce_heights(rows, gradients, warnings);
     reduce_pressures(rows, sites,
                      choice.is_admittance_fitted ? 0.0 : choice.admittance_mgal_per_hpa, warnings);
-    if (choice.is_admittance_fitted && !rows.front().excess_pressure_hpa)
-        throw InputError(
-            "the admittance cannot be fitted without air pressure; allowed: with pressure_hpa or a "
-            "file of the pressure");
+    const auto no_pressure = std::ranges::find_if(
+        rows, [](const reading::SurveyRow& row) { return !row.excess_pressure_hpa; });
+    if (choice.is_admittance_fitted && no_pressure != rows.end())
+        throw InputError("the admittance cannot be fitted without the air pressure of " +
+                         no_pressure->site +
+                         "; allowed: pressure_hpa or a file of the pressure for every reading");
     if (day == nullptr) return warnings;
     for (reading::DayBin& bin : day->bins) {
         const reading::SurveyRow& row = rows[bin.set_up];

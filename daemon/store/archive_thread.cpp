@@ -262,7 +262,6 @@ std::optional<ArchiveThread::Outbox::Entry> ArchiveThread::next_record() {
     const std::lock_guard lock(mutex_);
     auto& entries = outbox_.entries;
     status_.records_waiting = entries.size();
-    status_.conflicts = writer_->replay_conflicts();
     if (entries.empty() || entries.front().chunk > progress_.written()) return std::nullopt;
     std::optional<Outbox::Entry> next(std::move(entries.front()));
     outbox_.bytes -= next->record.bytes.size();
@@ -283,7 +282,10 @@ void ArchiveThread::write_outbox() {
         const std::lock_guard lock(mutex_);
         ++status_.records;
     }
-    writer_->settle();  // New records never match archived ones, so nothing is to be waited for.
+    // The replay is over, so that no later match helps to decide.
+    writer_->settle();
+    const std::lock_guard lock(mutex_);
+    status_.conflicts = writer_->replay_conflicts();
 }
 
 void ArchiveThread::write_record(const Outbox::Entry& entry) {

@@ -5,8 +5,13 @@ namespace a351::daemon::store {
 void Progress::parsed(std::uint64_t chunk, const journal::SessionId& session,
                       std::optional<std::int64_t> last_index) {
     const std::lock_guard lock(mutex_);
-    const bool is_counted_anew = last_index && indices_.received && *last_index < *indices_.received;
-    if (indices_.session != session || is_counted_anew) {
+    const bool is_restarted = last_index && indices_.received && *last_index < *indices_.received;
+    if (is_restarted) before_restart_ = indices_.received;
+    if (indices_.session != session) {
+        before_restart_.reset();
+        last_synced_ = -1;
+    }
+    if (indices_.session != session || is_restarted) {
         indices_ = {session, {}, {}, {}};
         unsynced_.clear();
     }
@@ -33,8 +38,13 @@ void Progress::journal_synced(std::uint64_t chunk) {
 
 void Progress::archive_synced(const journal::SessionId& session, std::int64_t index) {
     const std::lock_guard lock(mutex_);
-    // After the sensor's counter restarted, records of the samples before can still come.
-    if (indices_.session != session || index > indices_.received) return;
+    if (indices_.session != session) return;
+    // After a restart of the counter, records of the samples before it can still come.  Their
+    // indices never fall and do not exceed the last one, so any other index is of the new samples.
+    const bool can_be_older = before_restart_ && index >= last_synced_ && index <= *before_restart_;
+    last_synced_ = index;
+    if (can_be_older) return;
+    before_restart_.reset();
     indices_.archived = index;
 }
 

@@ -51,6 +51,8 @@ private:
     Indices indices_;
     std::deque<Parsed> unsynced_;  ///< Chunks parsed but not known to be synced; ascending.
     std::uint64_t written_chunk_ = 0, synced_chunk_ = 0;
+    std::optional<std::int64_t> before_restart_;  ///< Last index before the counter restarted.
+    std::int64_t last_synced_ = -1;               ///< Last index that the archive reported.
 };
 
 }  // namespace a351::daemon::store

@@ -44,8 +44,11 @@ Writer::Writer(files::FileLayer& files, std::filesystem::path archive, journal::
 Writer::ArchivedRecord Writer::describe(const DecodedRecord& record) {
     const std::string_view bytes(reinterpret_cast<const char*>(record.samples.data()),
                                  record.samples.size() * sizeof(std::int32_t));
-    return {record.samples.size(), std::hash<std::string_view>()(bytes),
-            record.last_sample() + from_seconds(0.5 / record.rate_hz()), {}, 0};
+    return {record.samples.size(),
+            std::hash<std::string_view>()(bytes),
+            record.last_sample() + from_seconds(0.5 / record.rate_hz()),
+            {},
+            0};
 }
 
 void Writer::end_replay() {
@@ -78,13 +81,14 @@ void Writer::load(Channel& channel, const std::filesystem::path& day_file) const
         const auto record = decode_record(bytes);
         if (!record) continue;
         ArchivedRecord archived = describe(*record);
-        archived.day_file = day_file;
+        archived.day = std::chrono::floor<std::chrono::days>(record->header.start);
         archived.offset = offset;
         channel.held.emplace(record->header.start, std::move(archived));
     }
 }
 
 void Writer::begin_session() {
+    ++session_count_;
     for (auto& [name, channel] : channels_) channel.newest.reset();
 }
 
@@ -120,11 +124,6 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
     if (!is_replaying_) return Found::nothing;
     Channel& channel = replayed(name, record.start);
     if (channel.held.empty()) return Found::nothing;
-    if (channel.held.rbegin()->second.end <= record.start) {
-        settle(name, channel, nullptr);
-        channel.held.clear();
-        return Found::nothing;
-    }
     const ArchivedRecord made = describe(*decode_record(record.bytes));
     const auto [begin, end] = channel.held.equal_range(record.start);
     for (auto held = begin; held != end; ++held) {
@@ -132,7 +131,7 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
             held->second.samples_hash != made.samples_hash)
             continue;
         settle(name, channel, &held->second);
-        channel.matched[held->second.day_file] = held->second.offset;
+        channel.matched[held->second.day] = held->second.offset;
         channel.held.erase(held);
         return Found::same;
     }
@@ -145,9 +144,9 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
 /// Decides on the records held back before a match, or at the end if it is null.
 void Writer::settle(const std::string& name, Channel& channel, const ArchivedRecord* next) {
     const auto is_between_matches = [&](const ArchivedRecord& held) {
-        const auto last = channel.matched.find(held.day_file);
+        const auto last = channel.matched.find(held.day);
         if (last != channel.matched.end() && held.offset < last->second) return false;
-        return next == nullptr || held.day_file != next->day_file || held.offset < next->offset;
+        return next == nullptr || held.day != next->day || held.offset < next->offset;
     };
     for (; !channel.held_back.empty(); channel.held_back.pop_front()) {
         const Newest& made = channel.held_back.front();
@@ -184,7 +183,7 @@ int Writer::newest_sequence(const std::string& channel) const {
 void Writer::record(const std::string& name, const PackedRecord& record, std::int64_t last_index) {
     const Found found = find(name, record);
     Channel& channel = channels_[name];
-    const Newest made{record, last_index};
+    const Newest made{record, last_index, session_count_};
     switch (found) {
         case Found::other:
             channel.held_back.push_back(made);
@@ -207,11 +206,10 @@ void Writer::write(const std::string& name, Channel& channel, const Newest& made
     sds_->append(name, numbered);
     channel.sequence = sequence;
     ++records_written_;
-    channel.newest = made;
+    if (made.session == session_count_) channel.newest = made;
 }
 
 std::vector<journal::ChannelMark> Writer::sync() {
-    settle();
     sds_->sync();
     std::vector<journal::ChannelMark> marks;
     for (const auto& [name, channel] : channels_) {

@@ -14,6 +14,7 @@
 /// replay_journal() replays the journal after a crash.  SdsWriter writes records without numbering
 /// and comparing them.
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -64,17 +65,18 @@ public:
     /// clock was set back.
     ///
     /// A record that overlaps others, which the replay has not matched, is held back.  The replay
-    /// makes records in the order in which they were written.  If one of the others stands between
+    /// makes records in the order in which they were written.  If one of the others is between
     /// the matches before and after it, it is a conflict: the archive is right, the record is
     /// skipped, and sync() does not report it.  If not, they have its time only because a clock was
     /// set back, and the record is written with the next match, or by settle().
+    /// A hole that an earlier start filled breaks that order: the record for it is at the end.
     /// @param record      result of pack_record(); its sequence number is replaced.
     /// @param last_index  index of the last sample of the record, reported by sync().
     /// @throws std::system_error  the archive cannot be written.  The record can be given again.
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override;
-    /// Decides on the records held back, when no more of the replay is to come for now.  sync() and
-    /// end_replay() do so too.
+    /// Decides on the records held back, when no more of the replay is to come for now.  end_replay()
+    /// does so too; sync() does not.
     /// @throws std::system_error  the archive cannot be written; call it again.
     void settle();
     /// Returns the number of samples of an archived record that the replay has not matched yet.
@@ -106,13 +108,14 @@ private:
     struct ArchivedRecord {
         std::size_t sample_count = 0;
         std::size_t samples_hash = 0;
-        UtcTime end;  ///< Half a sample after the last sample.
-        std::filesystem::path day_file;
-        std::uint64_t offset = 0;  ///< Place in the day file.
+        UtcTime end;                ///< Half a sample after the last sample.
+        std::chrono::sys_days day;  ///< Day of its file.
+        std::uint64_t offset = 0;   ///< Place in the file.
     };
     struct Newest {
         PackedRecord record;
         std::int64_t last_index = 0;
+        int session = 0;  ///< Number of the session, as session_count_.
     };
     struct Channel {
         std::optional<int> sequence;  ///< Sequence number of the newest record.
@@ -120,8 +123,8 @@ private:
         std::set<std::filesystem::path> days_read;  ///< Day files read in this replay.
         std::multimap<UtcTime, ArchivedRecord>
             held;  ///< Records not yet matched in the replay, by start.
-        /// Offset of the last record matched, by day file.  Records before it were written earlier.
-        std::map<std::filesystem::path, std::uint64_t> matched;
+        /// Offset of the last record matched, by day.  Records before it were written earlier.
+        std::map<std::chrono::sys_days, std::uint64_t> matched;
         std::deque<Newest> held_back;  ///< In the order of the replay.
     };
     enum class Found { nothing, same, other };
@@ -140,6 +143,7 @@ private:
     std::unique_ptr<SdsWriter> sds_;
     bool is_replaying_ = false;
     mutable std::map<std::string, Channel> channels_;  ///< Days are read when needed.
+    int session_count_ = 0;
     std::uint64_t records_written_ = 0;
     std::uint64_t records_skipped_ = 0;
     std::uint64_t replay_conflicts_ = 0;

@@ -100,7 +100,8 @@ std::uint64_t end_of_whole_records(const fs::path& day_file) {
 /// repeat after a clock was set back.
 std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until) {
     const auto bytes = files::read_bytes(day_file);
-    std::optional<std::uint64_t> spoilt, newest_synced, spoilt_after_newest;
+    std::optional<std::uint64_t> spoilt, spoilt_after_newest;
+    bool has_newest = false;
     std::uint64_t good = 0;
     for (; good + kRecordSize <= bytes.size(); good += kRecordSize) {
         const auto record = decode_record(std::span(bytes).subspan(good, kRecordSize));
@@ -111,11 +112,11 @@ std::uint64_t end_of_good_records(const fs::path& day_file, UtcTime synced_until
         }
         if (record->header.start <= synced_until) spoilt.reset();
         if (record->last_sample() == synced_until) {
-            newest_synced = good;
+            has_newest = true;
             spoilt_after_newest.reset();
         }
     }
-    return (newest_synced ? spoilt_after_newest : spoilt).value_or(good);
+    return (has_newest ? spoilt_after_newest : spoilt).value_or(good);
 }
 
 }  // namespace

@@ -224,10 +224,12 @@ TomlTable parse_toml(std::string_view text, std::filesystem::path origin) {
     try {
         document->root = toml::parse(text);
     } catch (const toml::parse_error& error) {
+        // The value is not shown, because it can be a token.
+        const std::string_view line = line_of(text, error.source().begin.line);
         throw InputError(fmt::format(
-            "{}: not TOML: {}; the line is {}; allowed: key = value, with texts in quotes",
+            "{}: not TOML: {}; the line begins {}; allowed: key = value, with texts in quotes",
             position(document->origin, error.source()), error.description(),
-            echoed(line_of(text, error.source().begin.line))));
+            echoed(line.substr(0, line.find('=')))));
     }
     const toml::table* const root = &document->root;
     return TomlTable(std::move(document), root, "");

@@ -72,7 +72,7 @@ struct EdgeFit {
 ///
 /// Accuracy (clock_days_test.cpp, 50 Hz, seeds not used in development, 99 % of all errors): behind
 /// a 16 ms timer 0.47 ms after 10 min, 2.1 ms if it is in step with the sensor; behind a 1 ms timer
-/// 0.26 ms with polling, 0.25 ms without, 0.8 ms if in step.  The test requires 1.0, 2.5, 0.3, 0.3
+/// 0.26 ms with polling, 0.25 ms without, 0.9 ms if in step.  The test requires 1.0, 2.5, 0.3, 0.3
 /// and 2.5 ms, and that the stated uncertainty covers 95 %.
 ///
 /// Source: E. Olson, "A passive solution to the sensor synchronization problem", IROS 2010 (the

@@ -36,7 +36,6 @@ public:
     void step_clock(Nanoseconds by) { realtime_error_ += by; }
     void sleep(Nanoseconds span) { slept_ += span; }  ///< Suspends the host.
     void boot();                                      ///< Begins after a power cut.
-    bool is_synchronised = true;
 
     [[nodiscard]] const std::filesystem::path& boot_id_file() const noexcept { return boot_id_; }
     [[nodiscard]] std::uint32_t random() { return static_cast<std::uint32_t>(random_.bits()); }

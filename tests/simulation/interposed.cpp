@@ -1,7 +1,7 @@
 /// @file
 /// Functions of the C library that put scheduled threads under a Schedule and on the clocks of a
 /// Host.  The definitions in a program take precedence over those in shared libraries, also for
-/// calls from the C++ library.  Threads that are not scheduled get the real functions.
+/// calls from the C++ library.  Threads that are not scheduled get the real functions, except that no thread changes its scheduling class.
 
 #include <dlfcn.h>
 #include <linux/futex.h>
@@ -210,9 +210,8 @@ int adjtimex(timex* state) noexcept {
     Host* const host = Host::mine();
     if (host == nullptr) return real().adjust(state);
     *state = {};
-    state->maxerror = state->esterror = host->is_synchronised ? 1000 : 16'000'000;
-    if (!host->is_synchronised) state->status = STA_UNSYNC;
-    return host->is_synchronised ? TIME_OK : TIME_ERROR;
+    state->maxerror = state->esterror = 1000;  // Microseconds.
+    return TIME_OK;
 }
 
 int flock(int descriptor, int operation) noexcept {

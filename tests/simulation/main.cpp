@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
         Outcome outcome = a351::simulation::simulate(seed, is_traced);
         if (seed == first && !is_traced &&
             a351::simulation::simulate(seed, false).digest != outcome.digest)
-            outcome.broken = "a second run took other turns";
+            outcome.broken += "; a second run took other turns";
         sum.simulated_s += outcome.simulated_s;
         sum.signal_s += outcome.signal_s;
         sum.faults += outcome.faults;

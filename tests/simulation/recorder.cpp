@@ -23,7 +23,10 @@ constexpr std::size_t kMostMemory_bytes = std::size_t{60} << 20;
 // The view must follow what arrives within this time.
 constexpr Nanoseconds kOldest = 3s;
 
-std::size_t memory_bytes() { return mallinfo2().uordblks; }
+std::size_t memory_bytes() {
+    const auto memory = mallinfo2();
+    return memory.uordblks + memory.hblkhd;
+}
 
 }  // namespace
 
@@ -110,11 +113,11 @@ Recorder::Recorder(World world, int run)
         *this, std::vector<text::Site>{}, events::read_events(world_.root / "events").events);
 }
 
-void Recorder::start(bool has_operator) {
+void Recorder::start() {
     store_->start();
     link_->start();
     watcher_ = std::thread([this] { watch(); });
-    if (has_operator) operator_ = std::thread([this] { operate(); });
+    operator_ = std::thread([this] { operate(); });
 }
 
 bool Recorder::stop() {

@@ -28,7 +28,7 @@
 
 namespace a351::simulation {
 
-/// What all runs together promised: it must be on disk later.
+/// Promises of all runs together: it must be on disk later.
 struct Promises {
     std::set<std::int64_t> samples;   ///< Numbers of samples that were said to be journaled.
     std::vector<std::string> events;  ///< Events that were accepted.
@@ -53,7 +53,7 @@ public:
     /// @throws what the daemon's parts throw when they cannot start.
     explicit Recorder(World world, int run);
 
-    void start(bool has_operator);
+    void start();
     /// Ends it as SIGTERM does.  @return false if something could not be written.
     bool stop();
 

@@ -135,7 +135,8 @@ void Schedule::wait_for_end(pthread_t handle) {
         return !thread->has_ended && pthread_equal(thread->handle, handle) != 0;
     });
     if (found == threads_.end()) return;
-    while (!(*found)->has_ended) wait(found->get(), std::nullopt);
+    const Thread* const thread = found->get();  // The list can grow meanwhile.
+    while (!thread->has_ended) wait(thread, std::nullopt);
 }
 
 void Schedule::note_locked(pthread_mutex_t* mutex) { self_->held.push_back(mutex); }

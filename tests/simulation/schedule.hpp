@@ -36,7 +36,7 @@ public:
     /// Returns the schedule of the calling thread; null if it is not scheduled.
     [[nodiscard]] static Schedule* mine() noexcept;
 
-    /// Returns the simulated time since the first turn.  It stands while the host sleeps.
+    /// Returns the simulated time since the first turn.  It stops while the host sleeps.
     [[nodiscard]] Nanoseconds now() const noexcept { return now_; }
     /// Returns the same, and lets a little time pass, so that a loop on a clock ends.
     [[nodiscard]] Nanoseconds read_clock() noexcept { return now_ += kClockReading; }

@@ -36,9 +36,9 @@ std::int32_t NumberedSamples::temperature(std::int64_t number) {
 }
 
 /// The host's end of the line while the plug is in.
-class SimulatedSensor::PortOfIt final : public daemon::source::Port {
+class SimulatedSensor::PluggedPort final : public daemon::source::Port {
 public:
-    PortOfIt(SimulatedSensor& sensor, int baud)
+    PluggedPort(SimulatedSensor& sensor, int baud)
         : sensor_(sensor), baud_(baud), plugged_in_(sensor.plugged_in_) {
         sensor_.line_.set_speeds(sensor_.device_.baud(), baud_);
     }
@@ -185,7 +185,7 @@ std::unique_ptr<daemon::source::Port> SimulatedSensor::open(int baud) {
     pass_unheard();
     if (!is_plugged_in())
         throw PortError(PortError::Kind::absent, "/dev/simulated", "there is no such port");
-    return std::make_unique<PortOfIt>(*this, baud);
+    return std::make_unique<PluggedPort>(*this, baud);
 }
 
 }  // namespace a351::simulation

@@ -76,11 +76,10 @@ public:
     [[nodiscard]] std::optional<std::pair<std::int64_t, Nanoseconds>> last_arrival() const {
         return last_arrival_;
     }
-    [[nodiscard]] const sim::line::FaultReport& faults() const { return injector_.report(); }
     [[nodiscard]] bool is_plugged_in() const { return !hang_up_; }
 
 private:
-    class PortOfIt;
+    class PluggedPort;
     [[nodiscard]] sim::device::Instant instant() const;
     void serve();
     void discard();

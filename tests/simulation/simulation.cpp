@@ -162,7 +162,7 @@ void Simulation::begin() {
         ++outcome_.runs;
         try {
             recorder_ = std::make_unique<Recorder>(world_, outcome_.runs);
-            recorder_->start(true);
+            recorder_->start();
             must_check_ = true;
             return;
         } catch (const std::system_error& error) {

@@ -160,15 +160,36 @@ TEST_CASE("a replay fills a hole before records that a set-back clock put into i
     CHECK(writer.sync().at(0).index == 9);
 }
 
-TEST_CASE("a record held back is judged by the archive before a replay passes its end",
+TEST_CASE("a replay beyond the archived times still knows the records that a set-back clock wrote",
+          "[record][archive_writer]") {
+    DataRoot root;
+    const auto first = record_at(kStart, {1, 2, 3});
+    const auto third = record_at(kStart - 60ms, {7, 8});
+    {
+        archive::Writer writer(posix_files(), root.archive(), {});
+        writer.record("BNZ", first, 2);  // The record that followed was dropped.
+        writer.record("BNZ", third, 7);
+    }
+    archive::Writer writer(posix_files(), root.archive(), {});
+    writer.begin_replay();
+    writer.record("BNZ", first, 2);
+    writer.record("BNZ", record_at(kStart + 60ms, {4, 5, 6}), 5);
+    writer.record("BNZ", third, 7);
+    writer.settle();
+    CHECK(writer.records_written() == 1);
+    CHECK(writer.records_skipped() == 2);
+}
+
+TEST_CASE("a record of the last session that is written late is not reported for the next",
           "[record][archive_writer]") {
     DataRoot root;
     archive::Writer(posix_files(), root.archive(), {})
         .record("BNZ", record_at(kStart, {1, 2, 3}), 2);
     archive::Writer writer(posix_files(), root.archive(), {});
     writer.begin_replay();
-    writer.record("BNZ", record_at(kStart, {1, 2, 3, 4}), 3);
-    writer.record("BNZ", record_at(kStart + 80ms, {5}), 4);
-    CHECK(writer.replay_conflicts() == 1);
+    writer.record("BNZ", record_at(kStart + 40ms, {9}), 900);
+    writer.begin_session();
+    writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);  // It shows that nothing is in the place.
     CHECK(writer.records_written() == 1);
+    CHECK(writer.sync().at(0).index == 2);
 }

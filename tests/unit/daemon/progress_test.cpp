@@ -57,6 +57,9 @@ TEST_CASE("indices before a restart of the sensor's counter never count after it
     CHECK(progress.indices().journaled == std::nullopt);
     progress.journal_synced(3);
     CHECK(progress.indices().journaled == 4);
-    progress.archive_synced(kSession, 3);
-    CHECK(progress.indices().archived == 3);
+    progress.parsed(4, kSession, 1000);
+    progress.archive_synced(kSession, 950);
+    CHECK(progress.indices().archived == std::nullopt);
+    progress.archive_synced(kSession, 920);
+    CHECK(progress.indices().archived == 920);
 }

@@ -97,7 +97,7 @@ TEST_CASE("a reading is not reduced for the pressure if the admittance is fitted
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
     const ReductionChoice fitted{.height = {}, .pressure = {}, .is_admittance_fitted = true};
     CHECK_THROWS_WITH(reduce_rows(rows, kSites, {}, fitted),
-                      ContainsSubstring("cannot be fitted without air pressure"));
+                      ContainsSubstring("cannot be fitted without the air pressure of"));
     rows[0].pressure_hpa = 1023.25;
     static_cast<void>(reduce_rows(rows, kSites, {}, fitted));
     CHECK(rows[0].pressure_correction->value() == 0.0);
