@@ -67,6 +67,8 @@ def main():
     if not program.exists():
         print("skipped: the simulation is not built with sanitizers, which replace the same functions of the C library")
         return 77
+    for patch in sorted((ROOT / "tests/simulation/mutations").glob("*.patch")):
+        subprocess.run(["patch", "--dry-run", "-s", "-p1", "-i", patch], cwd=ROOT, check=True)
     return 0 if run_seeds(program, 10_000 if os.environ.get("A351_LONG") else 24) else 1
 
 
