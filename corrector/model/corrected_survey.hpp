@@ -4,7 +4,8 @@
 /// only.
 ///
 ///     corrected = acceleration - tide + temperature_correction + rate_correction
-///                 + drift_correction (+ tilt_correction + flicker_correction, if present)
+///                 + drift_correction (+ tilt_correction + flicker_correction + scale_correction,
+///                 if present)
 ///     residual  = reference - corrected
 ///
 /// The tide is the effect on gravity and is subtracted; every correction is added.  If the
@@ -95,6 +96,9 @@ struct CorrectedRow {
     MilliGal drift_correction;  ///< Steps included.
     /// Present in every row or in none: `day`, `t-rate-drift-axes`, or with a calibration.
     std::optional<MilliGal> tilt_correction;
+    /// Minus (S - 1) (g - g0), S the scale of the instrument.  Present in every row or in none: a model
+    /// with a term for the scale.
+    std::optional<MilliGal> scale_correction;
     MilliGal corrected;                ///< acceleration - tide + all corrections.
     std::optional<MilliGal> residual;  ///< reference - corrected.
     /// Leverage; for a row outside the fit, LinearFit::leverage_at() of it.  Absent for `day`.
@@ -211,6 +215,22 @@ struct Coefficient {
     std::optional<double> standard_error;  ///< Absent if not estimated, or if dof is 0.
 };
 
+/// The scale factor of an instrument: change of the reading divided by that of gravity.
+struct ScaleEstimate {
+    std::string instrument;  ///< Name of the gravimeter; empty for the sensor.
+    double value = 1.0;
+    double u = 0.0;  ///< Standard uncertainty, at most that of the prior.
+    Prior prior;
+
+    /// Returns the share of the prior's variance that is left: 1 if the readings contain nothing about
+    /// the scale.
+    [[nodiscard]] double prior_share() const { return u * u / (prior.sd * prior.sd); }
+    /// Returns the 95 % limits.
+    [[nodiscard]] Interval limits() const {
+        return {value - kCoverageFactor * u, value + kCoverageFactor * u};
+    }
+};
+
 /// Test of the difference between the readings' estimates and the calibration.
 struct Disagreement {
     /// s' D^-1 s of the shift s from prior to posterior, D = prior - posterior covariance.
@@ -267,6 +287,7 @@ struct Fit {
     /// Present if there are differences.
     std::optional<StationCovariance> covariance;
     std::vector<Coefficient> coefficients;  ///< In the order of the model.
+    std::vector<ScaleEstimate> scales;      ///< One per instrument; empty: a model without this term.
     Score score;                            ///< Score on the rows of the fit.
     std::vector<std::string> remarks;       ///< Further facts for the user, in sentences.
     /// Present if the options have a calibration and the model is `day`, or the fit is that of

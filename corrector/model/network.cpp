@@ -128,6 +128,7 @@ void solve(NetworkAdjustment& network, const NetworkSystem& system) {
 
     // v = A x - y
     const Eigen::VectorXd residuals = system.a * network.unknowns - system.y;
+    network.weighted_square = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
         NetworkRow& row = network.rows[static_cast<std::size_t>(i)];
         row.residual = residuals(i);
@@ -237,10 +238,15 @@ NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,
     NetworkAdjustment network;
     network.stations = readings.stations;
     set_terms(network, rows, in_use, priors, options);
-    const NetworkSystem system = build_system(network, rows, in_use, readings, priors, options);
-    const std::vector<std::size_t> open = undetermined_unknowns(system.a);
-    if (!open.empty()) return {{}, refusal_of(network, readings, open)};
-    solve(network, system);
+    for (int round = 0; round < kScaleRounds; ++round) {
+        const NetworkSystem system = build_system(network, rows, in_use, readings, priors, options);
+        // A scale has a prior, so the rounds after the first determine the same unknowns.
+        const std::vector<std::size_t> open =
+            round == 0 ? undetermined_unknowns(system.a) : std::vector<std::size_t>();
+        if (!open.empty()) return {{}, refusal_of(network, readings, open)};
+        solve(network, system);
+        if (round + 1 < kScaleRounds) set_scale_columns(network, rows);
+    }
     add_remarks(network, readings);
     return {std::move(network), {}};
 }

@@ -3,7 +3,7 @@
 /// One least-squares adjustment of all readings for unknown stations, known stations and
 /// instrument:
 ///
-///     reading_i = g(station_i) + constant + drift (t_i - t0)^k + bT (T_i - T0) + bR R_i
+///     reading_i = g0 + S (g(station_i) - g0) + constant + drift (t_i - t0)^k + bT (T_i - T0) + bR R_i
 ///                 [+ bP (p_i - p_n)] + error_i
 ///     datum:      g(k) = reference_k +- u_k or datum_sd    one row for each station held
 ///     prior:      coefficient = mean +- sd                 one row for each prior
@@ -14,6 +14,14 @@
 /// Each instrument has loops of its own, with their own constant and drift.  A new loop begins after a
 /// pause of more than kLoopPause_h, and where the table has another loop.  A loop without a reading in
 /// use has neither constant nor drift.  The rate R takes part only if it has a prior.
+///
+/// S is the scale of the instrument, one for each, always with a prior (Priors::scale_of()); g0 is the
+/// reference of the first station held.  S times an unknown gravity is not linear.  About approximate
+/// values g1 and S1, which are those of the round before, the system is
+///
+///     reading_i - g0 + (g1 - g0) (S1 - 1) = S1 (g - g0) + (g1 - g0) (S - 1) + ...
+///
+/// kScaleRounds rounds leave less than 1e-9 mGal (network_test.cpp).
 ///
 /// T0 is kReferenceTemperature; t0 is kReferenceTime_h after the first row of the loop; k is 0 to
 /// drift_degree.  Pauses are those between rows of an instrument, in use or not.
@@ -66,6 +74,18 @@ inline constexpr int kGreatestDriftDegree = 3;
 /// Name of the effect of the air pressure among the terms.
 inline constexpr std::string_view kAdmittanceTerm = "admittance_mgal_per_hpa";
 
+/// Number of adjustments, each linearised about the one before.  The first has no approximate gravity.
+/// Reason: the error of a round is that of the one before squared, times 1e-2 at most.
+inline constexpr int kScaleRounds = 5;
+
+/// Scale of an instrument in an adjustment.
+struct NetworkScale {
+    std::string instrument;  ///< Name of the gravimeter; empty for the sensor.
+    Prior prior;
+    std::size_t term = 0;     ///< Number of its term, whose unknown is S - 1.
+    double linearised = 1.0;  ///< S1 of the last round.
+};
+
 /// Options of the adjustment.
 struct NetworkOptions {
     /// Standard deviation of a reference that has none of its own, mGal.  Default: typical of gravity
@@ -93,8 +113,10 @@ struct NetworkRow {
 /// An adjusted network: s stations, m terms of the instrument, n survey rows.
 struct NetworkAdjustment {
     std::vector<std::string> stations;  ///< (s) Names, in order of the first reading in use.
-    /// (m) Terms of the instrument, with units; from the second loop on with a suffix `_loop2`.
+    /// (m) Terms of the instrument, with units; from the second loop on with a suffix `_loop2`, and
+    /// the scales from the second instrument on with `_instrument2`.
     std::vector<std::string> terms;
+    std::vector<NetworkScale> scales;  ///< One per instrument, in order of its first row in a loop in use.
     MilliGal origin;             ///< Gravity of a station = origin + its unknown.
     Eigen::VectorXd unknowns;    ///< (s + m) Stations (mGal), then terms.
     Eigen::MatrixXd covariance;  ///< (s + m, s + m) Covariance of the unknowns a priori.

@@ -42,18 +42,20 @@ double effect_variance(const NetworkAdjustment& network, const Eigen::RowVectorX
 }
 
 void set_rows(Fit& result, const NetworkAdjustment& network, const std::vector<bool>& in_use,
-              double sd) {
+              const Priors& priors) {
     std::size_t reading = 0;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
         out.is_used = in_use[i];
-        double constant = 0.0, drift = 0.0, temperature = 0.0, rate = 0.0, pressure = 0.0;
+        double constant = 0.0, drift = 0.0, temperature = 0.0, rate = 0.0, pressure = 0.0,
+               scale = 0.0;
         for (std::size_t k = 0; k < network.terms.size(); ++k) {
             const double effect = network.effect_mgal(i, k);
             const std::string& name = network.terms[k];
             (name.starts_with("constant")      ? constant
              : name.starts_with("time")        ? drift
              : name.starts_with("step")        ? drift
+             : name.starts_with(kScale)        ? scale
              : name.starts_with("temperature") ? temperature
              : name == kAdmittanceTerm         ? pressure
                                                : rate) += effect;
@@ -61,13 +63,15 @@ void set_rows(Fit& result, const NetworkAdjustment& network, const std::vector<b
         out.temperature_correction = MilliGal(-constant - temperature);
         out.rate_correction = MilliGal(-rate);
         out.drift_correction = MilliGal(-drift);
+        out.scale_correction = MilliGal(-scale);
         if (out.row.pressure_correction) {
             out.row.acceleration = out.row.acceleration - MilliGal(pressure);
             *out.row.pressure_correction = *out.row.pressure_correction - MilliGal(pressure);
         }
         out.corrected = out.row.acceleration - out.row.tide + out.temperature_correction +
-                        out.rate_correction + out.drift_correction;
+                        out.rate_correction + out.drift_correction + *out.scale_correction;
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;
+        const double sd = sd_mgal_of(out.row, priors);
         const double variance =
             effect_variance(network, network.term_columns.row(static_cast<Eigen::Index>(i)));
         out.u_corrected = MilliGal(std::sqrt(sd * sd + variance));
@@ -259,7 +263,13 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
         result.coefficients.push_back(
             {network.terms[k], network.unknowns(at), std::sqrt(network.covariance(at, at))});
     }
-    set_rows(result, network, choice.accepted, sd);
+    for (const NetworkScale& scale : network.scales) {
+        Coefficient& coefficient = result.coefficients[scale.term];
+        coefficient.value += 1.0;
+        result.scales.push_back({scale.instrument, coefficient.value,
+                                 coefficient.standard_error.value(), scale.prior});
+    }
+    set_rows(result, network, choice.accepted, options.priors);
     if (options.network.fits_admittance)
         result.remarks.push_back(admittance_remark(result, choice.accepted));
     set_stations(result, network, sd);
@@ -308,8 +318,6 @@ std::optional<residual::Residuals> network_residuals(const ChosenSurvey& survey,
     if (!network) return std::nullopt;
     const SurveyOptions& options = survey.problem.options;
     const std::vector<reading::SurveyRow>& rows = survey.problem.rows;
-    network->reading_count = network->datum_count = 0;
-    network->rows.clear();
     const NetworkSystem system =
         build_system(*network, rows, survey.choice.accepted,
                      find_stations(rows, survey.choice.accepted, options.datum), options.priors,

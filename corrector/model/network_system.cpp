@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -77,6 +78,12 @@ Eigen::VectorXd step_column(const std::vector<reading::SurveyRow>& rows,
     return column;
 }
 
+/// Returns the scale of a row's instrument; null if its loop has no reading in use.
+const NetworkScale* scale_of(const NetworkAdjustment& network, const reading::SurveyRow& row) {
+    const auto at = std::ranges::find(network.scales, row.instrument, &NetworkScale::instrument);
+    return at == network.scales.end() ? nullptr : &*at;
+}
+
 /// Appends a row to the system and returns its line of `a`, filled with 0.
 Eigen::MatrixXd::RowXpr add_row(NetworkSystem& system, NetworkAdjustment& network,
                                 std::string label, double sd, double value) {
@@ -90,6 +97,10 @@ Eigen::MatrixXd::RowXpr add_row(NetworkSystem& system, NetworkAdjustment& networ
 }
 
 }  // namespace
+
+double sd_mgal_of(const reading::SurveyRow& row, const Priors& priors) {
+    return std::hypot(priors.reading_sd_mgal, row.u_average.value());
+}
 
 void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows,
                const std::vector<bool>& in_use, const Priors& priors,
@@ -124,6 +135,14 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
         network.terms.push_back(fmt::format("step_{}_mgal", k + 1));
         steps.push_back(std::move(column));
     }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!loops.of[i] || scale_of(network, rows[i]) != nullptr) continue;
+        const Prior prior = priors.scale_of(rows[i].instrument);
+        const std::size_t count = network.scales.size();
+        network.scales.push_back({rows[i].instrument, prior, network.terms.size(), prior.mean});
+        network.terms.push_back(count == 0 ? std::string(kScale)
+                                           : fmt::format("{}_instrument{}", kScale, count + 1));
+    }
 
     const auto degree = static_cast<Eigen::Index>(drift_degree);
     network.term_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
@@ -154,8 +173,30 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
     }
     if (of_gravimeters.size() > 1) network.remarks.push_back(text::joined(of_gravimeters, "; "));
     for (std::size_t k = 0; k < steps.size(); ++k)
-        network.term_columns.col(network.term_columns.cols() - std::ssize(steps) +
-                                 static_cast<Eigen::Index>(k)) = steps[k];
+        network.term_columns.col(network.term_columns.cols() - std::ssize(network.scales) -
+                                 std::ssize(steps) + static_cast<Eigen::Index>(k)) = steps[k];
+}
+
+void set_scale_columns(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows) {
+    const auto station_count = std::ssize(network.stations);
+    for (NetworkScale& scale : network.scales)
+        scale.linearised =
+            1.0 + network.unknowns(station_count + static_cast<Eigen::Index>(scale.term));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!network.is_tied[i]) continue;
+        const NetworkScale& scale = *scale_of(network, rows[i]);
+        const auto at = std::ranges::find(network.stations, rows[i].site);
+        double gravity_mgal = (rows[i].acceleration - rows[i].tide - network.origin).value();
+        if (at != network.stations.end()) {
+            gravity_mgal = network.unknowns(at - network.stations.begin());
+        } else {
+            for (std::size_t k = 0; k < network.terms.size(); ++k)
+                if (k != scale.term) gravity_mgal -= network.effect_mgal(i, k);
+            gravity_mgal /= scale.linearised;
+        }
+        network.term_columns(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(scale.term)) =
+            gravity_mgal;
+    }
 }
 
 NetworkReadings find_stations(const std::vector<reading::SurveyRow>& rows,
@@ -185,6 +226,8 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<reading
     const auto& is_held = readings.is_held;
     const auto first_held = std::ranges::find(is_held, true) - is_held.begin();
     network.origin = readings.references[static_cast<std::size_t>(first_held)];
+    network.rows.clear();
+    network.reading_count = network.datum_count = 0;
     const auto station_count = static_cast<Eigen::Index>(network.stations.size());
     const Eigen::Index term_count = network.term_columns.cols();
     NetworkSystem system{Eigen::MatrixXd(0, station_count + term_count), Eigen::VectorXd(0)};
@@ -194,9 +237,12 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<reading
         const std::size_t station = readings.station_of[network.reading_count++];
         auto line =
             add_row(system, network, fmt::format("{} ({})", row.site, row.occupation),
-                    priors.reading_sd_mgal, (row.acceleration - network.origin - row.tide).value());
-        line(static_cast<Eigen::Index>(station)) = 1.0;
+                    sd_mgal_of(row, priors), (row.acceleration - network.origin - row.tide).value());
+        const NetworkScale& scale = *scale_of(network, row);
+        line(static_cast<Eigen::Index>(station)) = scale.linearised;
         line.tail(term_count) = network.term_columns.row(static_cast<Eigen::Index>(i));
+        system.y(system.y.size() - 1) += line(station_count + static_cast<Eigen::Index>(scale.term)) *
+                                         (scale.linearised - 1.0);
     }
     for (std::size_t k = 0; k < network.stations.size(); ++k) {
         if (!is_held[k]) continue;
@@ -207,11 +253,16 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<reading
                             (readings.references[k] - network.origin).value());
         line(static_cast<Eigen::Index>(k)) = 1.0;
     }
+    for (const NetworkScale& scale : network.scales) {
+        auto line = add_row(system, network, "prior " + network.terms[scale.term], scale.prior.sd,
+                            scale.prior.mean - 1.0);
+        line(station_count + static_cast<Eigen::Index>(scale.term)) = 1.0;
+    }
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
         // The drifts of all loops have the same prior.
         const std::string& term = network.terms[k];
         const Prior* const prior = priors.find(term.substr(0, term.find("_loop")));
-        if (prior == nullptr) continue;
+        if (prior == nullptr || term.starts_with(kScale)) continue;
         auto line = add_row(system, network, "prior " + term, prior->sd, prior->mean);
         line(station_count + static_cast<Eigen::Index>(k)) = 1.0;
     }

@@ -21,6 +21,9 @@
 
 namespace a351::corrector::model {
 
+/// Returns the standard deviation of a reading, mGal: that of the priors and that of its own average.
+[[nodiscard]] double sd_mgal_of(const reading::SurveyRow& row, const Priors& priors);
+
 /// The readings of a network: station and loop of each.
 struct NetworkReadings {
     std::vector<std::string> stations;    ///< (s) Names of the stations of the network.
@@ -51,11 +54,17 @@ struct NetworkReadings {
 ///
 /// The terms are, for each loop: constant, time, time^2, time^3, up to the degree; then temperature and
 /// rate, which all loops have in common; then each step that has readings in use of one loop before
-/// and after it.  Rows of a loop without a reading in use have zeros.
+/// and after it; then the scale of each instrument, whose column is 0 until set_scale_columns().
+/// Rows of a loop without a reading in use have zeros.
 /// @param rows, in_use, priors, options  as adjust_network().
 void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows,
                const std::vector<bool>& in_use, const Priors& priors,
                const NetworkOptions& options);
+
+/// Linearises the scales about the unknowns of a solved network: their columns become the gravity of
+/// the row's station minus the origin.  At a station outside the network it is that of the reading.
+/// @param rows  as adjust_network().
+void set_scale_columns(NetworkAdjustment& network, const std::vector<reading::SurveyRow>& rows);
 
 /// The unweighted system A x = y.  Labels and standard deviations of its rows:
 /// NetworkAdjustment::rows.  A row is weighted by 1 / sd^2.
@@ -65,7 +74,8 @@ struct NetworkSystem {
 };
 
 /// Returns the rows of readings in use, datum and priors, in this order.  Also sets `origin`,
-/// `rows` and their counts in `network`; the origin is the reference of the first station held.
+/// `rows` and their counts in `network`, which replace those of an earlier round; the origin is the
+/// reference of the first station held.
 ///
 /// The origin is subtracted from readings and references, so that y keeps its last digits.  The
 /// same prior on a drift applies to each loop, as a row for each.

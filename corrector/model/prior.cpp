@@ -12,14 +12,21 @@
 namespace a351::corrector::model {
 namespace {
 
-std::string allowed_range() {
+std::string allowed_range(std::string_view name) {
+    if (name == kScale)
+        return fmt::format("mean from {} to {}, sd from {} to {}",
+                           text::shortest(1.0 - kGreatestScaleError),
+                           text::shortest(1.0 + kGreatestScaleError),
+                           text::shortest(kLeastPriorSd), text::shortest(kGreatestScaleError));
     return fmt::format("mean from -{0} to {0}, sd from {1} to {0}", text::shortest(kGreatestPrior),
                        text::shortest(kLeastPriorSd));
 }
 
-bool is_in_range(const Prior& prior) {
-    return std::abs(prior.mean) <= kGreatestPrior && prior.sd >= kLeastPriorSd &&
-           prior.sd <= kGreatestPrior;
+bool is_in_range(std::string_view name, const Prior& prior) {
+    const bool is_scale = name == kScale;
+    const double most = is_scale ? kGreatestScaleError : kGreatestPrior;
+    return std::abs(prior.mean - (is_scale ? 1.0 : 0.0)) <= most && prior.sd >= kLeastPriorSd &&
+           prior.sd <= most;
 }
 
 }  // namespace
@@ -31,23 +38,34 @@ const Prior* Priors::find(std::string_view name) const {
     return value ? &*value : nullptr;
 }
 
+Prior Priors::scale_of(std::string_view instrument) const {
+    if (const Prior* const given = find(kScale)) return *given;
+    return instrument.empty() ? kSensorScale : kGravimeterScale;
+}
+
+bool Priors::has_slope() const {
+    return std::ranges::any_of(kPriorNames, [this](std::string_view name) {
+        return name != kScale && find(name) != nullptr;
+    });
+}
+
 void set_prior(Priors& priors, std::string_view origin, std::string_view name, Prior prior) {
     const auto* const at = std::find(kPriorNames.begin(), kPriorNames.end(), name);
     if (at == kPriorNames.end())
         throw InputError(fmt::format(
             "{} = {}: no such coefficient; allowed: {}", origin, name,
             text::joined(std::vector<std::string>(kPriorNames.begin(), kPriorNames.end()))));
-    if (!is_in_range(prior))
+    if (!is_in_range(name, prior))
         throw InputError(fmt::format("{} = {} {} {}: out of range; allowed: {}", origin, name,
                                      text::shortest(prior.mean), text::shortest(prior.sd),
-                                     allowed_range()));
+                                     allowed_range(name)));
     priors.values[static_cast<std::size_t>(at - kPriorNames.begin())] = prior;
 }
 
 std::string add_published_priors(Priors& priors) {
-    // In the order of kPriorNames: temperature, its rate, time.
+    // In the order of kPriorNames: temperature, its rate, time, scale.
     constexpr std::array<std::optional<Prior>, kPriorNames.size()> kPublished{
-        Prior{-29.0, 10.0}, std::nullopt, Prior{0.0, 1.0}};
+        Prior{-29.0, 10.0}, std::nullopt, Prior{0.0, 1.0}, std::nullopt};
     std::vector<std::string> texts;
     for (std::size_t k = 0; k < kPriorNames.size(); ++k) {
         std::optional<Prior>& prior = priors.values[k];
@@ -66,7 +84,8 @@ void read_priors(Priors& priors, text::TomlTable table) {
         if (numbers.size() != 2)
             table.refuse(kPriorNames[k], fmt::format("{} numbers", numbers.size()), "[mean, sd]");
         const Prior prior{numbers[0], numbers[1]};
-        if (!is_in_range(prior)) table.refuse(kPriorNames[k], "out of range", allowed_range());
+        if (!is_in_range(kPriorNames[k], prior))
+            table.refuse(kPriorNames[k], "out of range", allowed_range(kPriorNames[k]));
         priors.values[k] = prior;
     }
     table.require_all_read();

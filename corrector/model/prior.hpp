@@ -11,7 +11,8 @@
 ///     Priors priors;
 ///     set_prior(priors, "--prior", "rate_mgal_per_degc_per_h", {11.2, 0.5});
 ///
-/// The whole-day model has priors of its own (day_model.hpp) and refuses these.
+/// The scale always has a prior, because a few known stations hardly determine it.  The whole-day model
+/// has priors of its own (day_model.hpp) and takes only that of the scale from here.
 
 #include <array>
 #include <optional>
@@ -35,10 +36,22 @@ inline constexpr double kLeastPriorSd = 1e-6;
 /// coefficient.  Reason: all coefficients of this sensor are far smaller.
 inline constexpr double kGreatestPrior = 1e6;
 
+/// Name of the scale factor: change of the reading divided by that of gravity, without a unit.
+inline constexpr std::string_view kScale = "scale";
+
 /// Coefficients that may have a prior, with their units.  The unit is part of the name, which is
 /// that of coefficient_names().  The constant and the axis biases have none.
-inline constexpr std::array<std::string_view, 3> kPriorNames{
-    "temperature_mgal_per_degc", "rate_mgal_per_degc_per_h", "time_mgal_per_h"};
+inline constexpr std::array<std::string_view, 4> kPriorNames{
+    "temperature_mgal_per_degc", "rate_mgal_per_degc_per_h", "time_mgal_per_h", kScale};
+
+/// Prior of the sensor's scale factor.  Its deviation is an assumption: no unit was calibrated, and
+/// the data sheet gives none for a small range.
+inline constexpr Prior kSensorScale{1.0, 2e-3};
+/// Prior of a spring gravimeter's scale factor.  Reason: calibration lines give it to about 1e-4.
+inline constexpr Prior kGravimeterScale{1.0, 1e-4};
+/// Greatest difference of a scale's mean from 1, and its greatest standard deviation.  Reason: beyond
+/// it the reading is not one of gravity, and the linearised adjustment is rough.
+inline constexpr double kGreatestScaleError = 0.1;
 
 /// Least standard deviation of a reading or a reference, mGal.  Reason: the resolution of the
 /// tables.
@@ -63,6 +76,13 @@ struct Priors {
     /// Returns the prior of a coefficient; null if it has none, or if there is no such coefficient.
     /// The pointer is into this object.
     [[nodiscard]] const Prior* find(std::string_view name) const;
+
+    /// Returns the prior of the scale of an instrument: the given one, or the usual one.
+    /// @param instrument  name of a gravimeter; empty for the sensor.
+    [[nodiscard]] Prior scale_of(std::string_view instrument) const;
+
+    /// Returns true if a coefficient other than the scale has a prior.
+    [[nodiscard]] bool has_slope() const;
 };
 
 /// Sets the prior of a coefficient by name.  It replaces an earlier one.

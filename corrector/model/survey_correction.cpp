@@ -122,9 +122,7 @@ bool is_plain_network(const SurveyOptions& options) {
     const NetworkOptions usual;
     return options.model == kNetwork && options.network.drift_degree == usual.drift_degree &&
            options.network.datum_sd_mgal == usual.datum_sd_mgal &&
-           !options.network.fits_admittance &&
-           std::ranges::none_of(options.priors.values,
-                                [](const auto& prior) { return prior.has_value(); });
+           !options.network.fits_admittance && !options.priors.has_slope();
 }
 
 /// Gives stations whose reference no fit has seen their value as the one without it.

@@ -215,8 +215,7 @@ void remark_misfit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
 
 std::optional<std::string> refusal_of(const SurveyProblem& problem, const RowChoice& choice) {
     auto refusal = day_refusal(problem.rows, choice.in_use, problem.day);
-    if (!refusal && std::ranges::any_of(problem.options.priors.values,
-                                        [](const auto& prior) { return prior.has_value(); }))
+    if (!refusal && problem.options.priors.has_slope())
         refusal = "uses its own priors, `prior` would be ignored";
     return refusal;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "protocol/core/input_error.hpp"
@@ -62,6 +63,18 @@ int whole_number(const text::CsvTable& table, std::size_t row, std::string_view 
 /// a gravimeter for the whole Earth is 8000 mGal.
 constexpr double kLeastGravimeterReading_mgal = -20e3;
 
+/// Greatest scatter of the readings of a row, mGal.  Reason: beyond it the row is worthless.
+constexpr double kGreatestScatter_mgal = 1000.0;
+
+/// Returns sd_mgal / sqrt(readings); 0 if the scatter is not given.
+MilliGal u_average(const text::CsvTable& table, std::size_t i) {
+    if (!table.has_column("sd_mgal") || table.cell(i, "sd_mgal").empty()) return MilliGal(0.0);
+    const double sd = table.number(i, "sd_mgal", 0.0, kGreatestScatter_mgal);
+    const int count =
+        table.has_column("readings") ? whole_number(table, i, "readings", 1, 1'000'000) : 1;
+    return MilliGal(sd / std::sqrt(static_cast<double>(count)));
+}
+
 /// Reads the columns of a gravimeter.
 void set_gravimeter(SurveyRow& row, const text::CsvTable& table, std::size_t i) {
     row.instrument = table.cell(i, "instrument");
@@ -111,6 +124,7 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         row.acceleration =
             MilliGal(table.number(i, "acceleration_mgal",
                                   is_of_gravimeter ? kLeastGravimeterReading_mgal : 900e3, 1100e3));
+        row.u_average = u_average(table, i);
         if (row.has_temperature)
             row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));
         if (table.has_column("instrument_height_m"))

@@ -47,6 +47,8 @@ struct SurveyRow {
     std::vector<std::string> notes;  ///< Reasons for doubt, e.g. "fallback".
     /// Mean with the reductions below.  The full value, or from a gravimeter the value above the zero of its own scale.
     MilliGal acceleration;
+    /// Standard deviation of the average, from the scatter of its readings; 0 if not given.
+    MilliGal u_average{};
     std::string instrument;  ///< Name of the gravimeter; empty for the sensor.
     /// Loop of the gravimeter, as the table gives it: within a loop its constant does not change.
     int loop = 0;
@@ -115,8 +117,8 @@ inline constexpr double kGreatestInstrumentHeight_m = 10.0;
 [[nodiscard]] std::optional<Metres> instrument_height(const text::CsvTable& table, std::size_t row);
 
 /// Reads a table `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],
-/// acceleration_mgal,temperature_degc[,instrument[,loop]][,instrument_height_m][,pressure_hpa]` and
-/// sorts its rows by time.
+/// acceleration_mgal,temperature_degc[,instrument[,loop]][,instrument_height_m][,pressure_hpa]
+/// [,sd_mgal[,readings]]` and sorts its rows by time.
 ///
 /// A zone in a cell has priority; without one the zone of the column applies.  Cells of `time` must
 /// have a zone.  `tide` is left zero; rates are set by set_backward_rates().
@@ -129,6 +131,9 @@ inline constexpr double kGreatestInstrumentHeight_m = 10.0;
 ///
 /// With the column `instrument` the rows are of gravimeters: readings from -20 000 mGal on are
 /// permitted, and the temperature may be empty in all rows.  `loop` is then from 0 to 10^6.
+///
+/// `sd_mgal` is the scatter of the `readings` averaged, of which there is one if the column is absent:
+/// u_average is sd / sqrt(readings).  The cell may be empty.
 ///
 /// @param file   CSV with one row per occupation, in any order.
 /// @param sites  table of the sites; their gravity becomes the reference of the rows.

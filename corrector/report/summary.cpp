@@ -11,6 +11,7 @@
 #include "corrector/model/model.hpp"
 #include "corrector/model/model_fit.hpp"
 #include "corrector/report/html.hpp"
+#include "corrector/result/scale_report.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
@@ -245,6 +246,7 @@ void add_accuracy(pugi::xml_node parent, const model::SurveyCorrection& result) 
         is_unusable(result)
             ? tr("Correct the mistakes of this day before you use any of its values.")
             : scatter_sentence(result.score));
+    add_list(parent, result::scale_sentences(result));
     const std::vector<std::string> limits = limits_of(result);
     if (!limits.empty()) add(parent, "h3", tr("Limits"));
     add_list(parent, limits);

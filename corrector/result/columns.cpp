@@ -189,6 +189,17 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
                          {"pressure_correction_mgal",
                           [](Row row) { return cell(row.row.pressure_correction); },
                           {"Pressure corr.", 4}}});
+    if (first.scale_correction)
+        columns.push_back({"scale_correction_mgal",
+                           of(&model::CorrectedRow::scale_correction),
+                           {"Scale corr."}});
+    if (!first.row.instrument.empty())
+        append(columns, {{"instrument",
+                          [](Row row) { return row.row.instrument; },
+                          {"Instrument", 0, 'n'}},
+                         {"loop",
+                          [](Row row) { return static_cast<std::int64_t>(row.row.loop); },
+                          {"Loop"}}});
     if (first.row.record) append(columns, columns_of_records());
     if (first.as<model::WholeDayRow>() != nullptr)
         append(columns, columns_of_day());

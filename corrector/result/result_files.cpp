@@ -11,6 +11,7 @@
 #include "corrector/result/columns.hpp"
 #include "corrector/result/export_files.hpp"
 #include "corrector/result/network_report.hpp"
+#include "corrector/result/scale_report.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -134,6 +135,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
         json["coefficients"].push_back(
             {{"name", c.name}, {"value", c.value}, {"standard_error", json_of(c.standard_error)}});
     }
+    json["scales"] = scales_json(result);
     json["in_sample"] = {{"n", result.score.row_count},
                          {"rms_mgal", json_of(result.score.rms_mgal)},
                          {"s_mgal", json_of(result.score.s_mgal)},

@@ -8,6 +8,7 @@
 #include "corrector/model/row_doubts.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/network_report.hpp"
+#include "corrector/result/scale_report.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::result {
@@ -178,6 +179,7 @@ std::string survey_text(const model::SurveyCorrection& result) {
                        "LOO: leave-one-out. LOSO: leave-one-station-out.\n\n" +
                        summary_text(result) + coefficients_text(result) + network_text(result) +
                        weights_text(result) + model::doubts_text(result);
+    for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
     for (const std::string& remark : result.remarks) text += remark + '\n';
     return text;
 }

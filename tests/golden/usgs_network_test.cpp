@@ -172,6 +172,42 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u says so",
+          "[golden][usgs]") {
+    // The real readings of a meter, with a made-up part: half of the stations are moved 198 mGal away,
+    // by a meter whose scale is off by 0.036 mGal in 198 mGal.
+    constexpr double kRange_mgal = 198.0, kScale = 1.0 + 0.036 / kRange_mgal;
+    auto rows = rows_of(kMeters[0], false);
+    const auto is_far = [](const reading::SurveyRow& row) { return row.site == "rg57"; };
+    for (reading::SurveyRow& row : rows) {
+        if (!is_far(row)) continue;
+        row.acceleration = row.acceleration + MilliGal(kScale * kRange_mgal);
+        row.reference = *row.reference + MilliGal(kRange_mgal);
+    }
+    const double reference = std::ranges::find_if(rows, is_far)->reference->value();
+    const auto far_end = [&](std::optional<model::Prior> scale) {
+        model::Priors priors;
+        priors.reading_sd_mgal = kReadingSd_mgal;
+        if (scale) model::set_prior(priors, "test", "scale", *scale);
+        const auto network =
+            model::adjust_network(rows, std::vector<bool>(rows.size(), true), {"rg37"}, priors, {})
+                .adjustment.value();
+        const auto at = std::ranges::find(network.stations, "rg57") - network.stations.begin();
+        const HoldOut end{
+            (network.origin + MilliGal(network.unknowns(at))).value() - reference,
+            std::sqrt(network.covariance(at, at))};
+        std::cout << fmt::format("far end off by {:+.4f} mGal, u {:.4f}\n", end.error_mgal,
+                                 end.u_mgal);
+        return end;
+    };
+    const HoldOut held = far_end(model::Prior{1.0, 1e-6}), free = far_end(std::nullopt);
+    const Absolute value{reference, absolute_values("2017-12").at("rg57").u_mgal};
+    CHECK(held.u_mgal < 0.013);
+    CHECK(free.u_mgal == Approx(std::hypot(held.u_mgal, 1e-4 * kRange_mgal)).epsilon(0.01));
+    CHECK(free.ratio(value) < 2.0);
+    CHECK(free.error_mgal == Approx(held.error_mgal).epsilon(0.01));
+}
+
 TEST_CASE("a finding about a gravimeter has a size that can be read", "[golden][usgs]") {
     auto rows = rows_of(kMeters[2], false);
     constexpr double kStep_mgal = 0.0623;

@@ -53,7 +53,8 @@ TEST_CASE("every model of averages gives rows whose corrections add up to the co
         REQUIRE(fit.rows.size() == rows.size());
         for (const CorrectedRow& row : fit.rows) {
             const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
-                                 row.rate_correction + row.drift_correction;
+                                 row.rate_correction + row.drift_correction +
+                                 row.scale_correction.value_or(MilliGal(0.0));
             CHECK(sum.value() == Approx(row.corrected.value()).epsilon(0).margin(1e-8));
         }
         CHECK(fit.score.model == model.name);

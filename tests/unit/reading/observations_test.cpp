@@ -98,6 +98,18 @@ TEST_CASE("a bad table of observations is refused with line, column and value",
     CHECK_THROWS_AS(file.read(), InputError);
 }
 
+TEST_CASE("the scatter of an average is that of its readings divided by the root of their number",
+          "[survey][observations]") {
+    const std::string line = "A,1,2020-01-01T00:00:00Z,979800,42.5,";
+    const std::string header = "site,occupation,time_utc,acceleration_mgal,temperature_degc,";
+    CHECK(TableFile(header + "sd_mgal\n" + line + "0.3\n").read()[0].u_average == MilliGal(0.3));
+    CHECK(TableFile(header + "sd_mgal,readings\n" + line + "0.3,9\n").read()[0].u_average.value() ==
+          Approx(0.1));
+    CHECK(TableFile(header + "sd_mgal\n" + line + "\n").read()[0].u_average == MilliGal(0.0));
+    CHECK_THROWS_AS(TableFile(header + "sd_mgal\n" + line + "-1\n").read(), InputError);
+    CHECK_THROWS_AS(TableFile(header + "sd_mgal,readings\n" + line + "0.3,0\n").read(), InputError);
+}
+
 TEST_CASE(
     "rows of gravimeters have instrument and loop, and need neither a full value nor a temperature",
     "[survey][observations]") {

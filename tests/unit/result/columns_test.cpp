@@ -41,6 +41,12 @@ TEST_CASE("the table of occupations has columns only for what is known", "[resul
     CHECK(header(result) == kHead + kTail);
     row.tilt_correction = MilliGal(1.0);
     CHECK(header(result) == kHead + "tilt_correction_mgal," + kTail);
+    row.row.instrument = "B44";
+    CHECK(header(result) == kHead + "instrument,loop,tilt_correction_mgal," + kTail);
+    row.row.instrument.clear();
+    row.scale_correction = MilliGal(0.0);
+    CHECK(header(result) == kHead + "scale_correction_mgal,tilt_correction_mgal," + kTail);
+    row.scale_correction.reset();
     row.row.record.emplace();
     CHECK(header(result) == kHead + kOfRecords + "tilt_correction_mgal," + kTail);
     row.own = WholeDayRow{};
