@@ -99,6 +99,8 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
         survey.norm == reading::NormOrder::decimate_first ? "decimate-first" : "as-published";
     settings["rate"] = "interval";
     settings["calibration"] = survey.calibration.filename().string();
+    settings["reference"] =
+        survey.reference ? survey.reference->observations.filename().string() : "";
     settings["seed"] = survey.seed;
     settings["from_utc"] = survey.from ? to_rfc3339(*survey.from) : "";
     settings["to_utc"] = survey.to ? to_rfc3339(*survey.to) : "";

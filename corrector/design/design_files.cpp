@@ -36,6 +36,7 @@ std::vector<Column<ExpectedStation>> station_columns() {
         part_column("u_thermal_mgal", "Thermal", ErrorSource::thermal),
         part_column("u_drift_mgal", "Drift", ErrorSource::drift),
         part_column("u_datum_mgal", "Datum", ErrorSource::datum),
+        part_column("u_scale_mgal", "Scale", ErrorSource::scale),
     };
 }
 

@@ -22,7 +22,8 @@ const std::array<Part, whole_day::kErrorSources>& parts() {
                                                                  {"levelling", "'#CC79A7'"},
                                                                  {"temperature", kVermilion},
                                                                  {"drift", "'#E69F00'"},
-                                                                 {"datum", "'#009E73'"}}};
+                                                                 {"datum", "'#009E73'"},
+                                                                 {"scale", "'#000000'"}}};
     return all;
 }
 

@@ -42,6 +42,11 @@ namespace a351::corrector::figure {
 /// rows in the fit about their own line, and is in sample.
 [[nodiscard]] std::optional<Figure> corrected_figure(const model::SurveyCorrection& result);
 
+/// Returns the figure of the sensor's values minus those of the reference gravimeter, over gravity,
+/// with u of the sensor as bars.  Each station has its own reference hidden.
+/// @return std::nullopt without a compared station.
+[[nodiscard]] std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result);
+
 /// Returns a map of the stations in longitude and latitude with their heights.  The scale is the
 /// same in both directions (by the cosine of the mean latitude) and is shown by a bar of a round
 /// length.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "corrector/figure/escaping.hpp"
 #include "corrector/figure/row_marks.hpp"
 #include "corrector/figure/survey_figures.hpp"
 #include "corrector/model/linear_fit.hpp"
@@ -154,6 +155,29 @@ std::optional<Figure> corrected_figure(const model::SurveyCorrection& result) {
                         "Corrected gravity over reference gravity, with the line y = x. In sample: "
                         "the same references were used in the fit.",
                         clauses);
+}
+
+std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result) {
+    if (!result.side_by_side || result.side_by_side->stations.empty()) return std::nullopt;
+    FigureData data("side-by-side");
+    std::string lines;
+    for (const model::ComparedStation& station : result.side_by_side->stations)
+        lines += datum(station.theirs.value(), 4) + datum(station.difference().value(), 4) +
+                 datum(station.u_ours.value(), 4) + "# " + clean_utf8(station.site) + '\n';
+    const std::string source = data.add("stations: theirs_mgal difference_mgal u_ours_mgal", lines);
+    const std::vector<std::string> clauses{
+        fmt::format("0 with lines lw 1.2 lc rgb {} notitle", kGrey),
+        fmt::format("{} using 1:2:3 with yerrorbars pt 7 ps 0.6 lc rgb {} title 'stations, u'",
+                    source, kBlue)};
+    return data.figure(
+        "Gravity by the sensor minus that by the reference gravimeter, over gravity. Each station "
+        "has "
+        "its own reference hidden (cross-validated); bars are the standard uncertainty of the "
+        "sensor.",
+        480, 360,
+        "set xlabel 'Gravity by the reference gravimeter (mGal)'\nset ylabel 'Ours minus theirs "
+        "(mGal)'\nset offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nset format '%.6g'\n" +
+            plot_command(clauses));
 }
 
 }  // namespace a351::corrector::figure

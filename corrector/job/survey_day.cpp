@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "corrector/job/reference_survey.hpp"
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/mistake/survey_findings.hpp"
 #include "corrector/model/survey_correction.hpp"
@@ -24,9 +25,12 @@ model::SurveyCorrection correct_survey_day(const SurveyFile& survey,
                                            reading::OccupationRows& read) {
     const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
     try {
+        std::optional<model::NetworkAdjustment> reference;
+        if (survey.reference) reference = hold_reference_values(survey, read);
         model::SurveyCorrection result = mistake::correct_and_search(
             {read.rows, read.sites, day}, with_sites_of(read, survey.survey), read.findings);
         model::add_left_out(result, read.left_out);
+        if (reference) compare_with_reference(result, *reference);
         return result;
     } catch (const reading::Refused& refused) {
         throw reading::Refused(refused.code(), in_context(refused, survey, read));

@@ -1,5 +1,7 @@
 #include "corrector/job/survey_file.hpp"
 
+#include <fmt/core.h>
+
 #include <limits>
 
 #include "corrector/model/model.hpp"
@@ -26,6 +28,26 @@ void require_site(const text::TomlTable& table, std::string_view key,
     std::string names;
     for (const text::Site& site : sites) names += (names.empty() ? "" : ", ") + site.name;
     table.refuse(key, "no such site", names);
+}
+
+ReferenceSurvey read_reference(text::TomlTable table) {
+    ReferenceSurvey reference;
+    reference.observations = table.path_or_empty("observations");
+    if (!std::filesystem::is_regular_file(reference.observations))
+        table.refuse("observations", "no such file: " + reference.observations.string(),
+                     "a table as a351-correct import writes it");
+    reference.priors.reading_sd_mgal = table.number_or(
+        "reading_sd_mgal", kReferenceReadingSd_mgal, model::kLeastSd_mgal, model::kGreatestSd_mgal);
+    reference.network.drift_degree = static_cast<int>(table.integer_or(
+        "drift_degree", reference.network.drift_degree, 0, model::kGreatestDriftDegree));
+    const std::vector<double> scale = table.numbers("scale", -1.0, 2.0);
+    if (table.has("scale")) {
+        if (scale.size() != 2)
+            table.refuse("scale", fmt::format("{} numbers", scale.size()), "[mean, sd]");
+        model::set_prior(reference.priors, "reference.scale", model::kScale, {scale[0], scale[1]});
+    }
+    table.require_all_read();
+    return reference;
 }
 
 }  // namespace
@@ -104,6 +126,7 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.survey.seed = survey.seed;
     table.require_all_read();
     model::read_priors(survey.survey.priors, document.table("prior"));
+    if (document.has("reference")) survey.reference = read_reference(document.table("reference"));
     document.require_all_read();
 
     if (!std::filesystem::is_directory(survey.root))

@@ -21,6 +21,17 @@
 
 namespace a351::corrector::job {
 
+/// Readings of reference gravimeters at the stations of a survey, from table [reference].
+struct ReferenceSurvey {
+    std::filesystem::path observations;  ///< Table as `a351-correct import` writes it.
+    model::Priors priors;                ///< Standard deviation of a reading, and the scale.
+    model::NetworkOptions network;       ///< Drift of each loop.
+};
+
+/// Standard deviation of a reading of a reference gravimeter, mGal.  Reason: repeatability of spring
+/// gravimeters in the field.
+inline constexpr double kReferenceReadingSd_mgal = 0.01;
+
 /// One survey day, from table [survey] of its TOML file.  Paths in the file are relative to it.
 /// The options of the average are those below; read_survey() sets `averaging` from them.
 ///
@@ -49,6 +60,7 @@ struct SurveyFile : reading::SurveySource {
     double cutoff_s = 300.0;  ///< Cut-off period of the smoother's trend, s.
     reading::NormOrder norm = reading::NormOrder::decimate_first;
     std::uint64_t seed = 1;  ///< Seed of the decomposition's noise.
+    std::optional<ReferenceSurvey> reference;
 };
 
 /// Reads a survey file.
@@ -56,7 +68,7 @@ struct SurveyFile : reading::SurveySource {
 /// The table of sites and the calibration are read and checked too.  Occupations, amendments and
 /// samples are not: read_survey() does this.  A message has file, line, key and value, and what is
 /// allowed; examples are in survey_file_test.cpp.
-/// @param file  TOML with table [survey] and, if wanted, table [prior].
+/// @param file  TOML with table [survey] and, if wanted, tables [prior] and [reference].
 /// @throws InputError  unknown key or value, a root that is no directory, a base or datum that is
 ///                     not in the table of sites.  Also a file, a table of sites or a calibration
 ///                     that cannot be read.

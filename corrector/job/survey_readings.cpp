@@ -32,6 +32,8 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) 
         more.push_back(text::describe_input("tide", survey.tide.series));
     if (!survey.reduction.pressure.empty())
         more.push_back(text::describe_input("pressure", survey.reduction.pressure));
+    if (survey.reference)
+        more.push_back(text::describe_input("reference", survey.reference->observations));
     const auto archive =
         std::ranges::find(inputs, std::string_view("archive"), &text::InputFile::role);
     inputs.insert(archive, more.begin(), more.end());

@@ -69,8 +69,15 @@ Json part_json(bool is_there, const char* use, const std::optional<Disagreement>
 }  // namespace
 
 bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration) {
-    return calibration &&
-           (calibration->axis_bias || calibration->thermal || calibration->placement);
+    return calibration && (calibration->axis_bias || calibration->thermal ||
+                           calibration->placement || calibration->scale);
+}
+
+whole_day::DayPriors day_priors_of(const SurveyOptions& options) {
+    whole_day::DayPriors priors = day_priors_of(options.calibration);
+    if (const Prior* const scale = options.priors.find(kScale))
+        priors.set_scale(scale->mean, scale->sd);
+    return priors;
 }
 
 whole_day::DayPriors day_priors_of(const std::optional<unit::Calibration>& calibration) {
@@ -85,6 +92,8 @@ whole_day::DayPriors day_priors_of(const std::optional<unit::Calibration>& calib
                        unit::kThermalErrorFactor * unit::kThermalErrorFactor * thermal->covariance);
     if (const auto& placement = calibration->placement)
         priors.placement_mgal = {placement->mgal, std::exp(placement->log_error())};
+    if (const auto& scale = calibration->scale)
+        priors.set_scale(scale->value, scale->standard_error);
     return priors;
 }
 
@@ -133,12 +142,16 @@ void report_prior_use(Fit& result, const unit::Calibration& calibration,
         squares += std::pow((fit.set_ups[i].corrected - without.set_ups[i].corrected).value(), 2);
     use.effect_rms_mgal = std::sqrt(squares / static_cast<double>(fit.set_ups.size()));
     result.remarks.push_back(fmt::format(
-        "{} as prior: {}{}{}; it changes the corrected values by {} mGal rms{}",
+        "{} as prior: {}{}{}{}; it changes the corrected values by {} mGal rms{}",
         name_of(calibration), calibration.axis_bias ? "axis biases" : "no axis biases",
         calibration.thermal ? ", thermal response with its errors doubled"
                             : ", no thermal response",
         calibration.placement
             ? fmt::format(", placement {} mGal", text::fixed(calibration.placement->mgal, 2))
+            : "",
+        calibration.scale
+            ? fmt::format(", scale {} +- {}", text::fixed(calibration.scale->value, 5),
+                          text::fixed(calibration.scale->standard_error, 5))
             : "",
         text::fixed(use.effect_rms_mgal, 2),
         calibration.axis_bias
@@ -169,8 +182,12 @@ SurveyCorrection correct_with_calibration(const std::vector<reading::SurveyRow>&
                                           const reading::DayRecord* day) {
     if (!options.calibration) return correct_survey(rows, options, day);
     const unit::Calibration& calibration = *options.calibration;
+    SurveyOptions with_scale = options;
+    if (calibration.scale && options.priors.find(kScale) == nullptr)
+        set_prior(with_scale.priors, "calibration", kScale,
+                  {calibration.scale->value, calibration.scale->standard_error});
     SurveyCorrection result =
-        correct_survey(without_known_tilt(rows, options.calibration), options, day);
+        correct_survey(without_known_tilt(rows, options.calibration), with_scale, day);
     if (result.as<WholeDayPart>() != nullptr) return result;
 
     CalibrationUse use;
@@ -224,6 +241,8 @@ Json calibration_json(const SurveyCorrection& result) {
                                   use.thermal)},
             {"placement", part_json(calibration.placement.has_value(),
                                     use.is_prior ? "prior" : "none", std::nullopt)},
+            {"scale", part_json(calibration.scale.has_value(),
+                                result.scales.empty() ? "none" : "prior", std::nullopt)},
             {"effect_rms_mgal", use.effect_rms_mgal},
             {"loso_without_mgal", is_compared ? Json(*use.loso_without_mgal) : Json(nullptr)},
             {"worse_with_it", is_compared ? Json(is_harmful(use, result.score)) : Json(nullptr)}};

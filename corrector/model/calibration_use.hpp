@@ -41,6 +41,9 @@ inline constexpr double kContradictionP = 0.01;
 [[nodiscard]] whole_day::DayPriors day_priors_of(
     const std::optional<unit::Calibration>& calibration);
 
+/// Returns the same for a survey: a prior of the scale in its options replaces that of the calibration.
+[[nodiscard]] whole_day::DayPriors day_priors_of(const SurveyOptions& options);
+
 /// Tests how far the day moved some lags and terms from their priors.
 ///
 /// With the shift s in units in which the priors are independent and of variance 1, and its

@@ -21,6 +21,7 @@
 /// Methods and sources: corrector/methods.md.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -287,9 +288,9 @@ struct Fit {
     /// Present if there are differences.
     std::optional<StationCovariance> covariance;
     std::vector<Coefficient> coefficients;  ///< In the order of the model.
-    std::vector<ScaleEstimate> scales;      ///< One per instrument; empty: a model without this term.
-    Score score;                            ///< Score on the rows of the fit.
-    std::vector<std::string> remarks;       ///< Further facts for the user, in sentences.
+    std::vector<ScaleEstimate> scales;  ///< One per instrument; empty: a model without this term.
+    Score score;                        ///< Score on the rows of the fit.
+    std::vector<std::string> remarks;   ///< Further facts for the user, in sentences.
     /// Present if the options have a calibration and the model is `day`, or the fit is that of
     /// correct_with_calibration().
     std::optional<CalibrationUse> calibration;
@@ -318,6 +319,37 @@ struct ScoredRowSet {
     std::vector<Score> scores;
 };
 
+/// A station measured by the sensor and by a reference gravimeter.
+struct ComparedStation {
+    std::string site;
+    MilliGal ours, u_ours;      ///< Value of the sensor with this station's reference hidden.
+    MilliGal theirs, u_theirs;  ///< Adjusted value of the gravimeter.
+
+    /// Returns ours minus theirs.
+    [[nodiscard]] MilliGal difference() const { return ours - theirs; }
+};
+
+/// Comparison of the sensor with reference gravimeters at the same stations.
+struct SideBySide {
+    std::vector<ScaleEstimate> scales;  ///< Scales of the gravimeters, one per instrument.
+    /// True: a station has a published gravity.  False: the level is that of the sensor's readings at
+    /// the first common station, so that its bias is not known.
+    bool is_level_known = false;
+    std::size_t reading_count = 0;          ///< Number of the gravimeters' readings.
+    std::optional<double> s0;               ///< Of their adjustment.
+    std::optional<Coefficient> bias;        ///< Constant of the sensor; absent without a level.
+    std::vector<ComparedStation> stations;  ///< In the order of the survey's stations.
+
+    /// Returns the rms of ours minus theirs, mGal; absent without a station.
+    [[nodiscard]] std::optional<double> scatter_mgal() const {
+        if (stations.empty()) return std::nullopt;
+        double squares = 0.0;
+        for (const ComparedStation& station : stations)
+            squares += station.difference().value() * station.difference().value();
+        return std::sqrt(squares / static_cast<double>(stations.size()));
+    }
+};
+
 /// Result of correct_survey(): a fit, and how its model was chosen.
 ///
 /// Compare models within one row set only: scores of different rows are not comparable.
@@ -327,6 +359,7 @@ struct SurveyCorrection : Fit {
     std::vector<ScoredRowSet> row_sets;      ///< Two sets: used, all.
     std::optional<Choice> choice;            ///< `auto` only, if not the whole-day model.
     std::optional<double> choice_loso_mgal;  ///< `auto` only: LOSO of choosing and fitting.
+    std::optional<SideBySide> side_by_side;  ///< Present if the survey has reference gravimeters.
 };
 
 }  // namespace a351::corrector::model

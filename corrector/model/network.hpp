@@ -116,9 +116,10 @@ struct NetworkAdjustment {
     /// (m) Terms of the instrument, with units; from the second loop on with a suffix `_loop2`, and
     /// the scales from the second instrument on with `_instrument2`.
     std::vector<std::string> terms;
-    std::vector<NetworkScale> scales;  ///< One per instrument, in order of its first row in a loop in use.
-    MilliGal origin;             ///< Gravity of a station = origin + its unknown.
-    Eigen::VectorXd unknowns;    ///< (s + m) Stations (mGal), then terms.
+    std::vector<NetworkScale>
+        scales;                ///< One per instrument, in order of its first row in a loop in use.
+    MilliGal origin;           ///< Gravity of a station = origin + its unknown.
+    Eigen::VectorXd unknowns;  ///< (s + m) Stations (mGal), then terms.
     Eigen::MatrixXd covariance;  ///< (s + m, s + m) Covariance of the unknowns a priori.
     /// (n, m) Regressors of the terms, rows in use or not; 0 in rows that are not tied.
     Eigen::MatrixXd term_columns;
@@ -126,6 +127,7 @@ struct NetworkAdjustment {
     std::vector<NetworkRow> rows;      ///< Readings in use in order of time; datum; priors.
     std::size_t reading_count = 0;     ///< Number of readings in use.
     std::size_t datum_count = 0;       ///< Number of stations held.
+    bool is_level_known = true;        ///< False: the gravity that is held is not a published one.
     std::size_t dof = 0;               ///< Degrees of freedom: rows - unknowns.
     double weighted_square = 0.0;      ///< v^T W v
     double chi_square_low = 0.0;       ///< Lower limit of the global test; 0 if dof = 0.

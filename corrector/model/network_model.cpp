@@ -266,8 +266,8 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     for (const NetworkScale& scale : network.scales) {
         Coefficient& coefficient = result.coefficients[scale.term];
         coefficient.value += 1.0;
-        result.scales.push_back({scale.instrument, coefficient.value,
-                                 coefficient.standard_error.value(), scale.prior});
+        result.scales.push_back(
+            {scale.instrument, coefficient.value, coefficient.standard_error.value(), scale.prior});
     }
     set_rows(result, network, choice.accepted, options.priors);
     if (options.network.fits_admittance)

@@ -235,14 +235,14 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<reading
         if (!in_use[i]) continue;
         const reading::SurveyRow& row = rows[i];
         const std::size_t station = readings.station_of[network.reading_count++];
-        auto line =
-            add_row(system, network, fmt::format("{} ({})", row.site, row.occupation),
-                    sd_mgal_of(row, priors), (row.acceleration - network.origin - row.tide).value());
+        auto line = add_row(system, network, fmt::format("{} ({})", row.site, row.occupation),
+                            sd_mgal_of(row, priors),
+                            (row.acceleration - network.origin - row.tide).value());
         const NetworkScale& scale = *scale_of(network, row);
         line(static_cast<Eigen::Index>(station)) = scale.linearised;
         line.tail(term_count) = network.term_columns.row(static_cast<Eigen::Index>(i));
-        system.y(system.y.size() - 1) += line(station_count + static_cast<Eigen::Index>(scale.term)) *
-                                         (scale.linearised - 1.0);
+        system.y(system.y.size() - 1) +=
+            line(station_count + static_cast<Eigen::Index>(scale.term)) * (scale.linearised - 1.0);
     }
     for (std::size_t k = 0; k < network.stations.size(); ++k) {
         if (!is_held[k]) continue;

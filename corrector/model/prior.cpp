@@ -16,8 +16,8 @@ std::string allowed_range(std::string_view name) {
     if (name == kScale)
         return fmt::format("mean from {} to {}, sd from {} to {}",
                            text::shortest(1.0 - kGreatestScaleError),
-                           text::shortest(1.0 + kGreatestScaleError),
-                           text::shortest(kLeastPriorSd), text::shortest(kGreatestScaleError));
+                           text::shortest(1.0 + kGreatestScaleError), text::shortest(kLeastPriorSd),
+                           text::shortest(kGreatestScaleError));
     return fmt::format("mean from -{0} to {0}, sd from {1} to {0}", text::shortest(kGreatestPrior),
                        text::shortest(kLeastPriorSd));
 }

@@ -20,6 +20,7 @@
 #include <string_view>
 
 #include "protocol/text/strict_toml.hpp"
+#include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector::model {
 
@@ -44,9 +45,8 @@ inline constexpr std::string_view kScale = "scale";
 inline constexpr std::array<std::string_view, 4> kPriorNames{
     "temperature_mgal_per_degc", "rate_mgal_per_degc_per_h", "time_mgal_per_h", kScale};
 
-/// Prior of the sensor's scale factor.  Its deviation is an assumption: no unit was calibrated, and
-/// the data sheet gives none for a small range.
-inline constexpr Prior kSensorScale{1.0, 2e-3};
+/// Prior of the sensor's scale factor.
+inline constexpr Prior kSensorScale{1.0, unit::kUsualScaleDeviation};
 /// Prior of a spring gravimeter's scale factor.  Reason: calibration lines give it to about 1e-4.
 inline constexpr Prior kGravimeterScale{1.0, 1e-4};
 /// Greatest difference of a scale's mean from 1, and its greatest standard deviation.  Reason: beyond

@@ -47,6 +47,7 @@ std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit) {
     for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
         list.push_back({std::string(whole_day::kDayTermNames.at(k)), fit.coefficients.at(k).value,
                         fit.coefficients.at(k).standard_error});
+    list.back().value += 1.0;  // the scale is the last term
     for (std::size_t k = 0; k < fit.steps_mgal.size(); ++k)
         list.push_back({fmt::format("step_{}_mgal", k + 1), fit.steps_mgal[k].value,
                         fit.steps_mgal[k].standard_error});
@@ -101,6 +102,7 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
     out.drift_correction =
         -(effect(whole_day::DayTerm::drift) + effect(whole_day::DayTerm::warm_up));
     out.tilt_correction = -(effect(whole_day::DayTerm::x) + effect(whole_day::DayTerm::y));
+    out.scale_correction = -effect(whole_day::DayTerm::scale);
     out.corrected = set_up.corrected;
     auto& own =
         out.own.emplace<WholeDayRow>(WholeDayRow{.averaged_s = duration_s(averaged),
@@ -222,9 +224,8 @@ std::optional<std::string> refusal_of(const SurveyProblem& problem, const RowCho
 
 std::optional<Score> score_day(const SurveyProblem& problem, const RowChoice& choice) {
     if (refusal_of(problem, choice)) return std::nullopt;
-    return score_of(
-        problem.rows, choice.in_use,
-        fit_with_and_without(problem, choice, day_priors_of(problem.options.calibration)));
+    return score_of(problem.rows, choice.in_use,
+                    fit_with_and_without(problem, choice, day_priors_of(problem.options)));
 }
 
 FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
@@ -232,7 +233,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     const std::vector<reading::SurveyRow>& rows = problem.rows;
     const SurveyOptions& options = problem.options;
     const reading::DayRecord& day = *problem.day;
-    const whole_day::DayPriors priors = day_priors_of(options.calibration);
+    const whole_day::DayPriors priors = day_priors_of(options);
     const DayFits fits = fit_with_and_without(problem, choice, priors);
     Fit result;
     WholeDayPart part;
@@ -245,9 +246,18 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
         averaged[bin.set_up].insert(averaged[bin.set_up].end(), bin.times.begin(), bin.times.end());
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
     result.coefficients = coefficients_of(fits.all.fit);
+    const auto place = whole_day::DayPriors::place_of(whole_day::DayTerm::scale);
+    const whole_day::Estimate& scale =
+        fits.all.fit.coefficients.at(static_cast<std::size_t>(whole_day::DayTerm::scale));
+    result.scales.push_back({"",
+                             1.0 + scale.value,
+                             scale.standard_error,
+                             {1.0 + priors.mean(place), priors.factor.row(place).norm()}});
     set_day_stations(result, problem, choice, fits, priors);
     if (options.calibration) {
-        const DayFits usual = fit_with_and_without(problem, choice, whole_day::usual_day_priors());
+        SurveyOptions without = options;
+        without.calibration.reset();
+        const DayFits usual = fit_with_and_without(problem, choice, day_priors_of(without));
         report_prior_use(result, *options.calibration, fits.all.fit, usual.all.fit,
                          score_of(rows, choice.in_use, usual).loso_mgal);
     }
@@ -268,7 +278,7 @@ std::optional<Noise> noise_of_day(const ChosenSurvey& survey, const Noise* nearb
     if (refusal_of(survey.problem, survey.choice)) return std::nullopt;
     return whole_day::fit_day(*survey.problem.day, stations_of(survey.problem, survey.choice),
                               nearby != nullptr ? &std::get<whole_day::DayFit>(*nearby) : nullptr,
-                              day_priors_of(survey.problem.options.calibration));
+                              day_priors_of(survey.problem.options));
 }
 
 std::optional<residual::Residuals> residuals_of_day(const ChosenSurvey& survey,
@@ -276,7 +286,7 @@ std::optional<residual::Residuals> residuals_of_day(const ChosenSurvey& survey,
     if (refusal_of(survey.problem, survey.choice)) return std::nullopt;
     return whole_day::set_up_residuals(
         *survey.problem.day, stations_of(survey.problem, survey.choice),
-        std::get<whole_day::DayFit>(noise), day_priors_of(survey.problem.options.calibration));
+        std::get<whole_day::DayFit>(noise), day_priors_of(survey.problem.options));
 }
 
 }  // namespace

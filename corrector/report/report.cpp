@@ -16,11 +16,11 @@ using text::tr;
 
 /// The figures of a survey by their places in the page.
 struct SurveyFigures {
-    std::vector<figure::Figure> day, map, publication, records;
+    std::vector<figure::Figure> day, map, side_by_side, publication, records;
 
     [[nodiscard]] std::vector<figure::Figure> all() const {
         std::vector<figure::Figure> figures;
-        for (const auto* const part : {&day, &map, &publication, &records})
+        for (const auto* const part : {&day, &map, &side_by_side, &publication, &records})
             figures.insert(figures.end(), part->begin(), part->end());
         return figures;
     }
@@ -32,6 +32,7 @@ SurveyFigures figures_of(const model::SurveyCorrection& result, const ReportSour
     SurveyFigures figures;
     figures.day = {figure::day_figure(result, records, sources.temperature_course)};
     if (const auto map = figure::map_figure(result, sources.sites)) figures.map = {*map};
+    if (const auto figure = figure::side_by_side_figure(result)) figures.side_by_side = {*figure};
     for (const auto& figure : {figure::corrected_figure(result), figure::difference_figure(result),
                                figure::acceleration_figure(result)})
         if (figure) figures.publication.push_back(*figure);
@@ -65,6 +66,11 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
     const pugi::xml_node accuracy = page.add_section(tr("Accuracy"));
     add_accuracy(accuracy, result);
     add_budget(accuracy, result);
+    if (result.side_by_side) {
+        const pugi::xml_node section = page.add_section("Side by side");
+        add_side_by_side(section, result);
+        add_figures(section, figures.side_by_side, drawing);
+    }
     add_readings(page.add_section(tr("Readings")), result);
     add_corrections(page.add_section(tr("Corrections")), result);
     add_closures(page.add_section(tr("Repeated stations")), result);

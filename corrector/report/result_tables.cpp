@@ -10,6 +10,7 @@
 #include "corrector/grade/reading_name.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/columns.hpp"
+#include "corrector/result/side_by_side_report.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/input_file.hpp"
@@ -184,6 +185,16 @@ void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& resul
            number(constant)) +
             (is_day ? tr(" °C/h is the rate that the model's fast term uses.") : ""),
         table);
+}
+
+void add_side_by_side(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    for (const std::string& sentence : result::side_by_side_sentences(result))
+        add(parent, "p", sentence);
+    add_table(
+        parent,
+        "Gravity by the sensor and by the reference gravimeter. Ours: with the reference of the "
+        "station hidden (cross-validated).",
+        result::table_of(result::side_by_side_columns(), result.side_by_side->stations));
 }
 
 void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) {

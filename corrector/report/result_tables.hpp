@@ -24,6 +24,10 @@ void add_stations(pugi::xml_node parent, const model::SurveyCorrection& result);
 /// Adds the sources of the stations' uncertainties; nothing unless `day` is applied.
 void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result);
 
+/// Adds the comparison with reference gravimeters.
+/// @param result  with `side_by_side`.
+void add_side_by_side(pugi::xml_node parent, const model::SurveyCorrection& result);
+
 /// Adds the table of all readings with their errors and grades.  The columns are those of the model.
 /// Occupations without a value have a row too.
 ///

@@ -190,16 +190,13 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
                           [](Row row) { return cell(row.row.pressure_correction); },
                           {"Pressure corr.", 4}}});
     if (first.scale_correction)
-        columns.push_back({"scale_correction_mgal",
-                           of(&model::CorrectedRow::scale_correction),
-                           {"Scale corr."}});
+        columns.push_back(
+            {"scale_correction_mgal", of(&model::CorrectedRow::scale_correction), {"Scale corr."}});
     if (!first.row.instrument.empty())
-        append(columns, {{"instrument",
-                          [](Row row) { return row.row.instrument; },
-                          {"Instrument", 0, 'n'}},
-                         {"loop",
-                          [](Row row) { return static_cast<std::int64_t>(row.row.loop); },
-                          {"Loop"}}});
+        append(
+            columns,
+            {{"instrument", [](Row row) { return row.row.instrument; }, {"Instrument", 0, 'n'}},
+             {"loop", [](Row row) { return static_cast<std::int64_t>(row.row.loop); }, {"Loop"}}});
     if (first.row.record) append(columns, columns_of_records());
     if (first.as<model::WholeDayRow>() != nullptr)
         append(columns, columns_of_day());
@@ -238,6 +235,7 @@ std::vector<Column<model::StationValue>> station_columns(
         part_column("u_thermal_mgal", "Thermal", whole_day::ErrorSource::thermal),
         part_column("u_drift_mgal", "Drift", whole_day::ErrorSource::drift),
         part_column("u_datum_mgal", "Datum", whole_day::ErrorSource::datum),
+        part_column("u_scale_mgal", "Scale", whole_day::ErrorSource::scale),
     };
     if (std::ranges::any_of(stations, [](const auto& one) { return one.anomalies.has_value(); }))
         for (auto& column :

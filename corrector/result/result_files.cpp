@@ -12,6 +12,7 @@
 #include "corrector/result/export_files.hpp"
 #include "corrector/result/network_report.hpp"
 #include "corrector/result/scale_report.hpp"
+#include "corrector/result/side_by_side_report.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -135,7 +136,8 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
         json["coefficients"].push_back(
             {{"name", c.name}, {"value", c.value}, {"standard_error", json_of(c.standard_error)}});
     }
-    json["scales"] = scales_json(result);
+    json["scales"] = scales_json(result.scales);
+    json["side_by_side"] = side_by_side_json(result);
     json["in_sample"] = {{"n", result.score.row_count},
                          {"rms_mgal", json_of(result.score.rms_mgal)},
                          {"s_mgal", json_of(result.score.s_mgal)},

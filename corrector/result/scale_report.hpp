@@ -16,6 +16,6 @@ namespace a351::corrector::result {
 
 /// Returns an array of the scales with these keys: instrument (null for the sensor), value, u,
 /// limits_95, prior (mean, sd), prior_share.
-[[nodiscard]] nlohmann::ordered_json scales_json(const model::SurveyCorrection& result);
+[[nodiscard]] nlohmann::ordered_json scales_json(const std::vector<model::ScaleEstimate>& scales);
 
 }  // namespace a351::corrector::result

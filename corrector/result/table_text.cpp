@@ -9,6 +9,7 @@
 #include "corrector/result/columns.hpp"
 #include "corrector/result/network_report.hpp"
 #include "corrector/result/scale_report.hpp"
+#include "corrector/result/side_by_side_report.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::result {
@@ -162,7 +163,7 @@ Table budget_table(const model::SurveyCorrection& result) {
     return table_of(with_keys(station_columns(stations),
                               {"site", "u_placement_mgal", "u_flicker_mgal", "u_white_mgal",
                                "u_levelling_mgal", "u_thermal_mgal", "u_drift_mgal", "u_datum_mgal",
-                               "u_gravity_mgal", "expanded_u_mgal"}),
+                               "u_scale_mgal", "u_gravity_mgal", "expanded_u_mgal"}),
                     stations);
 }
 
@@ -180,6 +181,7 @@ std::string survey_text(const model::SurveyCorrection& result) {
                        summary_text(result) + coefficients_text(result) + network_text(result) +
                        weights_text(result) + model::doubts_text(result);
     for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
+    for (const std::string& sentence : side_by_side_sentences(result)) text += sentence + '\n';
     for (const std::string& remark : result.remarks) text += remark + '\n';
     return text;
 }

@@ -6,6 +6,7 @@
 #include "corrector/whole_day/day_problem.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
+#include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector::whole_day {
 namespace {
@@ -31,6 +32,8 @@ ErrorSource source_of(const DayProblem& problem, Index k) {
         case DayTerm::x:
         case DayTerm::y:
             return ErrorSource::levelling;
+        case DayTerm::scale:
+            return ErrorSource::scale;
         default:
             return ErrorSource::thermal;
     }
@@ -52,7 +55,7 @@ void set_gravities(const DayProblem& problem, const reading::DayRecord& record,
         gravity.value = problem.base_mgal()[number];
         const Index place = problem.place_of(number);
         if (place < 0) continue;
-        gravity.value += estimates.values(place);
+        gravity.value += estimates.values(place) / problem.scale(estimates.values);
         gravity.standard_error = estimates.standard_errors(place);
         const Eigen::VectorXd s = unscaling(place, place) * covariance.col(place);
         std::array<double, kErrorSources> squares{};
@@ -200,6 +203,10 @@ DayFit fit_at(const DayProblem& problem, const reading::DayRecord& record,
             MilliGal(problem.base_mgal()[station.number]) + set_up.reading + set_up.tide;
         set_up.corrected = MilliGal(fit.gravity_mgal[station.number].value +
                                     estimates.placement_mgal(static_cast<Index>(s)));
+        // The column of the scale has the rough gravity.
+        set_up.effect_mgal.at(static_cast<std::size_t>(DayTerm::scale)) +=
+            (problem.scale(estimates.values) - 1.0) *
+            (fit.gravity_mgal[station.number].value - problem.base_mgal()[station.number]);
         double effects = 0.0;
         for (const double effect : set_up.effect_mgal) effects += effect;
         set_up.flicker = set_up.reading - set_up.tide - MilliGal(effects) - set_up.corrected;
@@ -236,6 +243,14 @@ void DayPriors::free_axes() {
     bias_factor = 1.0;
 }
 
+void DayPriors::set_scale(double value, double deviation) {
+    const Index place = place_of(DayTerm::scale);
+    mean(place) = value - 1.0;
+    factor.row(place).setZero();
+    factor.col(place).setZero();
+    factor(place, place) = deviation;
+}
+
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 DayPriors usual_day_priors() {
     constexpr double kDrift_mgal_per_h = 1.0, kBias_mgal_per_g = 300.0, kBiasFactor = 3.0;
@@ -246,11 +261,11 @@ DayPriors usual_day_priors() {
                              fast = unit::day_prior(unit::ThermalTerm::fast);
     DayPriors priors;
     priors.mean << fast_lag.mean, slow_lag.mean, 0.0, level.mean, slow.mean, fast.mean, 0.0, 0.0,
-        0.0, 0.0;
+        0.0, 0.0, 0.0;
     DayPriors::Vector deviations;
     deviations << fast_lag.deviation, slow_lag.deviation, kFreeGravity_mgal, level.deviation,
         slow.deviation, fast.deviation, kDrift_mgal_per_h, unit::kTypicalUnit.warm_up_mgal,
-        kBias_mgal_per_g, kBias_mgal_per_g;
+        kBias_mgal_per_g, kBias_mgal_per_g, unit::kUsualScaleDeviation;
     priors.factor = deviations.asDiagonal();
     priors.bias_factor = kBiasFactor;
     return priors;
@@ -272,8 +287,13 @@ std::optional<DayFit> fit_planned_day(reading::DayRecord& record,
                                       const std::vector<DayStation>& stations,
                                       const DayNoise& noise, const DayPriors& priors) {
     if (!is_any_held(record, stations)) return std::nullopt;
+    // Nobody knows where the unknown stations are: the scale then has no part in them.
+    const MilliGal usual =
+        *std::ranges::find_if(stations, [](const DayStation& station) {
+             return station.gravity.has_value();
+         })->gravity;
     for (reading::DayBin& bin : record.bins)
-        bin.reading = bin.tide + stations[bin.set_up].gravity.value_or(MilliGal{});
+        bin.reading = bin.tide + stations[bin.set_up].gravity.value_or(usual);
     const DayProblem bare(record, stations, priors);
     const Eigen::VectorXd effects =
         bare.design({}) * bare.unscaled({}, Eigen::VectorXd::Zero(bare.estimated()));

@@ -4,8 +4,8 @@
 /// reading.
 ///
 ///     reading = g + tide + c + rA (T - T0) + rF (T - lag(T, tF)) / tF + rS (lag(T, tS) - T0)
-///               + d (t - t0) + w exp(-t / 2.5 h) + bx x + by y + steps + placement + flicker
-///               + white
+///               + d (t - t0) + w exp(-t / 2.5 h) + bx x + by y + k (g - g0) + steps + placement
+///               + flicker + white
 ///
 /// Readings are in mGal, T in degC, rF in mGal/(degC/h), t in h, lags tF and tS in s, x and y in g.
 /// A reading is the mean of a bin, and so are T, lag(T, tau), x and y.
@@ -16,6 +16,7 @@
 ///   equilibrium at the start of the record.
 /// - w: warm-up after power-on, which the thermometer does not see.
 /// - steps: an unknown offset from each step on (DayStation::steps).
+/// - k: scale factor minus 1; g0 is the gravity of the first set-up that is held.
 /// - bx, by: biases of the horizontal axes, which a tilt turns into the norm.
 /// - placement, flicker, white: noise (day_noise.hpp).
 ///
@@ -49,17 +50,17 @@
 
 namespace a351::corrector::whole_day {
 
-/// Terms of the model: c, rA, rS, rF, d, w, bx, by.
+/// Terms of the model: c, rA, rS, rF, d, w, bx, by, k.
 ///
 /// - constant: c, mGal; level: rA and slow: rS, mGal/degC; fast: rF, mGal/(degC/h).
 /// - drift: d, mGal/h; warm_up: w, mGal at the first sample of the temperature.
-/// - x: bx and y: by, mGal/g.
+/// - x: bx and y: by, mGal/g; scale: k, without a unit.
 ///
 /// The values are indices from 0, for example in DayFit::coefficients.
-enum class DayTerm { constant, level, slow, fast, drift, warm_up, x, y };
+enum class DayTerm { constant, level, slow, fast, drift, warm_up, x, y, scale };
 /// Number of terms.
-inline constexpr std::size_t kDayTerms = 8;
-/// Names of the terms with their units, as in result.json.
+inline constexpr std::size_t kDayTerms = 9;
+/// Names of the terms with their units, as in result.json, where `scale` is 1 + k.
 inline constexpr std::array<std::string_view, kDayTerms> kDayTermNames{
     "constant_mgal",
     unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::level)],
@@ -68,7 +69,8 @@ inline constexpr std::array<std::string_view, kDayTerms> kDayTermNames{
     "time_mgal_per_h",
     "warm_up_mgal",
     "x_mgal_per_g",
-    "y_mgal_per_g"};
+    "y_mgal_per_g",
+    "scale"};
 
 /// Number of lags: fast tF, slow tS.  In DayPriors they are before the terms.
 inline constexpr std::size_t kDayLags = 2;
@@ -98,6 +100,10 @@ struct DayPriors {
     /// Gives bx and by independent deviations of 2000 mGal/g, the limit of the data sheet, whatever
     /// the day says about their size.  Call it before observe() of an axis.
     void free_axes();
+
+    /// Gives the scale factor a prior that is independent of the others.
+    /// @param value, deviation  of the scale, not of k.
+    void set_scale(double value, double deviation);
 
     /// Combines the prior with an independent measurement of some of its quantities (Kalman
     /// update).
@@ -149,9 +155,10 @@ struct Estimate {
 /// - thermal: both lags, rA, rS, rF and what gaps of the temperature left in the instrument.
 /// - drift: d and w.
 /// - datum: the references that are held.
-enum class ErrorSource { placement, flicker, white, levelling, thermal, drift, datum };
+/// - scale: k.
+enum class ErrorSource { placement, flicker, white, levelling, thermal, drift, datum, scale };
 /// Number of sources.
-inline constexpr std::size_t kErrorSources = 7;
+inline constexpr std::size_t kErrorSources = 8;
 /// Number of the unit's parameters in GravityEstimate::shared_mgal.
 inline constexpr std::size_t kSharedErrors = 7;
 
@@ -221,6 +228,7 @@ struct DayFit {
 ///
 /// Usual priors, mean and standard deviation:
 /// - rA -12, 7.2 mGal/degC; rS -20, 12 mGal/degC; rF 11.3, 6.8 mGal/(degC/h)
+/// - k 0, 0.002
 /// - d 0, 1 mGal/h; w 0, 36 mGal; c, unknowns and steps free (0, 1e4 mGal)
 ///
 /// Log-normal priors, median and factor: lags 43 s and 2700 s, 1.5; placement, if it was not measured,
@@ -252,14 +260,15 @@ struct DayFit {
 
 /// Returns the fit to be expected of a day that is only planned, with a noise that is known.
 ///
-/// The readings of the record are replaced by those that the priors' means give without noise.  Lags
+/// The readings of the record are replaced by those that the priors' means give without noise.  An
+/// unknown station has the gravity of the first that is held, so that the scale has no part in it.  Lags
 /// and size of the axis biases are the medians of the priors.  Values are the priors' means; the
 /// standard errors and their sources are those of a day with this noise.  noise_log_errors is absent.
 ///
 /// Accuracy (day_model_test.cpp): if priors and noise are those that a day has found, the standard
 /// errors agree with those of its fit within 0.1 %.
 /// @param record  planned bins with their times and tilts; the readings are set.
-/// @param stations, priors  as fit_day(); a value of gravity that is held does not matter.
+/// @param stations, priors  as fit_day(); a value of gravity that is held matters for the scale only.
 /// @param noise   each part > 0.
 /// @return std::nullopt if no set-up that is held has a bin.
 [[nodiscard]] std::optional<DayFit> fit_planned_day(reading::DayRecord& record,

@@ -126,8 +126,13 @@ void DayProblem::set_fixed_columns() {
     const UtcTime begin = record_.temperature.series.start();
     const UtcTime middle =
         record_.bins.front().time + (record_.bins.back().time - record_.bins.front().time) / 2;
+    const auto first_held = std::ranges::find_if(record_.bins, [this](const reading::DayBin& bin) {
+        return is_held_[stations_[bin.set_up].number];
+    });
+    const double zero_mgal = base_mgal_[stations_[first_held->set_up].number];
     for (Index i = 0; i < count; ++i) {
         const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
+        column(DayTerm::scale)(i) = base_mgal_[stations_[bin.set_up].number] - zero_mgal;
         column(DayTerm::drift)(i) = seconds_between(middle, bin.time) / kSecondsPerHour;
         column(DayTerm::warm_up)(i) = std::exp(-seconds_between(begin, bin.time) / kSecondsPerHour /
                                                unit::kTypicalUnit.warm_up_h);

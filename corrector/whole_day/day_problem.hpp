@@ -45,6 +45,9 @@ enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite, 
 /// the slow lag's state, mGal where the gap ends (lag_states.hpp).  A reference that is held with an
 /// uncertainty is one of the gravities, with that prior; an exact one is none.
 ///
+/// The scale's column has the rough gravity too.  Therefore the estimate of an unknown is the scale
+/// times its gravity minus the rough one.
+///
 /// An unknown counts from a rough gravity: the mean of its readings minus the mean constant of the
 /// set-ups that are held.  Therefore its prior, 0 +- 1e4 mGal, has practically no influence.
 ///
@@ -83,6 +86,12 @@ public:
     [[nodiscard]] Eigen::VectorXd unscaled(const Point& u, const Eigen::VectorXd& scaled) const;
     /// Returns the derivative of unscaled() (estimated, estimated + 2); the lags are last.
     [[nodiscard]] Eigen::MatrixXd unscaling(const Point& u) const;
+
+    /// Returns the scale factor.
+    /// @param values  (estimated) from unscaled().
+    [[nodiscard]] static double scale(const Eigen::VectorXd& values) {
+        return 1.0 + values(static_cast<Eigen::Index>(DayTerm::scale));
+    }
 
     /// Returns the noise at a point.  The median of white noise is the scatter between neighbouring
     /// bins of a set-up, at least 1e-3 mGal; 1 mGal if no set-up has two bins.

@@ -88,6 +88,20 @@ struct Placement {
     static constexpr double kNormal95 = 1.96;
 };
 
+/// Scale factor: change of the reading divided by that of gravity.
+///
+/// Range in a file: value 0.9 to 1.1, standard error 1e-6 to 0.1.
+struct Scale {
+    double value = 1.0;
+    double standard_error = 0.0;
+
+    bool operator==(const Scale&) const = default;
+};
+
+/// Standard deviation of the scale of a unit that nobody has calibrated, about 1.  It is an
+/// assumption: the data sheet gives none for a small range.
+inline constexpr double kUsualScaleDeviation = 2e-3;
+
 /// Time to wait after power-on: from then on the reading, corrected for temperature, is within
 /// `within_mgal` of its final value, with 95 % confidence.
 struct WarmUpGuidance {
@@ -107,7 +121,7 @@ struct CalibrationData {
 
 /// Calibration of one unit.
 ///
-/// A file has at least one of axis_bias, thermal, warm_up and placement.  A default-constructed object is not
+/// A file has at least one of axis_bias, thermal, warm_up, placement and scale.  A default-constructed object is not
 /// a valid calibration: to_toml() writes it, but parse_calibration() refuses the text.
 struct Calibration {
     std::string serial_number;  ///< Serial number of the unit; not empty.
@@ -119,6 +133,7 @@ struct Calibration {
     std::optional<ThermalResponse> thermal;  ///< Absent: not measured.
     std::optional<WarmUpGuidance> warm_up;   ///< Absent: not measured.
     std::optional<Placement> placement;      ///< Absent: not measured.
+    std::optional<Scale> scale;              ///< Absent: not measured.
 
     bool operator==(const Calibration&) const = default;
 };

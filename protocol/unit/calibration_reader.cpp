@@ -115,6 +115,18 @@ std::optional<Placement> placement_of(text::TomlTable& document) {
     return Placement{mgal, limits[0], limits[1]};
 }
 
+std::optional<Scale> scale_of(text::TomlTable& document) {
+    constexpr double kGreatestError = 0.1, kLeastDeviation = 1e-6;
+    if (!document.has("scale")) return std::nullopt;
+    text::TomlTable table = document.table("scale");
+    const double value =
+        required_number(table, "value", 1.0 - kGreatestError, 1.0 + kGreatestError);
+    const double error =
+        required_number(table, "standard_error", kLeastDeviation, kGreatestError);
+    table.require_all_read();
+    return Scale{value, error};
+}
+
 std::vector<CalibrationData> data_of(text::TomlTable& document) {
     constexpr std::size_t kDigits = 64;
     std::vector<CalibrationData> list;
@@ -155,11 +167,12 @@ Calibration parse_calibration(std::string_view text, std::filesystem::path origi
         table.require_all_read();
     }
     calibration.placement = placement_of(document);
+    calibration.scale = scale_of(document);
     document.require_all_read();
     if (!calibration.axis_bias && !calibration.thermal && !calibration.warm_up &&
-        !calibration.placement)
-        document.refuse("axis_bias", "missing, and so are thermal, warm_up and placement",
-                        "at least one of axis_bias, thermal, warm_up or placement");
+        !calibration.placement && !calibration.scale)
+        document.refuse("axis_bias", "missing, and so are thermal, warm_up, placement and scale",
+                        "at least one of axis_bias, thermal, warm_up, placement or scale");
     return calibration;
 }
 

@@ -53,6 +53,9 @@ std::string to_toml(const Calibration& calibration) {
                 fmt::format("limits_mgal = [{}, {}]\n", text::shortest(placement.low_mgal),
                             text::shortest(placement.high_mgal));
     }
+    if (calibration.scale)
+        text += "\n[scale]\n" + number_line("value", calibration.scale->value) +
+                number_line("standard_error", calibration.scale->standard_error);
     for (const CalibrationData& data : calibration.data)
         text += fmt::format("\n[[data]]\nname = {}\nsha256 = {}\n", text::toml_string(data.name),
                             text::toml_string(data.sha256));

@@ -80,6 +80,7 @@ struct CoolBoxParameters {
 
 struct SensorParameters {
     double bias_mgal = 0.0;                 ///< Along the vertical.
+    double scale = 1.0;  ///< Change of the reading divided by that of gravity; exact at 980665 mGal.
     double horizontal_bias_max_mgal = 0.0;  ///< x and y, drawn uniformly within +- this for a unit.
     double levelling_sigma_deg = 0.0;       ///< Two angles, drawn for each set-up.
     double white_mgal = 0.0;                ///< Rms per axis and sample.

@@ -146,6 +146,7 @@ void read_error(Section& s, plant::TemperatureErrorParameters& p, double& unit_s
 
 void read_sensor(Section& s, SensorParameters& p, double run_in_h) {
     s.number("bias_mgal", p.bias_mgal, -1e5, 1e5);
+    s.number("scale", p.scale, 0.9, 1.1);
     s.number("horizontal_bias_max_mgal", p.horizontal_bias_max_mgal, 0.0, 1e5);
     s.number("levelling_sigma_deg", p.levelling_sigma_deg, 0.0, 10.0);
     s.number("white_mgal", p.white_mgal, 0.0, 1e5);

@@ -17,7 +17,8 @@ using Vector = std::array<double, 3>;
 
 constexpr std::array<const char*, kTermCount> kTermColumns = {
     "tide_mgal",      "bias_mgal",    "static_mgal",   "dynamic_mgal", "clock_mgal", "warm_up_mgal",
-    "placement_mgal", "flicker_mgal", "resonant_mgal", "white_mgal",   "drift_mgal", "ripple_mgal"};
+    "placement_mgal", "flicker_mgal", "resonant_mgal", "white_mgal",   "drift_mgal", "ripple_mgal",
+    "scale_mgal"};
 
 /// Rounds a mean to 1e-5, the resolution of the table.
 double rounded(double value) {

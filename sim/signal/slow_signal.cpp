@@ -110,13 +110,15 @@ SlowValue SlowSignal::next() {
     term(Term::white) = scenario_.slow_noise.white_mgal * white_gain * white_.normal();
     term(Term::drift) = drift_mgal(elapsed_s / 3600.0) + set_up.step_mgal;
     term(Term::ripple) = ripple_mgal();
+    term(Term::scale) = (scenario_.sensor.scale - 1.0) *
+                        (site.gravity->value() + tide.value() - kMilliGalPerStandardGravity);
     value.along_z = MilliGal(scenario_.sensor.bias_mgal) + temperature_error +
                     MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +
                              term(Term::white) + term(Term::drift));
     value.vertical = *site.gravity + tide + MilliGal(scenario_.sensor.bias_mgal) +
                      temperature_error +
                      MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +
-                              term(Term::white) + term(Term::drift) + term(Term::ripple));
+                              term(Term::white) + term(Term::drift) + term(Term::ripple) + term(Term::scale));
     value.temperature =
         plant_.body() +
         DegC(scenario_.sensor.temperature_warm_up_degc *

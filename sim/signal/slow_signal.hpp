@@ -28,9 +28,10 @@ enum class Term : std::size_t {
     resonant,
     white,
     drift,
-    ripple
+    ripple,
+    scale
 };
-inline constexpr std::size_t kTermCount = 12;
+inline constexpr std::size_t kTermCount = 13;
 
 /// The slow signals at one instant.
 struct SlowValue {

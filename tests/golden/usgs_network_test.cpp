@@ -193,9 +193,8 @@ TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u 
             model::adjust_network(rows, std::vector<bool>(rows.size(), true), {"rg37"}, priors, {})
                 .adjustment.value();
         const auto at = std::ranges::find(network.stations, "rg57") - network.stations.begin();
-        const HoldOut end{
-            (network.origin + MilliGal(network.unknowns(at))).value() - reference,
-            std::sqrt(network.covariance(at, at))};
+        const HoldOut end{(network.origin + MilliGal(network.unknowns(at))).value() - reference,
+                          std::sqrt(network.covariance(at, at))};
         std::cout << fmt::format("far end off by {:+.4f} mGal, u {:.4f}\n", end.error_mgal,
                                  end.u_mgal);
         return end;

@@ -31,6 +31,27 @@ struct Desk {
 
 }  // namespace
 
+TEST_CASE("a survey file names the readings of a reference gravimeter", "[survey][survey_file]") {
+    const Desk desk;
+    desk.folder.write("meter.csv", "");
+    const SurveyFile survey = desk.read(
+        "[survey]\n[reference]\nobservations = \"meter.csv\"\nreading_sd_mgal = 0.02\n"
+        "drift_degree = 2\nscale = [1.001, 1e-5]\n");
+    REQUIRE(survey.reference);
+    CHECK(survey.reference->observations == desk.folder.path() / "meter.csv");
+    CHECK(survey.reference->priors.reading_sd_mgal == 0.02);
+    CHECK(survey.reference->network.drift_degree == 2);
+    CHECK(survey.reference->priors.scale_of("B44").mean == 1.001);
+    CHECK_FALSE(desk.read("[survey]\n").reference);
+    for (const std::string refused :
+         {"", "observations = \"no.csv\"\n", "observations = \"meter.csv\"\nscale = [1]\n",
+          "observations = \"meter.csv\"\nscale = [1.5, 0.01]\n",
+          "observations = \"meter.csv\"\nother = 1\n"}) {
+        INFO(refused);
+        CHECK_THROWS_AS(desk.read("[survey]\n[reference]\n" + refused), InputError);
+    }
+}
+
 TEST_CASE("an empty survey file has the documented defaults", "[survey][survey_file]") {
     const Desk desk;
     const SurveyFile survey = desk.read("[survey]\n");
@@ -123,7 +144,7 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\nname=''\n", "survey.name"},
         {"[survey]\nreading_sd_mgal=0\n", "survey.reading_sd_mgal = 0"},
         {"[survey]\n[prior]\nbeta=[1,2]\n",
-         ":3: prior.beta = [ 1, 2 ]: unknown key; allowed: rate_mgal_per_degc_per_h, temperature_"},
+         ":3: prior.beta = [ 1, 2 ]: unknown key; allowed: rate_mgal_per_degc_per_h, scale, "},
         {"[survey]\n[prior]\ntime_mgal_per_h=[0]\n", "1 numbers; allowed: [mean, sd]"},
         {"[survey]\n[prior]\ntime_mgal_per_h=[0,0]\n", "out of range; allowed: mean from -"},
         {"[survey]\n[prior]\ntime_mgal_per_h=1\n", "prior.time_mgal_per_h = 1: wrong type"},

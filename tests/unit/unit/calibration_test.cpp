@@ -28,6 +28,7 @@ Calibration whole() {
     calibration.thermal->covariance(3, 1) = calibration.thermal->covariance(1, 3) = 0.07;
     calibration.warm_up = WarmUpGuidance{0.5, 7.25};
     calibration.placement = Placement{1.1, 0.8, 1.0 / 0.7};
+    calibration.scale = Scale{1.0 + 1.0 / 300.0, 1.0 / 7000.0};
     return calibration;
 }
 
@@ -85,6 +86,7 @@ TEST_CASE("invalid values in a calibration are refused with file, line and key",
         {std::string(64, 'a'), "abc", "64 lower-case hexadecimal digits"},
         {"[warm_up]", "[warmth]", "warmth: unknown key"},
         {"limits_mgal = [0.8", "limits_mgal = [1.2", "placement.limits_mgal"},
+        {"[scale]\nvalue = 1.0", "[scale]\nvalue = 1.2", "scale.value"},
         {"limits_mgal = [0.8, ", "limits_mgal = [", "two numbers, one below and one above it"},
         {"deviation_mgal = 1.1", "deviation_mgal = 0", "standard_deviation_mgal = 0: out of range"},
         {"standard_deviation_mgal", "sd_mgal", "standard_deviation_mgal: missing"},
@@ -95,7 +97,7 @@ TEST_CASE("invalid values in a calibration are refused with file, line and key",
     }
     CHECK_THAT(refusal_of("format = 1\nserial_number = '1'\nprogram = 'p'\n"
                           "valid_from_utc = '2026-01-01T00:00:00Z'\n"),
-               ContainsSubstring("axis_bias, thermal, warm_up or placement"));
+               ContainsSubstring("axis_bias, thermal, warm_up, placement or scale"));
 }
 
 TEST_CASE("SHA-256 of a file agrees with the example of the standard", "[calibration]") {

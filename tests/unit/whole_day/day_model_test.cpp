@@ -1,5 +1,7 @@
 #include "corrector/whole_day/day_model.hpp"
 
+#include <cstdio>
+
 #include "tests/support/catch.hpp"
 
 #include "corrector/whole_day/unit_posterior.hpp"
@@ -104,7 +106,8 @@ TEST_CASE("a planned day has the uncertainties of a measured one of the same uni
     for (const std::size_t s : {3U, 9U}) stations[s].gravity.reset();
     stations[14].gravity.reset();  // at the site of set-up 3
     const DayRecord measured = MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record();
-    const DayPriors usual = usual_day_priors();
+    DayPriors usual = usual_day_priors();
+    usual.set_scale(1.0, 1e-6);  // the plan does not know where the unknown stations are
     const DayFit fit = fit_day(measured, stations, nullptr, usual).value();
 
     // The plan knows what the day has found: the means of the priors and the size of the biases.
@@ -130,6 +133,36 @@ TEST_CASE("a planned day has the uncertainties of a measured one of the same uni
     for (std::size_t k = 0; k < kDayTerms; ++k)
         CHECK(planned.coefficients.at(k).value ==
               Approx(priors.mean(DayPriors::place_of(static_cast<DayTerm>(k)))).margin(1e-3));
+}
+
+TEST_CASE("a day finds the scale of its sensor, and the unknown stations with it", "[day]") {
+    DayRecord record = MadeUpDay{.white_mgal = 0.01}.record();
+    for (DayBin& bin : record.bins)
+        bin.reading =
+            bin.reading + MilliGal(0.02 * (MadeUpDay::gravity_mgal(bin.set_up) - 979900.0));
+    auto stations = MadeUpDay::stations();
+    for (const std::size_t s : {3U, 14U}) stations[s].gravity.reset();  // one site
+    DayPriors priors = usual_day_priors();
+    priors.set_scale(1.0, 0.05);
+    const DayFit fit = fit_day(record, stations, nullptr, priors).value();
+    const Estimate& scale = fit.coefficients.at(static_cast<std::size_t>(DayTerm::scale));
+    std::printf("scale %.6f +- %.6f, unknown station off by %.4f mGal\n", 1.0 + scale.value,
+                scale.standard_error, fit.gravity_mgal[3].value - MadeUpDay::gravity_mgal(3));
+    CHECK(std::abs(scale.value - 0.02) < 3.0 * scale.standard_error);
+    CHECK(scale.standard_error < 0.01);
+    CHECK(std::abs(fit.gravity_mgal[3].value - MadeUpDay::gravity_mgal(3)) <
+          3.0 * fit.gravity_mgal[3].standard_error);
+    double sum = 0.0;
+    const DaySetUp& set_up = fit.set_ups[3];
+    for (const double effect : set_up.effect_mgal) sum += effect;
+    CHECK((set_up.reading - set_up.tide - MilliGal(sum) - set_up.flicker - set_up.corrected)
+              .value() == Approx(0.0).margin(1e-9));
+
+    // A scale that is held at 1 moves the unknown station by the error that it hides.
+    priors.set_scale(1.0, 1e-6);
+    const DayFit held = fit_day(record, stations, nullptr, priors).value();
+    CHECK(held.gravity_mgal[3].parts_mgal.at(static_cast<std::size_t>(ErrorSource::scale)) < 1e-3);
+    CHECK(held.noise.placement_mgal > 2.0 * fit.noise.placement_mgal);
 }
 
 TEST_CASE("what a day has found of its unit is the prior of the next", "[day]") {

@@ -43,7 +43,7 @@ double sum_of(const text::CsvTable& table, std::size_t row) {
     for (const char* column :
          {"gravity_mgal", "tide_mgal", "bias_mgal", "static_mgal", "dynamic_mgal", "clock_mgal",
           "warm_up_mgal", "placement_mgal", "flicker_mgal", "resonant_mgal", "white_mgal",
-          "drift_mgal", "ripple_mgal", "tilt_mgal", "burst_mgal", "rectification_mgal"}) {
+          "drift_mgal", "ripple_mgal", "scale_mgal", "tilt_mgal", "burst_mgal", "rectification_mgal"}) {
         sum += table.number(row, column);
     }
     return sum;
@@ -103,6 +103,7 @@ TEST_CASE("each term of the truth agrees with its effect on the norm of the samp
         {"drift_mgal", "[slow_noise]\ndrift_linear_mgal_per_h = 5\n", 0.9},
         {"drift_mgal", "[slow_noise]\ndrift_links_mgal_per_h_per_degc = 30\n", 0.5},
         {"ripple_mgal", "[slow_noise]\nripple_mgal = 2\nripple_period_s = 5000\n", 0.05},
+        {"scale_mgal", "[sensor]\nscale = 1.01\n", 0.5},
         {"tilt_mgal", "[sensor]\nlevelling_sigma_deg = 2\nhorizontal_bias_max_mgal = 2000\n", 0.5},
         {"burst_mgal", "[vibration]\nvehicles_per_h = 60\nvehicle_hz = [0.1, 0.1]\n", 0.05},
         {"rectification_mgal",

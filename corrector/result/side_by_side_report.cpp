@@ -1,0 +1,74 @@
+#include "corrector/result/side_by_side_report.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corrector/result/scale_report.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::result {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> side_by_side_sentences(const model::SurveyCorrection& result) {
+    if (!result.side_by_side) return {};
+    const model::SideBySide& both = *result.side_by_side;
+    std::vector<std::string> instruments;
+    for (const model::ScaleEstimate& scale : both.scales) instruments.push_back(scale.instrument);
+    const std::string names = text::joined(instruments);
+    std::vector<std::string> sentences;
+    if (const auto scatter = both.scatter_mgal()) {
+        double squares = 0.0;
+        for (const model::ComparedStation& station : both.stations)
+            squares += std::pow(station.u_ours.value(), 2);
+        sentences.push_back(fmt::format(
+            "side by side with {}: at {} stations the sensor differs by {} mGal rms, each station "
+            "with its own reference hidden (cross-validated); its stated uncertainty is {} mGal "
+            "rms",
+            names, both.stations.size(), text::fixed(*scatter, 2),
+            text::fixed(std::sqrt(squares / static_cast<double>(both.stations.size())), 2)));
+    }
+    if (both.bias)
+        sentences.push_back(fmt::format("bias of the sensor against {}: {} +- {} mGal", names,
+                                        text::fixed(both.bias->value, 1),
+                                        text::fixed_or(both.bias->standard_error, 1, "-")));
+    if (!both.is_level_known)
+        sentences.emplace_back(
+            "no station has a published gravity: the level is that of the sensor, so its bias is "
+            "not "
+            "known and only differences of gravity mean something");
+    return sentences;
+}
+
+std::vector<Column<model::ComparedStation>> side_by_side_columns() {
+    using Row = const model::ComparedStation&;
+    return {
+        {"site", of(&model::ComparedStation::site), {"Station", 0, 'n'}},
+        {"ours_mgal", of(&model::ComparedStation::ours), {"Ours mGal"}},
+        {"u_ours_mgal", of(&model::ComparedStation::u_ours), {"u mGal", 2}},
+        {"theirs_mgal", of(&model::ComparedStation::theirs), {"Theirs mGal"}},
+        {"u_theirs_mgal", of(&model::ComparedStation::u_theirs), {"u mGal", 3}},
+        {"difference_mgal", [](Row row) { return cell(row.difference()); }, {"Difference mGal", 2}},
+    };
+}
+
+Json side_by_side_json(const model::SurveyCorrection& result) {
+    if (!result.side_by_side) return nullptr;
+    const model::SideBySide& both = *result.side_by_side;
+    const auto scatter = both.scatter_mgal();
+    Json bias = nullptr;
+    if (both.bias)
+        bias = {{"value", both.bias->value},
+                {"u", both.bias->standard_error ? Json(*both.bias->standard_error) : Json()}};
+    return {{"reference_scales", scales_json(both.scales)},
+            {"reference_readings", both.reading_count},
+            {"reference_s0", both.s0 ? Json(*both.s0) : Json(nullptr)},
+            {"is_level_known", both.is_level_known},
+            {"bias_mgal", bias},
+            {"scatter_mgal", scatter ? Json(*scatter) : Json(nullptr)},
+            {"stations", json_array(side_by_side_columns(), both.stations)}};
+}
+
+}  // namespace a351::corrector::result
