@@ -171,8 +171,7 @@ std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result)
                     source, kBlue)};
     return data.figure(
         "Gravity by the sensor minus that by the reference gravimeter, over gravity. Each station "
-        "has "
-        "its own reference hidden (cross-validated); bars are the standard uncertainty of the "
+        "has its own reference hidden (cross-validated); bars are the standard uncertainty of the "
         "sensor.",
         480, 360,
         "set xlabel 'Gravity by the reference gravimeter (mGal)'\nset ylabel 'Ours minus theirs "

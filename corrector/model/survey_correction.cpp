@@ -149,6 +149,14 @@ void remark_unused_uncertainties(Fit& result, const Model& model) {
             model.name));
 }
 
+/// Says that a model has no scale, and so does not use the prior that is given for it.
+void remark_unused_scale(Fit& result, const Model& model, const Priors& priors) {
+    if (!result.scales.empty() || priors.find(kScale) == nullptr) return;
+    result.remarks.push_back(
+        fmt::format("{} has no scale: its prior is used by {} and {} only", model.name, kNetwork,
+                    kWholeDay));
+}
+
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     Chosen chosen;
     const SurveyOptions& options = problem.options;
@@ -243,6 +251,7 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     static_cast<Fit&>(result) = std::get<Fit>(std::move(chosen.fit));
     value_stations_outside(result);
     remark_unused_uncertainties(result, *chosen.model);
+    remark_unused_scale(result, *chosen.model, applied.priors);
     if (std::string remark = temperature_remark(result.rows, applied.datum); !remark.empty())
         result.remarks.insert(result.remarks.begin(), std::move(remark));
     if (chosen.model->name == kPaper && !applied.steps.empty())

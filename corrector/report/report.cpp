@@ -67,7 +67,7 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
     add_accuracy(accuracy, result);
     add_budget(accuracy, result);
     if (result.side_by_side) {
-        const pugi::xml_node section = page.add_section("Side by side");
+        const pugi::xml_node section = page.add_section(tr("Side by side"));
         add_side_by_side(section, result);
         add_figures(section, figures.side_by_side, drawing);
     }

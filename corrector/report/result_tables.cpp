@@ -118,7 +118,8 @@ void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result) {
            "becomes smaller with further set-ups. Levelling: unknown biases of the horizontal "
            "axes; smaller if the box is level, or with a tilt series. Thermal: the unit's "
            "response to temperature; smaller with a calibration or more known stations. Datum: "
-           "the references."),
+           "the references. Scale: what is not known of the sensor's scale factor; it grows "
+           "with the difference of gravity from the held stations."),
         table);
 }
 
@@ -165,8 +166,8 @@ void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& resul
         {"acceleration_mgal", "temperature_degc",
          is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal", "height_correction_mgal",
          "pressure_correction_mgal", "temperature_correction_mgal", "rate_correction_mgal",
-         "drift_correction_mgal", "tilt_correction_mgal", "flicker_correction_mgal",
-         "corrected_mgal"});
+         "drift_correction_mgal", "scale_correction_mgal", "tilt_correction_mgal",
+         "flicker_correction_mgal", "corrected_mgal"});
     for (result::Column<model::CorrectedRow>& column : columns)
         if (column.key == "temperature_correction_mgal")
             column.value = [constant](const model::CorrectedRow& row) {
@@ -192,8 +193,8 @@ void add_side_by_side(pugi::xml_node parent, const model::SurveyCorrection& resu
         add(parent, "p", sentence);
     add_table(
         parent,
-        "Gravity by the sensor and by the reference gravimeter. Ours: with the reference of the "
-        "station hidden (cross-validated).",
+        tr("Gravity by the sensor and by the reference gravimeter. Ours: with the reference of the "
+           "station hidden (cross-validated)."),
         result::table_of(result::side_by_side_columns(), result.side_by_side->stations));
 }
 

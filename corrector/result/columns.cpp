@@ -191,12 +191,18 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
                           {"Pressure corr.", 4}}});
     if (first.scale_correction)
         columns.push_back(
-            {"scale_correction_mgal", of(&model::CorrectedRow::scale_correction), {"Scale corr."}});
+            {"scale_correction_mgal",
+             of(&model::CorrectedRow::scale_correction),
+             {text::marked("Scale corr.")}});
     if (!first.row.instrument.empty())
         append(
             columns,
-            {{"instrument", [](Row row) { return row.row.instrument; }, {"Instrument", 0, 'n'}},
-             {"loop", [](Row row) { return static_cast<std::int64_t>(row.row.loop); }, {"Loop"}}});
+            {{"instrument",
+              [](Row row) { return row.row.instrument; },
+              {text::marked("Instrument"), 0, 'n'}},
+             {"loop",
+              [](Row row) { return static_cast<std::int64_t>(row.row.loop); },
+              {text::marked("Loop")}}});
     if (first.row.record) append(columns, columns_of_records());
     if (first.as<model::WholeDayRow>() != nullptr)
         append(columns, columns_of_day());

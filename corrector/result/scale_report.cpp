@@ -1,12 +1,11 @@
 #include "corrector/result/scale_report.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::result {
 
@@ -16,14 +15,13 @@ std::vector<std::string> scale_sentences(const model::SurveyCorrection& result) 
     std::vector<std::string> sentences;
     for (const model::ScaleEstimate& scale : result.scales) {
         const model::Interval limits = scale.limits();
-        sentences.push_back(fmt::format(
-            "scale of {}: {} +- {} (95 % limits {} to {}); it is {} % prior ({} +- {}), and makes "
-            "a "
-            "difference of 100 mGal uncertain by {} mGal",
-            scale.instrument.empty() ? "the sensor" : scale.instrument, text::fixed(scale.value, 5),
+        sentences.push_back(text::tr(
+            "scale of {}: {} +- {} (limits of 95 %: {} to {}); the share of its prior ({} +- {}) "
+            "is {} %, and a difference of 100 mGal is uncertain by {} mGal",
+            scale.instrument.empty() ? text::tr("the sensor") : scale.instrument, text::fixed(scale.value, 5),
             text::fixed(scale.u, 5), text::fixed(limits.low, 5), text::fixed(limits.high, 5),
-            std::lround(100.0 * scale.prior_share()), text::shortest(scale.prior.mean),
-            text::shortest(scale.prior.sd), text::fixed(100.0 * scale.u, 3)));
+            text::shortest(scale.prior.mean), text::shortest(scale.prior.sd),
+            std::lround(100.0 * scale.prior_share()), text::fixed(100.0 * scale.u, 3)));
     }
     return sentences;
 }

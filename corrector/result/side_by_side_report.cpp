@@ -1,12 +1,11 @@
 #include "corrector/result/side_by_side_report.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "corrector/result/scale_report.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::result {
 
@@ -23,7 +22,7 @@ std::vector<std::string> side_by_side_sentences(const model::SurveyCorrection& r
         double squares = 0.0;
         for (const model::ComparedStation& station : both.stations)
             squares += std::pow(station.u_ours.value(), 2);
-        sentences.push_back(fmt::format(
+        sentences.push_back(text::tr(
             "side by side with {}: at {} stations the sensor differs by {} mGal rms, each station "
             "with its own reference hidden (cross-validated); its stated uncertainty is {} mGal "
             "rms",
@@ -31,26 +30,27 @@ std::vector<std::string> side_by_side_sentences(const model::SurveyCorrection& r
             text::fixed(std::sqrt(squares / static_cast<double>(both.stations.size())), 2)));
     }
     if (both.bias)
-        sentences.push_back(fmt::format("bias of the sensor against {}: {} +- {} mGal", names,
-                                        text::fixed(both.bias->value, 1),
-                                        text::fixed_or(both.bias->standard_error, 1, "-")));
+        sentences.push_back(text::tr("bias of the sensor against {}: {} +- {} mGal", names,
+                                     text::fixed(both.bias->value, 1),
+                                     text::fixed_or(both.bias->standard_error, 1, "-")));
     if (!both.is_level_known)
-        sentences.emplace_back(
+        sentences.push_back(text::tr(
             "no station has a published gravity: the level is that of the sensor, so its bias is "
-            "not "
-            "known and only differences of gravity mean something");
+            "not known and only differences of gravity mean something"));
     return sentences;
 }
 
 std::vector<Column<model::ComparedStation>> side_by_side_columns() {
     using Row = const model::ComparedStation&;
     return {
-        {"site", of(&model::ComparedStation::site), {"Station", 0, 'n'}},
-        {"ours_mgal", of(&model::ComparedStation::ours), {"Ours mGal"}},
+        {"site", of(&model::ComparedStation::site), {text::marked("Station"), 0, 'n'}},
+        {"ours_mgal", of(&model::ComparedStation::ours), {text::marked("Ours mGal")}},
         {"u_ours_mgal", of(&model::ComparedStation::u_ours), {"u mGal", 2}},
-        {"theirs_mgal", of(&model::ComparedStation::theirs), {"Theirs mGal"}},
+        {"theirs_mgal", of(&model::ComparedStation::theirs), {text::marked("Theirs mGal")}},
         {"u_theirs_mgal", of(&model::ComparedStation::u_theirs), {"u mGal", 3}},
-        {"difference_mgal", [](Row row) { return cell(row.difference()); }, {"Difference mGal", 2}},
+        {"difference_mgal",
+         [](Row row) { return cell(row.difference()); },
+         {text::marked("Difference mGal"), 2}},
     };
 }
 

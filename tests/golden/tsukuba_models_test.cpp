@@ -170,6 +170,7 @@ TEST_CASE("a network held at one or two benchmarks finds the others to 2.0-2.6 m
     };
     CHECK(off_by({"No.0"}, 0) == within(2.54, 0.005));
     CHECK(off_by({"No.0"}, 1) == within(2.635, 0.005));
+    // 2.19 with the scale held: it takes a little of the disagreement of the two, which are 90 mGal apart.
     CHECK(off_by({"No.0", "No.12"}, 1) == within(2.20, 0.005));
 }
 

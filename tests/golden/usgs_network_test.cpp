@@ -174,8 +174,8 @@ TEST_CASE(
 
 TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u says so",
           "[golden][usgs]") {
-    // The real readings of a meter, with a made-up part: half of the stations are moved 198 mGal away,
-    // by a meter whose scale is off by 0.036 mGal in 198 mGal.
+    // The real readings of a meter, with a made-up part: one real station, rg57, is moved 198 mGal away.
+    // The made-up error of the meter's scale is 0.036 mGal in 198 mGal.
     constexpr double kRange_mgal = 198.0, kScale = 1.0 + 0.036 / kRange_mgal;
     auto rows = rows_of(kMeters[0], false);
     const auto is_far = [](const reading::SurveyRow& row) { return row.site == "rg57"; };

@@ -112,11 +112,11 @@ TEST_CASE("a network with one datum reports its deviation from the other known r
     const auto json = nlohmann::json::parse(text::read_text_file(folder.path() / "a/result.json"));
     CHECK(json["network"]["dof"] == 2);
     CHECK(json["network"]["references_not_held"]["stations"] == 12);
-    CHECK(json["network"]["rows"].size() == 18);
-    CHECK(json["models"].back()["dof"] == 4);  // 19 readings, a datum and a prior; 14 + 3 unknowns
+    CHECK(json["network"]["rows"].size() == 19);
+    CHECK(json["models"].back()["dof"] == 4);  // 19 readings, a datum, 2 priors; 14 + 4 unknowns
     CHECK_THAT(
         text::read_text_file(folder.path() / "a/report.html"),
-        ContainsSubstring("readings in the fit: 16. Unknowns: 16, of which stations: 13 (1 held); "
+        ContainsSubstring("readings in the fit: 16. Unknowns: 17, of which stations: 13 (1 held); "
                           "degrees of freedom: 2"));
     CHECK(run(folder, arguments + "--out b").status == 0);
     CHECK(text::read_text_file(folder.path() / "a/result.json") ==

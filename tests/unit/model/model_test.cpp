@@ -3,6 +3,8 @@
 #include <set>
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/survey_correction.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351::corrector;
@@ -108,4 +110,17 @@ TEST_CASE("the publication's Error (1) is given only with a reference", "[survey
     const PaperRow& known = *fit.rows[3].as<PaperRow>();
     CHECK(known.residual1->value() ==
           Approx((*rows[3].reference - known.corrected1).value()).margin(1e-9));
+}
+
+TEST_CASE("a model without a scale says that it does not use the prior of the scale",
+          "[survey][model]") {
+    const auto rows = made_up::day();
+    SurveyOptions options = options_for(rows);
+    set_prior(options.priors, "test", "scale", {1.0, 0.002});
+    for (const std::string name : {"robust", "network"}) {
+        options.model = name;
+        const std::string remark = text::joined(correct_survey(rows, options).remarks);
+        CHECK((remark.find("has no scale: its prior is used by network and day only") !=
+               std::string::npos) == (name == "robust"));
+    }
 }

@@ -138,14 +138,15 @@ TEST_CASE("the stations of a network count as unknowns, not as coefficients of i
     SurveyOptions options;
     options.model = "network";
     const SurveyCorrection result = correct_survey(scattered_day(), options);
-    // 12 readings and 8 datum for 8 stations, constant, drift and temperature.
+    // 12 readings, 8 datum and a prior of the scale for 8 stations, constant, drift, temperature,
+    // scale.
     CHECK(result.score.dof == 9);
     CHECK(standard_error_of_rms(result.score).value() ==
           Approx(*result.score.rms_mgal / std::sqrt(18.0)));
     CHECK_THAT(scatter_sentence(result.score), ContainsSubstring("with 9 degrees of freedom"));
     CHECK_THAT(
         summary_text(result, {}, {}),
-        ContainsSubstring("readings in the fit: 12. Unknowns: 11, of which stations: 8 (8 held); "
+        ContainsSubstring("readings in the fit: 12. Unknowns: 12, of which stations: 8 (8 held); "
                                  "degrees of freedom: 9."));
 }
 
