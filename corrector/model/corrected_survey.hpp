@@ -336,7 +336,7 @@ struct SideBySide {
     /// the first common station, so that its bias is not known.
     bool is_level_known = false;
     std::size_t reading_count = 0;          ///< Number of the gravimeters' readings.
-    std::optional<double> s0;               ///< Of their adjustment.
+    std::optional<double> s0;               ///< A posteriori factor of the gravimeters' adjustment.
     std::optional<Coefficient> bias;        ///< Constant of the sensor; absent without a level.
     std::vector<ComparedStation> stations;  ///< In the order of the survey's stations.
 

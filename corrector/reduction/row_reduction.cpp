@@ -108,7 +108,7 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
     reduce_pressures(rows, sites,
                      choice.is_admittance_fitted ? 0.0 : choice.admittance_mgal_per_hpa, warnings);
     const auto no_pressure = std::ranges::find_if(
-        rows, [](const reading::SurveyRow& row) { return !row.excess_pressure_hpa; });
+        rows, [](const reading::SurveyRow& row) { return !row.pressure_hpa; });
     if (choice.is_admittance_fitted && no_pressure != rows.end())
         throw InputError("the admittance cannot be fitted without the air pressure of " +
                          no_pressure->site +

@@ -38,7 +38,7 @@ inline constexpr double kAdmittance_mgal_per_hpa = -0.0003;
 inline constexpr double kLeastAdmittance_mgal_per_hpa = -0.001,
                         kGreatestAdmittance_mgal_per_hpa = 0.0;
 
-/// What is reduced, besides what the rows say.
+/// Choices of the user for all rows; a row's own height and pressure have priority.
 struct ReductionChoice {
     std::optional<Metres> height;    ///< Height of the sensor in rows that give none.
     std::filesystem::path pressure;  ///< CSV for AirPressure::read(); empty: that of the rows.

@@ -41,7 +41,8 @@ public:
     [[nodiscard]] std::uint32_t random() { return static_cast<std::uint32_t>(random_.bits()); }
 
     void note_lock(int descriptor) { locks_.push_back(descriptor); }
-    void release_locks();  ///< As the kernel does when a process ends.
+    /// Releases all locks on files, because the process that had them ended.
+    void release_locks();
 
 private:
     Schedule& schedule_;

@@ -121,7 +121,7 @@ TEST_CASE("a replay writes records into the time of an older session, when a clo
     DataRoot root;
     {
         archive::Writer writer(posix_files(), root.archive(), {});
-        writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);  // Of an older session.
+        writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);  // This record belongs to an older session.
         writer.record("BNZ", record_at(kStart - 60ms, {11, 12}), 1);
         writer.record("BNZ", record_at(kStart - 20ms, {13}), 2);
     }

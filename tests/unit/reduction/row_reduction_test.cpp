@@ -97,7 +97,11 @@ TEST_CASE("a reading is not reduced for the pressure if the admittance is fitted
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
     const ReductionChoice fitted{.height = {}, .pressure = {}, .is_admittance_fitted = true};
     CHECK_THROWS_WITH(reduce_rows(rows, kSites, {}, fitted),
-                      ContainsSubstring("cannot be fitted without the air pressure of"));
+                      ContainsSubstring("cannot be fitted without the air pressure of base"));
+    std::vector<reading::SurveyRow> partly{rows[0], row("peak", "02:00:00")};
+    partly[0].pressure_hpa = 1023.25;
+    CHECK_THROWS_WITH(reduce_rows(partly, kSites, {}, fitted),
+                      ContainsSubstring("cannot be fitted without the air pressure of peak"));
     rows[0].pressure_hpa = 1023.25;
     static_cast<void>(reduce_rows(rows, kSites, {}, fitted));
     CHECK(rows[0].pressure_correction->value() == 0.0);
