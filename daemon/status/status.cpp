@@ -95,11 +95,11 @@ void assess_clock(Status& status) {
             "sim/relive"));
     }
     if (status.timing_uncertainty && *status.timing_uncertainty > kUnknown) {
+        // Without the number, which grows: the log would say it again each second.
         status.warn(
-            text::message("the laptop's clock was never synchronised: times may be wrong by {:.0f} "
-                          "s; synchronise "
-                          "it (timedatectl), and correct the times later with a351-correct retime",
-                          std::chrono::duration<double>(*status.timing_uncertainty).count()));
+            text::message("the laptop's clock was never synchronised: times may be wrong by many "
+                          "seconds; synchronise it (timedatectl), and correct the times later with "
+                          "a351-correct retime"));
     }
 }
 

@@ -37,6 +37,9 @@ public:
     void sleep(Nanoseconds span) { slept_ += span; }  ///< Suspends the host.
     void boot();                                      ///< Begins after a power cut.
 
+    void switch_synchronisation() { is_synchronised_ = !is_synchronised_; }
+    [[nodiscard]] bool is_synchronised() const noexcept { return is_synchronised_; }
+
     [[nodiscard]] const std::filesystem::path& boot_id_file() const noexcept { return boot_id_; }
     [[nodiscard]] std::uint32_t random() { return static_cast<std::uint32_t>(random_.bits()); }
 
@@ -51,6 +54,7 @@ private:
     sim::noise::RandomStream random_;
     Nanoseconds realtime_error_{0}, slept_{0}, booted_{0}, booted_slept_{0};
     std::vector<int> locks_;
+    bool is_synchronised_ = true;
 };
 
 }  // namespace a351::simulation

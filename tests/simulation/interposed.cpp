@@ -210,7 +210,12 @@ int adjtimex(timex* state) noexcept {
     Host* const host = Host::mine();
     if (host == nullptr) return real().adjust(state);
     *state = {};
-    state->maxerror = state->esterror = 1000;  // Microseconds.
+    if (!host->is_synchronised()) {
+        state->maxerror = state->esterror = 16'000'000;  // Microseconds, the kernel's bound.
+        state->status = STA_UNSYNC;
+        return TIME_ERROR;
+    }
+    state->maxerror = state->esterror = 1000;
     return TIME_OK;
 }
 

@@ -80,7 +80,8 @@ private:
     Part part_ = Part::all;
     Nanoseconds trouble_end_{0};
     std::map<std::filesystem::path, std::uint64_t> synced_sizes_;
-    std::map<std::filesystem::path, std::vector<Change>> changes_;  ///< Changes of each directory, in order.
+    std::map<std::filesystem::path, std::vector<Change>>
+        changes_;  ///< Changes of each directory, in order.
     std::set<std::filesystem::path> files_with_holes_;
     int kept_count_ = 0;
 };

@@ -206,7 +206,11 @@ void Simulation::cause_fault() {
         say(fmt::format("disk trouble {} of part {} for {:.3f} s", static_cast<int>(kind),
                         static_cast<int>(part), seconds(span)));
         disk_.trouble(kind, part, schedule_.now() + span);
-    } else if (choice < 0.93) {
+    } else if (choice < 0.88) {
+        host_.switch_synchronisation();
+        say(host_.is_synchronised() ? "the clock is synchronised"
+                                    : "the clock is not synchronised");
+    } else if (choice < 0.94) {
         const Nanoseconds by = from_seconds(random_.uniform(-90.0, 90.0));
         say(fmt::format("clock step of {:.3f} s", seconds(by)));
         host_.step_clock(by);
@@ -245,6 +249,7 @@ void Simulation::end() {
 
 /// Starts a last recorder on a healthy host, which must find everything and have no trouble.
 void Simulation::settle() {
+    if (!host_.is_synchronised()) host_.switch_synchronisation();
     disk_.trouble(SimulatedDisk::Trouble::none, SimulatedDisk::Part::all, schedule_.now());
     begin();
     wait_for_recovery();

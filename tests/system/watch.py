@@ -287,7 +287,7 @@ def answer_move():
     at = "2026-03-01T01:43:20.500Z"
     both = {**reading(0.82), "set_ups": 2, "set_up_sd_mgal": 1.1, "set_up_error_mgal": 0.778}
     stub.status.update(
-        level="warning", reasons=["the laptop's clock was never synchronised: times may be wrong by 16 s; connect it to a network"],
+        level="warning", reasons=["the laptop's clock was never synchronised: times may be wrong by many seconds; connect it to a network"],
         verdict=verdict("disturbed"), tilt=tilt(2.4, -0.6, ["lower the +x side by 2.4'", "raise the +y side by 0.6'"]),
         occupation=occupation("Mt Tsukuba", whole=both, planned_set_ups=3, set_up_count=2, set_up_left_s=0.0, propose_set_up=True,
                               moved={"utc": at, "is_at_start": False},
