@@ -22,7 +22,7 @@ def environment():
 
 
 def run_seeds(program, count):
-    cores = os.cpu_count() if count > 100 else 1
+    cores = len(os.sched_getaffinity(0)) if count > 100 else 1
     share = -(-count // cores)
     firsts = range(FIRST, FIRST + count, share)
     processes = [subprocess.Popen([program, str(first), str(min(share, FIRST + count - first))], stdout=subprocess.PIPE,
