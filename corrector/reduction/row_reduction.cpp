@@ -61,7 +61,12 @@ void reduce_pressures(std::vector<reading::SurveyRow>& rows, const std::vector<t
                     "at that of the standard "
                     "atmosphere");
     for (reading::SurveyRow& row : rows) {
-        const double normal_hpa = normal_pressure_hpa(site_of(row, sites).altitude);
+        const text::Site& site = site_of(row, sites);
+        if (row.pressure_hpa && !site.has_altitude)
+            throw InputError(row.site +
+                             ": its readings have an air pressure, but its altitude is not known; "
+                             "allowed: an altitude_m in the list of sites, or no pressure");
+        const double normal_hpa = normal_pressure_hpa(site.altitude);
         row.excess_pressure_hpa = row.pressure_hpa.value_or(normal_hpa) - normal_hpa;
         if (std::abs(*row.excess_pressure_hpa) > kMostExcess_hpa)
             throw InputError(fmt::format(

@@ -218,6 +218,14 @@ PageConfig read_page(TomlTable table) {
     }
     page.listen = *address;
     page.hosts = table.strings("hosts");
+    for (const std::string& host : page.hosts) {
+        constexpr std::string_view kHttps = "https://";
+        const std::string name = host.starts_with(kHttps) ? host.substr(kHttps.size()) : host;
+        if (name.empty() || name.find_first_of("/ \t") != std::string::npos)
+            table.refuse(
+                "hosts", "not a host name or an origin",
+                "names without a path, as \"laptop.local\" or \"https://gravity.example.org\"");
+    }
     page.token = table.string_or("token", "");
     if (!page.token.empty() && !is_token(page.token))
         table.refuse("token", "too weak", "16 or more visible ASCII characters, or \"\"");

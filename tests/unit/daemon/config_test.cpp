@@ -264,3 +264,17 @@ TEST_CASE_METHOD(Fixture,
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[survey]\ncalibration = \"unit.toml\"\n"),
                ContainsSubstring("unit.toml:1: format = 2"));
 }
+
+TEST_CASE_METHOD(Fixture, "a host of the page is a name or an origin without a path",
+                 "[daemon][config]") {
+    const std::string base = kStation + kSensor + kStorage;
+    for (const char* host : {"https://box/a351", "box/", "https://", "", "my box"}) {
+        CAPTURE(host);
+        CHECK_THAT(
+            refusal(base + "[page]\nhosts = [\"" + host + "\"]\n"),
+            ContainsSubstring("page.hosts") && ContainsSubstring("not a host name or an origin"));
+    }
+    const auto config =
+        read(base + "[page]\nhosts = [\"laptop.local\", \"box:8080\", \"https://box:8443\"]\n");
+    CHECK(config.page.hosts.size() == 3);
+}

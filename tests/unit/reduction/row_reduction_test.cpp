@@ -93,6 +93,16 @@ TEST_CASE("a pressure reduced to sea level is refused at a mountain", "[reductio
                           ContainsSubstring("not reduced to sea level"));
 }
 
+TEST_CASE("a pressure at a site without an altitude is refused", "[reduction]") {
+    std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
+    rows[0].pressure_hpa = 1003.0;
+    auto sites = kSites;
+    sites[0].has_altitude = false;
+    CHECK_THROWS_WITH(reduce_rows(rows, sites, {}, {}),
+                      ContainsSubstring("base: its readings have an air pressure") &&
+                          ContainsSubstring("altitude_m"));
+}
+
 TEST_CASE("a reading is not reduced for the pressure if the admittance is fitted", "[reduction]") {
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
     const ReductionChoice fitted{.height = {}, .pressure = {}, .is_admittance_fitted = true};
