@@ -290,6 +290,7 @@ void ArchiveThread::write_outbox() {
 
 void ArchiveThread::write_record(const Outbox::Entry& entry) {
     if (entry.session != marked_) {  // Marks never mix sessions.
+        writer_->settle();  // The last session's records must be synced before the next one's mark.
         if (marked_) sync();
         writer_->end_replay();
         writer_->begin_session();

@@ -62,6 +62,7 @@ bool ArchiveThread::replay(archive::RecoveryReport& report) {
         archiver_->close_records();
         lock.unlock();
         write_replayed();
+        writer_->settle();
         static_cast<void>(writer_->sync());
     }
     // No mark is written yet.  If a session continues, its first records bring the mark.

@@ -51,8 +51,8 @@ public:
     /// that the replay did not make remain there.
     void end_replay();
 
-    /// Begins another session: sync() no longer reports samples of older ones.  Call sync() before,
-    /// and this function before the first record of the session.
+    /// Begins another session: sync() no longer reports samples of older ones.  Call settle() and
+    /// sync() before, and this function before the first record of the session.
     void begin_session();
 
     /// Closes all files after a fault and examines the archive again.  Call it after record() or
@@ -75,8 +75,8 @@ public:
     /// @throws std::system_error  the archive cannot be written.  The record can be given again.
     void record(const std::string& channel, const PackedRecord& record,
                 std::int64_t last_index) override;
-    /// Decides on the records held back, when no more of the replay is to come for now.  end_replay()
-    /// does so too; sync() does not.
+    /// Decides on the records held back, when no more of the replay is to come for now.  Call it
+    /// before sync(), which leaves them where they are; end_replay() does so itself.
     /// @throws std::system_error  the archive cannot be written; call it again.
     void settle();
     /// Returns the number of samples of an archived record that the replay has not matched yet.

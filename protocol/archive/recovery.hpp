@@ -12,6 +12,7 @@
 ///         const auto take = [&](const journal::Chunk& chunk) { archiver.take(chunk); return true; };
 ///         if (!replay_journal(files, archive, replay, writer, take, report)) return;
 ///         archiver.close_records();        // unless the last stream continues
+///         writer.settle();
 ///         marks = writer.sync();
 ///     }
 ///
