@@ -106,6 +106,11 @@ int main(int argc, char** argv) {
     start->add_option("SITE", a.site, "Benchmark, as in sites")->type_name("")->required();
     add_at(start);
     add_remark(start);
+    start
+        ->add_option("--set-ups", a.set_ups,
+                     "Planned set-ups of this stay, three minutes each (2-100); 20 for a placement "
+                     "test; default: as configured")
+        ->type_name("N");
     auto* stop = app.add_subcommand("stop", "Stops the running occupation.");
     add_at(stop);
     add_remark(stop);

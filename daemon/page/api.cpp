@@ -227,9 +227,9 @@ Response Api::change(std::string_view path, const std::string& body) {
     auto& occupations = sources_.occupations;
     survey::Outcome outcome;
     if (path == "/api/occupation/start") {
-        const auto order = parse_order(body, {"site", "operator", "note", "at"});
+        const auto order = parse_order(body, {"site", "operator", "note", "at", "set_ups"});
         if (order.site.empty()) throw InputError("body: key site is missing");
-        outcome = occupations.start(order.site, order.remark, order.at);
+        outcome = occupations.start(order.site, order.remark, order.at, order.set_ups);
     } else if (path == "/api/occupation/stop") {
         const auto order = parse_order(body, {"key", "site", "operator", "note", "at"});
         if (const auto other = other_stay(order, occupations.running()); !other.empty())

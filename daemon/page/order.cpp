@@ -1,6 +1,7 @@
 #include "daemon/page/order.hpp"
 
 #include <array>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -10,6 +11,18 @@
 namespace a351::daemon::page {
 
 using nlohmann::json;
+
+namespace {
+
+int parse_count(const std::string& key, const std::string& text) {
+    int count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (error != std::errc() || end != text.data() + text.size())
+        throw InputError("body: key " + key + ": not a whole number");
+    return count;
+}
+
+}  // namespace
 
 Order parse_order(std::string_view body, const std::vector<std::string>& allowed) {
     const auto parsed = json::parse(body, nullptr, false);
@@ -25,6 +38,7 @@ Order parse_order(std::string_view body, const std::vector<std::string>& allowed
         if (key == "operator") order.remark.operator_name = text;
         if (key == "note") order.remark.note = text;
         if (key == "reason") order.remark.reason = text;
+        if (key == "set_ups" && !text.empty()) order.set_ups = parse_count(key, text);
         for (const auto& [name, instant] :
              {std::pair{"at", &order.at}, {"from", &order.from}, {"to", &order.to}})
             if (key == name && !text.empty()) *instant = parse_instant("body", key, text);

@@ -21,12 +21,13 @@ struct Order {
     std::string site;       ///< To rename: the correct one; else that of the stay.
     survey::Remark remark;  ///< Keys operator, note and reason.
     std::optional<UtcTime> at, from, to;
+    std::optional<int> set_ups;  ///< Planned set-ups of this stay.
 };
 
 /// Reads the body of a POST.
 /// @param allowed  keys that may be given; others are refused.
 /// @throws InputError  not a JSON object, a key that is not allowed, a value that is not a text, or
-///                     a time that is not RFC 3339.
+///                     a time that is not RFC 3339, or set_ups that is not a whole number.
 [[nodiscard]] Order parse_order(std::string_view body, const std::vector<std::string>& allowed);
 
 /// Reads the body {"target_mgal": number}.

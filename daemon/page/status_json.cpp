@@ -253,10 +253,14 @@ json to_json(const verdict::Verdict& verdict, UtcTime now) {
 }
 
 json mean_of(const verdict::RunningReading& reading) {
+    json limits;
+    if (const auto& known = reading.set_up_sd_limits)
+        limits = {known->front().value(), known->back().value()};
     return {{"value_mgal", or_null(reading.value)},
             {"standard_error_mgal", or_null(reading.standard_error)},
             {"set_ups", reading.set_ups},
             {"set_up_sd_mgal", or_null(reading.set_up_sd)},
+            {"set_up_sd_limits_mgal", limits},
             {"set_up_error_mgal", or_null(reading.set_up_error)}};
 }
 

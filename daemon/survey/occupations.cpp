@@ -22,6 +22,9 @@ std::string detail(const events::Event& event, const std::string& key) {
     return event.details.contains(key) ? event.details.at(key) : "";
 }
 
+constexpr int kFewestSetUps = 2;
+constexpr int kMostSetUps = 100;  ///< Five hours; more are a slip of the hand.
+
 constexpr const char* kTargetKey = "target_mgal";
 
 bool is_target(MilliGal target) { return target.value() >= 0.01 && target.value() <= 1000.0; }
@@ -79,12 +82,26 @@ events::Event Occupations::about_now(std::string type) {
     return {std::move(type), last_event_, {}, {}, {}};
 }
 
-Outcome Occupations::start(std::string_view site, const Remark& remark, std::optional<UtcTime> at) {
+Nanoseconds Occupations::planned() const noexcept {
+    const bool has_own = running() && running()->planned_set_ups;
+    return has_own ? *running()->planned_set_ups * kTestSetUp : options_.planned;
+}
+
+int Occupations::planned_set_ups() const noexcept {
+    return running() ? running()->planned_set_ups.value_or(options_.planned_set_ups)
+                     : options_.planned_set_ups;
+}
+
+Outcome Occupations::start(std::string_view site, const Remark& remark, std::optional<UtcTime> at,
+                           std::optional<int> set_ups) {
     if (running()) {
         return refused(text::message("{} has been running since {}: stop or discard it first",
                                      named(*running()), shown(running()->start)));
     }
     if (auto trouble = trouble_with_site(site)) return refused(*std::move(trouble));
+    if (set_ups && (*set_ups < kFewestSetUps || *set_ups > kMostSetUps))
+        return refused(text::message("{} set-ups; allowed: {} to {}", *set_ups, kFewestSetUps,
+                                     kMostSetUps));
     const auto placed = place(at);
     if (!placed.instant) return refused(placed.trouble);
     for (const auto& one : list()) {
@@ -98,6 +115,7 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
     auto event = event_at("start", *placed.instant);
     add(event, "key", replay_.key_for(event.utc));
     add(event, "site", site);
+    if (set_ups) add(event, "set_ups", std::to_string(*set_ups));
     add(event, remark);
     auto outcome = commit(std::move(event),
                           text::message("started {} at {}", site, shown(placed.instant->utc)));
@@ -123,13 +141,13 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     add(event, remark);
     auto message = text::message("stopped {} at {}", named(*running()), shown(utc));
     if (const auto made = running()->set_ups.size();
-        static_cast<int>(made) < options_.planned_set_ups) {
-        message += text::message("; {} of {} planned set-ups", made, options_.planned_set_ups);
+        static_cast<int>(made) < planned_set_ups()) {
+        message += text::message("; {} of {} planned set-ups", made, planned_set_ups());
     }
     using Minutes = std::chrono::duration<double, std::ratio<60>>;
-    if (const Nanoseconds stay = utc - running()->start; stay < options_.planned) {
+    if (const Nanoseconds stay = utc - running()->start; stay < planned()) {
         message += text::message("; shorter than planned: {:.1f} of {:.0f} min",
-                                 Minutes(stay).count(), Minutes(options_.planned).count());
+                                 Minutes(stay).count(), Minutes(planned()).count());
     }
     return commit(std::move(event), std::move(message));
 }

@@ -44,6 +44,10 @@ struct Named {
 /// moved.
 inline constexpr Nanoseconds kLongestResume = std::chrono::minutes(10);
 
+/// Length of each set-up of a stay with a plan of its own.  Reason: two whole minutes between the
+/// disturbances give a set-up a scatter, and a placement test of twenty fits into an hour.
+inline constexpr Nanoseconds kTestSetUp = std::chrono::minutes(3);
+
 struct OccupationOptions {
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay, all set-ups.
     int planned_set_ups = 1;                         ///< Planned set-ups of a stay, equally long.
@@ -70,7 +74,10 @@ public:
     Occupations(Recorder& recorder, std::vector<text::Site> sites,
                 const std::vector<events::Event>& events, const OccupationOptions& options = {});
 
-    Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at);
+    /// @param set_ups  planned set-ups of this stay, each of kTestSetUp: 2 to 100; absent: as
+    ///                 configured.  A placement test has 20.
+    Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at,
+                  std::optional<int> set_ups = {});
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
     /// Begins a further set-up of the running occupation: the sensor was lifted and set down again.
     Outcome setup(std::optional<UtcTime> at);
@@ -97,8 +104,10 @@ public:
     /// Sets the standard error at which a reading is good enough, from now on: 0.01 to 1000 mGal.
     Outcome set_target(MilliGal target);
     [[nodiscard]] MilliGal target() const noexcept { return target_.value_or(options_.target); }
-    [[nodiscard]] Nanoseconds planned() const noexcept { return options_.planned; }
-    [[nodiscard]] int planned_set_ups() const noexcept { return options_.planned_set_ups; }
+    /// Returns the planned length of the running stay, or else of the next one.
+    [[nodiscard]] Nanoseconds planned() const noexcept;
+    /// Returns its planned number of set-ups.
+    [[nodiscard]] int planned_set_ups() const noexcept;
 
     /// Appends a site to the list, see append_site(), and uses it from now on.
     Outcome add_site(const text::Site& site);

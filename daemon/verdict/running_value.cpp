@@ -1,6 +1,7 @@
 #include "daemon/verdict/running_value.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -26,6 +27,14 @@ double sd_of(const std::vector<double>& values) {
     double square = 0.0;
     for (const double value : values) square += (value - mean) * (value - mean);
     return std::sqrt(square / static_cast<double>(values.size() - 1));
+}
+
+std::array<MilliGal, 2> limits_of_sd(double sd_mgal, double degrees) {
+    const boost::math::chi_squared distribution(degrees);
+    const auto at = [&](double quantile) {
+        return MilliGal(sd_mgal * std::sqrt(degrees / boost::math::quantile(distribution, quantile)));
+    };
+    return {at(0.975), at(0.025)};
 }
 
 }  // namespace
@@ -88,6 +97,7 @@ RunningReading RunningValue::reading(MilliGal target, State state) const {
     if (usable.size() > 1) {
         const double sd = sd_of(means_mgal);
         reading.set_up_sd = MilliGal(sd);
+        reading.set_up_sd_limits = limits_of_sd(sd, count - 1.0);
         reading.set_up_error = MilliGal(sd / std::sqrt(count));
     }
     if (degrees < kLeastDegrees) return reading;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct RunningReading {
     std::optional<MilliGal> standard_error;  ///< Absent before three whole minutes.
     int set_ups = 0;                         ///< Number of set-ups in the mean.
     std::optional<MilliGal> set_up_sd;       ///< Standard deviation of their means, from two on.
+    /// Limits of their true scatter with 95 % confidence, if it is normal.
+    std::optional<std::array<MilliGal, 2>> set_up_sd_limits;
     std::optional<MilliGal> set_up_error;    ///< This, divided by the root of their number.
     double used_s = 0.0;                     ///< Length of signal used.
     double left_out_s = 0.0;                 ///< Length left out: knocks and missing samples.

@@ -1,6 +1,7 @@
 #include "protocol/events/occupations.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <utility>
 
@@ -107,6 +108,10 @@ void OccupationReplay::start(const Event& event) {
         key,         detail(event, "site"),     1, event.utc, {event.utc}, event.session,
         event.index, detail(event, "operator"), ""};
     add_note(running_->note, event);
+    const std::string planned = detail(event, "set_ups");
+    if (int count = 0; std::from_chars(planned.data(), planned.data() + planned.size(), count).ec ==
+                           std::errc() && count > 0)
+        running_->planned_set_ups = count;
 }
 
 void OccupationReplay::end_running(UtcTime end, bool is_stopped) {

@@ -66,6 +66,8 @@ struct RunningOccupation {
     std::string operator_name;  ///< Detail `operator` of the start; empty if not given.
     std::string note;           ///< Notes so far, joined by "; ".
     std::optional<UtcTime> not_moved_until{};  ///< As Occupation::not_moved_until.
+    /// Detail `set_ups` of the start: planned set-ups of this stay; absent if not given.
+    std::optional<int> planned_set_ups{};
 };
 
 /// Applies events one by one.

@@ -60,8 +60,8 @@ with Browser(allowed_errors=["status of 403", "status of 409"]) as page:
     time.sleep(0.3)
     page.open(daemon.port)
     page.wait_for_text("start-site", "No.5, 3.3 km")
-    order = ["start-site", "start-operator", "start-note", "start", "start-at", "add-site", "target"]
-    demand(f"Tab moves through the form first: {order}", tab_round(page, 7) == order)
+    order = ["start-site", "start-operator", "start-note", "start", "start-at", "add-site", "start-test", "target"]
+    demand(f"Tab moves through the form first: {order}", tab_round(page, 8) == order)
     page.press(Keys.ENTER)
     demand("Enter in the target field sets the target", last_post(daemon, page, "/api/target") == {"target_mgal": 1.0})
     for text in ("0", "x", "-1"):
@@ -77,6 +77,15 @@ with Browser(allowed_errors=["status of 403", "status of 409"]) as page:
     demand("Enter starts an occupation at the typed site, with operator and note",
            last_post(daemon, page, "/api/occupation/start")
            == {"site": "No.5", "operator": "T. Sato", "note": "on the pillar"})
+
+    page.driver.refresh()
+    page.wait_for_text("start-site", "No.5")
+    page.press(Keys.TAB, "No.5", *[Keys.TAB] * 6, Keys.SPACE)
+    page.press_with_shift(*[Keys.TAB] * 3)
+    page.press(Keys.ENTER)
+    demand("a placement test is started with twenty set-ups",
+           last_post(daemon, page, "/api/occupation/start") == {"site": "No.5", "operator": "T. Sato", "note": "", "set_ups": "20"})
+    page.wait_for("the next start is no test again", lambda: not page.find("#start-test").is_selected())
 
     daemon.status["occupation"] = occupation()
     page.wait_for_text("run-site", "No.5")

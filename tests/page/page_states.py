@@ -82,12 +82,27 @@ def count_set_ups_down(stub, browser):
                browser.find("#run-propose").is_displayed() == is_proposed)
 
 
+def count_a_placement_test(stub, browser):
+    test = {"planned_set_ups": 20, "planned_s": 3600.0, "set_up_count": 7, "set_up_left_s": 65.0}
+    stub.status["occupation"] = occupation(**test)
+    browser.wait_for_text("run-plan", "set-up 7 of 20: 1:05 left")
+    browser.wait_for_text("run-test", "Placement test: the scatter is shown from 8 set-ups on.")
+    whole = {**reading(0.31), "set_ups": 20, "set_up_sd_mgal": 1.3, "set_up_sd_limits_mgal": [0.99, 1.9], "set_up_error_mgal": 0.29}
+    stub.status["occupation"] = occupation(**{**test, "whole": whole, "set_up_count": 20, "set_up_left_s": 0.0, "may_stop": True})
+    browser.wait_for_text("run-plan", "set-up 20 of 20: the stay may be stopped")
+    browser.wait_for_text("run-test", "scatter of 20 set-ups 1.30 mGal (95 %: 0.99 to 1.90), with tilt, temperature and noise in it. "
+                          "After Stop, in the evening: a351-correct calibrate --placement test.toml --out placement.toml")
+    browser.demand_readable("a placement test")
+    browser.shot("placement-test-1366")
+
+
 def show_occupations(stub, browser):
     stub.status["verdict"] = verdict("stable", held_s=430)
     stub.status["occupation"] = occupation()
     browser.wait_for_text("run-judgement", "still about 4 min 10 s needed (target 1.00 mGal)")
     demand("value and standard error are shown with their unit", browser.text("run-value") == "979861.32 ± 1.31 mGal reading")
     count_set_ups_down(stub, browser)
+    count_a_placement_test(stub, browser)
     stub.status["occupation"] = occupation()
     browser.wait_for("the next set-up is not proposed yet", lambda: browser.text("run-propose") == "")
     above = {name: browser.is_above_fold(name) for name in ABOVE_FOLD + ["stop", "run-value"]}

@@ -12,6 +12,8 @@ import { StayDialogs } from "./stay_dialogs.js";
 import { nearest_instant, time_of_day, time_with_utc } from "./time.js";
 
 const kDay_ms = 24 * 3600 * 1000;
+const kTestSetUps = "20"; // Of a placement test; they give the scatter within about 40 % (95 %).
+const kFewestTested = 8; // Fewer are refused by a351-correct calibrate --placement.
 
 function distance_text(metres) {
     if (metres === null || metres === undefined) return "";
@@ -23,6 +25,16 @@ function plan_text(one) {
     const planned = Math.max(one.planned_set_ups, one.set_up_count); // A further set-up may follow the plan.
     const left = one.may_stop ? tr("the stay may be stopped") : tr("{} left", countdown(one.set_up_left_s));
     return tr("set-up {} of {}: {}", one.set_up_count, planned, left);
+}
+
+/** Returns what a placement test has found so far, and how it is evaluated. */
+function test_text(one) {
+    const [low_mgal, high_mgal] = one.whole?.set_up_sd_limits_mgal ?? [];
+    const found = one.whole?.set_ups >= kFewestTested
+        ? tr("Placement test: scatter of {} set-ups {} mGal (95 %: {} to {}), with tilt, temperature and noise in it.", one.whole.set_ups,
+            number(one.whole.set_up_sd_mgal, 2), number(low_mgal, 2), number(high_mgal, 2))
+        : tr("Placement test: the scatter is shown from {} set-ups on.", kFewestTested);
+    return one.may_stop ? found + tr(" After Stop, in the evening: {}", "a351-correct calibrate --placement test.toml --out placement.toml") : found;
 }
 
 /** Returns by how much the gravity of a known benchmark differs from its reference, as the end of a sentence. */
@@ -142,6 +154,7 @@ export class OccupationPanel {
         const operator = by_id("start-operator").value;
         remember("operator", operator);
         const order = { site, operator, note: by_id("start-note").value };
+        if (by_id("start-test").checked) order.set_ups = kTestSetUps;
         if (by_id("start-at").value) {
             // The latest such instant up to an hour ahead, which the daemon refuses: a watch may be fast.
             const instant_ms = nearest_instant(by_id("start-at").value, this.now_ms - 11 / 24 * kDay_ms);
@@ -150,6 +163,7 @@ export class OccupationPanel {
         }
         if (await this.order("/api/occupation/start", order)) {
             for (const id of ["start-site", "start-name", "start-note", "start-at"]) by_id(id).value = "";
+            by_id("start-test").checked = false;
         }
     }
 
@@ -288,6 +302,9 @@ export class OccupationPanel {
                 (whole?.set_ups > 1 ? tr(" Scatter of {} set-ups: {} mGal, of their mean {} mGal.", whole.set_ups,
                     number(whole.set_up_sd_mgal, 2), number(whole.set_up_error_mgal, 2)) : ""));
         }
+        const is_test = one.planned_set_ups >= kFewestTested;
+        show("run-test", is_test);
+        if (is_test) set_text("run-test", test_text(one));
         const is_proposed = Boolean(one.propose_set_up);
         show("run-propose", is_proposed);
         by_id("setup").classList.toggle("proposed", is_proposed);

@@ -41,6 +41,19 @@ TEST_CASE("an occupation is started, set up again, renamed and stopped by POST",
     CHECK(page.recorder.log.size() == 9);
 }
 
+TEST_CASE("a stay can have a plan of its own, which the log keeps", "[daemon][page]") {
+    Page page;
+    const std::string start = R"({"site":"No.0","at":"2026-03-14T08:10:00Z","set_ups":)";
+    page.ask(post("/api/occupation/start", start + R"("twenty"})"), 400);
+    page.ask(post("/api/occupation/start", start + R"("101"})"), 409);
+    page.ask(post("/api/occupation/start", start + R"("20"})"));
+    REQUIRE(page.recorder.log.size() == 1);
+    CHECK(page.recorder.log[0].details.at("set_ups") == "20");
+    const auto status = page.ask(get("/api/status"));
+    CHECK(is(status, "/occupation/planned_set_ups", "20"));
+    CHECK(is(status, "/occupation/planned_s", "3600.0"));
+}
+
 TEST_CASE("a request that breaks a rule is answered 409 with the reason", "[daemon][page]") {
     Page page;
     const auto answer = page.ask(post("/api/occupation/start", R"({"site":"No.7"})"), 409);

@@ -144,6 +144,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/occupation/may_stop", "true"));
     CHECK(is(status, "/occupation/whole/set_ups", "0"));
     CHECK(is(status, "/occupation/whole/set_up_sd_mgal", "null"));
+    CHECK(is(status, "/occupation/whole/set_up_sd_limits_mgal", "null"));
     CHECK(is(status, "/occupation/session", '"' + page.recorder.session.to_hex() + '"'));
 }
 

@@ -78,6 +78,9 @@ TEST_CASE("set-ups of half the length give the error of one, and their own scatt
     CHECK(two.set_ups == 2);
     CHECK(two.value->value() == Approx(one.value->value() + 1.5).epsilon(0.0).margin(1e-6));
     CHECK(two.set_up_sd->value() == Approx(3.0 / std::sqrt(2.0)).margin(1e-6));
+    // Tables of chi squared, one degree of freedom: 5.0239 and 0.00098207.
+    CHECK(two.set_up_sd_limits->front().value() == Approx(0.94643).epsilon(1e-4));
+    CHECK(two.set_up_sd_limits->back().value() == Approx(67.692).epsilon(1e-4));
     CHECK(two.set_up_error->value() == Approx(1.5).margin(1e-6));
     CHECK(two.standard_error->value() == Approx(one.standard_error->value()).margin(0.01));
     CHECK(two.is_good_enough);
