@@ -154,17 +154,22 @@ void Line::remove(std::size_t byte_count, Way way, UtcTime simulated) {
         if (front.end > end) break;
         Mark mark = front;
         marks_.pop_front();
-        const UtcTime shown = mark.end > gone_
-                                  ? transport_.shown_at(static_cast<std::size_t>(mark.end - gone_))
-                                  : simulated;
+        const auto size = static_cast<std::size_t>(mark.end - gone_);
+        const UtcTime shown = size > 0 ? transport_.shown_at(size) : simulated;
+        pass(size);
         settle(mark, way, simulated, shown);
     }
-    transport_.take(byte_count);
-    queue_start_ += byte_count;
-    gone_ = end;
+    pass(static_cast<std::size_t>(end - gone_));
     if (2 * queue_start_ < queue_.size()) return;
     queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(queue_start_));
     queue_start_ = 0;
+}
+
+/// Leaves the first `byte_count` bytes behind.
+void Line::pass(std::size_t byte_count) {
+    transport_.take(byte_count);
+    queue_start_ += byte_count;
+    gone_ += byte_count;
 }
 
 void Line::settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown) {

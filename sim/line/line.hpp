@@ -122,6 +122,7 @@ private:
     void put(std::span<const std::byte> bytes, UtcTime leaves, Mark mark);
     void carry(std::size_t byte_count, UtcTime leaves);
     void remove(std::size_t byte_count, Way way, UtcTime simulated);
+    void pass(std::size_t byte_count);
     void settle(Mark& mark, Way way, UtcTime simulated, UtcTime shown);
     void count_sent(const truth::Record& truth, Nanoseconds lateness);
 

@@ -21,7 +21,7 @@ public:
     Host& operator=(const Host&) = delete;
     ~Host();
 
-    /// Returns the host of the calling thread; null if the thread is not scheduled.
+    /// Returns the host of this process; null without a Schedule.
     [[nodiscard]] static Host* mine() noexcept;
 
     /// Returns the true time, which no clock of the host need show.

@@ -1,7 +1,8 @@
 /// @file
-/// Functions of the C library that put scheduled threads under a Schedule and on the clocks of a
-/// Host.  The definitions in a program take precedence over those in shared libraries, also for
-/// calls from the C++ library.  Threads that are not scheduled get the real functions, except that no thread changes its scheduling class.
+/// Functions of the C library that put threads under the Schedule of their process and on the clocks
+/// of its Host.  The definitions in a program take precedence over those in shared libraries, also
+/// for calls from the C++ library.  Without a Schedule the real functions are called, except that no
+/// thread changes its scheduling class.
 
 #include <dlfcn.h>
 #include <linux/futex.h>
@@ -116,12 +117,15 @@ int pthread_create(pthread_t* handle, const pthread_attr_t* attributes, void* (*
                    void* argument) noexcept {
     Schedule* const schedule = Schedule::mine();
     if (schedule == nullptr) return real().create(handle, attributes, body, argument);
-    return schedule->start(handle, attributes, body, argument);
+    schedule->start(handle, body, argument);
+    return 0;
 }
 
 int pthread_join(pthread_t handle, void** result) {
-    if (Schedule* const schedule = Schedule::mine()) schedule->wait_for_end(handle);
-    return real().join(handle, result);
+    Schedule* const schedule = Schedule::mine();
+    if (schedule == nullptr) return real().join(handle, result);
+    schedule->wait_for_end(handle);
+    return 0;
 }
 
 int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {

@@ -8,7 +8,7 @@
 
 namespace a351::simulation {
 
-/// The functions of the C library that interposed.cpp replaces, for threads that are not scheduled.
+/// The functions of the C library that interposed.cpp replaces.
 struct RealCalls {
     int (*create)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
     int (*join)(pthread_t, void**);

@@ -4,7 +4,9 @@
 #include <malloc.h>
 #include <spdlog/sinks/base_sink.h>
 
+#include <map>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -136,10 +138,10 @@ void Recorder::commit(const events::Event& event) {
 void Recorder::take(const archive::Sample& sample, UtcTime) {
     if (sample.index <= last_index_) {
         ++session_count_;
-        session_ = {};
+        unpromised_.clear();
     }
     last_index_ = sample.index;
-    session_.numbers[sample.index] = sample.values.axes[1];
+    unpromised_.push_back({sample.index, sample.values.axes[1]});
     last_taken_ = world_.schedule.now();
 }
 
@@ -176,10 +178,9 @@ void Recorder::check_promises(const Status& status) {
     watched_session_ = status.session;
     watched_count_ = session_count_;
     if (!is_same || !status.journaled) return;
-    const auto end = session_.numbers.upper_bound(*status.journaled);
-    for (auto each = session_.numbers.begin(); each != end; ++each)
-        world_.promises.samples.insert(each->second);
-    session_.numbers.erase(session_.numbers.begin(), end);
+    for (; !unpromised_.empty() && unpromised_.front().index <= *status.journaled;
+         unpromised_.pop_front())
+        world_.promises.samples.push_back(unpromised_.front().number);
 }
 
 /// The live record must follow what arrives, whatever the disk does.

@@ -6,12 +6,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,8 +29,8 @@ namespace a351::simulation {
 
 /// Promises of all runs together: it must be on disk later.
 struct Promises {
-    std::set<std::int64_t> samples;   ///< Numbers of samples that were said to be journaled.
-    std::vector<std::string> events;  ///< Events that were accepted.
+    std::vector<std::int64_t> samples;  ///< Numbers of samples that were said to be journaled.
+    std::vector<std::string> events;    ///< Events that were accepted.
 };
 
 /// The world around a recorder.
@@ -62,10 +61,8 @@ public:
 
 private:
     struct Sink;
-    /// A session, in the order in which the samples come.
-    struct Session {
-        std::map<std::int64_t, std::int64_t> numbers;  ///< Number of each sample, by its index.
-        std::int64_t promised = -1;                    ///< Last index that was promised.
+    struct Numbered {
+        std::int64_t index = 0, number = 0;
     };
 
     // The daemon::survey::Recorder of the operator, which notes what was accepted.
@@ -96,7 +93,7 @@ private:
     // The order of the sessions, and the samples of the present one.
     int session_count_ = 0;
     std::int64_t last_index_ = -1;
-    Session session_;
+    std::deque<Numbered> unpromised_;
     std::string watched_session_;  ///< Session of the last look, and their number then.
     int watched_count_ = 0;
     std::vector<std::string> attempted_;  ///< Events of the operator's present action.

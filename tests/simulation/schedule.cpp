@@ -1,7 +1,13 @@
 #include "tests/simulation/schedule.hpp"
 
+#include <cxxabi.h>
+#include <sys/mman.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <new>
+#include <utility>
 
 #include "tests/simulation/real_calls.hpp"
 
@@ -10,27 +16,24 @@ namespace {
 
 Schedule* only_schedule = nullptr;
 
+constexpr std::size_t kStack_bytes = std::size_t{8} << 20;  // Linux's default for a thread.
+constexpr std::size_t kGuard_bytes = 4096;                  // One page.
+
 }  // namespace
 
-thread_local Schedule::Thread* Schedule::self_ = nullptr;
-
-Schedule* Schedule::mine() noexcept { return self_ == nullptr ? nullptr : only_schedule; }
+Schedule* Schedule::mine() noexcept { return only_schedule; }
 
 Schedule::Schedule(std::uint64_t seed)
     : random_(seed, "turns"),
       mean_patience_(std::exp(random_.uniform(std::log(2.0), std::log(200.0)))) {
     threads_.push_back(std::make_unique<Thread>());
     self_ = threads_.back().get();
-    sem_init(&self_->turn, 0, 0);
     alive_.push_back(self_);
     only_schedule = this;
     draw_patience();
 }
 
-Schedule::~Schedule() {
-    self_ = nullptr;
-    only_schedule = nullptr;
-}
+Schedule::~Schedule() { only_schedule = nullptr; }
 
 void Schedule::draw_patience() {
     patience_ = static_cast<int>(mean_patience_ * random_.exponential());
@@ -66,11 +69,12 @@ void Schedule::pass_turn(Thread& to) {
     digest_ = (digest_ ^ static_cast<std::uint64_t>(to.number + now_.count())) *
               0x100000001B3U;  // FNV-1a.
     if (&to == self_) return;
-    Thread& from = *self_;
-    sem_post(&to.turn);
-    if (from.has_ended) return;
-    while (sem_wait(&from.turn) != 0) {
-    }
+    auto& exceptions = *reinterpret_cast<Exceptions*>(abi::__cxa_get_globals());
+    Thread& from = *std::exchange(self_, &to);
+    from.exceptions = std::exchange(exceptions, to.exceptions);
+    const int error = errno;
+    ::swapcontext(&from.context, &to.context);
+    errno = error;
 }
 
 void Schedule::yield() {
@@ -91,52 +95,62 @@ bool Schedule::wait(const void* on, std::optional<Nanoseconds> end) {
 }
 
 void Schedule::notify(const void* on, bool is_for_all) {
-    std::vector<Thread*> waiting;
+    const auto is_waiting = [&](const Thread* thread) {
+        return thread->is_blocked && thread->waits_on == on;
+    };
+    const auto count = static_cast<std::uint64_t>(std::ranges::count_if(alive_, is_waiting));
+    if (count == 0) return;
+    const std::uint64_t chosen = is_for_all ? 0 : random_.bits() % count;
+    std::uint64_t passed = 0;
     for (Thread* thread : alive_)
-        if (thread->is_blocked && thread->waits_on == on) waiting.push_back(thread);
-    if (waiting.empty()) return;
-    if (!is_for_all) waiting = {waiting[random_.bits() % waiting.size()]};
-    for (Thread* thread : waiting) thread->is_blocked = false;
+        if (is_waiting(thread) && (is_for_all || passed++ == chosen)) thread->is_blocked = false;
 }
 
-int Schedule::start(pthread_t* handle, const pthread_attr_t* attributes, Body body,
-                    void* argument) {
+/// Returns a stack above a page that cannot be read or written.
+std::byte* Schedule::new_stack() {
+    if (!free_stacks_.empty()) {
+        std::byte* const stack = free_stacks_.back();
+        free_stacks_.pop_back();
+        return stack;
+    }
+    void* const stack = ::mmap(nullptr, kStack_bytes, PROT_READ | PROT_WRITE,
+                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+    if (stack == MAP_FAILED || ::mprotect(stack, kGuard_bytes, PROT_NONE) != 0)
+        throw std::bad_alloc();
+    return static_cast<std::byte*>(stack);
+}
+
+void Schedule::start(pthread_t* handle, Body body, void* argument) {
     auto& thread = *threads_.emplace_back(std::make_unique<Thread>());
     thread.number = static_cast<int>(threads_.size());
     thread.program = self_->program != 0 ? self_->program : program_of_children_;
-    sem_init(&thread.turn, 0, 0);
     thread.body = body;
     thread.argument = argument;
-    const int error = real().create(handle, attributes, &Schedule::run, &thread);
-    if (error != 0) return error;
-    thread.handle = *handle;
+    thread.stack = new_stack();
+    ::getcontext(&thread.context);
+    thread.context.uc_stack.ss_sp = thread.stack;
+    thread.context.uc_stack.ss_size = kStack_bytes;
+    ::makecontext(&thread.context, &Schedule::run, 0);
     alive_.push_back(&thread);
+    *handle = static_cast<pthread_t>(thread.number);
     yield();
-    return 0;
 }
 
-void* Schedule::run(void* argument) {
-    auto& thread = *static_cast<Thread*>(argument);
-    while (sem_wait(&thread.turn) != 0) {
-    }
-    self_ = &thread;
-    void* const result = thread.body(thread.argument);
+/// The first and last function of a thread.
+void Schedule::run() {
     Schedule& schedule = *only_schedule;
+    Thread& thread = *schedule.self_;
+    thread.body(thread.argument);
     thread.has_ended = true;
     std::erase(schedule.alive_, &thread);
+    schedule.free_stacks_.push_back(thread.stack);  // Only another thread can take it.
     schedule.notify(&thread, true);
     schedule.pass_turn(schedule.next());
-    self_ = nullptr;
-    return result;
 }
 
 void Schedule::wait_for_end(pthread_t handle) {
-    const auto found = std::ranges::find_if(threads_, [&](const auto& thread) {
-        return !thread->has_ended && pthread_equal(thread->handle, handle) != 0;
-    });
-    if (found == threads_.end()) return;
-    const Thread* const thread = found->get();  // The list can grow meanwhile.
-    while (!thread->has_ended) wait(thread, std::nullopt);
+    const Thread& thread = *threads_.at(static_cast<std::size_t>(handle) - 1);
+    while (!thread.has_ended) wait(&thread, std::nullopt);
 }
 
 void Schedule::note_locked(pthread_mutex_t* mutex) { self_->held.push_back(mutex); }

@@ -3,16 +3,19 @@
 /// The threads of a simulated host, run one at a time in an order drawn from a seed, in simulated
 /// time.
 ///
-/// Threads that a scheduled thread starts are scheduled too.  Their mutexes, condition variables,
-/// sleeps and clocks come here from the functions of the C library that interposed.cpp replaces, so
-/// the program under test is compiled as it is.  A thread can lose its turn at each of these calls
-/// and at each disk operation; code between two of them runs in one piece.  Simulated time passes
-/// only while no thread can run, and by a little at each reading of a clock.  Two runs with the same
-/// seed take the same turns.
+/// A thread is a context with a stack of its own in the one thread of the process, because the
+/// kernel needs far longer than that for a turn.  The calls that start threads, their mutexes,
+/// condition variables, sleeps and clocks come here from the functions of the C library that
+/// interposed.cpp replaces, so the program under test is compiled as it is.  It has no thread_local
+/// variables, which would be common to all threads here.  A thread can lose its turn at each of
+/// these calls and at each disk operation; code between two of them runs in one piece.  Simulated
+/// time passes only while no thread can run, and by a little at each reading of a clock.  Two runs
+/// with the same seed take the same turns.
 
 #include <pthread.h>
-#include <semaphore.h>
+#include <ucontext.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -27,13 +30,14 @@ namespace a351::simulation {
 
 class Schedule {
 public:
-    /// Makes the calling thread the first scheduled one.  There is one Schedule in a process.
+    /// Makes the calling thread the first one.  There is at most one Schedule in a process.  Threads
+    /// that were started before it must not call what interposed.cpp replaces.
     explicit Schedule(std::uint64_t seed);
     Schedule(const Schedule&) = delete;
     Schedule& operator=(const Schedule&) = delete;
     ~Schedule();
 
-    /// Returns the schedule of the calling thread; null if it is not scheduled.
+    /// Returns the schedule of this process; null if there is none.
     [[nodiscard]] static Schedule* mine() noexcept;
 
     /// Returns the simulated time since the first turn.  It stops while the host sleeps.
@@ -52,8 +56,8 @@ public:
 
     // Threads.
     using Body = void* (*)(void*);
-    int start(pthread_t* handle, const pthread_attr_t* attributes, Body body, void* argument);
-    /// Waits until a scheduled thread has ended.
+    void start(pthread_t* handle, Body body, void* argument);
+    /// Waits until a thread has ended.
     void wait_for_end(pthread_t handle);
 
     // Locks, so that those of removed threads can be released.
@@ -77,11 +81,17 @@ public:
 private:
     static constexpr Nanoseconds kClockReading{50};
 
+    /// What the C++ library knows of the exceptions of a thread, see __cxa_get_globals in its ABI.
+    struct Exceptions {
+        void* caught = nullptr;
+        unsigned int uncaught = 0;
+    };
     struct Thread {
         int number = 0;
         int program = 0;
-        sem_t turn{};
-        pthread_t handle{};
+        ucontext_t context{};
+        std::byte* stack = nullptr;
+        Exceptions exceptions;
         Body body = nullptr;
         void* argument = nullptr;
         bool is_blocked = false, has_ended = false, is_late = false;
@@ -89,9 +99,9 @@ private:
         std::optional<Nanoseconds> end;
         std::vector<pthread_mutex_t*> held;
     };
-    static void* run(void* thread);
-    static thread_local Thread* self_;
+    static void run();
 
+    [[nodiscard]] std::byte* new_stack();
     [[nodiscard]] Thread& next();
     void pass_turn(Thread& to);
     void draw_patience();
@@ -102,6 +112,8 @@ private:
     Nanoseconds now_{0};
     std::vector<std::unique_ptr<Thread>> threads_;
     std::vector<Thread*> alive_;
+    Thread* self_ = nullptr;               ///< The thread that has the turn.
+    std::vector<std::byte*> free_stacks_;  ///< Those of threads that ended.
     int programs_ = 0, program_of_children_ = 0;
     std::uint64_t turns_ = 0, digest_ = 0;
 };

@@ -1,7 +1,6 @@
 #include "tests/simulation/simulation.hpp"
 
 #include <fmt/core.h>
-#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,7 +15,6 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -128,8 +126,9 @@ private:
     void wait(Nanoseconds span) { schedule_.sleep_until(schedule_.now() + span); }
     void wait_for_recovery();
     void check_archive(const char* when);
-    [[nodiscard]] std::set<std::int64_t> numbers_in(const archive::ChannelData& data,
-                                                    std::size_t axis, const std::string& where);
+    void note_due();
+    [[nodiscard]] std::vector<std::int64_t> numbers_in(const archive::ChannelData& data,
+                                                       std::size_t axis, const std::string& where);
 
     End end_;
     Outcome outcome_;
@@ -148,16 +147,25 @@ private:
     bool is_counter_reset_ = false;  ///< The sensor's counter restarted while it sampled.
     UtcTime start_of_run_;
     Nanoseconds signal_{0};
-    std::set<std::int64_t> due_samples_;  ///< Promised before the present run.
+    std::vector<std::int64_t> due_samples_;  ///< Promised before the present run, in order.
     std::vector<std::string> due_events_;
 };
+
+/// Notes what the archive and the event log must have from now on.
+void Simulation::note_due() {
+    auto& samples = promises_.samples;
+    std::ranges::sort(samples);
+    const auto repeated = std::ranges::unique(samples);
+    samples.erase(repeated.begin(), repeated.end());
+    due_samples_ = samples;
+    due_events_ = promises_.events;
+}
 
 /// Starts a recorder.  One that cannot start because of the disk is started again after a while, as
 /// systemd does.
 void Simulation::begin() {
     while (true) {
-        due_samples_ = promises_.samples;
-        due_events_ = promises_.events;
+        note_due();
         disk_.forget_holes();  // The start must repair them.
         program_ = schedule_.begin_program();
         ++outcome_.runs;
@@ -262,8 +270,7 @@ void Simulation::settle() {
         if (!is_counter_reset_ || !reason.starts_with("the samples are later than the clock"))
             fail("trouble without a reason: " + reason);
     }
-    due_samples_ = promises_.samples;
-    due_events_ = promises_.events;
+    note_due();
     if (!recorder_->stop()) fail("the last orderly end did not write everything");
     recorder_.reset();
     check_archive("after the last end");
@@ -287,12 +294,12 @@ void Simulation::check_archive(const char* when) {
         for (const archive::Damage& damage : data.damage)
             if (!disk_.has_holes(damage.file))
                 fail(fmt::format("{}: {}", where, archive::to_text(damage)));
-        const std::set<std::int64_t> found = numbers_in(data, axis, where);
+        const std::vector<std::int64_t> found = numbers_in(data, axis, where);
         std::vector<std::int64_t> missing;
         std::ranges::set_difference(due_samples_, found, std::back_inserter(missing));
         // The newest can be in a record that is not full yet.
         if (!recorder_ ? !missing.empty()
-                       : !missing.empty() && !found.empty() && missing.front() < *found.rbegin()) {
+                       : !missing.empty() && !found.empty() && missing.front() < found.back()) {
             fail(fmt::format("{}: {} samples that were promised are lost: {} to {}", where,
                              missing.size(), missing.front(), missing.back()));
         }
@@ -307,19 +314,22 @@ void Simulation::check_archive(const char* when) {
                     due_samples_.size(), lines.size()));
 }
 
-/// Returns the numbers of the samples of an axis.  Each must have arrived, and be there once.
-std::set<std::int64_t> Simulation::numbers_in(const archive::ChannelData& data, std::size_t axis,
-                                              const std::string& where) {
-    std::set<std::int64_t> found;
+/// Returns the numbers of the samples of an axis, in order.  Each must have arrived, and be there
+/// once.
+std::vector<std::int64_t> Simulation::numbers_in(const archive::ChannelData& data, std::size_t axis,
+                                                 const std::string& where) {
+    std::vector<std::int64_t> found;
     for (const archive::Segment& segment : data.segments) {
         for (const std::int32_t counts : segment.counts) {
             const auto number = NumberedSamples::number(axis, counts);
             if (!number || !sensor_.may_be_archived(*number))
                 fail(fmt::format("{}: a sample of {} counts was invented", where, counts));
-            if (!found.insert(*number).second)
-                fail(fmt::format("{}: sample {} is there twice", where, *number));
+            found.push_back(*number);
         }
     }
+    std::ranges::sort(found);
+    if (const auto twice = std::ranges::adjacent_find(found); twice != found.end())
+        fail(fmt::format("{}: sample {} is there twice", where, *twice));
     return found;
 }
 
@@ -327,7 +337,8 @@ Outcome Simulation::outcome() {
     outcome_.signal_s = seconds(signal_);
     outcome_.simulated_s = seconds(host_.true_time() - start_of_run_);
     outcome_.samples = sensor_.samples();
-    outcome_.promised = static_cast<std::int64_t>(promises_.samples.size());
+    note_due();
+    outcome_.promised = static_cast<std::int64_t>(due_samples_.size());
     outcome_.events = promises_.events.size();
     outcome_.turns = schedule_.turns();
     outcome_.digest = schedule_.digest();
@@ -337,15 +348,6 @@ Outcome Simulation::outcome() {
     else
         std::filesystem::remove_all(directory_.path(), ignored);
     return outcome_;
-}
-
-/// Keeps this process on one core: its threads run in turn, and a turn to another core takes four
-/// times as long.
-void stay_on_this_core() {
-    cpu_set_t cores;
-    CPU_ZERO(&cores);
-    CPU_SET(static_cast<unsigned>(::sched_getcpu()), &cores);
-    ::sched_setaffinity(0, sizeof cores, &cores);  // Without it the run is only slower.
 }
 
 /// Writes all bytes, or the rest is missing.
@@ -376,7 +378,6 @@ Outcome simulate(std::uint64_t seed, bool is_traced) {
     if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (child == 0) {
         ::alarm(kLongest_s);
-        stay_on_this_core();
         Simulation simulation(seed, is_traced, [&](const Outcome& outcome) {
             write_all(ends[1], nlohmann::json(outcome).dump());
             ::_exit(0);
