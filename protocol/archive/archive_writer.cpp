@@ -27,6 +27,12 @@ std::ifstream open_day_file(const std::filesystem::path& day_file) {
     return in;
 }
 
+/// Returns true if a record was written before another one of its channel.
+bool precedes(int sequence, int other) {
+    const int ahead = (other - sequence + kLargestSequence) % kLargestSequence;
+    return ahead > 0 && ahead <= kLargestSequence / 2;
+}
+
 void stamp_sequence(PackedRecord& record, int sequence) {
     for (std::size_t digit = kSequenceDigits; digit-- > 0; sequence /= 10)
         record.bytes[kSequenceAt + digit] =
@@ -48,7 +54,8 @@ Writer::ArchivedRecord Writer::describe(const DecodedRecord& record) {
             std::hash<std::string_view>()(bytes),
             record.last_sample() + from_seconds(0.5 / record.rate_hz()),
             {},
-            0};
+            0,
+            record.header.sequence};
 }
 
 void Writer::end_replay() {
@@ -132,6 +139,7 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
             continue;
         settle(name, channel, &held->second);
         channel.matched[held->second.day] = held->second.offset;
+        channel.newest_match = held->second.sequence;
         channel.held.erase(held);
         return Found::same;
     }
@@ -145,7 +153,11 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
 void Writer::settle(const std::string& name, Channel& channel, const ArchivedRecord* next) {
     const auto is_between_matches = [&](const ArchivedRecord& held) {
         const auto last = channel.matched.find(held.day);
-        if (last != channel.matched.end() && held.offset < last->second) return false;
+        const bool is_earlier = last != channel.matched.end()
+                                    ? held.offset < last->second
+                                    : channel.newest_match &&
+                                          precedes(held.sequence, *channel.newest_match);
+        if (is_earlier) return false;
         return next == nullptr || held.day != next->day || held.offset < next->offset;
     };
     for (; !channel.held_back.empty(); channel.held_back.pop_front()) {

@@ -111,6 +111,7 @@ private:
         UtcTime end;                ///< Half a sample after the last sample.
         std::chrono::sys_days day;  ///< Day of its file.
         std::uint64_t offset = 0;   ///< Place in the file.
+        int sequence = 0;           ///< Sequence number.
     };
     struct Newest {
         PackedRecord record;
@@ -125,6 +126,7 @@ private:
             held;  ///< Records not yet matched in the replay, by start.
         /// Offset of the last record matched, by day.  Records before it were written earlier.
         std::map<std::chrono::sys_days, std::uint64_t> matched;
+        std::optional<int> newest_match;  ///< Its sequence number, for days without a match.
         std::deque<Newest> held_back;  ///< In the order of the replay.
     };
     enum class Found { nothing, same, other };

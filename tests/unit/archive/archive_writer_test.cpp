@@ -137,6 +137,26 @@ TEST_CASE("a replay writes records into the time of an older session, when a clo
     CHECK(writer.sync().at(0).index == 4);
 }
 
+TEST_CASE("a replay writes records into the time of an older session beyond a midnight",
+          "[record][archive_writer]") {
+    DataRoot root;
+    const UtcTime midnight = std::chrono::ceil<std::chrono::days>(kStart);
+    const auto after_midnight = record_at(midnight + 1s, {11, 12});
+    {
+        archive::Writer writer(posix_files(), root.archive(), {});
+        writer.record("BNZ", record_at(midnight - 1s, {1, 2, 3}), 2);  // Of an older session.
+        writer.record("BNZ", after_midnight, 1);
+    }
+    archive::Writer writer(posix_files(), root.archive(), {});
+    writer.begin_replay();
+    writer.record("BNZ", after_midnight, 1);
+    writer.record("BNZ", record_at(midnight - 1s + 20ms, {13, 14}), 3);  // The clock was set back.
+    writer.settle();
+    CHECK(writer.replay_conflicts() == 0);
+    CHECK(writer.records_written() == 1);
+    CHECK(writer.sync().at(0).index == 3);
+}
+
 TEST_CASE("a replay fills a hole before records that a set-back clock put into its time",
           "[record][archive_writer]") {
     DataRoot root;
