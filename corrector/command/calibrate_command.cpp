@@ -16,6 +16,7 @@
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/series/placement_series.hpp"
 #include "corrector/series/tilt_series.hpp"
+#include "corrector/series/tumble_series.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/write_together.hpp"
@@ -24,7 +25,7 @@ namespace a351::corrector::command {
 namespace {
 
 struct CalibrateOptions {
-    std::vector<std::string> tilt, placement, records;
+    std::vector<std::string> tilt, tumble, placement, records;
     std::string out, merge, valid_from, valid_to, power_on;
     double within_mgal = unit::WarmUpGuidance{}.within_mgal;
     bool is_within_given = false;
@@ -99,19 +100,22 @@ void take_over(unit::Calibration& calibration, const std::string& file) {
     if (!calibration.thermal) calibration.thermal = other.thermal;
     if (!calibration.warm_up) calibration.warm_up = other.warm_up;
     if (!calibration.placement) calibration.placement = other.placement;
+    if (!calibration.scale) calibration.scale = other.scale;
     for (const unit::CalibrationData& data : other.data) list_data(calibration, data);
     calibration.valid_from = std::max(calibration.valid_from, other.valid_from);
     calibration.valid_to = other.valid_to;
 }
 
 /// Reads the series of an option one by one; each reading counts once.
-/// @param measure  takes the readings, the name of the series and its file as the user gave it.
+/// @param measure     takes the readings, the name of the series and its file as the user gave it.
+/// @param is_tumbled  as SurveySource::is_tumbled.
 template <class Measure>
 void read_series(unit::Calibration& calibration, const std::vector<std::string>& files,
-                 Measure measure) {
+                 Measure measure, bool is_tumbled = false) {
     CountedReadings counted;
     for (const std::string& file : files) {
-        const job::SurveyFile survey = series_file(file);
+        job::SurveyFile survey = series_file(file);
+        survey.is_tumbled = is_tumbled;
         ProgressBar bar(survey.name);
         const reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
         for (const std::string& warning : read.warnings)
@@ -132,6 +136,71 @@ void calibrate_from_tilt(unit::Calibration& calibration, const std::vector<std::
                     std::cout << series_text(all.back(), name);
                 });
     calibration.axis_bias = series::combine(all);
+}
+
+std::string tumble_text(const series::Tumble& tumble, const std::string& name) {
+    const auto value = [](const series::TumbleTerm& term, int decimals, const char* unit) {
+        return fmt::format("{} +- {}{}{}", text::fixed(term.value, decimals),
+                           text::fixed(term.standard_error, decimals), unit,
+                           term.is_determined ? "" : " (not determined)");
+    };
+    std::string lines = fmt::format(
+        "{}: {} positions at {} degC (within {}), gravity {} +- {} mGal, a position is expected "
+        "within {} mGal{}\n",
+        name, tumble.positions, text::fixed(tumble.mean_degc, 2), text::fixed(tumble.range_degc, 2),
+        text::fixed(tumble.gravity.value(), 3), text::fixed(tumble.u_gravity.value(), 3),
+        text::fixed(tumble.expected_mgal, 1),
+        tumble.residual_mgal ? fmt::format(", found {}", text::fixed(*tumble.residual_mgal, 1))
+                             : ", nothing is left over to test it");
+    for (std::size_t k = 0; k < tumble.axes.size(); ++k) {
+        const series::TumbleAxis& axis = tumble.axes.at(k);
+        lines += fmt::format("  {}: mean of up and down {}, scale {}; bias {}, quadratic term {}\n",
+                             series::kTumbleAxes.at(k), value(axis.zero_mgal, 1, " mGal"),
+                             value(axis.scale, 6, ""), value(axis.bias_mgal, 1, " mGal"),
+                             value(axis.quadratic_mgal, 1, " mGal at 1 g"));
+    }
+    for (std::size_t k = 0; k < tumble.angle_rad.size(); ++k)
+        lines += fmt::format("  {}: 90 deg minus their angle {}\n", series::kTumblePairs.at(k),
+                             value(tumble.angle_rad.at(k), 6, " rad"));
+    lines += fmt::format("  scale of the reading, z up: {}{}\n", value(tumble.slope, 6, ""),
+                         tumble.slope.is_determined
+                             ? ""
+                             : "; needed for the quadratic term: twelve more positions, two axes "
+                               "at about 45 deg in each");
+    return lines + (tumble.axis_bias ? ""
+                                     : "  biases of the horizontal axes: not determined with their "
+                                       "angles to z, so not written; --tilt measures them\n");
+}
+
+/// Returns the mean of several tumbles, with weights from their errors and the larger of error and
+/// scatter.
+unit::Scale mean_scale(const std::vector<series::Tumble>& all) {
+    double weights = 0.0, mean = 0.0, least = HUGE_VAL, squares = 0.0;
+    for (const series::Tumble& tumble : all) {
+        const double weight = std::pow(tumble.scale.standard_error, -2);
+        weights += weight;
+        mean += weight / weights * (tumble.scale.value - mean);
+        least = std::min(least, tumble.scale.standard_error);
+    }
+    for (const series::Tumble& tumble : all) squares += std::pow(tumble.scale.value - mean, 2);
+    // The prior of the quadratic term is common to all, so the mean is not better than the best.  At
+    // other temperatures the scale may differ.
+    return {mean, std::max(least, std::sqrt(squares / static_cast<double>(all.size())))};
+}
+
+void calibrate_from_tumble(unit::Calibration& calibration, const std::vector<std::string>& files) {
+    std::vector<series::Tumble> all;
+    read_series(
+        calibration, files,
+        [&all](const reading::OccupationRows& read, const std::string& name,
+               const std::string& file) {
+            all.push_back(series::measure_tumble(read, file));
+            std::cout << tumble_text(all.back(), name);
+        },
+        true);
+    calibration.scale = mean_scale(all);
+    // A tilt series of the same run measures them better.
+    if (!calibration.axis_bias) calibration.axis_bias = all.front().axis_bias;
 }
 
 std::string placement_text(const unit::Placement& placement) {
@@ -168,13 +237,16 @@ RecordCalibrationOptions record_options(const CalibrateOptions& options) {
 }
 
 void calibrate(const CalibrateOptions& options) {
-    if (options.tilt.empty() && options.placement.empty() && options.records.empty())
+    if (options.tilt.empty() && options.tumble.empty() && options.placement.empty() &&
+        options.records.empty())
         throw InputError(
-            "no record and no series; allowed: FILE..., --tilt FILE..., --placement FILE...");
+            "no record and no series; allowed: FILE..., --tilt FILE..., --tumble FILE..., "
+            "--placement FILE...");
     require_file_option("--out", options.out);
     unit::Calibration calibration;
     calibration.program = "a351-correct " A351_VERSION;
     if (!options.tilt.empty()) calibrate_from_tilt(calibration, options.tilt);
+    if (!options.tumble.empty()) calibrate_from_tumble(calibration, options.tumble);
     if (!options.records.empty())
         std::cout << calibrate_from_records(calibration, record_options(options));
     // Last, because the other parts are the priors of its fit.
@@ -209,6 +281,9 @@ void add_calibrate_command(CLI::App& program) {
     add_option(command, "--tilt", "FILE", options->tilt,
                "Tilt series at one point, for the biases of the horizontal axes: survey files "
                "(TOML) or data roots with a sites.csv");
+    add_option(command, "--tumble", "FILE", options->tumble,
+               "Sensor in six or more positions at one point of known gravity, each axis up and "
+               "down, for the scale factor: survey files (TOML) or data roots with a sites.csv");
     add_option(
         command, "--placement", "FILE", options->placement,
         "Repeated set-ups at one point, for their scatter: survey files (TOML) or data roots "

@@ -229,7 +229,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     SurveySamples samples = read_samples(source, station.codes, channels, list.windows);
     std::vector<OccupationWindow> windows = list.windows;
     end_with_record(windows, samples.axes.back());
-    const VerticalAxis vertical = put_vertical_last(samples, channels, windows, metadata);
+    const VerticalAxis vertical = source.is_tumbled
+                                      ? put_named_vertical_last(samples, channels)
+                                      : put_vertical_last(samples, channels, windows, metadata);
 
     std::vector<std::optional<SurveyRow>> rows(windows.size());
     std::vector<std::optional<RepresentativeValue>> values(windows.size());

@@ -50,6 +50,9 @@ struct SurveySource {
     /// True while the daemon records: an occupation that runs is used up to the last sample, and
     /// samples that have not reached the archive are taken from the journal.
     bool is_so_far = false;
+    /// True if the sensor was laid down in several positions: the axis that the metadata call vertical
+    /// is z, whichever axis gravity is along.
+    bool is_tumbled = false;
     /// Options of every average.  averaging.cutoff_s is checked when the first one is computed.
     RepresentativeOptions averaging;
 };

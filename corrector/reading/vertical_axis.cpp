@@ -36,6 +36,18 @@ std::optional<double> mean_g(const std::vector<archive::Segment>& segments,
     return sum / count / kMps2PerG;
 }
 
+/// Returns the axis that the metadata call vertical, or the end.
+auto named_vertical(const SurveyChannels& channels) {
+    return std::ranges::find_if(channels.axes, [](const station::ChannelScale& axis) {
+        return axis.dip_deg && std::abs(*axis.dip_deg) > kSteepDip_deg;
+    });
+}
+
+void put_last(SurveySamples& samples, SurveyChannels& channels, std::ptrdiff_t at) {
+    std::rotate(samples.axes.begin() + at, samples.axes.begin() + at + 1, samples.axes.end());
+    std::rotate(channels.axes.begin() + at, channels.axes.begin() + at + 1, channels.axes.end());
+}
+
 std::string in_g(double value) { return text::fixed(value, 4) + " g"; }
 
 }  // namespace
@@ -61,9 +73,7 @@ VerticalAxis put_vertical_last(SurveySamples& samples, SurveyChannels& channels,
             "{}: no axis is vertical: {}; allowed: an axis with at least {} along gravity",
             file.string(), list, in_g(kLeastVertical.value())));
     VerticalAxis vertical{channels.axes[nearest].code, StandardGravity(means[nearest]), {}};
-    const auto named = std::ranges::find_if(channels.axes, [](const station::ChannelScale& axis) {
-        return axis.dip_deg && std::abs(*axis.dip_deg) > kSteepDip_deg;
-    });
+    const auto named = named_vertical(channels);
     if (named != channels.axes.end() && named->code != vertical.code)
         vertical.warning = fmt::format(
             "{}: {} is vertical by its dip, but gravity is along {} ({}); {} is used; the axis "
@@ -73,10 +83,14 @@ VerticalAxis put_vertical_last(SurveySamples& samples, SurveyChannels& channels,
         vertical.warning += fmt::format("{}the sensor is mounted upside down: {} has {}",
                                         vertical.warning.empty() ? file.string() + ": " : "; ",
                                         vertical.code, in_g(means[nearest]));
-    const auto at = static_cast<std::ptrdiff_t>(nearest);
-    std::rotate(samples.axes.begin() + at, samples.axes.begin() + at + 1, samples.axes.end());
-    std::rotate(channels.axes.begin() + at, channels.axes.begin() + at + 1, channels.axes.end());
+    put_last(samples, channels, static_cast<std::ptrdiff_t>(nearest));
     return vertical;
+}
+
+VerticalAxis put_named_vertical_last(SurveySamples& samples, SurveyChannels& channels) {
+    const auto named = named_vertical(channels);
+    if (named != channels.axes.end()) put_last(samples, channels, named - channels.axes.begin());
+    return {channels.axes.back().code, StandardGravity(0.0), {}};
 }
 
 }  // namespace a351::corrector::reading

@@ -44,4 +44,9 @@ VerticalAxis put_vertical_last(SurveySamples& samples, SurveyChannels& channels,
                                const std::vector<OccupationWindow>& windows,
                                const std::filesystem::path& file);
 
+/// Exchanges axes so that the one with a dip of more than 45 deg in the metadata is the last; without
+/// one nothing is exchanged.  For a sensor that is laid down in several positions.
+/// @return the axis; its mean is 0 and it has no warning.
+VerticalAxis put_named_vertical_last(SurveySamples& samples, SurveyChannels& channels);
+
 }  // namespace a351::corrector::reading

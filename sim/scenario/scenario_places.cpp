@@ -47,8 +47,8 @@ int read_number(text::TomlTable& table) {
 }
 
 std::vector<Levelling> read_levelling(text::TomlTable& table) {
-    const std::vector<double> about_y_deg = table.numbers("about_y_deg", -30.0, 30.0);
-    const std::vector<double> about_x_deg = table.numbers("about_x_deg", -30.0, 30.0);
+    const std::vector<double> about_y_deg = table.numbers("about_y_deg", -180.0, 180.0);
+    const std::vector<double> about_x_deg = table.numbers("about_x_deg", -180.0, 180.0);
     if (about_y_deg.size() != about_x_deg.size()) {
         table.refuse(table.has("about_x_deg") ? "about_x_deg" : "about_y_deg", "not a pair",
                      "about_y_deg and about_x_deg, one angle per set-up each");

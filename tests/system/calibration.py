@@ -1,6 +1,7 @@
-"""Axis biases and placement of a unit, measured on simulated series and used on a survey day of the same unit."""
+"""Axis biases, scale and placement of a unit, measured on simulated series and used on a survey day of the same unit."""
 
 import math
+import re
 import shutil
 import tomllib
 
@@ -25,6 +26,15 @@ def true_biases(series):
         odd["x"] += tilt_mgal * float(row["about_y_deg"]) / 8.0
         odd["y"] -= tilt_mgal * float(row["about_x_deg"]) / 8.0
     return [odd["x"] / sine, odd["y"] / sine]
+
+
+def true_tumble(series):
+    """Returns the biases of x, y and z in mGal: half the difference of the norms up and down in truth.csv."""
+    terms = ("tide", "bias", "static", "dynamic", "clock", "warm_up", "placement", "flicker", "resonant", "white", "drift", "ripple", "scale", "tilt")
+    norms = {(float(row["about_y_deg"]), float(row["about_x_deg"])): sum(float(row[f"{term}_mgal"]) for term in terms)
+             for row in rows(series / "truth.csv")}
+    return [(norms[up] - norms[down]) / 2.0 for up, down in
+            (((90.0, 0.0), (-90.0, 0.0)), ((0.0, -90.0), (0.0, 90.0)), ((0.0, 0.0), (0.0, 180.0)))]
 
 
 def keys(value):
@@ -118,6 +128,20 @@ with Scratch() as scratch:
     print(refused.stderr.strip())
     demand("a survey day given as repeated set-ups is refused", refused.returncode == 2 and "one point" in refused.stderr and
            not (scratch / "no.toml").exists())
+
+    run(BIN / "a351-sim", "survey", "--scenario", "tumble", "--seed", SEED, "--out", scratch / "tumble")
+    print(found := correct("calibrate", "--tumble", "tumble", "--out", "tumble.toml", cwd=scratch).stdout)
+    for axis, truth in zip("xyz", true_tumble(scratch / "tumble")):
+        value, error = map(float, re.search(rf"^  {axis}: .*; bias (\S+) \+- (\S+) mGal,", found, re.M).groups())
+        demand(f"the bias of {axis} is {value} +- {error} mGal, within three standard errors of the true {truth:.1f}", abs(value - truth) < 3.0 * error < 20.0)
+    scale = tomllib.loads((scratch / "tumble.toml").read_text())["scale"]
+    demand(f"the scale is {scale['value']:.7f} +- {scale['standard_error']:.7f}, true 1",
+           abs(scale["value"] - 1.0) < 3.0 * scale["standard_error"] < 3e-5)
+    correct("calibrate", "--placement", "placement", "--merge", "tumble.toml", "--out", "with-scale.toml", cwd=scratch)
+    demand("the scale is merged", tomllib.loads((scratch / "with-scale.toml").read_text())["scale"] == scale)
+    refused = correct("calibrate", "--tumble", "tilt-series", "--out", "no.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("a series without upturned positions is refused", refused.returncode == 2 and "no position with x up" in refused.stderr)
 
     (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
     refused = correct("survey", "tilted/survey.toml", "--out", "other", "--calibration", "other.toml", check=False, cwd=scratch)

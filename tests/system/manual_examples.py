@@ -41,7 +41,7 @@ def short_day():
 def prepare_correct(scratch):
     """Makes the input files that the examples of a351-correct expect from the user."""
     (scratch / "short.toml").write_text(short_day())
-    for scenario, root in (("short.toml", "data"), ("indoor", "night"), ("tilt-series", "tilt-series"),
+    for scenario, root in (("short.toml", "data"), ("indoor", "night"), ("tilt-series", "tilt-series"), ("tumble", "tumble"),
                            ("placement", "placement")):
         run(BIN / "a351-sim", "survey", "--scenario", scenario, "--out", root, cwd=scratch)
     for table in ("sites.csv", "observations.csv"):
