@@ -57,6 +57,13 @@ replay::Timing timing_of(const ReplayCommand& command) {
                                   : replay::Timing::from_host_start;
 }
 
+void report_restarts(const replay::Report& report) {
+    if (report.restarts == 0) return;
+    std::cerr << "a351-sim: the host configured the sensor again within a session ("
+              << report.restarts << " times); what was due followed, up to "
+              << std::chrono::duration<double>(report.longest_delay).count() << " s late\n";
+}
+
 void report_damage(const replay::Recording& recording) {
     for (const replay::RecordingDamage& damage : recording.damage()) {
         std::cerr << "a351-sim: " << damage.file.string() << ": " << damage.byte_count
@@ -100,6 +107,7 @@ void run(const ReplayCommand& command, const std::function<bool()>& should_stop)
     line::SensorPort port(pty, device, line);
     std::array<line::Service*, 1> services{&port};
     line::attend(services, clock, [&] { return should_stop() || port.is_finished(); });
+    report_restarts(device.report());
     report_damage(device.recording());
 }
 

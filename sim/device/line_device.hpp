@@ -52,6 +52,10 @@ public:
 
     /// Returns the present baud rate of its UART.
     [[nodiscard]] virtual int baud() const = 0;
+
+    /// Returns true if it sends nothing while the host's terminal has another baud rate.  Bytes of
+    /// other devices then arrive as other bytes.
+    [[nodiscard]] virtual bool waits_for_baud() const { return false; }
 };
 
 }  // namespace a351::sim::device

@@ -40,7 +40,9 @@ SensorPort::SensorPort(Pty& pty, device::LineDevice& device, Line& line, FaultIn
 void SensorPort::serve(const device::Instant& now) {
     set_speeds();
     if (faults_ != nullptr) faults_->begin(now);
-    device_.advance_to({now.simulated + line_.lead(), now.steady}, sink_);
+    is_waiting_for_baud_ = device_.waits_for_baud() && device_.baud() != host_baud_;
+    if (!is_waiting_for_baud_)
+        device_.advance_to({now.simulated + line_.lead(), now.steady}, sink_);
     if (faults_ != nullptr) faults_->catch_up(now);
     move_plug(now);
     take_commands(now);
@@ -153,7 +155,7 @@ Nanoseconds SensorPort::patience(const device::Instant& now, const ClockScale& c
     if (is_blocked_) return kLongestWait;
     const std::optional<UtcTime> due = device_.next_due();
     const std::optional<UtcTime> shown = line_.next_shown();
-    if (plug_ != Plug::in || (!due && !shown)) return kBatch;
+    if (plug_ != Plug::in || is_waiting_for_baud_ || (!due && !shown)) return kBatch;
     UtcTime next = UtcTime::max();
     if (due) next = std::min(next, *due - line_.lead());
     if (shown) next = std::min(next, *shown);

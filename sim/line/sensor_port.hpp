@@ -69,7 +69,8 @@ private:
         sink_;  ///< Takes the bytes of the device: the faults, or without them the line.
     TroubleHandler on_trouble_;
     int host_baud_ = 0;
-    bool is_blocked_ = false;  ///< The terminal takes no more.
+    bool is_blocked_ = false;           ///< The terminal takes no more.
+    bool is_waiting_for_baud_ = false;  ///< The device sends nothing at this speed of the terminal.
     Plug plug_ = Plug::in;
     FaultInjector::HangUp hang_up_;
     int turns_ = 0, quiet_turns_ = 0;  ///< While leaving: all turns; the last ones without unread.

@@ -44,12 +44,12 @@ void Device::install_unit(Nanoseconds now) {
 void Device::receive(std::span<const std::byte> bytes, const device::Instant& now,
                      device::LineSink& line) {
     answers_.clear();
-    const bool was_sampling = machine_->is_sampling();
-    machine_->receive(bytes, now.steady, answers_);
-    if (was_sampling && (!machine_->is_sampling() || machine_->sampling_run() != run_)) {
+    if (machine_->is_sampling()) {
+        machine_->fall_back_to_configuration();
         const auto unseen = line.take_back();
         taken_back_.insert(taken_back_.begin(), unseen.begin(), unseen.end());
     }
+    machine_->receive(bytes, now.steady, answers_);
     if (!answers_.empty()) line.send(answers_, now.simulated, nullptr);
     if (machine_->is_sampling() && machine_->sampling_run() != run_) begin_sampling(now.simulated);
 }
@@ -62,7 +62,13 @@ void Device::begin_sampling(UtcTime now) {
     if (is_over_) return;
     if (report_.sessions == 0 && timing_ == Timing::from_host_start)
         shift_ = now - *recording_->next_due(*machine_);
-    if (!has_begun_) ++report_.sessions;
+    const auto due = recording_->next_due(*machine_);
+    if (!has_begun_) {
+        ++report_.sessions;
+    } else if (due && simulated(*due) < now) {
+        ++report_.restarts;
+        report_.longest_delay = std::max(report_.longest_delay, now - simulated(*due));
+    }
     has_begun_ = true;
 }
 

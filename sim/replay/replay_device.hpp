@@ -18,13 +18,22 @@ enum class Timing {
 struct Report {
     std::int64_t pieces = 0;  ///< Reads of a journal, samples of an archive.
     int sessions = 0;         ///< Sessions begun.
+    int restarts = 0;         ///< Starts of sampling by the host when a session's pieces were due.
+    Nanoseconds longest_delay{0};  ///< Largest delay of a piece at such a start, simulated.
 };
 
 /// Answers commands as the recorded unit does in configuration mode.  The recording is sent while
 /// the host samples with the recorded settings.  A piece that was due before is sent at once, so
-/// that nothing is left out if the host is late.  When the host stops, bytes that it has not seen
-/// are taken back from the line; when it starts again, they and the next piece follow.  At the end of a session the device is silent in configuration mode; the next
-/// session begins when the host starts sampling again.
+/// that nothing is left out if the host is late.
+///
+/// A command while the recording is sent comes from a host that stops, or that took a paused replay
+/// for a silent sensor and reads no frames until it has configured the sensor.  Therefore any
+/// command ends sampling, and bytes that the host has not seen are taken back from the line.  When
+/// the host starts sampling again, they and the next piece follow.  Nothing is sent while the
+/// host's terminal has another baud rate.
+///
+/// At the end of a session the device is silent in configuration mode; the next session begins when
+/// the host starts sampling again.
 class Device final : public device::LineDevice {
 public:
     /// @param now  time on the steady clock of Instant.
@@ -37,6 +46,7 @@ public:
     void advance_to(const device::Instant& now, device::LineSink& line) override;
     [[nodiscard]] std::optional<UtcTime> next_due() const override;
     [[nodiscard]] int baud() const override { return machine_->baud(); }
+    [[nodiscard]] bool waits_for_baud() const override { return true; }
 
     /// Returns when the first piece is due, by the recording's clock.
     [[nodiscard]] UtcTime first_due() const noexcept { return first_due_; }

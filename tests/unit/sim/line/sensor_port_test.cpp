@@ -316,6 +316,31 @@ TEST_CASE("nothing is understood at a wrong speed, and everything at the right o
     CHECK(hex_of(host.receive(4)) == "6A 33 41 0D");
 }
 
+TEST_CASE("a device that waits for the baud rate sends nothing at another one",
+          "[sim][sensor_port]") {
+    struct Waiting final : LineDevice {
+        void receive(std::span<const std::byte>, const Instant&, LineSink&) override {}
+        void advance_to(const Instant& now, LineSink& line) override {
+            line.send(std::array{std::byte{0x80}}, now.simulated, nullptr);
+        }
+        [[nodiscard]] std::optional<UtcTime> next_due() const override { return UtcTime(); }
+        [[nodiscard]] int baud() const override { return 460800; }
+        [[nodiscard]] bool waits_for_baud() const override { return true; }
+    } device;
+    Pty pty(link_path("waiting"));
+    Line line({}, 0, UtcTime(), [](const truth::Record&) {});
+    SensorPort port(pty, device, line);
+    Host host(link_path("waiting"));
+    const Instant now{UtcTime(1s), 1s};
+    host.set_speed(B115200);
+    port.serve(now);
+    CHECK_FALSE(host.is_readable());
+    CHECK(port.patience(now, {}) > 0ns);
+    host.set_speed(B460800);
+    port.serve(now);
+    CHECK(hex_of(host.receive(1)) == "80");
+}
+
 TEST_CASE("an overrun loses the frames that do not fit and reports their exact number",
           "[sim][sensor_port]") {
     Served served("overrun", 50.0);

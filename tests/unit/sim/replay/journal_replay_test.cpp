@@ -280,6 +280,30 @@ TEST_CASE("bytes that a host has not seen when it stops are replayed when it sta
     CHECK(text_of(host.line) == "twothree");
 }
 
+TEST_CASE("a host that took a paused replay for a silent sensor misses no byte", "[sim][replay]") {
+    Recorded recorded;
+    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    Device device = recorded.device();
+    ReplayHost host(device, kStart);
+    host.configure({}, kProfile);
+    host.wait_until(kStart + 5s);
+    host.line.seen = 1;
+    host.wait_until(kStart + 8s);
+    for (const auto& command : wire::read_mode()) host.send(command);
+    REQUIRE(host.line.pieces.size() == 2);
+    const auto mode = wire::parse_answer(wire::kModeCtrl, host.line.pieces.back().bytes);
+    REQUIRE(mode);
+    CHECK(wire::ConfigMode::from_mode_ctrl(*mode));
+    host.wait_until(kStart + 10s);
+    CHECK(host.line.pieces.size() == 2);
+    host.configure({}, kProfile);
+    host.listen();
+    CHECK(text_of(host.line) == "twothree");
+    CHECK(device.report().sessions == 1);
+    CHECK(device.report().restarts == 1);
+    CHECK(device.report().longest_delay == 1s);
+}
+
 TEST_CASE("a clock step of the recording host is not replayed within a boot, a step back never",
           "[sim][replay]") {
     Recorded recorded;
