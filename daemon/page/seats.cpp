@@ -1,26 +1,34 @@
 #include "daemon/page/seats.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace a351::daemon::page {
 
+std::string host_of(const boost::asio::ip::address& address) {
+    if (address.is_v4() || address.is_loopback()) return address.to_string();
+    auto bytes = address.to_v6().to_bytes();
+    std::fill(bytes.begin() + bytes.size() / 2, bytes.end(), std::uint8_t{0});
+    return boost::asio::ip::address_v6(bytes).to_string();
+}
+
 Seats::Place Seats::seat(Holder holder) {
     const auto counts = [](const Holder& one) { return !one.is_leaving; };
     const auto is_neighbour = [&](const Holder& one) {
-        return counts(one) && one.address == holder.address;
+        return counts(one) && one.host == holder.host;
     };
     const auto is_foreign = [&](const Holder& one) { return counts(one) && !one.is_loopback; };
     const auto make_room = [&](const auto& may_leave) {
         const auto oldest = std::ranges::find_if(
-            holders_, [&](const Holder& one) { return may_leave(one) && one.is_waiting; });
+            holders_, [&](const Holder& one) { return may_leave(one) && !one.is_streaming; });
         if (oldest == holders_.end()) return false;
         oldest->is_leaving = true;
         oldest->leave();
         return true;
     };
     if (!holder.is_loopback) {
-        if (std::ranges::count_if(holders_, is_neighbour) >= std::ptrdiff_t{kOfOneAddress} &&
+        if (std::ranges::count_if(holders_, is_neighbour) >= std::ptrdiff_t{kOfOneHost} &&
             !make_room(is_neighbour))
             return holders_.end();
         if (std::ranges::count_if(holders_, is_foreign) >= std::ptrdiff_t{kMost - kForLoopback} &&
@@ -32,9 +40,18 @@ Seats::Place Seats::seat(Holder holder) {
     return holders_.insert(holders_.end(), std::move(holder));
 }
 
-void Seats::was_answered(Place place) {
-    place->is_waiting = true;
-    holders_.splice(holders_.end(), holders_, place);
+bool Seats::begin_stream(Place place) {
+    std::size_t all = 0, foreign = 0, of_host = 0;
+    for (const Holder& one : holders_) {
+        if (!one.is_streaming) continue;
+        ++all;
+        if (!one.is_loopback) ++foreign;
+        if (one.host == place->host) ++of_host;
+    }
+    const bool is_too_many =
+        all >= kMostStreams || (!place->is_loopback && (foreign >= kMostStreams - kForLoopback ||
+                                                        of_host >= kStreamsOfOneHost));
+    return place->is_streaming = !is_too_many;
 }
 
 }  // namespace a351::daemon::page

@@ -19,7 +19,6 @@ namespace {
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
 constexpr std::uint64_t kBodyLimit = std::uint64_t{16} * 1024;
 constexpr std::string_view kLivePath = "/live";
-constexpr std::size_t kMostStreams = 20;  // Part of the connections; 12 remain for requests.
 constexpr std::size_t kMostTurnedAway = Seats::kMost;
 // From accepting a connection to the end of its first header: a request of a slow network takes
 // less than a second.
@@ -165,7 +164,7 @@ private:
         const auto client = socket.remote_endpoint(error);
         if (error) return;
         const auto stream = std::make_shared<beast::tcp_stream>(std::move(socket));
-        const auto place = seats_.seat({.address = client.address().to_string(),
+        const auto place = seats_.seat({.host = host_of(client.address()),
                                         .is_loopback = client.address().is_loopback(),
                                         .leave = [stream] { stream->close(); }});
         if (place != seats_.end()) {
@@ -205,7 +204,6 @@ private:
                 co_await http::async_read(stream, buffer, parser, into(error));
             }
             if (place->is_leaving) co_return;
-            Seats::request_came(place);
             if (error) {
                 const auto trouble = complaint(error);
                 if (trouble) co_await refuse(stream, *trouble);
@@ -215,7 +213,7 @@ private:
             const Request request = plain(message, stream.socket());
             auto response = guard_->refuse(request);
             if (!response && request.target == kLivePath) {
-                response = refuse_stream(message);
+                response = refuse_stream(message, place);
                 if (!response) {
                     co_await live_->serve(std::move(stream), parser.release(),
                                           Seat(api_->use().streams));
@@ -226,19 +224,20 @@ private:
             const auto reply = packed(*std::move(response), message.version(), message.keep_alive(),
                                       request.method == "HEAD");
             stream.expires_after(options_.request_limit);
+            seats_.answered(place);
             co_await http::async_write(stream, reply, into(error));
             if (error || !message.keep_alive()) co_return;
-            seats_.was_answered(place);
         }
     }
 
-    [[nodiscard]] std::optional<Response> refuse_stream(const HttpRequest& message) {
+    [[nodiscard]] std::optional<Response> refuse_stream(const HttpRequest& message,
+                                                        Seats::Place place) {
         if (!asks_for_websocket(message)) {
             auto response = refusal(426, "this path is a WebSocket");
             response.headers.emplace_back("Upgrade", "websocket");
             return response;
         }
-        if (api_->use().streams < kMostStreams) return std::nullopt;
+        if (seats_.begin_stream(place)) return std::nullopt;
         return refusal(503, "too many live streams; try again later");
     }
 

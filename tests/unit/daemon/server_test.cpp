@@ -132,6 +132,18 @@ TEST_CASE("the connection that waits longest makes room, and closed connections 
     CHECK(served.is_well());
 }
 
+TEST_CASE("clients that never read their answers do not shut out others", "[daemon][server]") {
+    const Served served;
+    std::list<RawClient> deaf;
+    for (int i = 0; i < 40; ++i) {
+        deaf.emplace_back(served.server.port());
+        // More than the buffers of both ends take.
+        for (int n = 0; n < 100; ++n) deaf.back().send(served.get("/dygraph.min.js"));
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(1));  // Until the buffers are full.
+    CHECK(served.is_well());
+}
+
 TEST_CASE("a request that is not complete in time is cut off", "[daemon][server]") {
     ServerOptions options;
     options.request_limit = std::chrono::milliseconds(200);
