@@ -12,6 +12,46 @@
 
 namespace a351::corrector::model {
 
+namespace {
+
+/// Returns the column of the scale.
+Eigen::Index scale_column(const LinearModel& model) {
+    return static_cast<Eigen::Index>(model.parameter_count()) - 2;
+}
+
+/// Sets the gravity in the column of the scale, for rows that are not in the fit, to the one that they
+/// get: reading - effects = g + k (g - g0), so g - g0 = (reading - effects - g0) / (1 + k).
+void set_unknown_gravity(AppliedFit& applied, const LinearModel& model,
+                         const SurveyProblem& problem, const RowChoice& choice) {
+    const Eigen::Index at = scale_column(model);
+    const double k = applied.fit.coefficients(at + 1);
+    for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+        if (choice.in_use[i]) continue;
+        double& above_mgal = applied.columns(static_cast<Eigen::Index>(i), at);
+        const reading::SurveyRow& row = problem.rows[i];
+        const double effects_mgal = applied.fit.at(applied.regressors_of(i)) - k * above_mgal;
+        above_mgal = ((row.acceleration - row.tide).value() - effects_mgal -
+                      kMilliGalPerStandardGravity) /
+                     (1.0 + k);
+    }
+}
+
+/// Makes the coefficient k the scale 1 + k, and reports it.  Its error is at most that of the prior,
+/// also if the readings scatter by more than reading_sd.
+void set_scale(Fit& result, const LinearModel& model, const AppliedFit& applied,
+               const Priors& priors) {
+    const auto at = static_cast<std::size_t>(scale_column(model)) + 1;
+    const Prior prior = priors.scale_of("");
+    Coefficient& coefficient = result.coefficients.at(at);
+    coefficient.value += 1.0;
+    if (applied.s_mgal)
+        coefficient.standard_error = std::min(coefficient.standard_error.value(), prior.sd);
+    result.scales.push_back(
+        {"", coefficient.value, coefficient.standard_error.value_or(prior.sd), prior});
+}
+
+}  // namespace
+
 std::variant<AppliedFit, Refusal> apply_model(const LinearModel& model,
                                               const SurveyProblem& problem, const RowChoice& choice,
                                               const Priors& priors) {
@@ -21,11 +61,14 @@ std::variant<AppliedFit, Refusal> apply_model(const LinearModel& model,
         return Refusal{fmt::format("{} rows with a reference do not determine it", used.size()),
                        fmt::format("at least {} rows between which temperature, rate and time vary "
                                    "independently{}",
-                                   model.parameter_count() + problem.options.steps.size(),
+                                   model.parameter_count() - (model.has_scale ? 1U : 0U) +
+                                       problem.options.steps.size(),
                                    problem.options.steps.empty() ? "" : ", some after each step")};
     const auto s_mgal = fit->residual_scale();
-    return AppliedFit{std::move(*fit), model_columns(model, problem.rows, problem.origin()),
-                      s_mgal};
+    AppliedFit applied{std::move(*fit), model_columns(model, problem.rows, problem.origin()),
+                       s_mgal};
+    if (model.has_scale) set_unknown_gravity(applied, model, problem, choice);
+    return applied;
 }
 
 std::optional<Noise> linear_noise(const LinearModel& model, const ChosenSurvey& survey,
@@ -78,7 +121,8 @@ void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t r
     if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
 }
 
-void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied) {
+void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied,
+                  const Priors& priors) {
     const LinearFit& fit = applied.fit;
     const auto steps = static_cast<std::size_t>(fit.coefficients.size()) - model.parameter_count();
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
@@ -97,6 +141,7 @@ void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& appli
             out.tilt_correction = -(effect(k) + effect(k + 1));
             k += 2;
         }
+        if (model.has_scale) out.scale_correction = -effect(k++);
         while (k < x.size()) out.drift_correction = out.drift_correction - effect(k++);
         out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;
@@ -113,6 +158,7 @@ void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& appli
             result.coefficients.back().standard_error =
                 *applied.s_mgal * std::sqrt(fit.cofactor(at, at));
     }
+    if (model.has_scale) set_scale(result, model, applied, priors);
 }
 
 std::vector<StationValue> average_stations(const Fit& result, const std::vector<bool>& accepted,

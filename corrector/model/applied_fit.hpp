@@ -78,7 +78,8 @@ void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t r
 /// @param result  with the rows of uncorrected(), one per row of `applied`; coefficients are added
 ///                to those that it has.
 /// @param model   model of the fit.
-void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied);
+void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied,
+                  const Priors& priors);
 
 /// Returns the values of the stations: means of their accepted rows, or of all their rows if none
 /// is accepted.  u = s sqrt(1/n + leverage of the mean of these rows); its factor for 95 % is

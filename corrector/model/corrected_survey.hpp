@@ -97,8 +97,8 @@ struct CorrectedRow {
     MilliGal drift_correction;  ///< Steps included.
     /// Present in every row or in none: `day`, `t-rate-drift-axes`, or with a calibration.
     std::optional<MilliGal> tilt_correction;
-    /// Minus (S - 1) (g - g0), S the scale of the instrument.  Present in every row or in none: a model
-    /// with a term for the scale.
+    /// Minus (S - 1) (g - g0), S the scale of the instrument; in a linear model g0 is 980665 mGal.
+    /// Present in every row or in none: a model with a term for the scale.
     std::optional<MilliGal> scale_correction;
     MilliGal corrected;                ///< acceleration - tide + all corrections.
     std::optional<MilliGal> residual;  ///< reference - corrected.

@@ -94,11 +94,11 @@ StationCovariance covariance_of(const std::vector<StationMean>& means, const Lin
 ///
 /// A pair without which the rows do not determine the model is left out.  Cost: one fit for each
 /// pair.
-/// @param result  with corrected rows and stations.
+/// @param result   with corrected rows and stations.
+/// @param columns  AppliedFit::columns.
 void set_left_out_stations(Fit& result, const LinearModel& terms, const SurveyProblem& problem,
-                           const RowChoice& choice) {
-    const std::vector<StationMean> means =
-        means_of(result, model_columns(terms, problem.rows, problem.origin()), choice);
+                           const RowChoice& choice, const Eigen::MatrixXd& columns) {
+    const std::vector<StationMean> means = means_of(result, columns, choice);
     const auto all = fit_without(terms, problem, choice, "", "");
     if (!all || !all->residual_scale()) return;
     const double s_mgal = *all->residual_scale();
@@ -124,23 +124,35 @@ void set_left_out_stations(Fit& result, const LinearModel& terms, const SurveyPr
     result.covariance = covariance_of(means, *all, s_mgal);
 }
 
-Score score(const LinearModel& terms, const SurveyProblem& problem, const RowChoice& choice) {
-    return score_linear_model(terms, chosen_rows(problem.rows, choice.in_use), problem.origin(),
-                              problem.options.priors);
+Score score(const LinearModel& given, const SurveyProblem& problem, const RowChoice& choice) {
+    const Priors& priors = problem.options.priors;
+    return score_linear_model(with_scale(given, priors), chosen_rows(problem.rows, choice.in_use),
+                              problem.origin(), priors);
 }
 
-FitResult fit(const LinearModel& terms, const SurveyProblem& problem, const RowChoice& choice) {
+std::optional<Noise> noise(const LinearModel& given, const ChosenSurvey& survey,
+                           const Noise* nearby) {
+    return linear_noise(with_scale(given, survey.problem.options.priors), survey, nearby);
+}
+
+std::optional<residual::Residuals> residuals(const LinearModel& given, const ChosenSurvey& survey,
+                                             const Noise& of_survey) {
+    return linear_residuals(with_scale(given, survey.problem.options.priors), survey, of_survey);
+}
+
+FitResult fit(const LinearModel& given, const SurveyProblem& problem, const RowChoice& choice) {
     const Priors& priors = problem.options.priors;
+    const LinearModel terms = with_scale(given, priors);
     auto applied = apply_model(terms, problem, choice, priors);
     if (auto* const refusal = std::get_if<Refusal>(&applied)) return std::move(*refusal);
     const auto& linear = std::get<AppliedFit>(applied);
     Fit result;
     result.rows = uncorrected(problem, choice);
-    result.score = score(terms, problem, choice);
-    correct_rows(result, terms, linear);
+    result.score = score(given, problem, choice);
+    correct_rows(result, terms, linear, priors);
     result.own = LinearPart{loo_interval(result, problem.options.seed)};
     result.stations = average_stations(result, choice.accepted, linear, result.score.s_mgal);
-    set_left_out_stations(result, terms, problem, choice);
+    set_left_out_stations(result, terms, problem, choice, linear.columns);
     doubt_by_linear_fit(result.rows, terms, problem.origin(), priors);
     return result;
 }
@@ -151,8 +163,8 @@ std::vector<Model> linear_models() {
     std::vector<Model> list;
     const auto add = [&list](const LinearModel& terms, bool is_always_scored) {
         list.push_back({terms.name, is_always_scored, std::bind_front(fit, terms),
-                        std::bind_front(score, terms), std::bind_front(linear_noise, terms),
-                        std::bind_front(linear_residuals, terms)});
+                        std::bind_front(score, terms), std::bind_front(noise, terms),
+                        std::bind_front(residuals, terms)});
     };
     for (const LinearModel& terms : kLinearModels) add(terms, true);
     for (const LinearModel& terms : kModelsOnRequest) add(terms, false);

@@ -31,11 +31,12 @@ std::optional<std::vector<double>> station_left_out_mgal(
     for (const std::string& station : station_names(rows)) {
         std::vector<reading::SurveyRow> others = rows;
         std::erase_if(others, [&](const reading::SurveyRow& row) { return row.site == station; });
-        const LinearModel* const model = model_of(others);
-        if (model == nullptr) return std::nullopt;
-        const auto fit = fit_model(*model, others, origin, priors);
+        const LinearModel* const chosen = model_of(others);
+        if (chosen == nullptr) return std::nullopt;
+        const LinearModel model = with_scale(*chosen, priors);
+        const auto fit = fit_model(model, others, origin, priors);
         if (!fit) return std::nullopt;
-        const Eigen::MatrixXd columns = model_columns(*model, rows, origin);
+        const Eigen::MatrixXd columns = model_columns(model, rows, origin);
         const std::vector<double> differences = differences_mgal(rows);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].site != station) continue;
@@ -108,6 +109,11 @@ const LinearModel* find_linear_model(std::string_view name) {
     return nullptr;
 }
 
+LinearModel with_scale(LinearModel model, const Priors& priors) {
+    model.has_scale = priors.find(kScale) != nullptr;
+    return model;
+}
+
 Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
                               const TimeOrigin& origin) {
     Eigen::MatrixXd columns(
@@ -128,6 +134,9 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<readin
             columns(i, k++) = axes.x.mean.value();
             columns(i, k++) = axes.y.mean.value();
         }
+        if (model.has_scale)
+            columns(i, k++) = row.reference.value_or(row.acceleration - row.tide).value() -
+                              kMilliGalPerStandardGravity;
         for (const UtcTime step : origin.steps) columns(i, k++) = row.time > step ? 1.0 : 0.0;
     }
     return columns;
@@ -139,6 +148,7 @@ std::vector<std::string> coefficient_names(const LinearModel& model, std::size_t
     if (model.has_rate) names.emplace_back("rate_mgal_per_degc_per_h");
     if (model.has_time) names.emplace_back("time_mgal_per_h");
     if (model.has_axes) names.insert(names.end(), {"x_mgal_per_g", "y_mgal_per_g"});
+    if (model.has_scale) names.emplace_back(kScale);
     for (std::size_t k = 1; k <= steps; ++k) names.push_back(fmt::format("step_{}_mgal", k));
     return names;
 }
@@ -150,7 +160,9 @@ SlopePriors slope_priors(const LinearModel& model, const Priors& priors, std::si
     for (Eigen::Index k = 0; k < slope_count; ++k) {
         const Prior* const prior = priors.find(names[static_cast<std::size_t>(k) + 1]);
         if (prior == nullptr) continue;
-        slopes.values(k) = prior->mean;
+        // The slope of the scale is k.
+        slopes.values(k) =
+            names[static_cast<std::size_t>(k) + 1] == kScale ? prior->mean - 1.0 : prior->mean;
         slopes.weights(k) = priors.reading_sd_mgal / prior->sd;
     }
     return slopes;
@@ -281,7 +293,7 @@ std::optional<Choice> choose_model(const std::vector<reading::SurveyRow>& rows,
     std::vector<Score> scores;
     for (const LinearModel& model : kLinearModels) {
         if (!takes_part(model, rows, base)) continue;
-        Score score = score_linear_model(model, rows, origin, priors);
+        Score score = score_linear_model(with_scale(model, priors), rows, origin, priors);
         if (score.loso_mgal && score.row_count >= score.parameter_count + kFewestChoiceDof)
             scores.push_back(score);
     }

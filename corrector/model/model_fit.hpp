@@ -3,11 +3,13 @@
 /// Linear models of the difference between reading and gravity, fitted to stations of known
 /// gravity:
 ///
-///     D_i = b0 [+ bT (T_i - T0)] [+ bR R_i] [+ b1 (t_i - t0)] [+ bx x_i + by y_i] + noise,
+///     D_i = b0 [+ bT (T_i - T0)] [+ bR R_i] [+ b1 (t_i - t0)] [+ bx x_i + by y_i]
+///           [+ k (g_i - g0)] + noise,
 ///     D   = acceleration - g - tide
 ///
 /// D is in mGal, T in degC, its rate R in degC/h, the time t in h, and x, y in g.
-/// T0 and t0 only shift the constant; they keep the numbers small.
+/// T0, t0 and g0 (980665 mGal) only shift the constant; they keep the numbers small.
+/// k is the scale factor minus 1; with_scale() adds this term if the scale has a prior.
 ///
 /// Use these models for one average per occupation.  For records use the whole-day model, which
 /// knows the course of the temperature between the occupations.
@@ -61,11 +63,12 @@ struct LinearModel {
     bool has_rate = false;         ///< Term bR R.
     bool has_time = false;         ///< Term b1 (t - t0).
     bool has_axes = false;         ///< Terms bx x + by y: means of the horizontal axes; for tilt.
+    bool has_scale = false;        ///< Term k (g - g0), always with a prior.
 
     /// Returns the number of coefficients p, the constant included.
     [[nodiscard]] std::size_t parameter_count() const {
         return 1U + (has_temperature ? 1U : 0U) + (has_rate ? 1U : 0U) + (has_time ? 1U : 0U) +
-               (has_axes ? 2U : 0U);
+               (has_axes ? 2U : 0U) + (has_scale ? 1U : 0U);
     }
 };
 
@@ -103,9 +106,15 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 /// Returns the model of this name from kLinearModels or kModelsOnRequest; null if there is none.
 [[nodiscard]] const LinearModel* find_linear_model(std::string_view name);
 
+/// Returns the model with a term for the scale if the priors have one for it, else the model itself.
+///
+/// A few known stations hardly determine a scale, and without a calibration its usual prior, 1 +-
+/// 0.002, is far below what they can find: nothing is gained by the term then.
+[[nodiscard]] LinearModel with_scale(LinearModel model, const Priors& priors);
+
 /// Returns the regressors of a model (n, p - 1): those of T - T0 (degC), R (degC/h), t - t0 (h), x
-/// (g) and y (g) that it has, in this order; then for each step 1 after it and 0 before.  One row per
-/// survey row.
+/// (g), y (g) and g - g0 (mGal) that it has, in this order; then for each step 1 after it and 0 before.
+/// One row per survey row.  Without a reference g is the reading; apply_model() does better.
 ///
 /// The columns are those of fit_linear().  A coefficient times its column is an effect in mGal,
 /// which is subtracted from the reading.
@@ -118,7 +127,8 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 
 /// Returns the names of the coefficients with their units (p): the constant, then one per column.
 ///
-/// They are the names of result.json, and those of kPriorNames where a prior is possible.
+/// They are the names of result.json, and those of kPriorNames where a prior is possible.  That of k
+/// is `scale`; result.json has 1 + k.
 /// @param steps  number of steps; their names are step_1_mgal and so on.
 [[nodiscard]] std::vector<std::string> coefficient_names(const LinearModel& model,
                                                          std::size_t steps = 0);

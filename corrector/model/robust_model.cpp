@@ -39,7 +39,7 @@ FitResult fit_robust_rows(const SurveyProblem& problem, const RowChoice& choice)
     result.own = RobustPart{std::string(terms.name)};
     result.rows = uncorrected(problem, choice);
     result.score = score_robust(problem, choice);
-    correct_rows(result, terms, fit);
+    correct_rows(result, terms, fit, priors);
     Eigen::Index at = 0;
     for (CorrectedRow& row : result.rows) {
         // The robust scale hardly depends on a single row, so it is used as it is.

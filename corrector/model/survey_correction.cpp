@@ -153,8 +153,7 @@ void remark_unused_uncertainties(Fit& result, const Model& model) {
 void remark_unused_scale(Fit& result, const Model& model, const Priors& priors) {
     if (!result.scales.empty() || priors.find(kScale) == nullptr) return;
     result.remarks.push_back(
-        fmt::format("{} has no scale: its prior is used by {} and {} only", model.name, kNetwork,
-                    kWholeDay));
+        fmt::format("{} has no scale: its prior is not used", model.name));
 }
 
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {

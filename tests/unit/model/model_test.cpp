@@ -1,9 +1,11 @@
 #include "corrector/model/model.hpp"
 
+#include <algorithm>
 #include <set>
 #include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
@@ -117,10 +119,56 @@ TEST_CASE("a model without a scale says that it does not use the prior of the sc
     const auto rows = made_up::day();
     SurveyOptions options = options_for(rows);
     set_prior(options.priors, "test", "scale", {1.0, 0.002});
-    for (const std::string name : {"robust", "network"}) {
+    for (const std::string name : {"robust", "network", "t-rate-drift"}) {
         options.model = name;
         const std::string remark = text::joined(correct_survey(rows, options).remarks);
-        CHECK((remark.find("has no scale: its prior is used by network and day only") !=
+        CHECK((remark.find("has no scale: its prior is not used") !=
                std::string::npos) == (name == "robust"));
     }
+}
+
+TEST_CASE("a linear model with a prior of the scale finds a station whose gravity is far away",
+          "[survey][model][scale]") {
+    constexpr double kScaleError = 0.01, kFar_mgal = 500.0, kPriorSd = 0.001;
+    auto rows = made_up::day();
+    SurveyRow& far = rows[8];  // S7, once
+    const MilliGal truth = *far.reference + MilliGal(kFar_mgal);
+    far.acceleration = far.acceleration + MilliGal(kFar_mgal);
+    for (SurveyRow& row : rows)
+        row.acceleration = row.acceleration +
+                           MilliGal(kScaleError * (&row == &far ? truth : *row.reference).value()) -
+                           MilliGal(kScaleError * kMilliGalPerStandardGravity);
+    far.reference.reset();
+    for (std::size_t i = 0; i < rows.size(); ++i)  // scatter, so that there is a standard error
+        rows[i].acceleration = rows[i].acceleration + MilliGal(i % 2 == 0 ? 0.01 : -0.01);
+    SurveyOptions options = options_for(rows);
+    options.model = "t-rate-drift";
+    const auto at_far = [&](const SurveyCorrection& result) {
+        return *std::ranges::find(result.stations, "S7", &StationValue::site);
+    };
+    const auto without = correct_survey(rows, options);
+    CHECK(without.scales.empty());
+    CHECK((at_far(without).gravity - truth).value() > 1.0);
+
+    set_prior(options.priors, "test", kScale, {1.0 + kScaleError, kPriorSd});
+    const auto with = correct_survey(rows, options);
+    REQUIRE(with.scales.size() == 1);
+    CHECK(with.scales[0].value == Approx(1.0 + kScaleError).epsilon(0).margin(1e-4));
+    CHECK((at_far(with).gravity - truth).value() == Approx(0.0).margin(0.1));
+    CHECK(with.coefficients.back().name == kScale);
+    CHECK(with.coefficients.back().value == with.scales[0].value);
+    for (const CorrectedRow& row : with.rows) {
+        CHECK(row.scale_correction);
+        const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
+                             row.rate_correction + row.drift_correction + *row.scale_correction;
+        CHECK(sum.value() == Approx(row.corrected.value()).margin(1e-6));
+    }
+
+    // The far station's error is mostly that of the scale.
+    options.priors.reading_sd_mgal = 0.01;
+    set_prior(options.priors, "test", kScale, {1.0 + kScaleError, 1e-6});
+    const double held = at_far(correct_survey(rows, options)).u_gravity.value().value();
+    set_prior(options.priors, "test", kScale, {1.0 + kScaleError, kPriorSd});
+    const double loose = at_far(correct_survey(rows, options)).u_gravity.value().value();
+    CHECK(loose > 2.0 * held);
 }
