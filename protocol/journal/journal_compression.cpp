@@ -107,6 +107,7 @@ std::vector<std::byte> decompress_segment(const std::filesystem::path& segment) 
     const auto packed = files::read_bytes(segment);
     const std::optional<std::size_t> stated = stated_size(packed);
     std::vector<std::byte> bytes;
+    std::size_t unpacked = 0;  // End of the last frame's content.
     bool has_frame = false;
     bool is_searching = false;  // The bytes of the frame before are in `bytes`, as far as known.
     for (std::size_t at = stated ? kSizeFrameBytes : 0; at < packed.size();) {
@@ -122,6 +123,7 @@ std::vector<std::byte> decompress_segment(const std::filesystem::path& segment) 
             has_frame = true;
             length = unpack(rest, std::span(bytes).subspan(begin));
             if (!length) length = damaged_size(rest);
+            unpacked = bytes.size();
         }
         is_searching = !length;
         at += length.value_or(1);
@@ -129,7 +131,7 @@ std::vector<std::byte> decompress_segment(const std::filesystem::path& segment) 
     if (!has_frame && stated.value_or(1) != 0)
         throw std::runtime_error(segment.string() + ": not a compressed segment");
     // The stated size may be damaged too, so that nothing that was unpacked is cut off.
-    if (stated) bytes.resize(std::max(bytes.size(), *stated));
+    if (stated) bytes.resize(std::max(unpacked, *stated));
     return bytes;
 }
 

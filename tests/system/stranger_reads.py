@@ -6,43 +6,9 @@ import json
 import struct
 
 from programs import TOP, demand
+from stranger_journal import journal
 
 GOLDEN = TOP / "tests" / "golden"
-
-
-def crc(data):
-    """Returns the CRC-32C."""
-    value = 0xFFFFFFFF
-    for byte in data:
-        value ^= byte
-        for _ in range(8):
-            value = value >> 1 ^ 0x82F63B78 * (value & 1)
-    return value ^ 0xFFFFFFFF
-
-
-def chunk(data, at, least):
-    """Returns type, sequence number and payload of the good chunk at this place; None if there is none."""
-    if at + 13 > len(data):
-        return None
-    length, kind, number, check = struct.unpack_from("<IBII", data, at)
-    payload = data[at + 13:at + 13 + length]
-    if length > 65536 or len(payload) < length or not least <= number < least + len(data) or (kind == 1) != (number == 0) or not kind:
-        return None
-    return (kind, number, payload) if crc(data[at:at + 9] + payload) == check else None
-
-
-def journal(file):
-    """Yields (type, payload) of each good chunk: protocol/journal/journal-format.md."""
-    data = file if isinstance(file, bytes) else file.read_bytes()
-    at, number = 12, -1
-    while data[:12] == b"A351JRNL\1\0\0\0" and at < len(data):
-        good = chunk(data, at, number + 1)
-        if good:
-            kind, number, payload = good
-            yield kind, payload
-        elif number < 0:
-            return
-        at += 13 + len(payload) if good else 1
 
 
 def received(payload):

@@ -1,6 +1,4 @@
-#include <cstdlib>
-#include <cstring>
-
+#include "tests/support/long_tests.hpp"
 #include "tests/unit/daemon/stepped_rig.hpp"
 #include "tests/unit/files/failing_files.hpp"
 
@@ -133,11 +131,6 @@ constexpr int kShortStride = 97;
 constexpr int kShortStride = 19;
 #endif
 
-bool is_long() {
-    const char* const value = std::getenv("A351_LONG");
-    return value != nullptr && std::strcmp(value, "1") == 0;
-}
-
 }  // namespace
 
 TEST_CASE("a minute without faults needs the same number of file operations each time",
@@ -181,7 +174,7 @@ TEST_CASE("whichever file operation fails, every journaled sample is archived on
                  {Fault::Kind::full_disk, "ENOSPC"},
                  {Fault::Kind::short_write, "short write"},
                  {Fault::Kind::sync, "failed fdatasync"}};
-    const int stride = is_long() ? 1 : kShortStride;
+    const int stride = test::is_long() ? 1 : kShortStride;
     for (const auto& [kind, name] : kinds) {
         for (const bool lasts : {false, true}) {
             const int operations = Minute(Fault{0, kind}).operations();

@@ -8,6 +8,7 @@
 #include <system_error>
 #include "tests/support/catch.hpp"
 
+#include "tests/support/long_tests.hpp"
 #include "tests/unit/files/failing_files.hpp"
 #include "tests/unit/journal/segment_fixture.hpp"
 
@@ -115,6 +116,52 @@ TEST_CASE_METHOD(Fixture, "a flipped bit in a compressed segment costs at most o
                 most_lost);
     CHECK(most_lost > 0);
     CHECK(most_lost <= chunk_count / 8 + 2);
+}
+
+TEST_CASE_METHOD(Fixture,
+                 "a compressed segment cut at any byte has the chunks before, and the rest is damage",
+                 "[record][journal][long]") {
+    std::vector<std::size_t> ends;  // Of the chunks.
+    auto bytes = encode_preamble();
+    append(bytes, encode_chunk(test::journal_header(), 0));
+    ends.push_back(bytes.size());
+    while (bytes.size() < std::size_t{5} << 18) {  // Three frames, of few bytes each.
+        const auto sequence = static_cast<std::uint32_t>(ends.size());
+        append(bytes, encode_chunk(test::rx_chunk(std::string(30'000, 'a'), "z"), sequence));
+        ends.push_back(bytes.size());
+    }
+    test::write_bytes(file_, bytes);
+    compress_segment(posix_files(), file_);
+    const auto packed = segment_files(directory_.path()).front();
+    const auto whole = test::read_bytes(packed);
+    constexpr std::size_t kSizeFrame = 16, kFrame = std::size_t{1} << 19;
+    std::vector<std::size_t> frames{kSizeFrame};
+    while (frames.back() < whole.size())
+        frames.push_back(frames.back() +
+                         ZSTD_findFrameCompressedSize(whole.data() + frames.back(),
+                                                      whole.size() - frames.back()));
+
+    const std::size_t stride = test::is_long() ? 1 : 13;
+    std::size_t cuts = 0, good = 0;
+    for (std::size_t size = 0; size < whole.size(); size += stride, ++cuts) {
+        test::write_bytes(packed, Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size)));
+        const auto reading = read_all(packed);
+        INFO("cut at " << size);
+        const auto whole_frames = std::ranges::upper_bound(frames, size) - frames.begin() - 1;
+        const auto unpacked = static_cast<std::size_t>(std::max<std::ptrdiff_t>(whole_frames, 0)) *
+                              kFrame;
+        const auto least = std::ranges::upper_bound(ends, unpacked) - ends.begin();
+        REQUIRE(reading.chunk_count >= static_cast<std::size_t>(least));
+        REQUIRE(reading.chunk_count >= good);  // A longer part has no fewer chunks.
+        good = reading.chunk_count;
+        REQUIRE(reading.damage);
+        REQUIRE((good == 0 || reading.sequences.back() == good - 1));
+        if (good == 0) continue;
+        REQUIRE(reading.damage->offset == ends[good - 1]);
+        REQUIRE(reading.damage->offset + reading.damage->byte_count == bytes.size());
+    }
+    std::printf("%zu cuts of %zu bytes in %zu frames, %zu of %zu chunks at the last\n", cuts,
+                whole.size(), frames.size() - 1, good, ends.size());
 }
 
 TEST_CASE_METHOD(Fixture,

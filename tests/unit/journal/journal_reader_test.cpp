@@ -45,6 +45,28 @@ TEST_CASE_METHOD(Fixture, "a tail torn at any byte costs only the chunks from th
     }
 }
 
+TEST_CASE_METHOD(Fixture, "repair of a tail torn at any byte keeps the whole chunks and all bytes",
+                 "[record][journal]") {
+    std::vector<std::size_t> ends{0};
+    std::size_t end = kPreambleSize;
+    std::uint32_t sequence = 0;
+    for (const auto& chunk : test::one_of_each())
+        ends.push_back(end += encode_chunk(chunk, sequence++).size());
+    const std::filesystem::path torn = file_.string() + ".torn";
+    for (std::size_t size = 0; size <= whole_.size(); ++size) {
+        const auto cut = whole_.begin() + std::ptrdiff_t(size);
+        const std::size_t kept = *std::prev(std::ranges::upper_bound(ends, size));
+        test::write_bytes(file_, Bytes(whole_.begin(), cut));
+        std::filesystem::remove(torn);
+        const auto damage = repair_newest_segment(posix_files(), directory_.path());
+        REQUIRE(damage.has_value() == (kept != size || size == 0));
+        REQUIRE(std::filesystem::exists(file_) == (kept > 0));
+        const auto end_of_kept = whole_.begin() + std::ptrdiff_t(kept);
+        if (kept > 0) REQUIRE(test::read_bytes(file_) == Bytes(whole_.begin(), end_of_kept));
+        if (damage) REQUIRE(test::read_bytes(torn) == Bytes(end_of_kept, cut));
+    }
+}
+
 TEST_CASE_METHOD(Fixture, "a flipped bit costs the chunk that it is in, and no other",
                  "[record][journal]") {
     std::vector<std::size_t> ends{kPreambleSize};
