@@ -50,6 +50,22 @@ ReferenceSurvey read_reference(text::TomlTable table) {
     return reference;
 }
 
+/// Reads the channel of a barometer in the archive of the root.
+void read_pressure_channel(SurveyFile& survey, text::TomlTable& table) {
+    constexpr double kLeastCounts = 1e-3, kMostCounts = 1e9;
+    const std::string name = table.string_or("pressure_channel", "");
+    const double counts_per_hpa = table.number_or(
+        "pressure_counts_per_hpa", reduction::kCountsPerHpa, kLeastCounts, kMostCounts);
+    if (name.empty()) return;
+    survey.reduction.pressure_channel = reduction::pressure_channel(name);
+    if (!survey.reduction.pressure_channel)
+        table.refuse("pressure_channel", "not a channel of pressure", "NET.STA.LOC.?D?");
+    if (!survey.reduction.pressure.empty())
+        table.refuse("pressure_channel", "there is a file of the pressure too", "one of them");
+    survey.reduction.pressure_channel->archive = survey.root / "archive";
+    survey.reduction.pressure_channel->counts_per_hpa = counts_per_hpa;
+}
+
 }  // namespace
 
 SurveyFile read_survey_file(const std::filesystem::path& file) {
@@ -82,6 +98,7 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
                          reading::kGreatestInstrumentHeight_m))
         survey.reduction.height = Metres(*height);
     survey.reduction.pressure = table.path_or_empty("pressure");
+    read_pressure_channel(survey, table);
     survey.reduction.admittance_mgal_per_hpa = table.number_or(
         "admittance_mgal_per_hpa", survey.reduction.admittance_mgal_per_hpa,
         reduction::kLeastAdmittance_mgal_per_hpa, reduction::kGreatestAdmittance_mgal_per_hpa);

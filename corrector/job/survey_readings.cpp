@@ -24,7 +24,9 @@ reading::SurveySource source_of(const SurveyFile& survey) {
 
 /// Adds the other files that a survey file names, in the order of result.json: the survey file
 /// first, calibration and tide before the archive.
-void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) {
+/// @param first, last  times of the first and the last reading.
+void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey, UtcTime first,
+                UtcTime last) {
     std::vector<text::InputFile> more;
     if (!survey.calibration.empty())
         more.push_back(text::describe_input("calibration", survey.calibration));
@@ -32,6 +34,11 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey) 
         more.push_back(text::describe_input("tide", survey.tide.series));
     if (!survey.reduction.pressure.empty())
         more.push_back(text::describe_input("pressure", survey.reduction.pressure));
+    if (const auto& channel = survey.reduction.pressure_channel)
+        for (const std::filesystem::path& file :
+             channel->files(first - reduction::kLongestPressureStep,
+                            last + reduction::kLongestPressureStep))
+            more.push_back(text::describe_input("pressure", file));
     if (survey.reference)
         more.push_back(text::describe_input("reference", survey.reference->observations));
     const auto archive =
@@ -56,7 +63,7 @@ reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Pro
         reduction::reduce_rows(read.rows, read.sites, reduction::read_gradients(survey.sites),
                                survey.reduction, read.day ? &*read.day : nullptr);
     read.warnings.insert(read.warnings.end(), reduced.begin(), reduced.end());
-    add_inputs(read.inputs, survey);
+    add_inputs(read.inputs, survey, read.rows.front().time, read.rows.back().time);
     return read;
 }
 

@@ -1,11 +1,79 @@
 #include "corrector/reduction/air_pressure.hpp"
 
-#include <algorithm>
+#include <fmt/core.h>
 
+#include <algorithm>
+#include <chrono>
+
+#include "protocol/archive/archive_reader.hpp"
+#include "protocol/archive/sds.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 
 namespace a351::corrector::reduction {
+
+std::string PressureChannel::name() const {
+    return fmt::format("{}.{}.{}.{}", codes.network, codes.station, codes.location, channel);
+}
+
+std::vector<std::filesystem::path> PressureChannel::files(UtcTime from, UtcTime to) const {
+    using std::chrono::days;
+    using std::chrono::floor;
+    std::vector<std::filesystem::path> existing;
+    for (auto day = floor<days>(from); day <= floor<days>(to); day += days(1))
+        if (auto file = archive::sds_file(archive, codes, channel, day);
+            std::filesystem::exists(file))
+            existing.push_back(std::move(file));
+    return existing;
+}
+
+std::optional<PressureChannel> pressure_channel(const std::string& name) {
+    std::vector<std::string> parts{""};
+    for (const char letter : name) {
+        if (letter == '.')
+            parts.emplace_back();
+        else
+            parts.back() += letter;
+    }
+    if (parts.size() != 4) return std::nullopt;
+    PressureChannel channel;
+    channel.codes.network = parts[0];
+    channel.codes.station = parts[1];
+    channel.codes.location = parts[2];
+    channel.channel = parts[3];
+    const auto is_code = [](char letter) {
+        return (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9');
+    };
+    if (!journal::are_valid(channel.codes) || parts[3].size() != 3 || parts[3][1] != 'D' ||
+        !std::ranges::all_of(parts[3], is_code))
+        return std::nullopt;
+    return channel;
+}
+
+AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcTime to) {
+    AirPressure pressure;
+    for (const archive::Segment& segment :
+         archive::read_channel(channel.archive, channel.codes, channel.channel, from, to).segments)
+        for (std::size_t i = 0; i < segment.counts.size(); ++i) {
+            const UtcTime time = segment.time_of(i);
+            if (!pressure.times_.empty() && time <= pressure.times_.back()) continue;
+            const double hpa = static_cast<double>(segment.counts[i]) / channel.counts_per_hpa;
+            if (!(hpa >= kLeastPressure_hpa && hpa <= kGreatestPressure_hpa))
+                throw InputError(fmt::format(
+                    "{}: {} hPa at {}: not a pressure on the ground; allowed: {} to {}, with the "
+                    "right pressure_counts_per_hpa",
+                    channel.name(), text::fixed(hpa, 2), to_rfc3339(time),
+                    text::fixed(kLeastPressure_hpa, 0), text::fixed(kGreatestPressure_hpa, 0)));
+            pressure.times_.push_back(time);
+            pressure.values_hpa_.push_back(hpa);
+        }
+    if (pressure.times_.size() < 2)
+        throw InputError(fmt::format(
+            "{}: no samples in {} between {} and {}; allowed: a channel with samples in the survey",
+            channel.name(), channel.archive.string(), to_rfc3339(from), to_rfc3339(to)));
+    return pressure;
+}
 
 AirPressure AirPressure::read(const std::filesystem::path& file) {
     const text::CsvTable table = text::read_csv(file);

@@ -78,6 +78,10 @@ void reduce_pressures(std::vector<reading::SurveyRow>& rows, const std::vector<t
     }
 }
 
+std::string pressure_name(const ReductionChoice& choice) {
+    return choice.pressure_channel ? choice.pressure_channel->name() : choice.pressure.string();
+}
+
 }  // namespace
 
 Gradients read_gradients(const std::filesystem::path& sites) {
@@ -99,6 +103,10 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
     std::vector<std::string> warnings;
     std::optional<AirPressure> pressure;
     if (!choice.pressure.empty()) pressure = AirPressure::read(choice.pressure);
+    if (choice.pressure_channel)
+        pressure = AirPressure::read(*choice.pressure_channel,
+                                     rows.front().time - kLongestPressureStep,
+                                     rows.back().time + kLongestPressureStep);
     for (reading::SurveyRow& row : rows) {
         if (!row.instrument_height) row.instrument_height = choice.height;
         if (!row.pressure_hpa && pressure) row.pressure_hpa = pressure->at(row.time);
@@ -106,7 +114,7 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
     if (pressure && std::ranges::none_of(rows, [](const reading::SurveyRow& row) {
             return row.pressure_hpa.has_value();
         }))
-        throw InputError(choice.pressure.string() +
+        throw InputError(pressure_name(choice) +
                          ": has no pressure at the time of any reading; allowed: a record of the "
                          "day, in steps of at most 3 h");
     reduce_heights(rows, gradients, warnings);
@@ -129,7 +137,8 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
 void describe_reduction(nlohmann::ordered_json& settings, const ReductionChoice& choice) {
     settings["instrument_height_m"] =
         choice.height ? nlohmann::ordered_json(choice.height->value()) : nullptr;
-    settings["pressure"] = choice.pressure.filename().string();
+    settings["pressure"] =
+        choice.pressure_channel ? pressure_name(choice) : choice.pressure.filename().string();
     if (choice.is_admittance_fitted)
         settings["admittance_mgal_per_hpa"] = "fitted";
     else

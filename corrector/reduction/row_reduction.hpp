@@ -21,6 +21,7 @@
 
 #include "corrector/reading/day_record.hpp"
 #include "corrector/reading/survey_row.hpp"
+#include "corrector/reduction/air_pressure.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::reduction {
@@ -42,6 +43,7 @@ inline constexpr double kLeastAdmittance_mgal_per_hpa = -0.001,
 struct ReductionChoice {
     std::optional<Metres> height;    ///< Height of the sensor in rows that give none.
     std::filesystem::path pressure;  ///< CSV for AirPressure::read(); empty: that of the rows.
+    std::optional<PressureChannel> pressure_channel = {};  ///< Instead of the CSV.
     double admittance_mgal_per_hpa = kAdmittance_mgal_per_hpa;
     /// True: the network fits the admittance, and the readings are not reduced for the pressure.
     bool is_admittance_fitted = false;

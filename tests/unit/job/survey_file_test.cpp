@@ -76,8 +76,12 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
         "[survey]\nname='first'\nroot='data'\nsites='sites.csv'\noccupations='o.csv'\n"
         "base='No.0'\ndatum=['No.0','No.1']\nmodel='t-rate'\nflags='ignore'\ntide='longman'\n"
         "delta2=1.2\ndelta3=1.2\ncurve='slow'\ncalibration=''\nseed=9\nnorm='as-published'\n"
-        "trend='smoother'\ncutoff_s=240\n");
+        "trend='smoother'\ncutoff_s=240\n"
+        "pressure_channel='XX.BARO..LDI'\npressure_counts_per_hpa=10\n");
     CHECK(survey.name == "first");
+    CHECK(survey.reduction.pressure_channel.value().name() == "XX.BARO..LDI");
+    CHECK(survey.reduction.pressure_channel->counts_per_hpa == 10.0);
+    CHECK(survey.reduction.pressure_channel->archive == survey.root / "archive");
     CHECK(survey.occupations == desk.folder.path() / "o.csv");
     CHECK(survey.survey.base == "No.0");
     CHECK(survey.survey.datum == std::vector<std::string>{"No.0", "No.1"});
@@ -139,6 +143,10 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\ncalibration='unit.toml'\n", "survey.calibration"},
         {"[survey]\ndelta2=116\n", "survey.delta2 = 116"},
         {"[survey]\ncutoff_s=10\n", "survey.cutoff_s = 10"},
+        {"[survey]\npressure_channel='XX.BARO.00.LNO'\n", "not a channel of pressure"},
+        {"[survey]\npressure_channel='XX.BARO.00.LDO'\npressure_counts_per_hpa=0\n",
+         "survey.pressure_counts_per_hpa = 0"},
+        {"[survey]\npressure='p.csv'\npressure_channel='XX.BARO.00.LDO'\n", "one of them"},
         {"[survey]\ntrend='spline'\n", "allowed: eemd, smoother"},
         {"[survey]\nseed=-1\n", "survey.seed = -1"},
         {"[survey]\nname=''\n", "survey.name"},
