@@ -58,23 +58,43 @@ std::int64_t try_sizes(std::int64_t low, std::int64_t high) {
     return tried;
 }
 
-constexpr std::int64_t kLargest = std::int64_t{1} << 30;
+/// Tries the sizes of a quarter of the range up to 2^30; in short tests only those at its ends and
+/// at powers of two.  Four tests can run at the same time.
+void try_quarter(int quarter) {
+    constexpr std::int64_t kQuarter = std::int64_t{1} << 28, kAround = 1000;
+    const std::int64_t low = quarter * kQuarter, high = low + kQuarter;
+    std::int64_t tried = 0;
+    if (test::is_long()) {
+        tried = try_sizes(low, high);
+    } else {
+        for (const std::int64_t end : {low, high})
+            tried += try_sizes(std::max(end - kAround, low), std::min(end + kAround, high));
+        for (std::int64_t power = 1; power < kQuarter && quarter == 0; power *= 2)
+            tried += try_sizes(std::max(power - kAround, low), power + kAround);
+    }
+    std::printf("%lld differences\n", static_cast<long long>(tried));
+}
 
 }  // namespace
 
-TEST_CASE("a difference of any size up to 2^30 and of either sign comes back unchanged",
+TEST_CASE("a difference of any size up to 2^28 and of either sign comes back unchanged",
           "[record][miniseed][long]") {
-    std::int64_t tried = 0;
-    if (test::is_long()) {
-        tried = try_sizes(0, kLargest);
-    } else {
-        tried = try_sizes(0, 1 << 16);
-        for (int bit = 17; bit <= 30; ++bit) {
-            const std::int64_t power = std::int64_t{1} << bit;
-            tried += try_sizes(power - 1000, std::min(power + 1000, kLargest));
-        }
-    }
-    std::printf("%lld differences\n", static_cast<long long>(tried));
+    try_quarter(0);
+}
+
+TEST_CASE("a difference of any size from 2^28 to 2^29 and of either sign comes back unchanged",
+          "[record][miniseed][long]") {
+    try_quarter(1);
+}
+
+TEST_CASE("a difference of any size from 2^29 to 3 x 2^28 and of either sign comes back unchanged",
+          "[record][miniseed][long]") {
+    try_quarter(2);
+}
+
+TEST_CASE("a difference of any size from 3 x 2^28 to 2^30 and of either sign comes back unchanged",
+          "[record][miniseed][long]") {
+    try_quarter(3);
 }
 
 TEST_CASE("each pair of differences at the limits of Steim-2's widths comes back, in any place",
