@@ -235,7 +235,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     live::Record live(*config.sensor.profile, config.station.output_rate_hz,
                       thresholds_of(config, clock));
     std::atomic<bool> is_recovered{false};
-    store::Store store(files::posix_files(),
+    const auto files = files::files_below(config.storage.root);
+    store::Store store(*files,
                        {.root = config.storage.root,
                         .station = config.station,
                         .keeper = {.keep_days = config.storage.journal_keep_days},

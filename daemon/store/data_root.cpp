@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <span>
 #include <system_error>
@@ -12,10 +13,17 @@
 #include "protocol/core/input_error.hpp"
 
 namespace a351::daemon::store {
+namespace {
+
+constexpr std::array kFolders{"journal", "archive", "metadata", "events", "state"};
+
+}  // namespace
+
 DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path& root) {
-    for (const char* name : {"journal", "archive", "metadata", "events", "state"})
-        files.create_directories(root / name);
+    for (const char* name : kFolders) files.create_directories(root / name);
     files.sync_directory(root);  // A start that was killed may not have synced it.
+    // The layer refuses a link in place of a folder, which the lock would follow.
+    for (const char* name : kFolders) files.sync_directory(root / name);
     try {
         lock(root, root, O_RDONLY | O_DIRECTORY);
         lock(root, root / "state" / "lock", O_RDWR | O_CREAT | O_NOFOLLOW);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace a351::files {
@@ -22,26 +23,46 @@ constexpr int kNoLink = O_NOFOLLOW;
 
 class Descriptor {
 public:
-    Descriptor(const std::filesystem::path& path, int flags) {
-        do fd_ = ::open(path.c_str(), flags | O_CLOEXEC, 0644);
+    /// @param folder     an open folder, or AT_FDCWD.
+    /// @param operation  operation and whole path, for an error.
+    Descriptor(int folder, const std::filesystem::path& name, int flags, const char* operation,
+               const std::filesystem::path& path) {
+        do fd_ = ::openat(folder, name.c_str(), flags | O_CLOEXEC, 0644);
         while (fd_ < 0 && errno == EINTR);
-        if (fd_ < 0) fail(errno == ELOOP ? "open without following a link" : "open", path, errno);
+        if (fd_ >= 0) return;
+        const int error = errno;
+        std::string failed = operation;
+        if (is_link(folder, name, error)) failed += " without following a link";
+        fail(failed.c_str(), path, error);
     }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(fd_, other.fd_);
+        return *this;
+    }
     // Only synced data are guaranteed, so an error of close() adds no information.
-    ~Descriptor() { ::close(fd_); }
+    ~Descriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
 
     [[nodiscard]] int get() const noexcept { return fd_; }
 
 private:
+    /// Returns true if a link is the cause of an error: ELOOP, or ENOTDIR for a folder.
+    static bool is_link(int folder, const std::filesystem::path& name, int error) {
+        struct stat status {};
+        return (error == ELOOP || error == ENOTDIR) &&
+               ::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+               S_ISLNK(status.st_mode);
+    }
+
     int fd_ = -1;
 };
 
 class PosixAppendFile : public AppendFile {
 public:
-    explicit PosixAppendFile(const std::filesystem::path& path)
-        : path_(path), file_(path, O_WRONLY | O_CREAT | O_APPEND | kNoLink) {
+    PosixAppendFile(const std::filesystem::path& path, Descriptor file)
+        : path_(path), file_(std::move(file)) {
         struct stat status {};
         if (::fstat(file_.get(), &status) != 0) fail("stat", path_, errno);
         size_ = static_cast<std::uint64_t>(status.st_size);
@@ -78,43 +99,60 @@ private:
 
 class PosixFiles : public FileLayer {
 public:
+    explicit PosixFiles(std::filesystem::path root = {})
+        : root_(std::move(root)), normal_root_(root_.empty() ? root_ : normal(root_)) {}
+
     std::unique_ptr<AppendFile> open_append(const std::filesystem::path& file) override {
-        return std::make_unique<PosixAppendFile>(file);
+        return std::make_unique<PosixAppendFile>(file,
+                                                 open_file(file, O_WRONLY | O_CREAT | O_APPEND));
+    }
+
+    std::unique_ptr<AppendFile> create(const std::filesystem::path& file) override {
+        return std::make_unique<PosixAppendFile>(
+            file, open_file(file, O_WRONLY | O_CREAT | O_EXCL | O_APPEND));
     }
 
     void create_directories(const std::filesystem::path& directory) override {
         std::vector<std::filesystem::path> missing;
-        auto path = std::filesystem::absolute(directory).lexically_normal();
-        if (!path.has_filename()) path = path.parent_path();
+        auto path = normal(directory);
         for (; !std::filesystem::exists(path); path = path.parent_path()) missing.push_back(path);
         for (; !missing.empty(); missing.pop_back()) {
-            if (::mkdir(missing.back().c_str(), 0755) != 0 && errno != EEXIST)
-                fail("create directory", missing.back(), errno);
-            sync_directory(missing.back().parent_path());
+            const auto& next = missing.back();
+            const Descriptor parent = open_folder(next.parent_path(), "create directory", next);
+            if (::mkdirat(parent.get(), next.filename().c_str(), 0755) != 0 && errno != EEXIST)
+                fail("create directory", next, errno);
+            sync_directory(next.parent_path());
         }
     }
 
     void sync_directory(const std::filesystem::path& directory) override {
-        const Descriptor opened(directory, O_RDONLY | O_DIRECTORY);
+        constexpr const char* kSync = "sync directory";
+        const Descriptor folder = open_folder(directory, kSync, directory);
+        const Descriptor opened(folder.get(), ".", O_RDONLY | O_DIRECTORY, kSync, directory);
         if (::fsync(opened.get()) != 0) fail("sync directory", directory, errno);
     }
 
     void truncate(const std::filesystem::path& file, std::uint64_t size) override {
-        const Descriptor opened(file, O_WRONLY | kNoLink);
+        const Descriptor opened = open_file(file, O_WRONLY, "truncate");
         if (::ftruncate(opened.get(), static_cast<off_t>(size)) != 0) fail("truncate", file, errno);
         if (::fsync(opened.get()) != 0) fail("sync", file, errno);
     }
 
     void rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
-        if (::rename(from.c_str(), to.c_str()) != 0) fail("rename", from, errno);
+        const Descriptor source = open_folder(from.parent_path(), "rename", from);
+        const Descriptor target = open_folder(to.parent_path(), "rename", to);
+        if (::renameat(source.get(), from.filename().c_str(), target.get(),
+                       to.filename().c_str()) != 0)
+            fail("rename", from, errno);
     }
 
     void remove(const std::filesystem::path& file) override {
-        if (::unlink(file.c_str()) != 0) fail("remove", file, errno);
+        const Descriptor folder = open_folder(file.parent_path(), "remove", file);
+        if (::unlinkat(folder.get(), file.filename().c_str(), 0) != 0) fail("remove", file, errno);
     }
 
     void allocate(const std::filesystem::path& file, std::uint64_t size) override {
-        const Descriptor opened(file, O_RDWR | O_CREAT | kNoLink);
+        const Descriptor opened = open_file(file, O_RDWR | O_CREAT, "allocate");
         const int error = ::posix_fallocate(opened.get(), 0, static_cast<off_t>(size));
         if (error != 0) fail("allocate", file, error);
         if (::fsync(opened.get()) != 0) fail("sync", file, errno);
@@ -132,6 +170,36 @@ public:
         const auto space = std::filesystem::space(directory, error);
         return error ? std::nullopt : std::optional<std::uint64_t>(space.available);
     }
+
+private:
+    /// Returns an absolute path without dots and without a slash at its end.
+    static std::filesystem::path normal(const std::filesystem::path& path) {
+        const auto made = std::filesystem::absolute(path).lexically_normal();
+        return made.has_filename() ? made : made.parent_path();
+    }
+
+    /// Opens a folder.  Below the root it opens one folder after the other, because the kernel
+    /// follows links in all parts of a path but the last.
+    [[nodiscard]] Descriptor open_folder(const std::filesystem::path& folder, const char* operation,
+                                         const std::filesystem::path& path) const {
+        constexpr int kFlags = O_PATH | O_DIRECTORY;
+        const auto below = root_.empty() ? std::filesystem::path("..")
+                                         : normal(folder).lexically_relative(normal_root_);
+        if (*below.begin() == "..")
+            return {AT_FDCWD, folder.empty() ? "." : folder, kFlags, operation, path};
+        Descriptor opened(AT_FDCWD, root_, kFlags, operation, path);
+        for (const auto& name : below)
+            opened = Descriptor(opened.get(), name, kFlags | kNoLink, operation, path);
+        return opened;
+    }
+
+    [[nodiscard]] Descriptor open_file(const std::filesystem::path& file, int flags,
+                                       const char* operation = "open") const {
+        const Descriptor folder = open_folder(file.parent_path(), operation, file);
+        return {folder.get(), file.filename(), flags | kNoLink, operation, file};
+    }
+
+    std::filesystem::path root_, normal_root_;
 };
 
 }  // namespace
@@ -139,6 +207,10 @@ public:
 FileLayer& posix_files() {
     static PosixFiles files;
     return files;
+}
+
+std::unique_ptr<FileLayer> files_below(std::filesystem::path root) {
+    return std::make_unique<PosixFiles>(std::move(root));
 }
 
 bool has_shape(std::string_view name, std::string_view shape) noexcept {
@@ -153,7 +225,7 @@ void write_file_atomically(FileLayer& files, const std::filesystem::path& file,
     // Left by a crash; or a link, which leads nowhere or to a file of somebody else.
     if (std::filesystem::exists(std::filesystem::symlink_status(temporary)))
         files.remove(temporary);
-    const auto opened = files.open_append(temporary);
+    const auto opened = files.create(temporary);
     opened->append(content);
     opened->sync();
     files.rename(temporary, file);

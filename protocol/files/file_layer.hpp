@@ -56,6 +56,11 @@ public:
     /// of a new file is durable after sync_directory().
     [[nodiscard]] virtual std::unique_ptr<AppendFile> open_append(
         const std::filesystem::path& file) = 0;  ///< Creates it when absent.
+    /// Creates a file and opens it for appending.  An existing name, also that of a link, is an
+    /// error.  A layer for tests may open an existing file.
+    [[nodiscard]] virtual std::unique_ptr<AppendFile> create(const std::filesystem::path& file) {
+        return open_append(file);
+    }
     /// Creates the missing directories; syncs the parent of each.
     virtual void create_directories(const std::filesystem::path& directory) = 0;
     /// Makes the names in a directory durable, after a file in it was created, renamed or removed.
@@ -82,6 +87,12 @@ public:
 /// state: any number of threads may use it.  New files have mode 0644 and new directories 0755,
 /// less the umask.
 [[nodiscard]] FileLayer& posix_files();
+
+/// Returns files like posix_files() that follow no link in place of a folder below `root`.  Others
+/// may have write access to a data root; a link would let them choose where root writes.  The root
+/// itself may be a link.  Names in a path above the root, and names read by other means, are
+/// followed.
+[[nodiscard]] std::unique_ptr<FileLayer> files_below(std::filesystem::path root);
 
 /// Returns true if a file name has this shape, in which each # is a digit.  All other characters
 /// and the length must be equal: `2026-03.jsonl` has the shape `####-##.jsonl`.

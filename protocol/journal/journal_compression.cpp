@@ -139,9 +139,9 @@ void compress_segment(files::FileLayer& files, const std::filesystem::path& segm
     const auto bytes = files::read_bytes(segment);
     const auto packed_name = segment.string() + ".zst";
     const auto partial = packed_name + ".partial";
-    if (std::filesystem::exists(partial)) files.remove(partial);
+    if (std::filesystem::exists(std::filesystem::symlink_status(partial))) files.remove(partial);
     {
-        const auto file = files.open_append(partial);
+        const auto file = files.create(partial);
         file->append(compress(bytes));
         file->sync();
     }

@@ -101,7 +101,7 @@ void Writer::open_segment(const Header& header) {
     auto bytes = encode_preamble();
     const auto chunk = encode_chunk(head, 0);
     bytes.insert(bytes.end(), chunk.begin(), chunk.end());
-    auto segment = files_.open_append(path);
+    auto segment = files_.create(path);
     try {
         segment->append(bytes);
         segment->sync();

@@ -167,6 +167,21 @@ TEST_CASE_METHOD(Rig, "a data root accepts one daemon at a time", "[daemon][stor
     CHECK_NOTHROW(Store(files, options(), clock, reads));
 }
 
+TEST_CASE_METHOD(Rig, "a link in place of a folder of the data root is refused at the start",
+                 "[daemon][store]") {
+    const auto elsewhere = directory.path() / "elsewhere";
+    std::filesystem::create_directory(elsewhere);
+    const auto below = files::files_below(root);
+    for (const char* name : {"journal", "archive", "metadata", "events", "state"}) {
+        CAPTURE(name);
+        std::filesystem::remove_all(root);
+        std::filesystem::create_directories(root);
+        std::filesystem::create_directory_symlink(elsewhere, root / name);
+        CHECK_THROWS_AS(Store(*below, options(), clock, reads), std::system_error);
+        CHECK(std::filesystem::is_empty(elsewhere));
+    }
+}
+
 TEST_CASE_METHOD(Rig, "station metadata are replaced only if they describe something else",
                  "[daemon][data_root]") {
     station::Description station = options().station;

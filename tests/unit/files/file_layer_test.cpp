@@ -74,6 +74,52 @@ TEST_CASE("a link in place of a file is not followed", "[record][file_layer]") {
     }
 }
 
+TEST_CASE("a link in place of a folder below the root is not followed", "[record][file_layer]") {
+    const test::TemporaryDirectory directory;
+    const auto victim = directory.path() / "victim", root = directory.path() / "data";
+    std::filesystem::create_directory(victim);
+    test::write_bytes(victim / "log", bytes_of("secret"));
+    std::filesystem::create_directory(directory.path() / "disk");
+    std::filesystem::create_symlink("disk", root);  // The root itself may be a link.
+    const auto files = files_below(root);
+    files->create_directories(root / "archive" / "2026");
+    files->sync_directory(root);
+    CHECK(std::filesystem::is_directory(directory.path() / "disk" / "archive" / "2026"));
+    for (const auto& folder : {root / "events", root / "archive" / "2026" / "XX"}) {
+        std::filesystem::create_directory_symlink(victim, folder);
+        CHECK_THROWS_WITH(files->open_append(folder / "log"),
+                          ContainsSubstring("without following a link"));
+        CHECK_THROWS_AS(files->create(folder / "new"), std::system_error);
+        CHECK_THROWS_AS(files->truncate(folder / "log", 0), std::system_error);
+        CHECK_THROWS_AS(files->allocate(folder / "new", 4096), std::system_error);
+        CHECK_THROWS_AS(files->remove(folder / "log"), std::system_error);
+        CHECK_THROWS_AS(files->sync_directory(folder), std::system_error);
+        CHECK_THROWS_AS(files->create_directories(folder / "new"), std::system_error);
+        test::write_bytes(root / "own", bytes_of("own"));
+        CHECK_THROWS_AS(files->rename(root / "own", folder / "log"), std::system_error);
+        CHECK_THROWS_AS(files->rename(folder / "log", root / "own"), std::system_error);
+    }
+    CHECK(text_in(victim / "log") == "secret");
+    CHECK_FALSE(std::filesystem::exists(victim / "new"));
+    replace_file(*files, root / "archive" / "table", bytes_of("new"));
+    CHECK(text_in(root / "archive" / "table") == "new");
+    // A path elsewhere, and any path of posix_files(), follows links.
+    std::filesystem::create_directory_symlink(victim, directory.path() / "elsewhere");
+    CHECK(files->open_append(directory.path() / "elsewhere" / "log")->size() == 6);
+    CHECK(posix_files().open_append(root / "events" / "log")->size() == 6);
+}
+
+TEST_CASE("a file that must be new is not opened if its name exists", "[record][file_layer]") {
+    const test::TemporaryDirectory directory;
+    auto& files = posix_files();
+    files.create(directory.path() / "new")->append(bytes_of("first"));
+    CHECK_THROWS_AS(files.create(directory.path() / "new"), std::system_error);
+    std::filesystem::create_symlink("absent", directory.path() / "link");
+    CHECK_THROWS_AS(files.create(directory.path() / "link"), std::system_error);
+    CHECK_FALSE(std::filesystem::exists(directory.path() / "absent"));
+    CHECK(text_in(directory.path() / "new") == "first");
+}
+
 TEST_CASE("appending to a full disk is an error", "[record][file_layer]") {
     if (!std::filesystem::exists("/dev/full")) {
         WARN("skipped: this system has no /dev/full");
