@@ -1,8 +1,9 @@
 #include "daemon/source/read_queue.hpp"
 
-#include <cassert>
 #include <cstring>
 #include <type_traits>
+
+#include "protocol/core/invariant.hpp"
 
 namespace a351::daemon::source {
 
@@ -10,7 +11,8 @@ namespace a351::daemon::source {
 // of kind kWrap fills the rest.  All sizes are multiples of the size of an entry.
 
 ReadQueue::ReadQueue(std::size_t capacity) : capacity_(capacity), ring_(new std::byte[capacity]) {
-    assert((capacity & (capacity - 1)) == 0 && capacity > 2 * kLargestItem);
+    require_invariant((capacity & (capacity - 1)) == 0 && capacity > 2 * kLargestItem,
+                      "the queue of reads has a capacity that is a power of two");
 }
 
 std::size_t ReadQueue::room_for(std::size_t size) noexcept {
@@ -29,7 +31,7 @@ void ReadQueue::put_entry(std::uint64_t position, const Entry& entry) noexcept {
 }
 
 bool ReadQueue::push(Kind kind, RawTime time, std::span<const std::byte> bytes) noexcept {
-    assert(bytes.size() <= kLargestItem);
+    require_invariant(bytes.size() <= kLargestItem, "a read fits into an item of the queue");
     std::uint64_t tail = tail_.load(std::memory_order_relaxed);
     const std::uint64_t head = head_.load(std::memory_order_acquire);
     const std::size_t to_end = capacity_ - (tail & (capacity_ - 1));
@@ -71,6 +73,9 @@ std::optional<ReadQueue::Item> ReadQueue::front() noexcept {
         head_.store(head, std::memory_order_release);
         entry = entry_at(head);
     }
+    require_invariant(
+        entry.size <= kLargestItem && entry.kind <= static_cast<std::uint32_t>(Kind::woken),
+        "the queue of reads has whole items");
     const std::byte* const bytes = ring_.get() + (head & (capacity_ - 1)) + sizeof(Entry);
     return Item{
         static_cast<Kind>(entry.kind), RawTime(Nanoseconds(entry.raw_ns)), {bytes, entry.size}};

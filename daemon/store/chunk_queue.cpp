@@ -1,5 +1,7 @@
 #include "daemon/store/chunk_queue.hpp"
 
+#include "protocol/core/invariant.hpp"
+
 namespace a351::daemon::store {
 
 std::size_t size_of(const NumberedChunk& numbered) {
@@ -36,7 +38,10 @@ std::optional<NumberedChunk> ChunkQueue::take_front() {
     NumberedChunk chunk = std::move(chunks_.front());
     chunks_.pop_front();
     const bool was_full = bytes_ >= capacity_bytes_;
-    bytes_ -= size_of(chunk);
+    const std::size_t size = size_of(chunk);
+    require_invariant(bytes_ >= size && (!chunks_.empty() || bytes_ == size),
+                      "the bytes of the archive's queue are those of its chunks");
+    bytes_ -= size;
     if (was_full) changed_.notify_all();
     return chunk;
 }

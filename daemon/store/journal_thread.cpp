@@ -4,6 +4,8 @@
 #include <system_error>
 #include <utility>
 
+#include "protocol/core/invariant.hpp"
+
 namespace a351::daemon::store {
 namespace {
 
@@ -190,7 +192,10 @@ std::optional<NumberedChunk> JournalThread::next_chunk() {
     if (queued_.empty()) return std::nullopt;
     std::optional<NumberedChunk> first(std::move(queued_.front()));
     queued_.pop_front();
-    queued_bytes_ -= size_of(*first);
+    const std::size_t size = size_of(*first);
+    require_invariant(queued_bytes_ >= size && (!queued_.empty() || queued_bytes_ == size),
+                      "the bytes of the journal's queue are those of its chunks");
+    queued_bytes_ -= size;
     return first;
 }
 
@@ -210,6 +215,8 @@ void JournalThread::retry_unwritten() {
         on_disk([&] { writer_.append(chunk); });
     }
     is_dirty_ |= has_segment_;
+    require_invariant(unwritten_->number == 0 || unwritten_->number > last_chunk_,
+                      "chunks are written in their order, each once");
     if (unwritten_->number > 0) last_chunk_ = unwritten_->number;
     unwritten_.reset();
     progress_.journal_written(last_chunk_);

@@ -1,5 +1,7 @@
 #include "daemon/store/progress.hpp"
 
+#include "protocol/core/invariant.hpp"
+
 namespace a351::daemon::store {
 
 void Progress::parsed(std::uint64_t chunk, const journal::SessionId& session,
@@ -15,6 +17,8 @@ void Progress::parsed(std::uint64_t chunk, const journal::SessionId& session,
         indices_ = {session, {}, {}, {}};
         unsynced_.clear();
     }
+    require_invariant(unsynced_.empty() || chunk > unsynced_.back().chunk,
+                      "chunks are parsed in their order, each once");
     if (last_index && last_index != indices_.received) unsynced_.push_back({chunk, *last_index});
     indices_.received = last_index;
     advance();
@@ -22,6 +26,7 @@ void Progress::parsed(std::uint64_t chunk, const journal::SessionId& session,
 
 void Progress::journal_written(std::uint64_t chunk) {
     const std::lock_guard lock(mutex_);
+    require_invariant(chunk >= written_chunk_, "chunks are written in their order");
     written_chunk_ = chunk;
 }
 
@@ -32,6 +37,7 @@ std::uint64_t Progress::written() const {
 
 void Progress::journal_synced(std::uint64_t chunk) {
     const std::lock_guard lock(mutex_);
+    require_invariant(chunk >= synced_chunk_, "chunks are synced in their order");
     synced_chunk_ = chunk;
     advance();
 }

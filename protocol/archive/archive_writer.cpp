@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "protocol/archive/miniseed_layout.hpp"
+#include "protocol/core/invariant.hpp"
 
 namespace a351::archive {
 namespace {
@@ -31,6 +32,14 @@ std::ifstream open_day_file(const std::filesystem::path& day_file) {
 bool precedes(int sequence, int other) {
     const int ahead = (other - sequence + kLargestSequence) % kLargestSequence;
     return ahead > 0 && ahead <= kLargestSequence / 2;
+}
+
+/// Returns a record that was made here, as a reader sees it.
+DecodedRecord decode_own(const PackedRecord& record) {
+    auto decoded = decode_record(record.bytes);
+    require_invariant(decoded && decoded->samples.size() == record.sample_count,
+                      "a record that was made is read with its samples");
+    return *std::move(decoded);
 }
 
 void stamp_sequence(PackedRecord& record, int sequence) {
@@ -131,7 +140,7 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
     if (!is_replaying_) return Found::nothing;
     Channel& channel = replayed(name, record.start);
     if (channel.held.empty()) return Found::nothing;
-    const ArchivedRecord made = describe(*decode_record(record.bytes));
+    const ArchivedRecord made = describe(decode_own(record));
     const auto [begin, end] = channel.held.equal_range(record.start);
     for (auto held = begin; held != end; ++held) {
         if (held->second.sample_count != made.sample_count ||
@@ -153,16 +162,16 @@ Writer::Found Writer::find(const std::string& name, const PackedRecord& record) 
 void Writer::settle(const std::string& name, Channel& channel, const ArchivedRecord* next) {
     const auto is_between_matches = [&](const ArchivedRecord& held) {
         const auto last = channel.matched.find(held.day);
-        const bool is_earlier = last != channel.matched.end()
-                                    ? held.offset < last->second
-                                    : channel.newest_match &&
-                                          precedes(held.sequence, *channel.newest_match);
+        const bool is_earlier =
+            last != channel.matched.end()
+                ? held.offset < last->second
+                : channel.newest_match && precedes(held.sequence, *channel.newest_match);
         if (is_earlier) return false;
         return next == nullptr || held.day != next->day || held.offset < next->offset;
     };
     for (; !channel.held_back.empty(); channel.held_back.pop_front()) {
         const Newest& made = channel.held_back.front();
-        const UtcTime end = describe(*decode_record(made.record.bytes)).end;
+        const UtcTime end = describe(decode_own(made.record)).end;
         const auto is_in_its_place = [&](const auto& held) {
             return held.first < end && held.second.end > made.record.start &&
                    is_between_matches(held.second);
@@ -226,8 +235,8 @@ std::vector<journal::ChannelMark> Writer::sync() {
     std::vector<journal::ChannelMark> marks;
     for (const auto& [name, channel] : channels_) {
         if (!channel.newest) continue;
-        const auto record = decode_record(channel.newest->record.bytes);
-        marks.push_back({name, channel.newest->last_index, record->last_sample()});
+        const DecodedRecord record = decode_own(channel.newest->record);
+        marks.push_back({name, channel.newest->last_index, record.last_sample()});
     }
     return marks;
 }

@@ -12,6 +12,7 @@
 #include "protocol/archive/slow_channels.hpp"
 #include "protocol/archive/time_gate.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/invariant.hpp"
 #include "protocol/timing/sample_index.hpp"
 #include "protocol/wire/burst_decoder.hpp"
 #include "protocol/wire/device_profile.hpp"
@@ -248,6 +249,8 @@ private:
     }
 
     void store(const Sample& sample) {
+        require_invariant(!next_stored_ || sample.index >= *next_stored_,
+                          "no sample is stored twice");
         if (next_stored_ && sample.index != *next_stored_) {
             ++counters_.gaps;
             counters_.samples_missing += static_cast<std::uint64_t>(sample.index - *next_stored_);

@@ -1,8 +1,9 @@
 #include "protocol/archive/channel_packer.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
+
+#include "protocol/core/invariant.hpp"
 
 namespace a351::archive {
 namespace {
@@ -32,7 +33,9 @@ ChannelPacker::ChannelPacker(std::string code) : code_(std::move(code)) {
 
 void ChannelPacker::add(const RecordContext& context, std::int64_t index, std::int32_t counts,
                         bool is_clipped) {
-    assert(samples_.empty() || index == first_ + static_cast<std::int64_t>(samples_.size()));
+    require_invariant(
+        samples_.empty() || index == first_ + static_cast<std::int64_t>(samples_.size()),
+        "the samples that wait for a record have no gap");
     if (samples_.empty()) first_ = index;
     samples_.push_back(counts);
     if (is_clipped) clipped_.add(index);
@@ -74,6 +77,8 @@ void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
     const auto samples = std::span<const std::int32_t>(samples_).first(available);
     PackedRecord packed = pack_record(header, samples);
 
+    require_invariant(packed.sample_count > 0 && packed.sample_count <= samples.size(),
+                      "a record has at least one of its samples and no others");
     // The size of the record, and therefore these flags, are known only after packing.
     const std::int64_t end = first_ + static_cast<std::int64_t>(packed.sample_count);
     header.starts_series = !has_started_;

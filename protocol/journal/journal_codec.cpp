@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "protocol/core/invariant.hpp"
+
 namespace a351::journal {
 
 namespace {
@@ -280,6 +282,7 @@ std::vector<std::byte> encode_chunk(const Chunk& chunk, std::uint32_t sequence) 
     auto out = encode_fields_before_crc(header);
     out.reserve(kChunkHeaderSize + payload.size());
     put<std::uint32_t>(out, chunk_crc(header, payload));
+    require_invariant(out.size() == kChunkHeaderSize, "a chunk begins with a whole header");
     out.insert(out.end(), payload.begin(), payload.end());
     return out;
 }

@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <system_error>
 #include <utility>
 
+#include "protocol/core/invariant.hpp"
 #include "protocol/journal/journal_codec.hpp"
 #include "protocol/journal/journal_reader.hpp"
 
@@ -52,15 +52,17 @@ void Writer::begin_segment(const Header& header) {
 }
 
 void Writer::append(const Chunk& chunk) {
-    assert(header_);
+    require_invariant(header_.has_value(), "a segment is begun before a chunk");
     if (!segment_) rewrite_unsynced();
     write(chunk);
     unsynced_.push_back(chunk);
+    require_invariant(next_sequence_ - first_unsynced_ == unsynced_.size(),
+                      "each chunk after the last sync is in memory, once");
     if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) newest_clock_ = *reading;
 }
 
 std::optional<Header> Writer::append(const Chunk& chunk, const timing::ClockReading& clock) {
-    assert(header_);
+    require_invariant(header_.has_value(), "a segment is begun before a chunk");
     if (!segment_) rewrite_unsynced();
     const bool is_full =
         clock.raw - header_->clock.raw >= kLongestSegment || segment_->size() >= kLargestSegment;
@@ -136,6 +138,7 @@ void Writer::give_up() noexcept {
 void Writer::forget_unsynced() {
     unsynced_.clear();
     lost_from_.reset();
+    require_invariant(first_unsynced_ <= next_sequence_, "sequence numbers ascend");
     first_unsynced_ = next_sequence_;
     synced_clock_ = newest_clock_;
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "protocol/core/invariant.hpp"
+
 namespace a351::timing {
 namespace {
 
@@ -25,6 +27,7 @@ constexpr Nanoseconds kRateKnown = seconds(300);
 ArrivalEdge::ArrivalEdge(Hertz rate, Memory memory) : period_(rate), memory_(memory) {}
 
 void ArrivalEdge::observe(std::int64_t index, RawTime arrival) {
+    require_invariant(blocks_.empty() || index > newest_, "arrivals have ascending indices");
     newest_ = index;
     const Nanoseconds due = period_.of(index);
     if (blocks_.empty()) zero_ = arrival - due;

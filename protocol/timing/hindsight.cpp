@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/core/invariant.hpp"
 #include "protocol/timing/host_clock_rules.hpp"
 
 namespace a351::timing {
@@ -131,6 +132,8 @@ void Hindsight::host_slept(std::size_t sleeps) {
 }
 
 void Hindsight::observe(std::int64_t index, RawTime arrival) {
+    require_invariant(stretches_.empty() || index > stretches_.back().last,
+                      "the samples of a run have ascending indices");
     if (begins_stretch_ || period_.of(index - stretches_.back().last) > kLongestLoss)
         stretches_.push_back(
             {index, index, sleeps_, ArrivalEdge(options_.rate, ArrivalEdge::Memory::all)});
@@ -148,6 +151,8 @@ std::vector<TimePiece> Hindsight::times(const UtcHistory& history) const {
         bool is_break = !pieces.empty();
         for (std::int64_t k = stretch.first; k <= stretch.last; k += second) {
             const bool is_fitted = (k - stretch.first) / second % kFitEvery_s != 0;
+            require_invariant(pieces.empty() || pieces.back().first < k,
+                              "each piece of the times begins after the one before");
             const EdgeLine next_line = is_fitted ? stretch.edge.line_around(k + second) : line;
             const UtcHistory::Point next =
                 history.at(next_line.at(k + second, period_), stretch.sleeps);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "protocol/core/invariant.hpp"
 #include "protocol/timing/host_clock_rules.hpp"
 
 namespace a351::timing {
@@ -46,6 +47,7 @@ void SampleClock::observe(std::int64_t index, RawTime arrival) {
         first_ = index;
         fixed_until_ = index - index % period_.per_second();
     }
+    require_invariant(!last_ || index > *last_, "the samples of a run have ascending indices");
     const bool is_far = last_ && period_.of(index - *last_) > kLongestLoss;
     last_ = index;
     if (is_given_) {
@@ -98,6 +100,8 @@ void SampleClock::fix_second() {
     }
     const Nanoseconds step =
         target(next) - aim + std::clamp(aim - from, -kLargestPull, kLargestPull);
+    require_invariant(is_first || pieces_.back().first < fixed_until_,
+                      "each piece of the times begins after the one before");
     if (is_first || is_break || step != pieces_.back().step) {
         const Nanoseconds uncertainty =
             line_->uncertainty + abs(aim - from) + mapping_.error_at(line_at(fixed_until_));

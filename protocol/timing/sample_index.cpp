@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "protocol/core/invariant.hpp"
+
 namespace a351::timing {
 namespace {
 
@@ -90,6 +92,7 @@ std::optional<std::int64_t> SampleIndex::advance_by_time(std::uint16_t differenc
 }
 
 Placement SampleIndex::accept(std::int64_t advance, std::uint16_t count, RawTime arrival) {
+    require_invariant(advance > 0, "a sample has a larger index than the one before");
     const bool is_first = *last_index_ < 0;
     const std::int64_t index = *last_index_ + advance;
     last_index_ = index;
