@@ -137,7 +137,7 @@ TEST_CASE("in surveys without a mistake one is found as seldom as stated", "[mis
         if (!MadeUp(static_cast<std::uint64_t>(1000 + seed)).search().empty()) ++found;
     WARN("found in " << found << " of " << kSurveys);
     // kMistakeAlpha and twice kTrialAlpha; the limit is exceeded by chance once in a thousand runs of other seeds.
-    CHECK(found <= 8);
+    CHECK(found <= 6);
 }
 
 TEST_CASE("without a mistake the clearest one has any probability equally often", "[mistake]") {
