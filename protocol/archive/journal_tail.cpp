@@ -25,18 +25,31 @@ constexpr std::size_t kComparedSamples = 100;
 // reading in error it is below a millisecond.
 constexpr std::chrono::milliseconds kMostShift(500);
 
-/// Returns the segments that are needed, the oldest first: those of the last one that began before
-/// `from`, and all after it.
-std::vector<fs::path> segments_since(const fs::path& journal, UtcTime from) {
+/// What is read of a journal.
+struct Part {
+    std::vector<fs::path> segments;  ///< The oldest first.
+    UtcTime begin;                   ///< Bytes that arrived before are skipped.
+};
+
+/// Returns the segments from the last one that began before `from - kWarmUp` on, or from the first
+/// one of its session if that began at most `longest_session` before `from`.
+Part part_since(const fs::path& journal, UtcTime from, Nanoseconds longest_session) {
     std::vector<fs::path> segments = journal::segment_files(journal);
-    auto first = segments.end();
-    while (first != segments.begin()) {
-        --first;
-        const auto header = journal::segment_header(*first);
-        if (header && header->clock.realtime <= from) break;
+    const UtcTime begin = from - kWarmUp;
+    auto first = segments.end(), of_session = segments.end();
+    std::optional<journal::SessionId> session;
+    while (of_session != segments.begin()) {
+        const auto header = journal::segment_header(*std::prev(of_session));
+        if (session && header && header->session != *session)
+            return {{of_session, segments.end()}, UtcTime::min()};
+        --of_session;
+        if (!session) first = of_session;
+        if (!header || header->clock.realtime > begin) continue;
+        session = header->session;
+        if (header->clock.realtime < from - longest_session)
+            return {{first, segments.end()}, begin};
     }
-    segments.erase(segments.begin(), first);
-    return segments;
+    return {std::move(segments), UtcTime::min()};
 }
 
 /// Returns the index of the sample of `tail` that is the last one of `archived`.
@@ -87,18 +100,22 @@ void append(RecordJoiner& joiner, const Segment& segment, std::size_t first, Nan
 }  // namespace
 
 struct JournalTail::Gather final : Sink {
-    Gather(JournalTail& tail_, const journal::StationCodes& codes_) : tail(tail_), codes(codes_) {}
+    Gather(JournalTail& tail_, const journal::StationCodes& codes_, UtcTime kept_from_)
+        : tail(tail_), codes(codes_), kept_from(kept_from_) {}
 
     void record(const std::string& channel, const PackedRecord& packed, std::int64_t) override {
         const auto record = decode_record(packed.bytes);
         if (!record || record->header.network != codes.network ||
             record->header.station != codes.station || record->header.location != codes.location)
             return;
+        const double length_s = static_cast<double>(record->samples.size()) / record->rate_hz();
+        if (record->header.start + from_seconds(length_s) < kept_from) return;
         RecordJoiner(tail.channels_[channel][run], UtcTime::min(), UtcTime::max()).take(*record);
     }
 
     JournalTail& tail;
     const journal::StationCodes& codes;
+    UtcTime kept_from;  ///< Records that end before are not kept.
     std::uint64_t run = 0;
 };
 
@@ -119,11 +136,11 @@ std::optional<UtcTime> journal_end(const fs::path& journal) {
 }
 
 JournalTail::JournalTail(const fs::path& journal, const journal::StationCodes& codes, UtcTime from,
-                         UtcTime to) {
-    const UtcTime begin = from - kWarmUp;
-    Gather gather(*this, codes);
+                         UtcTime to, Nanoseconds longest_session) {
+    const auto [segments, begin] = part_since(journal, from, longest_session);
+    Gather gather(*this, codes, from - kWarmUp);
     Archiver archiver(gather);
-    journal::Sequence chunks(segments_since(journal, begin));
+    journal::Sequence chunks(segments);
     Nanoseconds raw_to_utc{0};
     while (const auto chunk = chunks.next()) {
         const timing::ClockReading* reading = std::get_if<timing::ClockReading>(&*chunk);
