@@ -228,6 +228,16 @@ void reload(const std::filesystem::path& config_file, const source::HostClock& c
     }
 }
 
+/// Logs each new verdict, for the report of the evening.
+void log_verdict(store::Store& store, const verdict::Verdict& verdict,
+                 std::optional<verdict::State>& last) {
+    if (verdict.since == UtcTime{} || verdict.state == last) return;
+    last = verdict.state;
+    events::Event event{"verdict", verdict.since, {}, {}, {}};
+    event.details["state"] = verdict::to_text(verdict.state);
+    store.note(event);
+}
+
 ExitStatus run(const config::Config& config, const source::HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, status::StatusLog& status_log) {
     service::ServiceNotice notice = service::ServiceNotice::from_environment();
@@ -294,10 +304,12 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     notice.ready();
 
     constexpr timespec kSecond{1, 0};
+    std::optional<verdict::State> last_verdict;
     while (true) {
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
         const status::Status status = snapshot(config, clock, link, oven, store, live);
         status_log.note(status, std::chrono::steady_clock::now());
+        log_verdict(store, status.verdict, last_verdict);
         notice.beat(store.is_alive(), brief(status));
         if (signal == SIGHUP) reload(config.file, clock, log, live, occupations, page);
         if (signal == SIGINT || signal == SIGTERM) break;

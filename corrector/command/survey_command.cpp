@@ -138,7 +138,7 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
     report::Report report = report::make_report(
         day.result, settings,
         {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
-         read.inputs, read.warnings, picture_formats});
+         std::move(read.verdicts), read.inputs, read.warnings, picture_formats});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(day.files));
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     for (const std::string& warning : read.warnings)

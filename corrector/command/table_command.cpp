@@ -97,6 +97,7 @@ void correct_table(TableOptions options) {
                              sites,
                              {},
                              {},
+                             {},
                              inputs,
                              warnings,
                              options.figures});

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "corrector/figure/escaping.hpp"
@@ -142,6 +143,36 @@ Panel temperature_panel(const model::SurveyCorrection& result,
     return panel;
 }
 
+/// Returns the verdicts as a band, with their words as key.
+Panel verdict_panel(const std::vector<reading::VerdictSpan>& verdicts, FigureData& data) {
+    struct State {
+        const char *word, *colour;
+    };
+    constexpr std::array kStates{
+        State{text::marked("stable"), "#009E73"}, State{text::marked("settling"), "#E69F00"},
+        State{text::marked("disturbed"), "#D55E00"}, State{text::marked("warming up"), "#56B4E9"},
+        State{text::marked("no data"), "#888888"}};
+    Panel panel{46,
+                "",
+                "set yrange [0:1]\nunset ytics\nset key inside left top horizontal maxrows 1 "
+                "samplen 1.5\n",
+                {}};
+    for (const State& state : kStates) {
+        std::string lines;
+        for (const reading::VerdictSpan& span : verdicts)
+            if (span.state == state.word)
+                lines += fmt::format("{} 0.25\n{} 0.25\n\n", to_rfc3339(span.start),
+                                     to_rfc3339(span.end));
+        const std::string source =
+            data.add(fmt::format("verdict {}: time_utc height", state.word), lines);
+        if (!source.empty())
+            panel.clauses.push_back(
+                fmt::format("{} using 1:2 with lines lw 9 lc rgb '{}' title '{}'", source,
+                            state.colour, text::translated(state.word, text::language())));
+    }
+    return panel;
+}
+
 /// Returns the axis of time, which names the stays above the first panel and the hours below the
 /// last.
 std::string time_axis(const std::vector<Band>& stays, UtcTime first, UtcTime last) {
@@ -166,7 +197,8 @@ std::string time_label(UtcTime first, UtcTime last) {
                        first_date == last_date ? "" : " to " + last_date);
 }
 
-std::string caption_of(const model::SurveyCorrection& result, bool has_records, bool has_course) {
+std::string caption_of(const model::SurveyCorrection& result, bool has_records, bool has_course,
+                       bool has_verdicts) {
     using text::tr;
     const std::string errors =
         result.as<model::WholeDayPart>() != nullptr
@@ -183,13 +215,17 @@ std::string caption_of(const model::SurveyCorrection& result, bool has_records, 
                         : "") +
            (has_course ? tr(" Below: temperature of the sensor and of the readings.")
                        : tr(" Below: temperature of the readings.")) +
+           (has_verdicts ? tr(" Band: verdict that the recorder showed at the time, from its event "
+                              "log.")
+                         : "") +
            tr(" Shaded: stays (grey), averaged intervals (blue), stays without a value (red).");
 }
 
 }  // namespace
 
 Figure day_figure(const model::SurveyCorrection& result, const std::vector<ReadingRecord>& records,
-                  const std::vector<reading::MinuteTemperature>& course) {
+                  const std::vector<reading::MinuteTemperature>& course,
+                  const std::vector<reading::VerdictSpan>& verdicts) {
     std::vector<Band> stays = stays_of(result, records);
     const std::vector<Band> lost = lost_stays_of(result);
     std::string script;
@@ -215,7 +251,8 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
 
     FigureData data("day");
     std::vector<Panel> panels{error_panel(result, data), sample_panel(result, records),
-                              temperature_panel(result, course, data)};
+                              temperature_panel(result, course, data),
+                              verdict_panel(verdicts, data)};
     std::erase_if(panels, [](const Panel& panel) { return panel.clauses.empty(); });
     constexpr int kKey_px = 24, kBelow_px = 54, kBetween_px = 14;
     constexpr int kLetter_px = 6;  // width of a letter of 10 px
@@ -240,8 +277,8 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
                         panel.commands, plot_command(panel.clauses));
         top_px += panel.height_px + kBetween_px;
     }
-    return data.figure(caption_of(result, !records.empty(), !course.empty()), 960, height_px,
-                       script + "unset multiplot\n");
+    return data.figure(caption_of(result, !records.empty(), !course.empty(), !verdicts.empty()),
+                       960, height_px, script + "unset multiplot\n");
 }
 
 }  // namespace a351::corrector::figure

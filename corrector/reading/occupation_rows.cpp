@@ -310,6 +310,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.warnings.push_back(std::move(warning));
     result.temperature_course =
         temperature_course(samples.temperature.segments, channels.temperature);
+    result.verdicts = verdict_course(events::read_events(source.root / "events").events,
+                                     result.temperature_course);
     if (!source.is_so_far) result.inputs = inputs_of(source, stays);
     result.running_key = list.running_key;
     if (!samples.axes[2].segments.empty()) result.data_end = last_sample(samples.axes[2]);

@@ -27,6 +27,7 @@
 #include "corrector/reading/representative_value.hpp"
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/reading/temperature_course.hpp"
+#include "corrector/reading/verdict_course.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/sites.hpp"
@@ -76,6 +77,7 @@ struct OccupationRows {
     std::vector<SurveyRow> rows;  ///< In order of time; the rate is that within a row's interval.
     std::vector<RepresentativeValue> records;           ///< Record of each row.
     std::vector<MinuteTemperature> temperature_course;  ///< Temperature over the whole survey.
+    std::vector<VerdictSpan> verdicts;  ///< Verdicts of the recorder in this time, if logged.
     std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;      ///< Occupations without a value, by start.
     std::vector<std::string> warnings;  ///< Doubts and omissions, with reasons.

@@ -21,6 +21,7 @@
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/representative_value.hpp"
 #include "corrector/reading/temperature_course.hpp"
+#include "corrector/reading/verdict_course.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/sites.hpp"
 #include "protocol/text/write_together.hpp"
@@ -37,6 +38,7 @@ struct ReportSources {
     std::vector<text::Site> sites;
     std::vector<reading::RepresentativeValue> records;           ///< Records of the rows.
     std::vector<reading::MinuteTemperature> temperature_course;  ///< Temperature of the sensor.
+    std::vector<reading::VerdictSpan> verdicts;                  ///< Verdicts of the recorder.
     std::vector<text::InputFile> inputs;
     /// Entries skipped or left out, with reasons; the report adds the remarks of the result.
     std::vector<std::string> warnings;

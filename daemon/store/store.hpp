@@ -84,6 +84,9 @@ public:
         journal_.commit(event, options_.commit_patience);
     }
 
+    /// Writes an event soon, without waiting for it.  It is lost if the disk refuses it.
+    void note(const events::Event& event) { journal_.note(event); }
+
     /// Passes a poll to journal and archive.  It is dropped before the sensor's first session, which
     /// opens the journal.
     void post(journal::OvenChunk poll) { chunk_maker_.post(std::move(poll)); }

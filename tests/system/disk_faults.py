@@ -231,6 +231,8 @@ def failing_calls():
         skip("strace is missing")
     with Scratch() as scratch:
         day = Day(scratch)
+        day.wait_for("the verdict settling is logged, which syncs too", lambda state: any(
+            '"settling"' in file.read_text() for file in (scratch / "data" / "events").glob("*.jsonl")))
         for n in (1, 2, 5):
             failing_sync(day, "journal", n)
         failing_sync(day, "archive", 1)

@@ -61,6 +61,13 @@ with Scratch() as scratch:
            first["reasons"][0].startswith("temperature known for"))
     wait_for("stable", lambda: state(session) == "stable", 60 * SLOWER)
 
+    def logged():
+        lines = [line for file in (scratch / "data/events").glob("*.jsonl") for line in file.read_text().splitlines()]
+        return [event["state"] for event in map(json.loads, lines) if event["type"] == "verdict"]
+
+    wait_for("the event log has the verdicts", lambda: logged()[-1:] == ["stable"] or state(session) != "stable", 10)
+    demand(f"a verdict is logged once: {logged()}", "settling" in logged() and all(a != b for a, b in zip(logged(), logged()[1:])))
+
     print(ctl(session, "start", "No.0").stdout, end="")
     wait_for("a standard error", lambda: session.status()["occupation"]["reading"]["standard_error_mgal"],
              30 * SLOWER)

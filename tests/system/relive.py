@@ -94,7 +94,7 @@ with Scratch() as scratch:
     old, new = bytes_of(scratch / "old"), bytes_of(scratch / "new" / "data")
     demand(f"the new journal has the same {len(old)} bytes of the sensor", old == new != b"")
     demand(f"sim/relive reports {counted} bytes", counted == len(old))
-    again = events_of(scratch / "new" / "data")
+    again = [event for event in events_of(scratch / "new" / "data") if event["type"] != "verdict"]
     strip = lambda event: {key: value for key, value in event.items() if key not in ("utc", "session", "index", "key")}  # noqa: E731
     demand("the new log has the same changes in the same order, with the same texts", [strip(e) for e in again] == [strip(e) for e in LOG])
     off = [abs(seconds(one["utc"]) - seconds(other["utc"])) for one, other in zip(LOG, again) if one["type"] in PLACED]

@@ -17,13 +17,13 @@ TEST_CASE("the axis of the day names each stay once, and shows dates if there ar
     auto rows = made_up::day();
     rows[1].site = "B";
     rows[1].occupation = 1;
-    std::string script = day_figure(corrected(rows), {}, {}).script;
+    std::string script = day_figure(corrected(rows), {}, {}, {}).script;
     CHECK(count(script, "'B (1)'") == 1);
     CHECK(count(script, "'B (2)'") == 1);
     CHECK_THAT(script,
                ContainsSubstring("set format x '%H:%M'") && ContainsSubstring("'UTC, 2020-05-01'"));
     rows.back().time += std::chrono::days(2);
-    script = day_figure(corrected(rows), {}, {}).script;
+    script = day_figure(corrected(rows), {}, {}, {}).script;
     CHECK_THAT(script, ContainsSubstring("%m-%d\"") &&
                            ContainsSubstring("'UTC, 2020-05-01 to 2020-05-03'"));
 }
@@ -32,7 +32,7 @@ TEST_CASE("the day shows errors with their u only for readings with a reference"
           "[report][figures]") {
     auto rows = made_up::day();
     rows[1].reference.reset();
-    const Figure figure = day_figure(corrected(rows), {}, {});
+    const Figure figure = day_figure(corrected(rows), {}, {}, {});
     CHECK(count(figure.script, "yerrorbars") == 1);
     const std::string errors = figure.data.substr(0, figure.data.find("\n\n\n"));
     CHECK(count(errors, "\n2020") == 11);
@@ -40,7 +40,7 @@ TEST_CASE("the day shows errors with their u only for readings with a reference"
                                    ContainsSubstring("standard uncertainty u as of a new station"));
     SurveyCorrection unknown;
     for (const SurveyRow& row : rows) unknown.rows.emplace_back().row = row;
-    CHECK(count(day_figure(unknown, {}, {}).script, "yerrorbars") == 0);
+    CHECK(count(day_figure(unknown, {}, {}, {}).script, "yerrorbars") == 0);
 }
 
 TEST_CASE("the day shows the whole-day model's errors with the station left out",
@@ -49,7 +49,7 @@ TEST_CASE("the day shows the whole-day model's errors with the station left out"
     result.own = WholeDayPart{};
     for (CorrectedRow& row : result.rows)
         row.own.emplace<WholeDayRow>().left_out = *row.row.reference - MilliGal(7.77);
-    const Figure figure = day_figure(result, {}, {});
+    const Figure figure = day_figure(result, {}, {}, {});
     CHECK(count(figure.data, "Z 7.7700 ") == 12);
     CHECK_THAT(figure.caption, ContainsSubstring("left out (cross-validated)"));
 }
@@ -58,7 +58,7 @@ TEST_CASE("a stay without a value is on the axis of the day", "[report][figures]
     SurveyCorrection result = corrected(made_up::day());
     const UtcTime end = result.rows[0].row.time - std::chrono::minutes(5);
     add_left_out(result, {{"S9", 2, end - std::chrono::hours(1), end, "no samples"}});
-    const std::string script = day_figure(result, {}, {}).script;
+    const std::string script = day_figure(result, {}, {}, {}).script;
     CHECK_THAT(script, ContainsSubstring("'S9 (2)' '") &&
                            ContainsSubstring("from '" + to_rfc3339(end - std::chrono::hours(1)) +
                                              "',graph 0 to '" + to_rfc3339(end) + "'"));
@@ -70,7 +70,23 @@ TEST_CASE("the curve of the day's temperature is interrupted where nothing was r
     std::vector<MinuteTemperature> course;
     for (const int minute : {0, 1, 5})
         course.push_back({made_up::kMorning + std::chrono::minutes(minute), DegC(42.0 + minute)});
-    CHECK_THAT(day_figure(result, {}, course).data,
+    CHECK_THAT(day_figure(result, {}, course, {}).data,
                ContainsSubstring("00:01:00Z 43.0000 \n\n2020-05-01T00:05:00Z 47.0000 \n"));
-    CHECK_THAT(day_figure(result, {}, {}).data, !ContainsSubstring("means of a minute"));
+    CHECK_THAT(day_figure(result, {}, {}, {}).data, !ContainsSubstring("means of a minute"));
+}
+
+TEST_CASE("the verdicts of the day are a band with a key in words, if the log has them",
+          "[report][figures]") {
+    const SurveyCorrection result = corrected(made_up::day());
+    const auto at = [](int minute) { return made_up::kMorning + std::chrono::minutes(minute); };
+    const Figure figure = day_figure(
+        result, {}, {},
+        {{at(0), at(5), "settling"}, {at(5), at(9), "stable"}, {at(9), at(10), "new word"}});
+    CHECK_THAT(figure.script,
+               ContainsSubstring("title 'stable'") && ContainsSubstring("title 'settling'") &&
+                   !ContainsSubstring("disturbed") && !ContainsSubstring("new word"));
+    CHECK_THAT(figure.data,
+               ContainsSubstring("2020-05-01T00:00:00Z 0.25\n2020-05-01T00:05:00Z 0.25\n"));
+    CHECK_THAT(figure.caption, ContainsSubstring("Band: verdict"));
+    CHECK_THAT(day_figure(result, {}, {}, {}).caption, !ContainsSubstring("Band"));
 }
