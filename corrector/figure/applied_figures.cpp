@@ -5,6 +5,7 @@
 #include "corrector/correlation/regression.hpp"
 #include "corrector/figure/long_record_figures.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 namespace {
@@ -32,20 +33,23 @@ Figure series_figure(const long_record::RecordResult& result) {
                            const std::string& colour) {
         const std::string block = data.add(fmt::format("hours {} (mGal)", title),
                                            curve_lines(values, result.record.step_s));
-        panels += fmt::format("set ylabel '{} (mGal)'\n{}", title,
-                              plot_command({fmt::format("{} using 1:2 with lines lc rgb {} notitle",
-                                                        block, colour)}));
+        panels += fmt::format(
+            "set ylabel '{} (mGal)'\n{}", text::translated(title, text::language()),
+            plot_command(
+                {fmt::format("{} using 1:2 with lines lc rgb {} notitle", block, colour)}));
     };
     const std::vector<double>& before = result.segment().acceleration_mgal;
     const auto [low, high] = std::minmax_element(before.begin(), before.end());
     const double mean = correlation::mean_of(before);
-    panel("Before", before, kGrey);
-    panel("Parametric", result.applied->parametric_mgal, kBlue);
-    panels += fmt::format("set xlabel 'Hours after {}'\n", to_rfc3339(result.segment().start));
-    panel("By modes", result.applied->by_modes_mgal, kVermilion);
+    panel(text::marked("Before"), before, kGrey);
+    panel(text::marked("Parametric"), result.applied->parametric_mgal, kBlue);
+    panels += fmt::format("set xlabel '{}'\n",
+                          text::tr("Hours after {}", to_rfc3339(result.segment().start)));
+    panel(text::marked("By modes"), result.applied->by_modes_mgal, kVermilion);
     return data.figure(
-        "The record minus its mean, before and after the correction by each of two methods.", 900,
-        640,
+        text::tr(
+            "The record minus its mean, before and after the correction by each of two methods."),
+        900, 640,
         fmt::format(
             "set multiplot layout 3,1\nset lmargin 12\nset yrange [{}:{}]\n{}unset multiplot\n",
             datum(*low - mean - 1.0, 1), datum(*high - mean + 1.0, 1), panels));
@@ -61,14 +65,17 @@ Figure allan_figure(const long_record::RecordResult& result) {
     const std::string block = data.add("averaging_s before parametric by_modes (mGal)", lines);
     const auto curve = [&](int column, const std::string& colour, const char* title) {
         return fmt::format("{} using 1:{} with linespoints pt 7 ps 0.5 lc rgb {} title '{}'", block,
-                           column, colour, title);
+                           column, colour, text::translated(title, text::language()));
     };
     return data.figure(
-        "Allan deviation before and after the correction: scatter of averages over this time.", 900,
-        400,
-        "set logscale xy\nset xlabel 'Averaging (s)'\nset ylabel 'Allan deviation (mGal)'\n" +
-            plot_command({curve(2, kGrey, "before"), curve(3, kBlue, "parametric"),
-                          curve(4, kVermilion, "by modes")}));
+        text::tr(
+            "Allan deviation before and after the correction: scatter of averages over this time."),
+        900, 400,
+        fmt::format("set logscale xy\nset xlabel '{}'\nset ylabel '{}'\n",
+                    text::tr("Averaging (s)"), text::tr("Allan deviation (mGal)")) +
+            plot_command({curve(2, kGrey, text::marked("before")),
+                          curve(3, kBlue, text::marked("parametric")),
+                          curve(4, kVermilion, text::marked("by modes"))}));
 }
 
 }  // namespace

@@ -91,8 +91,9 @@ Panel error_panel(const model::SurveyCorrection& result, FigureData& data) {
         if (source.empty()) continue;
         panel.clauses.push_back(
             source + " using 1:2:3 with yerrorbars pt 0 lw 0.8 lc rgb '#999999' notitle");
-        panel.clauses.push_back(
-            fmt::format("{} using 1:2 with points {} title '{}'", source, mark.style, mark.title));
+        panel.clauses.push_back(fmt::format("{} using 1:2 with points {} title '{}'", source,
+                                            mark.style,
+                                            text::translated(mark.title, text::language())));
     }
     if (!panel.clauses.empty())
         panel.clauses.insert(panel.clauses.begin(),
@@ -260,8 +261,8 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
     int height_px = above_px + kBelow_px - kBetween_px;
     for (const Panel& panel : panels) height_px += panel.height_px + kBetween_px;
     script = fmt::format(
-        "set multiplot\nset lmargin at screen 0.09\nset rmargin at screen 0.985\n{}"
-        "set key at screen 0.09,0.995 left top horizontal maxrows 1\n",
+        "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.985\n{}"
+        "set key at screen 0.1,0.995 left top horizontal maxrows 1\n",
         script);
     const auto share = [height_px](int px) {
         return text::fixed(1.0 - static_cast<double>(px) / height_px, 4);

@@ -7,6 +7,7 @@
 
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 namespace {
@@ -61,11 +62,12 @@ double reference_of(const long_record::RecordResult& result) {
 }
 
 std::string above(double reference) {
-    return fmt::format("set ylabel 'Acceleration - {} (mGal)'\n", text::fixed(reference, 0));
+    return fmt::format("set ylabel '{}'\n",
+                       text::tr("Acceleration - {} (mGal)", text::fixed(reference, 0)));
 }
 
 std::string hours_axis(UtcTime start) {
-    return fmt::format("set xlabel 'Hours after {}'\n", to_rfc3339(start));
+    return fmt::format("set xlabel '{}'\n", text::tr("Hours after {}", to_rfc3339(start)));
 }
 
 /// Returns the figure of the acceleration above the temperature.
@@ -75,9 +77,9 @@ Figure two_panels(const FigureData& data, const std::string& caption, const std:
                   const std::vector<std::string>& temperatures) {
     return data.figure(caption, 900, 480,
                        fmt::format("set multiplot layout 2,1\nset lmargin 12\n{}{}"
-                                   "set ylabel 'Temperature (°C)'\n{}{}unset multiplot\n",
-                                   head, plot_command(accelerations), hours_axis(start),
-                                   plot_command(temperatures)));
+                                   "set ylabel '{}'\n{}{}unset multiplot\n",
+                                   head, plot_command(accelerations), text::tr("Temperature (°C)"),
+                                   hours_axis(start), plot_command(temperatures)));
 }
 
 /// Returns the figure of the raw samples' ranges, in steps, of all stretches.
@@ -118,10 +120,11 @@ Figure raw_figure(const long_record::RecordResult& result, double reference) {
         data.add("hours acceleration: least, greatest (mGal)", acceleration) + style + kBlue;
     const std::string t =
         data.add("hours temperature: least, greatest (degC)", temperature) + style + kVermilion;
-    return two_panels(data,
-                      "Norm and temperature as sampled: range from the least to the greatest "
-                      "sample of each step.",
-                      above(reference), {a + " notitle"}, start, {t + " notitle"});
+    return two_panels(
+        data,
+        text::tr("Norm and temperature as sampled: range from the least to the greatest "
+                 "sample of each step."),
+        above(reference), {a + " notitle"}, start, {t + " notitle"});
 }
 
 Figure samples_figure(const long_record::RecordResult& result, double reference) {
@@ -139,7 +142,8 @@ Figure samples_figure(const long_record::RecordResult& result, double reference)
     const std::string a = data.add("hours acceleration_mgal", acceleration) + style + kBlue;
     const std::string t = data.add("hours temperature_degc", temperature) + style + kVermilion;
     return two_panels(
-        data, "Norm and temperature decimated to 20 s, in the segments that can be analysed.",
+        data,
+        text::tr("Norm and temperature decimated to 20 s, in the segments that can be analysed."),
         above(reference), {a + " notitle"}, start, {t + " notitle"});
 }
 
@@ -154,7 +158,8 @@ Figure scatter_figure(const std::string& name, const std::string& caption,
     return data.figure(
         caption, 480, 400,
         fmt::format(
-            "set xlabel 'Temperature (°C)'\n{}set xtics rotate by -30\nset rmargin 5\n{}", ylabel,
+            "set xlabel '{}'\n{}set xtics rotate by -30\nset rmargin 5\n{}",
+            text::tr("Temperature (°C)"), ylabel,
             plot_command(
                 {fmt::format("{} using 1:2 with points pt 7 ps 0.2 lc rgb {} notitle", points,
                              kBlue),
@@ -186,14 +191,14 @@ Figure trend_figure(const long_record::RecordResult& result) {
                       thick = " using 1:2 with lines lw 2.5 lc rgb 'black' ";
     return two_panels(
         data,
-        fmt::format("Acceleration, sign reversed and moved {} s earlier, and temperature, each "
-                    "with the residue of its decomposition.",
-                    text::fixed(result.options.shift_s, 0)),
-        fmt::format("set xrange [{}:{}]\nset ylabel '- Acceleration (mGal)'\n",
-                    text::fixed(moved_h, 3),
-                    text::fixed(step_h * static_cast<double>(segment.size()), 3)),
-        {a + line + kBlue + " notitle", a_slow + thick + "title 'residue'"}, segment.start,
-        {t + line + kVermilion + " notitle", t_slow + thick + "notitle"});
+        text::tr("Acceleration, sign reversed and moved {} s earlier, and temperature, each "
+                 "with the residue of its decomposition.",
+                 text::fixed(result.options.shift_s, 0)),
+        fmt::format("set xrange [{}:{}]\nset ylabel '{}'\n", text::fixed(moved_h, 3),
+                    text::fixed(step_h * static_cast<double>(segment.size()), 3),
+                    text::tr("- Acceleration (mGal)")),
+        {a + line + kBlue + " notitle", a_slow + thick + "title '" + text::tr("residue") + "'"},
+        segment.start, {t + line + kVermilion + " notitle", t_slow + thick + "notitle"});
 }
 
 struct ModePair {
@@ -230,21 +235,20 @@ Figure overlay_figure(const long_record::RecordResult& result, const ModePair& p
     const std::string t = data.add("hours temperature_degc",
                                    curve_lines(part(pair.temperature), first_h, step_h, 0.0, 1.0));
     return data.figure(
-        fmt::format("Modes of the cycle: acceleration, sign reversed and moved {} s earlier, and "
-                    "temperature{}",
-                    text::fixed(result.options.shift_s, 0),
-                    count < pair.turned.size() ? "; the middle of the record." : "."),
+        text::tr("Modes of the cycle: acceleration, sign reversed and moved {} s earlier, and "
+                 "temperature{}.",
+                 text::fixed(result.options.shift_s, 0),
+                 count < pair.turned.size() ? text::tr("; the middle of the record") : ""),
         900, 360,
         fmt::format(
-            "{}set ylabel '- Acceleration (mGal)'\nset y2label 'Temperature (°C)'\n"
+            "{}set ylabel '{}'\nset y2label '{}'\n"
             "set ytics nomirror\nset y2tics\n{}",
-            hours_axis(result.segment().start),
-            plot_command(
-                {fmt::format("{} using 1:2 with lines lc rgb {} title 'acceleration, sign reversed "
-                             "and moved'",
-                             a, kBlue),
-                 fmt::format("{} using 1:2 axes x1y2 with lines lc rgb {} title 'temperature'", t,
-                             kVermilion)})));
+            hours_axis(result.segment().start), text::tr("- Acceleration (mGal)"),
+            text::tr("Temperature (°C)"),
+            plot_command({fmt::format("{} using 1:2 with lines lc rgb {} title '{}'", a, kBlue,
+                                      text::tr("acceleration, sign reversed and moved")),
+                          fmt::format("{} using 1:2 axes x1y2 with lines lc rgb {} title '{}'", t,
+                                      kVermilion, text::tr("temperature"))})));
 }
 
 Figure correlation_figure(const long_record::RecordResult& result) {
@@ -261,13 +265,13 @@ Figure correlation_figure(const long_record::RecordResult& result) {
         data.add("band: delay_s correlation", lines(result.analysis.band.correlation));
     const std::string style = " using 1:2 with lines lw 1.5 lc rgb ";
     return data.figure(
-        "Cross-correlation of the two modes, and of the band, against the delay of the "
-        "acceleration.",
+        text::tr("Cross-correlation of the two modes, and of the band, against the delay of the "
+                 "acceleration."),
         480, 400,
-        "set xlabel 'Delay of the acceleration (s)'\nset ylabel 'Correlation'\n"
-        "set yrange [-1:1]\nset xzeroaxis\n" +
-            plot_command({modes + style + kBlue + " title 'modes'",
-                          band + style + kGrey + " title 'band'"}));
+        fmt::format("set xlabel '{}'\nset ylabel '{}'\nset yrange [-1:1]\nset xzeroaxis\n",
+                    text::tr("Delay of the acceleration (s)"), text::tr("Correlation")) +
+            plot_command({modes + style + kBlue + " title '" + text::tr("modes") + "'",
+                          band + style + kGrey + " title '" + text::tr("band") + "'"}));
 }
 
 }  // namespace
@@ -289,14 +293,14 @@ std::vector<Figure> long_record_figures(const long_record::RecordResult& result)
         figures.push_back(overlay_figure(result, pair));
         figures.push_back(scatter_figure(
             "scatter-modes",
-            "The two modes, acceleration sign reversed and moved, with regression line.",
+            text::tr("The two modes, acceleration sign reversed and moved, with regression line."),
             pair.temperature, pair.turned, result.analysis.modes->moved, 0.0,
-            "set ylabel '- Acceleration (mGal)'\n"));
+            fmt::format("set ylabel '{}'\n", text::tr("- Acceleration (mGal)"))));
         figures.push_back(correlation_figure(result));
     }
-    figures.push_back(scatter_figure("scatter", "All samples at 20 s, with regression line.",
-                                     segment.temperature_degc, segment.acceleration_mgal,
-                                     result.analysis.raw, reference, above(reference)));
+    figures.push_back(scatter_figure(
+        "scatter", text::tr("All samples at 20 s, with regression line."), segment.temperature_degc,
+        segment.acceleration_mgal, result.analysis.raw, reference, above(reference)));
     return figures;
 }
 

@@ -11,6 +11,7 @@
 #include "corrector/figure/survey_figures.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 namespace {
@@ -217,8 +218,7 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
             stations.push_back({site, station.gravity.value(), {}});
             places.push_back(site);
         } else {
-            absent += (absent.empty() ? " Not shown, because they have no position: " : ", ") +
-                      station.site;
+            absent += (absent.empty() ? "" : ", ") + station.site;
         }
     }
     if (stations.empty()) return std::nullopt;
@@ -246,9 +246,10 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
                                  is_known ? "with" : "without"),
                      station_lines(stations, is_known));
         if (source.empty()) continue;
-        clauses.push_back(fmt::format("{} using 1:2:4 with points {} palette title '{} gravity'",
-                                      source, is_known ? "pt 7 ps 0.9" : "pt 9 ps 1.1",
-                                      is_known ? "known" : "unknown"));
+        clauses.push_back(
+            fmt::format("{} using 1:2:4 with points {} palette title '{}'", source,
+                        is_known ? "pt 7 ps 0.9" : "pt 9 ps 1.1",
+                        is_known ? text::tr("known gravity") : text::tr("unknown gravity")));
     }
     LabelPlacer placer(frame, places);
     std::string labels;
@@ -269,16 +270,17 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
         return fmt::format("[{}:{}]", text::fixed(r.least, 7), text::fixed(r.greatest, 7));
     };
     return data.figure(
-        fmt::format("Stations with the order of the visits in brackets, gravity and height; the "
-                    "scale is the same in both directions. Gravity of known stations is in sample; "
-                    "its uncertainty u is in the table.{}{}",
-                    absent, absent.empty() ? "" : "."),
+        text::tr("Stations with the order of the visits in brackets, gravity and height; the "
+                 "scale is the same in both directions. Gravity of known stations is in sample; "
+                 "its uncertainty u is in the table.") +
+            (absent.empty() ? ""
+                            : text::tr(" Not shown, because they have no position: {}.", absent)),
         kMapWidth_px, kMapHeight_px,
         fmt::format(
             "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
             "set tmargin at screen {}\nset xrange {}\nset yrange {}\nset xtics {}\nset ytics {}\n"
-            "set format '%.{}f'\nset xlabel 'Longitude (° east)'\nset ylabel 'Latitude (° north)'\n"
-            "set key inside bottom right\nset cblabel 'Gravity (mGal)'\nset cbrange [{}:{}]\n"
+            "set format '%.{}f'\nset xlabel '{}'\nset ylabel '{}'\n"
+            "set key inside bottom right\nset cblabel '{}'\nset cbrange [{}:{}]\n"
             "set format cb '%.0f'\n"
             "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 "
             "'#fde725')\n"
@@ -286,8 +288,10 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
             text::fixed(kLeft, 2), text::fixed(kRight, 2), text::fixed(kBottom, 2),
             text::fixed(kTop, 2), range(frame.longitude), range(frame.latitude),
             text::fixed(step_deg, 7), text::fixed(step_deg, 7), decimals,
-            text::fixed(least.gravity_mgal - 0.5, 3), text::fixed(greatest.gravity_mgal + 0.5, 3),
-            bar(frame), labels, plot_command(clauses)));
+            text::tr("Longitude (° east)"), text::tr("Latitude (° north)"),
+            text::tr("Gravity (mGal)"), text::fixed(least.gravity_mgal - 0.5, 3),
+            text::fixed(greatest.gravity_mgal + 0.5, 3), bar(frame), labels,
+            plot_command(clauses)));
 }
 
 }  // namespace a351::corrector::figure

@@ -8,6 +8,7 @@
 #include "corrector/figure/record_figures.hpp"
 #include "corrector/grade/reading_name.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 namespace {
@@ -86,12 +87,12 @@ std::string averaged_text(const model::CorrectedRow& row, double mean_mgal) {
     const auto* const day = row.as<model::WholeDayRow>();
     const auto error = row.row.record ? row.row.record->standard_error : std::nullopt;
     const std::string samples =
-        error ? fmt::format("; standard error by the scatter of the samples alone {} mGal",
-                            text::fixed(error->value(), 2))
+        error ? text::tr("; standard error by the scatter of the samples alone {} mGal",
+                         text::fixed(error->value(), 2))
               : "";
     if (day == nullptr)
-        return fmt::format("mean over the interval {} mGal{}.", text::fixed(mean_mgal, 3), samples);
-    return fmt::format(
+        return text::tr("mean over the interval {} mGal{}.", text::fixed(mean_mgal, 3), samples);
+    return text::tr(
         "the model day averages {} s of it to {} mGal{}; trend and interval apply to the other "
         "models.",
         text::fixed(day->averaged_s, 0), text::fixed(row.row.measured().value(), 3), samples);
@@ -127,18 +128,17 @@ Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord
     }
     const std::string reading = grade::reading_name(result.rows, record.row);
     return data.figure(
-        fmt::format("{}, from {}: {}", reading, to_rfc3339(value.series.start()),
-                    averaged_text(result.rows[record.row], mean_mgal)),
+        text::tr("{}, from {}: {}", reading, to_rfc3339(value.series.start()),
+                 averaged_text(result.rows[record.row], mean_mgal)),
         480, 300,
-        fmt::format(
-            "mean = {}\nset title {}\nset xlabel 'Minutes'\nset ylabel {}\nset yrange [{}:{}]\n"
-            "set ytics {}\nset xrange [0:{}]\n"
-            "set key tmargin center horizontal samplen 1.5 font ',11'\n{}{}",
-            text::fixed(mean_mgal, 3), gnuplot_string(reading),
-            gnuplot_string(fmt::format("Acceleration - {} (mGal)", text::fixed(mean_mgal, 1))),
-            text::fixed(-half_mgal, 3), text::fixed(half_mgal, 3),
-            text::fixed(round_step(half_mgal / 1.3), 4), text::fixed(length_min(value), 3), lines,
-            plot_command(clauses)));
+        fmt::format("mean = {}\nset title {}\nset xlabel '{}'\nset ylabel {}\nset yrange [{}:{}]\n"
+                    "set ytics {}\nset xrange [0:{}]\n"
+                    "set key tmargin center horizontal samplen 1.5 font ',11'\n{}{}",
+                    text::fixed(mean_mgal, 3), gnuplot_string(reading), text::tr("Minutes"),
+                    gnuplot_string(text::tr("Acceleration - {} (mGal)", text::fixed(mean_mgal, 1))),
+                    text::fixed(-half_mgal, 3), text::fixed(half_mgal, 3),
+                    text::fixed(round_step(half_mgal / 1.3), 4), text::fixed(length_min(value), 3),
+                    lines, plot_command(clauses)));
 }
 
 /// Contents of a figure with one panel per record.
@@ -236,24 +236,26 @@ std::vector<Figure> reading_figures(const model::SurveyCorrection& result,
 std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
                                   const std::vector<ReadingRecord>& records) {
     if (records.empty()) return {};
-    Panels acceleration{"records-acceleration",
-                        "Acceleration of every reading: samples of 2 s minus the value of the "
-                        "reading; one scale for all, knocks are cut off.",
-                        "Acceleration - mean (mGal)",
-                        "2",
-                        "lw 0.7 lc rgb " + kBlue,
-                        half_range_of_samples(result, records),
-                        {},
-                        1};
-    Panels temperature{"records-temperature",
-                       "Temperature of every reading: samples of 2 s minus the temperature of the "
-                       "reading; one scale for all.",
-                       "Temperature - mean (°C)",
-                       "4",
-                       "lw 0.9 lc rgb " + kVermilion,
-                       0.0,
-                       {},
-                       3};
+    Panels acceleration{
+        "records-acceleration",
+        text::tr("Acceleration of every reading: samples of 2 s minus the value of the "
+                 "reading; one scale for all, knocks are cut off."),
+        text::tr("Acceleration - mean (mGal)"),
+        "2",
+        "lw 0.7 lc rgb " + kBlue,
+        half_range_of_samples(result, records),
+        {},
+        1};
+    Panels temperature{
+        "records-temperature",
+        text::tr("Temperature of every reading: samples of 2 s minus the temperature of the "
+                 "reading; one scale for all."),
+        text::tr("Temperature - mean (°C)"),
+        "4",
+        "lw 0.9 lc rgb " + kVermilion,
+        0.0,
+        {},
+        3};
     for (const ReadingRecord& record : records) {
         const reading::RepresentativeValue& value = *record.value;
         const reading::SurveyRow& row = result.rows[record.row].row;

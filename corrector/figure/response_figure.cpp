@@ -9,6 +9,7 @@
 #include "corrector/figure/long_record_figures.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 namespace {
@@ -90,27 +91,31 @@ Figure response_figure(const long_record::RecordResult& result) {
         const std::string source =
             data.add(title + ": period_s gain low high phase_deg low high", point_lines(points));
         if (source.empty()) return;
-        gain.push_back(
-            fmt::format("{} using 1:2:3:4 with yerrorbars {} title '{}'", source, style, title));
+        gain.push_back(fmt::format("{} using 1:2:3:4 with yerrorbars {} title '{}'", source, style,
+                                   text::translated(title, text::language())));
         phase.push_back(fmt::format("{} using 1:5:6:7 with yerrorbars {} notitle", source, style));
     };
-    add(result.analysis.by_spectrum, "pt 7 ps 0.6 lc rgb " + kBlue, "by spectrum");
-    add(result.analysis.by_modes, "pt 6 ps 0.8 lw 1.2 lc rgb " + kVermilion, "by modes");
+    add(result.analysis.by_spectrum, "pt 7 ps 0.6 lc rgb " + kBlue, text::marked("by spectrum"));
+    add(result.analysis.by_modes, "pt 6 ps 0.8 lw 1.2 lc rgb " + kVermilion,
+        text::marked("by modes"));
     const std::string fit =
         data.add("two-path fit: period_s gain low high phase_deg low high", fit_lines(result));
     const std::string line = " with lines lw 1.2 lc rgb " + kGrey;
-    gain.insert(gain.begin(), {fit + " using 1:3:4 with filledcurves lc rgb '#e4e4e4' notitle",
-                               fit + " using 1:2" + line + " title 'two-path fit'"});
+    gain.insert(gain.begin(),
+                {fit + " using 1:3:4 with filledcurves lc rgb '#e4e4e4' notitle",
+                 fit + " using 1:2" + line + " title '" + text::tr("two-path fit") + "'"});
     phase.insert(phase.begin(), {fit + " using 1:6:7 with filledcurves lc rgb '#e4e4e4' notitle",
                                  fit + " using 1:5" + line + " notitle"});
     return data.figure(
-        "Gain and phase of the acceleration against the temperature by period, with 95 % limits.",
+        text::tr("Gain and phase of the acceleration against the temperature by period, with "
+                 "limits of 95 %."),
         900, 560,
         fmt::format("set multiplot layout 2,1\nset logscale x\nset lmargin 12\n"
-                    "set xrange [100:*]\nset yrange [1:3000]\nset ylabel 'Gain (mGal/°C)'\n"
+                    "set xrange [100:*]\nset yrange [1:3000]\nset ylabel '{}'\n"
                     "set logscale y\n{}unset logscale y\nset yrange [-200:200]\nset ytics 90\n"
-                    "set ylabel 'Phase (°)'\nset xlabel 'Period (s)'\n{}unset multiplot\n",
-                    plot_command(gain), plot_command(phase)));
+                    "set ylabel '{}'\nset xlabel '{}'\n{}unset multiplot\n",
+                    text::tr("Gain (mGal/°C)"), plot_command(gain), text::tr("Phase (°)"),
+                    text::tr("Period (s)"), plot_command(phase)));
 }
 
 }  // namespace a351::corrector::figure

@@ -9,6 +9,7 @@
 #include "corrector/figure/survey_figures.hpp"
 #include "corrector/model/linear_fit.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 namespace {
@@ -78,19 +79,21 @@ std::vector<std::string> scatter_clauses(const model::SurveyCorrection& result,
         const std::string source =
             data.add(fmt::format("{}: {}", mark.title, scatter.columns), lines);
         if (source.empty()) continue;
-        clauses.push_back(
-            fmt::format("{} using 1:2 with points {} title '{}'", source, mark.style, mark.title));
+        clauses.push_back(fmt::format("{} using 1:2 with points {} title '{}'", source, mark.style,
+                                      text::translated(mark.title, text::language())));
     }
     return clauses;
 }
 
 Figure scatter_plot(const FigureData& data, const Scatter& scatter, const std::string& caption,
                     const std::vector<std::string>& clauses) {
-    return data.figure(caption, 480, 360,
-                       fmt::format("set xlabel '{}'\nset ylabel '{}'\n"
-                                   "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n"
-                                   "set format '%.6g'\n{}",
-                                   scatter.x_label, scatter.y_label, plot_command(clauses)));
+    return data.figure(
+        caption, 480, 360,
+        fmt::format("set xlabel '{}'\nset ylabel '{}'\n"
+                    "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n"
+                    "set format '%.6g'\n{}",
+                    text::translated(scatter.x_label, text::language()),
+                    text::translated(scatter.y_label, text::language()), plot_command(clauses)));
 }
 
 std::optional<Figure> figure_with_line(const model::SurveyCorrection& result,
@@ -111,34 +114,36 @@ std::optional<Figure> figure_with_line(const model::SurveyCorrection& result,
 
 std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result) {
     const Scatter scatter{
-        "acceleration", "Reference gravity (mGal)", "Acceleration (mGal)",
-        "reference_mgal acceleration_mgal",
+        "acceleration", text::marked("Reference gravity (mGal)"),
+        text::marked("Acceleration (mGal)"), "reference_mgal acceleration_mgal",
         [](const model::CorrectedRow& row) -> std::optional<Point> {
             if (!row.row.reference) return std::nullopt;
             return Point{row.row.reference->value(), row.row.acceleration.value()};
         }};
-    return figure_with_line(result, scatter,
-                            "Acceleration as measured, tide not removed, over reference gravity; "
-                            "least-squares line and R² of the readings in the fit (in sample).");
+    return figure_with_line(
+        result, scatter,
+        text::tr("Acceleration as measured, tide not removed, over reference gravity; "
+                 "least-squares line and R² of the readings in the fit (in sample)."));
 }
 
 std::optional<Figure> difference_figure(const model::SurveyCorrection& result) {
-    const Scatter scatter{"difference", "Temperature (°C)",
-                          "Acceleration - reference - tide (mGal)",
+    const Scatter scatter{"difference", text::marked("Temperature (°C)"),
+                          text::marked("Acceleration - reference - tide (mGal)"),
                           "temperature_degc difference_mgal",
                           [](const model::CorrectedRow& row) -> std::optional<Point> {
                               if (!row.difference || !row.row.has_temperature) return std::nullopt;
                               return Point{row.row.temperature.value(), row.difference->value()};
                           }};
-    return figure_with_line(result, scatter,
-                            "Difference between the reading, tide removed, and reference gravity "
-                            "over temperature; least-squares line and R² of the readings in "
-                            "the fit (in sample; temperature alone, whatever model was applied).");
+    return figure_with_line(
+        result, scatter,
+        text::tr("Difference between the reading, tide removed, and reference gravity "
+                 "over temperature; least-squares line and R² of the readings in "
+                 "the fit (in sample; temperature alone, whatever model was applied)."));
 }
 
 std::optional<Figure> corrected_figure(const model::SurveyCorrection& result) {
-    const Scatter scatter{"corrected", "Reference gravity (mGal)", "Corrected gravity (mGal)",
-                          "reference_mgal corrected_mgal",
+    const Scatter scatter{"corrected", text::marked("Reference gravity (mGal)"),
+                          text::marked("Corrected gravity (mGal)"), "reference_mgal corrected_mgal",
                           [](const model::CorrectedRow& row) -> std::optional<Point> {
                               if (!row.row.reference) return std::nullopt;
                               return Point{row.row.reference->value(), row.corrected.value()};
@@ -147,14 +152,15 @@ std::optional<Figure> corrected_figure(const model::SurveyCorrection& result) {
     std::vector<std::string> clauses = scatter_clauses(result, scatter, data);
     if (clauses.empty()) return std::nullopt;
     const auto line = line_through(result, scatter.point_of);
-    clauses.push_back(fmt::format("x with lines lw 1.2 lc rgb {} title 'y = x{}'", kGrey,
-                                  line ? fmt::format(" (R² of the readings in the fit {})",
-                                                     text::fixed(line->fit.r_squared, 4))
-                                       : ""));
-    return scatter_plot(data, scatter,
-                        "Corrected gravity over reference gravity, with the line y = x. In sample: "
-                        "the same references were used in the fit.",
-                        clauses);
+    clauses.push_back(fmt::format(
+        "x with lines lw 1.2 lc rgb {} title 'y = x{}'", kGrey,
+        line ? text::tr(" (R² of the readings in the fit {})", text::fixed(line->fit.r_squared, 4))
+             : ""));
+    return scatter_plot(
+        data, scatter,
+        text::tr("Corrected gravity over reference gravity, with the line y = x. In sample: "
+                 "the same references were used in the fit."),
+        clauses);
 }
 
 std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result) {
@@ -167,15 +173,19 @@ std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result)
     const std::string source = data.add("stations: theirs_mgal difference_mgal u_ours_mgal", lines);
     const std::vector<std::string> clauses{
         fmt::format("0 with lines lw 1.2 lc rgb {} notitle", kGrey),
-        fmt::format("{} using 1:2:3 with yerrorbars pt 7 ps 0.6 lc rgb {} title 'stations, u'",
-                    source, kBlue)};
+        fmt::format("{} using 1:2:3 with yerrorbars pt 7 ps 0.6 lc rgb {} title '{}'", source,
+                    kBlue, text::tr("stations, u"))};
     return data.figure(
-        "Gravity by the sensor minus that by the reference gravimeter, over gravity. Each station "
-        "has its own reference hidden (cross-validated); bars are the standard uncertainty of the "
-        "sensor.",
+        text::tr("Gravity by the sensor minus that by the reference gravimeter, over gravity. Each "
+                 "station "
+                 "has its own reference hidden (cross-validated); bars are the standard "
+                 "uncertainty of the "
+                 "sensor."),
         480, 360,
-        "set xlabel 'Gravity by the reference gravimeter (mGal)'\nset ylabel 'Ours minus theirs "
-        "(mGal)'\nset offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nset format '%.6g'\n" +
+        fmt::format("set xlabel '{}'\nset ylabel '{}'\n",
+                    text::tr("Gravity by the reference gravimeter (mGal)"),
+                    text::tr("Ours minus theirs (mGal)")) +
+            "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nset format '%.6g'\n" +
             plot_command(clauses));
 }
 

@@ -10,6 +10,7 @@
 #include "corrector/report/html.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {
 namespace {
@@ -42,24 +43,26 @@ void add_days(pugi::xml_node parent, const std::vector<JointDay>& days) {
         HtmlCells& cells = rows.emplace_back(7, "-");
         cells[0] = day.name;
         if (day.result == nullptr) {
-            cells[1] = "not corrected";
+            cells[1] = text::tr("not corrected");
             continue;
         }
         const model::SurveyCorrection& result = *day.result;
         cells[1] = to_rfc3339(result.rows.front().row.time);
         cells[2] = to_rfc3339(result.rows.back().row.time);
         cells[3] = result.model;
-        cells[4] = fmt::format("{} of {}", result.score.row_count, result.rows.size());
+        cells[4] = text::tr("{} of {}", result.score.row_count, result.rows.size());
         cells[5] = text::fixed_or(result.score.rms_mgal, 3, "-");
         cells[6] = text::fixed_or(result.score.loso_mgal, 3, "-");
     }
-    add_table(parent,
-              "The days. The RMS of the residuals is in sample, that of stations left out is "
-              "cross-validated.",
-              "nnnnrrr",
-              {"Day", "First reading UTC", "Last reading UTC", "Model", "In the fit",
-               "RMS mGal (in sample)", "RMS mGal (cross-validated, leave-one-station-out)"},
-              rows);
+    add_table(
+        parent,
+        text::tr("The days. The RMS of the residuals is in sample, that of stations left out is "
+                 "cross-validated."),
+        "nnnnrrr",
+        {text::tr("Day"), text::tr("First reading UTC"), text::tr("Last reading UTC"),
+         text::tr("Model"), text::tr("In the fit"), text::tr("RMS mGal (in sample)"),
+         text::tr("RMS mGal (cross-validated, leave-one-station-out)")},
+        rows);
 }
 
 void add_links(pugi::xml_node parent, const std::vector<JointDay>& days) {
@@ -69,7 +72,7 @@ void add_links(pugi::xml_node parent, const std::vector<JointDay>& days) {
         if (line) {
             add_text(line, ", ");
         } else {
-            line = add(parent, "p", "Reports: ");
+            line = add(parent, "p", text::tr("Reports: "));
         }
         add(line, "a", day.name).append_attribute("href") =
             (address_part(day.folder) + "/report.html").c_str();
@@ -84,7 +87,7 @@ void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days
     for (const JointDay& day : days) {
         if (day.result == nullptr) continue;
         table.alignment += 'r';
-        table.headings.push_back(day.name + " - joint");
+        table.headings.push_back(text::tr("{} - joint", day.name));
     }
     for (std::size_t i = 0; i < stations.size(); ++i) {
         for (const model::SurveyCorrection& result : results) {
@@ -99,11 +102,15 @@ void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days
     }
     add_table(
         parent,
-        "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no u), with "
-        "its standard uncertainty u. The value of a day does not use the station's own reference "
-        "(left out); in sample: a day gives only a value that does. u contains what the days share "
-        "of the instrument's uncertainty, but not that of shared references. NAME - joint: the "
-        "day's value minus the mean. *: only readings that were left out of the day's fit.",
+        text::tr(
+            "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no u), "
+            "with "
+            "its standard uncertainty u. The value of a day does not use the station's own "
+            "reference "
+            "(left out); in sample: a day gives only a value that does. u contains what the days "
+            "share "
+            "of the instrument's uncertainty, but not that of shared references. NAME - joint: the "
+            "day's value minus the mean. *: only readings that were left out of the day's fit."),
         table);
 }
 
@@ -130,8 +137,8 @@ void compare_days(Advice& advice, const JointDay& a, const JointDay& b, const st
     advice.grade = std::max(
         advice.grade, ratio > grade::kRepeatRatio ? grade::Grade::repeat : grade::Grade::care);
     advice.reasons.push_back(
-        fmt::format("{} and {} differ by {} mGal, {} times the uncertainty of the difference",
-                    a.name, b.name, text::fixed(difference_mgal, 1), text::fixed(ratio, 1)));
+        text::tr("{} and {} differ by {} mGal, {} times the uncertainty of the difference", a.name,
+                 b.name, text::fixed(difference_mgal, 1), text::fixed(ratio, 1)));
 }
 
 /// Returns the best grade of a station on a day, or a worse one if the days disagree.
@@ -145,7 +152,7 @@ Advice advice_on(const std::string& site, const std::vector<JointDay>& days) {
             grade::grade_of_station(*day.result, grade::grade_readings(*day.result), site);
         advice.grade = std::min(advice.grade, of_day.grade);
         if (!of_day.reasons.empty())
-            reasons.push_back(fmt::format("{}, {}", day.name, grade::reason_text(of_day)));
+            reasons.push_back(text::tr("{}, {}", day.name, grade::reason_text(of_day)));
     }
     if (advice.grade != grade::Grade::trust) advice.reasons = reasons;
     for (auto a = days.begin(); a != days.end(); ++a)
@@ -169,17 +176,20 @@ void add_joint_actions(pugi::xml_node parent, const std::vector<JointDay>& days,
         const auto grade = static_cast<std::size_t>(advice.grade);
         sites.at(grade).push_back(station.site);
         if (!advice.reasons.empty())
-            reasons.at(grade).push_back({station.site, std::string(grade::grade_name(advice.grade)),
-                                         text::joined(advice.reasons, "; ")});
+            reasons.at(grade).push_back(
+                {station.site,
+                 std::string(text::translated(grade::grade_name(advice.grade), text::language())),
+                 text::joined(advice.reasons, "; ")});
     }
-    const auto add_group = [&](grade::Grade grade, const char* what) {
+    const auto add_group = [&](grade::Grade grade, const std::string& what) {
         const auto& group = sites.at(static_cast<std::size_t>(grade));
-        if (!group.empty()) items.push_back(fmt::format("{}: {}.", what, text::joined(group)));
+        if (!group.empty()) items.push_back(text::tr("{}: {}.", what, text::joined(group)));
     };
-    add_group(grade::Grade::repeat, "Repeat, no day has a value to trust or the days disagree");
-    if (items.empty()) items.emplace_back("No station needs to be repeated.");
-    add_group(grade::Grade::care, "Use with care");
-    add_group(grade::Grade::trust, "Trust");
+    add_group(grade::Grade::repeat,
+              text::tr("Repeat, no day has a value to trust or the days disagree"));
+    if (items.empty()) items.push_back(text::tr("No station needs to be repeated."));
+    add_group(grade::Grade::care, text::tr("Use with care"));
+    add_group(grade::Grade::trust, text::tr("Trust"));
     add_list(parent, items);
     std::vector<HtmlCells> rows;
     for (const auto& group : {reasons[2], reasons[1]})
@@ -187,23 +197,24 @@ void add_joint_actions(pugi::xml_node parent, const std::vector<JointDay>& days,
     if (!rows.empty())
         add_table(
             parent,
-            "Stations with remarks. Differences between days are of values that do not use the "
-            "station's own reference (left out), with their standard uncertainty u.",
-            "nnl", {"Station", "Grade", "Why"}, rows);
+            text::tr(
+                "Stations with remarks. Differences between days are of values that do not use the "
+                "station's own reference (left out), with their standard uncertainty u."),
+            "nnl", {text::tr("Station"), text::tr("Grade"), text::tr("Why")}, rows);
 }
 
 std::string scatter_sentence(const std::vector<model::SurveyCorrection>& results) {
     const auto scatter = scatter_of_days(results);
-    if (!scatter) return "No station was measured on two days, so the days cannot be compared.";
+    if (!scatter)
+        return text::tr("No station was measured on two days, so the days cannot be compared.");
     const std::string expected = text::fixed_or(scatter->expected_mgal, 2, "");
-    return fmt::format(
+    return text::tr(
         "Stations measured on several days differ by {} mGal rms from day to day ({} degrees of "
         "freedom){}.",
         text::fixed(scatter->rms_mgal, 2), scatter->dof,
         expected.empty()
             ? ""
-            : fmt::format("; expected from the part of u that the days do not share: {}",
-                          expected));
+            : text::tr("; expected from the part of u that the days do not share: {}", expected));
 }
 
 }  // namespace
@@ -252,15 +263,16 @@ std::string joint_html(const std::vector<JointDay>& days) {
             troubles.push_back(fmt::format("{}: {}", day.name, day.trouble));
         }
     }
-    const std::string title = fmt::format("Gravity survey of {} days", days.size());
+    const std::string title = text::tr("Gravity survey of {} days", days.size());
     Page page(title);
-    if (!troubles.empty()) add(page.body(), "p", "Not corrected, and not included below:");
+    if (!troubles.empty())
+        add(page.body(), "p", text::tr("Not corrected, and not included below:"));
     add_list(page.body(), troubles);
-    add_joint_actions(page.add_section("What to do"), corrected, results);
-    const pugi::xml_node stations = page.add_section("Stations");
+    add_joint_actions(page.add_section(text::tr("What to do")), corrected, results);
+    const pugi::xml_node stations = page.add_section(text::tr("Stations"));
     add_joint_stations(stations, days, results);
     add(stations, "p", scatter_sentence(results));
-    const pugi::xml_node section = page.add_section("Days");
+    const pugi::xml_node section = page.add_section(text::tr("The days"));
     add_days(section, days);
     add_links(section, days);
     return page.text();

@@ -8,6 +8,7 @@
 #include "corrector/report/report.hpp"
 #include "corrector/report/result_tables.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {
 namespace {
@@ -22,10 +23,10 @@ void add_record_head(pugi::xml_node parent, const long_record::RecordResult& res
     const double hours = static_cast<double>(segment.size()) * result.record.step_s / 3600.0;
     const std::string& unit = segment.serial_number;
     add(parent, "p",
-        fmt::format("Analysed: {}{} h from {}, a sample every {} s{}.",
-                    unit.empty() ? "" : fmt::format("sensor {}, ", unit), text::fixed(hours, 1),
-                    to_rfc3339(segment.start), text::fixed(result.record.step_s, 0),
-                    result.record.is_tide_removed ? ", earth tide removed" : ""));
+        text::tr("Analysed: {}{} h from {}, a sample every {} s{}.",
+                 unit.empty() ? "" : text::tr("sensor {}, ", unit), text::fixed(hours, 1),
+                 to_rfc3339(segment.start), text::fixed(result.record.step_s, 0),
+                 result.record.is_tide_removed ? text::tr(", earth tide removed") : ""));
     add(parent, "p", result.analysis.reading);
     add(parent, "p", fmt::format("Two-path fit: {}.", long_record::two_paths_reading(result)));
     add_list(parent, result.analysis.remarks);
@@ -34,10 +35,12 @@ void add_record_head(pugi::xml_node parent, const long_record::RecordResult& res
 void add_applied(pugi::xml_node parent, const long_record::AppliedCalibration& applied,
                  const std::vector<figure::Figure>& figures, const figure::Drawing& drawing) {
     add_list(parent, long_record::applied_sentences(applied));
-    add_text_table(parent, "Scatter of the record by period, rms in mGal, before and after.",
+    add_text_table(parent,
+                   text::tr("Scatter of the record by period, rms in mGal, before and after."),
                    "lrrr", long_record::applied_bands_table(applied));
     add_figures(parent, figures, drawing);
-    add_text_table(parent, "Allan deviation of the record by averaging time, before and after.",
+    add_text_table(parent,
+                   text::tr("Allan deviation of the record by averaging time, before and after."),
                    "lrrr", long_record::allan_table(applied));
 }
 
@@ -57,36 +60,38 @@ Report make_long_record_page(const long_record::RecordResult& result,
     Report page;
     page.warnings = missing_lines(drawing.troubles);
 
-    Page document("A long record at one point");
+    Page document(text::tr("A long record at one point"));
     add_record_head(document.body(), result);
     add_list(document.body(), page.warnings);
     if (result.applied)
-        add_applied(document.add_section("With the calibration"), *result.applied, applied,
-                    drawing);
-    pugi::xml_node section = document.add_section("Response by period");
+        add_applied(document.add_section(text::tr("With the calibration")), *result.applied,
+                    applied, drawing);
+    pugi::xml_node section = document.add_section(text::tr("Response by period"));
     add_text_table(
-        section, "Response of the acceleration to the temperature by period, with limits of 95 %.",
+        section,
+        text::tr("Response of the acceleration to the temperature by period, with limits of 95 %."),
         "lrrrrrr", long_record::response_table(result));
     add_figures(section, response, drawing);
     add_list(section, long_record::refused_bands(result));
-    add_text_table(document.add_section("Two paths"),
-                   "Parameters of the two paths with their standard errors, from the fit (in "
-                   "sample).",
-                   "lrrll", long_record::two_paths_table(result));
-    section = document.add_section("Noise, and how long to stay");
+    add_text_table(
+        document.add_section(text::tr("Two paths")),
+        text::tr("Parameters of the two paths with their standard errors, from the fit (in "
+                 "sample)."),
+        "lrrll", long_record::two_paths_table(result));
+    section = document.add_section(text::tr("Noise, and how long to stay"));
     add(section, "p", fmt::format("{}.", long_record::noise_reading(result)));
-    add_text_table(section, "Allan deviation of the record by averaging time.", "rrr",
+    add_text_table(section, text::tr("Allan deviation of the record by averaging time."), "rrr",
                    long_record::noise_table(result));
-    section = document.add_section("The publication's statistics");
-    add_text_table(section, "Statistics of this record beside the published ones.", "lrll",
-                   long_record::statistics_table(result));
+    section = document.add_section(text::tr("The publication's statistics"));
+    add_text_table(section, text::tr("Statistics of this record beside the published ones."),
+                   "lrll", long_record::statistics_table(result));
     add(section, "p", long_record::chosen_modes(result));
-    add_figures(document.add_section("The publication's figures"), figures, drawing);
-    section = document.add_section("Segments");
-    add_text_table(section, "Parts of the record without gaps; * analysed.", "llrrrl",
+    add_figures(document.add_section(text::tr("The publication's figures")), figures, drawing);
+    section = document.add_section(text::tr("Segments"));
+    add_text_table(section, text::tr("Parts of the record without gaps; * analysed."), "llrrrl",
                    long_record::segments_table(result));
     add_list(section, long_record::refused_parts(result));
-    add_provenance(document.add_section("Settings, inputs, warnings"), settings,
+    add_provenance(document.add_section(text::tr("Settings, inputs, warnings")), settings,
                    result.record.inputs, result.record.warnings);
     page.files.emplace_back("record.html", document.text());
     add_figure_files(page.files, all, drawing);

@@ -1,4 +1,5 @@
 #include "corrector/result/joint_table.hpp"
+#include "protocol/text/message.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,14 +73,14 @@ std::vector<JointStation> join_days(const std::vector<model::SurveyCorrection>& 
 
 const std::vector<Column<JointStation>>& joint_columns() {
     static const std::vector<Column<JointStation>> columns{
-        {"site", of(&JointStation::site), {"Station", 0, 'n'}},
-        {"days", of(&JointStation::day_count), {"Days"}},
+        {"site", of(&JointStation::site), {text::marked("Station"), 0, 'n'}},
+        {"days", of(&JointStation::day_count), {text::marked("Days")}},
         {"n", of(&JointStation::row_count), {"n"}},
-        {"gravity_mgal", of(&JointStation::gravity), {"Gravity mGal"}},
-        {"u_gravity_mgal", of(&JointStation::u_gravity), {"u mGal", 2}},
-        {"reference_mgal", of(&JointStation::reference), {"Reference mGal"}},
-        {"residual_mgal", of(&JointStation::residual), {"Residual mGal"}},
-        {"in_sample", of(&JointStation::is_in_sample), {"In sample", 0, 'l'}},
+        {"gravity_mgal", of(&JointStation::gravity), {text::marked("Gravity mGal")}},
+        {"u_gravity_mgal", of(&JointStation::u_gravity), {text::marked("u mGal"), 2}},
+        {"reference_mgal", of(&JointStation::reference), {text::marked("Reference mGal")}},
+        {"residual_mgal", of(&JointStation::residual), {text::marked("Residual mGal")}},
+        {"in_sample", of(&JointStation::is_in_sample), {text::marked("In sample"), 0, 'l'}},
     };
     return columns;
 }
