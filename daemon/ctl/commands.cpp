@@ -153,11 +153,38 @@ int change_stay(const Client& client, Arguments arguments, const std::string& co
     return change(client, arguments, "/api/occupation/" + command, body);
 }
 
+void print_code(const std::string& url) { print(qr_text(url, wants_colour()) + url + "\n"); }
+
+/// Prints the address of --url with the operator's token.  Reason: a daemon that listens on one
+/// address takes nobody for local, so it does not give out its token.
+int show_own_address(const Client& client, const Arguments& arguments) {
+    const Url url = parse_url(arguments.urls.front());
+    if (!arguments.address.empty() && arguments.address != url.host) {
+        complain(text::tr("{} is not an address of this page; allowed: {}", arguments.address,
+                          url.host));
+        return kRefused;
+    }
+    // The body is refused, but only after the token was accepted.
+    constexpr int kForbidden = 403;
+    const Reply reply = client.post("/api/note", "{}", arguments.token);
+    if (reply.status == kForbidden) {
+        complain(answer_of(reply).error);
+        return kRefused;
+    }
+    print_code(page_url(url.authority(), arguments.token));
+    return kDone;
+}
+
 /// Prints the address of the page for a telephone, as a code and as text.
 int show_phone(const Client& client, const Arguments& arguments) {
-    const auto told = accepted(answer_of(client.get("/api/token")));
-    if (!told) return kRefused;
-    const auto listen = told->at("listen").get<std::string>();
+    const Answer answer = answer_of(client.get("/api/token"));
+    if (!answer.error.empty() && !arguments.token.empty())
+        return show_own_address(client, arguments);
+    if (!answer.error.empty()) {
+        complain(text::tr("{}; set A351_TOKEN to the token of [page]", answer.error));
+        return kRefused;
+    }
+    const auto listen = answer.body.at("listen").get<std::string>();
     const std::string port = listen.substr(listen.rfind(':') + 1);
     const auto addresses = reachable_addresses(listen.substr(0, listen.rfind(':')));
     if (addresses.empty()) {
@@ -173,8 +200,7 @@ int show_phone(const Client& client, const Arguments& arguments) {
                           text::joined(addresses)));
         return kRefused;
     }
-    const std::string url = page_url(address + ":" + port, told->at("token").get<std::string>());
-    print(qr_text(url, wants_colour()) + url + "\n");
+    print_code(page_url(address + ":" + port, answer.body.at("token").get<std::string>()));
     for (const std::string& other : addresses)
         if (other != address)
             print(text::tr("another address: {}", "a351ctl phone " + other) + "\n");

@@ -3,6 +3,7 @@
 The test runs in a network of its own, with one address that is not loopback.
 """
 
+import atexit
 import json
 import os
 import re
@@ -11,8 +12,8 @@ import subprocess
 import sys
 
 from browser import Browser
-from emulated_session import Session
-from programs import BIN, Scratch, demand, run, skip
+from emulated_session import Session, wait_for
+from programs import BIN, Scratch, daemon_config, demand, run, skip, unused_port
 
 ADDRESS = "192.0.2.7"  # Of a range for documentation, RFC 5737.
 NETWORK = ('ip link set lo up && (ip link add field0 type dummy 2>/dev/null || ip link add field0 type bridge) && '
@@ -111,3 +112,24 @@ with Scratch() as scratch, Browser(allowed_errors=["status of 403"], may_ask={AD
     code, said = open_session.run("phone", "192.0.2.8", check=False)
     demand(f"another address is refused: {said.strip()}", code == 1 and f"allowed: {ADDRESS}" in said)
     open_on_phone(open_session, page, *show_code(open_session, scratch))
+
+TOKEN = "token-of-one-address"
+with Scratch() as scratch:
+    port = unused_port()
+    (scratch / "a351d.toml").write_text(daemon_config(port, ADDRESS) + f'token = "{TOKEN}"\n')
+    daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml"], cwd=scratch, stderr=subprocess.DEVNULL)
+    atexit.register(daemon.kill)
+
+    def phone(token, *words):
+        return run(BIN / "a351ctl", "--url", f"http://{ADDRESS}:{port}", "phone", *words, check=False, env={"A351_TOKEN": token})
+
+    wait_for("a daemon on one address answers", lambda: phone("").returncode == 1)
+    said = phone("").stderr
+    demand(f"without the token it says what to set: {said.strip()}", "set A351_TOKEN to the token of [page]" in said)
+    wrong = phone("x" * 20)
+    demand(f"a wrong token gives no code: {wrong.stderr.strip()}", wrong.returncode == 1 and wrong.stdout == "")
+    demand("another address is refused", f"allowed: {ADDRESS}" in phone(TOKEN, "192.0.2.8").stderr)
+    shown = phone(TOKEN)
+    demand("with its token the code has the address of --url",
+           shown.returncode == 0 and shown.stdout.endswith(f"\nhttp://{ADDRESS}:{port}/#field&token={TOKEN.replace('-', '%2D')}\n"))
+    demand("no note was written", list((scratch / "data" / "events").glob("*.jsonl")) == [])
