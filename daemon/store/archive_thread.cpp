@@ -86,6 +86,7 @@ bool ArchiveThread::join() {
 
 void ArchiveThread::run() noexcept {
     hooks_.begin();
+    NumberedChunk numbered;
     while (!recover()) {
         std::unique_lock lock(mutex_);
         const bool is_over =
@@ -96,12 +97,12 @@ void ArchiveThread::run() noexcept {
             note_fault(
                 "adding the last run's data was given up until the next start, so that the "
                 "journal need not wait");
-        while (chunks_.pop()) {  // Dropped here; the next start finds them in the journal.
+        while (chunks_.pop(numbered)) {  // Dropped; the next start finds them in the journal.
         }
         return;
     }
-    while (const auto numbered = chunks_.pop()) {
-        handle(*numbered);
+    while (chunks_.pop(numbered)) {
+        handle(numbered);
         wait_for_room();
     }
     const std::lock_guard lock(mutex_);
@@ -126,7 +127,8 @@ void ArchiveThread::run_writing() noexcept {
 
 void ArchiveThread::step() {
     if (!recover()) return;
-    while (const auto numbered = chunks_.try_pop()) handle(*numbered);
+    NumberedChunk numbered;
+    while (chunks_.try_pop(numbered)) handle(numbered);
     if (may_write()) store_records(false);
 }
 

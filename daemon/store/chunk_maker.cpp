@@ -73,9 +73,12 @@ ChunkMaker::Status ChunkMaker::status() const {
 }
 
 void ChunkMaker::make_chunks() {
-    journal::RxChunk rx;
+    auto& rx = std::get<journal::RxChunk>(rx_);
     const auto pass_rx = [&] {
-        if (!rx.reads.empty()) pass(std::exchange(rx, {}));
+        if (rx.reads.empty()) return;
+        pass(rx_);
+        rx.bytes.clear();
+        rx.reads.clear();
     };
     while (const auto item = reads_.front()) {
         if (item->kind != source::ReadQueue::Kind::rx ||
@@ -89,9 +92,9 @@ void ChunkMaker::make_chunks() {
                 reads_.pop();
                 break;
             case source::ReadQueue::Kind::tx: {
-                journal::TxChunk tx{item->time, {item->bytes.begin(), item->bytes.end()}};
+                const journal::TxChunk tx{item->time, {item->bytes.begin(), item->bytes.end()}};
                 reads_.pop();
-                pass(std::move(tx));
+                pass(tx);
                 break;
             }
             case source::ReadQueue::Kind::woken: {
@@ -101,18 +104,19 @@ void ChunkMaker::make_chunks() {
                 break;
             }
             case source::ReadQueue::Kind::session: {
-                journal::Header header = reads_.take_session();
+                const journal::Header header = reads_.take_session();
                 reads_.pop();
-                pass(std::move(header));
+                pass(header);
                 break;
             }
         }
     }
     pass_rx();
     std::unique_lock lock(mutex_);
-    auto polls = std::exchange(polls_, {});
+    polls_to_pass_.swap(polls_);
     lock.unlock();
-    for (journal::OvenChunk& poll : polls) pass(std::move(poll));
+    for (journal::OvenChunk& poll : polls_to_pass_) pass(std::move(poll));
+    polls_to_pass_.clear();
 }
 
 bool ChunkMaker::is_clock_due() const {
@@ -135,7 +139,7 @@ bool ChunkMaker::is_segment_full(const journal::Chunk& next) const {
 
 /// Gives a chunk to journal and archive, after the header of a new segment if one is due.  A reader
 /// of the journal finds the same chunks in the same order as the archive.
-void ChunkMaker::pass(journal::Chunk chunk) {
+void ChunkMaker::pass(const journal::Chunk& chunk) {
     if (const auto* const header = std::get_if<journal::Header>(&chunk)) {
         header_ = *header;
         segment_bytes_ = 0;
@@ -146,12 +150,11 @@ void ChunkMaker::pass(journal::Chunk chunk) {
         const auto* const reading = std::get_if<timing::ClockReading>(&chunk);
         journal::Header next = *header_;
         next.clock = reading != nullptr ? *reading : clock_.read();
-        pass(std::move(next));
+        pass(next);
     }
-    NumberedChunk numbered{++last_number_, std::move(chunk)};
-    segment_bytes_ += size_of(numbered);
-    journal_.push(numbered);
-    if (decoded_.push(std::move(numbered))) return;
+    segment_bytes_ += size_of(chunk);
+    journal_.push(++last_number_, chunk);
+    if (decoded_.push(last_number_, chunk)) return;
     const std::lock_guard lock(mutex_);
     ++status_.archive_waits;
 }

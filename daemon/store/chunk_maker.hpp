@@ -7,10 +7,10 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/read_queue.hpp"
@@ -51,7 +51,7 @@ private:
     [[nodiscard]] bool is_clock_due() const;
     void pass_clock(const timing::ClockReading& reading);
     [[nodiscard]] bool is_segment_full(const journal::Chunk& next) const;
-    void pass(journal::Chunk chunk);
+    void pass(const journal::Chunk& chunk);
 
     const source::HostClock& clock_;
     source::ReadQueue& reads_;
@@ -60,8 +60,10 @@ private:
     DiskTime time_;
 
     // Used by this thread only.
-    std::optional<journal::Header> header_;  ///< Header of the newest segment.
-    std::uint64_t segment_bytes_ = 0;        ///< Its size so far.
+    journal::Chunk rx_ = journal::RxChunk{};         ///< Chunk of reads that is being made.
+    std::vector<journal::OvenChunk> polls_to_pass_;  ///< Empty between two rounds.
+    std::optional<journal::Header> header_;          ///< Header of the newest segment.
+    std::uint64_t segment_bytes_ = 0;                ///< Its size so far.
     std::uint64_t last_number_ = 0;
     RawTime last_clock_;
     std::chrono::steady_clock::time_point last_clock_real_;
@@ -69,7 +71,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     bool is_ending_ = false;
-    std::deque<journal::OvenChunk> polls_;
+    std::vector<journal::OvenChunk> polls_;
     Status status_;
     std::thread thread_;
 };

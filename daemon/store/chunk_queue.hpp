@@ -3,22 +3,11 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <mutex>
-#include <optional>
 
-#include "protocol/journal/journal.hpp"
+#include "daemon/store/chunk_list.hpp"
 
 namespace a351::daemon::store {
-
-/// A chunk for journal and archive, with its number since start, from 1.
-struct NumberedChunk {
-    std::uint64_t number = 0;  ///< 0: for the journal only.
-    journal::Chunk chunk;
-};
-
-/// Returns the memory that a chunk takes, about its size in the journal.
-[[nodiscard]] std::size_t size_of(const NumberedChunk& numbered);
 
 /// The queue from ChunkMaker to the archive thread.
 class ChunkQueue {
@@ -32,13 +21,13 @@ public:
 
     /// Appends a chunk.  Waits while the queue is full.
     /// @return false if it had to wait.
-    bool push(NumberedChunk chunk);
+    bool push(std::uint64_t number, const journal::Chunk& chunk);
 
-    /// Waits for a chunk and removes it.  @return std::nullopt once the queue is closed and empty.
-    [[nodiscard]] std::optional<NumberedChunk> pop();
+    /// Waits for a chunk and moves it to `next`.  @return false once the queue is closed and empty.
+    [[nodiscard]] bool pop(NumberedChunk& next);
 
-    /// Removes a chunk without waiting.  @return std::nullopt if there is none.
-    [[nodiscard]] std::optional<NumberedChunk> try_pop();
+    /// Moves a chunk to `next` without waiting.  @return false if there is none.
+    [[nodiscard]] bool try_pop(NumberedChunk& next);
 
     [[nodiscard]] bool is_half_full() const;
 
@@ -46,13 +35,12 @@ public:
     void close();
 
 private:
-    std::optional<NumberedChunk> take_front();
+    bool take_front(NumberedChunk& next);
 
     std::size_t capacity_bytes_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<NumberedChunk> chunks_;
-    std::size_t bytes_ = 0;
+    ChunkList chunks_;
     bool is_closed_ = false;
 };
 

@@ -72,11 +72,10 @@ bool JournalThread::finish() {
     return !status_.is_faulty;
 }
 
-void JournalThread::push(NumberedChunk chunk) {
+void JournalThread::push(std::uint64_t number, const journal::Chunk& chunk) {
     const std::lock_guard lock(mutex_);
-    queued_bytes_ += size_of(chunk);
-    queued_.push_back(std::move(chunk));
-    while (queued_bytes_ > capacity_bytes_ && is_stuck() && drop_oldest()) {
+    queued_.push(number, chunk);
+    while (queued_.bytes() > capacity_bytes_ && is_stuck() && drop_oldest()) {
     }
     has_news_ = true;
     woken_.notify_all();
@@ -84,7 +83,7 @@ void JournalThread::push(NumberedChunk chunk) {
 
 bool JournalThread::has_room() const {
     const std::lock_guard lock(mutex_);
-    return queued_bytes_ < capacity_bytes_ || is_stuck();
+    return queued_.bytes() < capacity_bytes_ || is_stuck();
 }
 
 /// Returns true if the disk refuses data or hangs.  Must be called with the lock held.
@@ -95,11 +94,10 @@ bool JournalThread::is_stuck() const {
 /// Drops the oldest chunk that may be lost.  Must be called with the lock held.
 /// @return false if there is none.
 bool JournalThread::drop_oldest() {
-    const auto oldest = std::ranges::find_if(queued_, is_expendable);
-    if (oldest == queued_.end()) return false;
+    const auto oldest = std::ranges::find_if(queued_.chunks(), is_expendable);
+    if (oldest == queued_.chunks().end()) return false;
     if (const auto* const rx = std::get_if<journal::RxChunk>(&oldest->chunk))
         status_.reads_dropped += rx->reads.size();
-    queued_bytes_ -= size_of(*oldest);
     queued_.erase(oldest);
     return true;
 }
@@ -133,7 +131,7 @@ JournalStatus JournalThread::status() const {
     const std::lock_guard lock(mutex_);
     JournalStatus status = status_;
     status.is_faulty |= is_fault_recent();
-    status.is_dropping = is_stuck() && queued_bytes_ >= capacity_bytes_;
+    status.is_dropping = is_stuck() && queued_.bytes() >= capacity_bytes_;
     if (on_disk_since_) {
         status.present_sync =
             std::chrono::duration_cast<milliseconds>(time_.now() - *on_disk_since_);
@@ -187,26 +185,20 @@ std::shared_ptr<JournalThread::Commit> JournalThread::next_commit() {
     return first;
 }
 
-std::optional<NumberedChunk> JournalThread::next_chunk() {
+bool JournalThread::take_next() {
     const std::lock_guard lock(mutex_);
-    if (queued_.empty()) return std::nullopt;
-    std::optional<NumberedChunk> first(std::move(queued_.front()));
-    queued_.pop_front();
-    const std::size_t size = size_of(*first);
-    require_invariant(queued_bytes_ >= size && (!queued_.empty() || queued_bytes_ == size),
-                      "the bytes of the journal's queue are those of its chunks");
-    queued_bytes_ -= size;
-    return first;
+    is_unwritten_ = queued_.pop(taken_);
+    return is_unwritten_;
 }
 
 void JournalThread::write_queued() {
     retry_unwritten();
-    while ((unwritten_ = next_chunk())) retry_unwritten();
+    while (take_next()) retry_unwritten();
 }
 
 void JournalThread::retry_unwritten() {
-    if (!unwritten_) return;
-    const journal::Chunk& chunk = unwritten_->chunk;
+    if (!is_unwritten_) return;
+    const journal::Chunk& chunk = taken_.chunk;
     const auto* const header = std::get_if<journal::Header>(&chunk);
     if (header != nullptr) {
         on_disk([&] { writer_.begin_segment(*header); });
@@ -215,10 +207,10 @@ void JournalThread::retry_unwritten() {
         on_disk([&] { writer_.append(chunk); });
     }
     is_dirty_ |= has_segment_;
-    require_invariant(unwritten_->number == 0 || unwritten_->number > last_chunk_,
+    require_invariant(taken_.number == 0 || taken_.number > last_chunk_,
                       "chunks are written in their order, each once");
-    if (unwritten_->number > 0) last_chunk_ = unwritten_->number;
-    unwritten_.reset();
+    if (taken_.number > 0) last_chunk_ = taken_.number;
+    is_unwritten_ = false;
     progress_.journal_written(last_chunk_);
     const std::lock_guard lock(mutex_);
     status_.is_faulty = false;
@@ -237,7 +229,7 @@ void JournalThread::carry_out(Commit& commit) {
         return commit.done.set_exception(std::current_exception());
     }
     try {
-        push({0, journal::EventChunk{events::to_json(commit.event)}});
+        push(0, journal::EventChunk{events::to_json(commit.event)});
         if (may_try_again()) {
             write_queued();
             sync();

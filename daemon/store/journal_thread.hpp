@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "daemon/source/host_clock.hpp"
-#include "daemon/store/chunk_queue.hpp"
+#include "daemon/store/chunk_list.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
 #include "protocol/events/event_log.hpp"
@@ -63,7 +63,8 @@ public:
 
     /// Queues a chunk to be written soon.  If the journal is stuck and the queue full, the oldest
     /// reads, clock readings and polls are dropped.
-    void push(NumberedChunk chunk);
+    /// @param number  number of the chunk; 0: for the journal only.
+    void push(std::uint64_t number, const journal::Chunk& chunk);
 
     /// Returns false if the queue is full because the disk is slow: the caller should wait.
     [[nodiscard]] bool has_room() const;
@@ -93,7 +94,7 @@ private:
     void work();
     void write_queued();
     void retry_unwritten();
-    [[nodiscard]] std::optional<NumberedChunk> next_chunk();
+    [[nodiscard]] bool take_next();
     [[nodiscard]] std::shared_ptr<Commit> next_commit();
     [[nodiscard]] bool is_stuck() const;
     [[nodiscard]] bool drop_oldest();
@@ -117,8 +118,9 @@ private:
     // Used by the journal thread only.
     bool has_segment_ = false;
     bool is_dirty_ = false;
-    std::optional<NumberedChunk> unwritten_;  ///< Chunk that could not be written yet.
-    std::uint64_t last_chunk_ = 0;            ///< Number of the last chunk that was written.
+    NumberedChunk taken_;           ///< Chunk that was taken from the queue last.
+    bool is_unwritten_ = false;     ///< That chunk could not be written yet.
+    std::uint64_t last_chunk_ = 0;  ///< Number of the last chunk that was written.
     std::chrono::steady_clock::time_point last_sync_;
 
     mutable std::mutex mutex_;
@@ -126,8 +128,7 @@ private:
     Phase phase_ = Phase::running;
     bool is_drained_ = false;
     bool has_news_ = false;  ///< A chunk was pushed since the last round.
-    std::deque<NumberedChunk> queued_;
-    std::size_t queued_bytes_ = 0;
+    ChunkList queued_;
     int faults_running_ = 0;  ///< Faults since the last successful sync.
     std::deque<std::shared_ptr<Commit>> commits_;
     JournalStatus status_;

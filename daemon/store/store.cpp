@@ -32,10 +32,7 @@ Store::Store(files::FileLayer& files, Options options, const source::HostClock& 
       archive_(
           files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
           reserve_,
-          {.post =
-               [this](journal::Chunk chunk) {
-                   journal_.push({0, std::move(chunk)});
-               },
+          {.post = [this](const journal::Chunk& chunk) { journal_.push(0, chunk); },
            .session_began = [this](const journal::Header& header) { describe(header); },
            .clock_set = [this](const status::ClockStep& step) { log_clock_step(step); },
            .recovered = [this](const archive::RecoveryReport& report) { finish_recovery(report); },

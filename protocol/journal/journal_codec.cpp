@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <boost/crc.hpp>
 #include <cstring>
 #include <stdexcept>
@@ -245,11 +246,19 @@ std::optional<Chunk> decode_oven(Fields fields) {
     return poll;
 }
 
-std::vector<std::byte> encode_fields_before_crc(const ChunkHeader& header) {
-    std::vector<std::byte> out;
-    put<std::uint32_t>(out, header.length);
-    put<std::uint8_t>(out, header.type);
-    put<std::uint32_t>(out, header.sequence);
+template <class Int>
+void put_at(std::span<std::byte> out, std::type_identity_t<Int> value) {
+    for (std::size_t i = 0; i < sizeof(Int); ++i)
+        out[i] = static_cast<std::byte>(value >> (8 * i) & 0xFFU);
+}
+
+constexpr std::size_t kSequenceAt = 5, kCrcAt = 9;  // Places in the header of a chunk, bytes.
+
+std::array<std::byte, kCrcAt> encode_fields_before_crc(const ChunkHeader& header) {
+    std::array<std::byte, kCrcAt> out{};
+    put_at<std::uint32_t>(out, header.length);
+    out[kSequenceAt - 1] = static_cast<std::byte>(header.type);
+    put_at<std::uint32_t>(std::span(out).subspan(kSequenceAt), header.sequence);
     return out;
 }
 
@@ -271,20 +280,38 @@ bool is_preamble(std::span<const std::byte> bytes) noexcept {
 }
 
 std::vector<std::byte> encode_chunk(const Chunk& chunk, std::uint32_t sequence) {
-    std::vector<std::byte> payload;
-    std::visit(PayloadWriter{payload}, chunk);
-    if (payload.size() > kMostPayloadBytes) {
-        throw std::invalid_argument(fmt::format("journal chunk: payload of {} bytes; at most {}",
-                                                payload.size(), kMostPayloadBytes));
-    }
-    const auto type = static_cast<std::uint8_t>(chunk.index() + 1);
-    const ChunkHeader header{static_cast<std::uint32_t>(payload.size()), type, sequence, 0};
-    auto out = encode_fields_before_crc(header);
-    out.reserve(kChunkHeaderSize + payload.size());
-    put<std::uint32_t>(out, chunk_crc(header, payload));
-    require_invariant(out.size() == kChunkHeaderSize, "a chunk begins with a whole header");
-    out.insert(out.end(), payload.begin(), payload.end());
+    std::vector<std::byte> out;
+    append_chunk(out, chunk, sequence);
     return out;
+}
+
+void append_chunk(std::vector<std::byte>& out, const Chunk& chunk, std::uint32_t sequence) {
+    const std::size_t before = out.size();
+    try {
+        out.resize(before + kChunkHeaderSize);
+        std::visit(PayloadWriter{out}, chunk);
+        const std::size_t size = out.size() - before - kChunkHeaderSize;
+        if (size > kMostPayloadBytes) {
+            throw std::invalid_argument(fmt::format(
+                "journal chunk: payload of {} bytes; at most {}", size, kMostPayloadBytes));
+        }
+        const auto encoded = std::span(out).subspan(before);
+        put_at<std::uint32_t>(encoded, static_cast<std::uint32_t>(size));
+        encoded[kSequenceAt - 1] = static_cast<std::byte>(chunk.index() + 1);
+        renumber_chunk(encoded, sequence);
+    } catch (...) {
+        out.resize(before);
+        throw;
+    }
+}
+
+void renumber_chunk(std::span<std::byte> chunk, std::uint32_t sequence) {
+    put_at<std::uint32_t>(chunk.subspan(kSequenceAt), sequence);
+    const ChunkHeader header = decode_chunk_header(chunk);
+    require_invariant(chunk.size() == kChunkHeaderSize + header.length,
+                      "an encoded chunk has the length in its header");
+    put_at<std::uint32_t>(chunk.subspan(kCrcAt),
+                          chunk_crc(header, chunk.subspan(kChunkHeaderSize)));
 }
 
 ChunkHeader decode_chunk_header(std::span<const std::byte> bytes) noexcept {

@@ -94,6 +94,13 @@ struct ChunkHeader {
 ///         registers without an answer, an answer without registers, or more than 255 registers.
 [[nodiscard]] std::vector<std::byte> encode_chunk(const Chunk& chunk, std::uint32_t sequence);
 
+/// Appends the bytes of encode_chunk() to `out`; after an exception `out` is as before.
+void append_chunk(std::vector<std::byte>& out, const Chunk& chunk, std::uint32_t sequence);
+
+/// Gives an encoded chunk another sequence number and the checksum for it.
+/// @param chunk  header and payload.
+void renumber_chunk(std::span<std::byte> chunk, std::uint32_t sequence);
+
 /// Reads the header of a chunk; nothing is checked.
 /// @param bytes  kChunkHeaderSize bytes.  Fields that are cut off are 0; further bytes are ignored.
 [[nodiscard]] ChunkHeader decode_chunk_header(std::span<const std::byte> bytes) noexcept;

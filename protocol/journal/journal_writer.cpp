@@ -15,6 +15,9 @@ namespace a351::journal {
 
 namespace {
 
+// Most memory that is kept after a sync, bytes: a second of the fastest line, and as much again.
+constexpr std::size_t kMostKeptBytes = std::size_t{4} << 20;
+
 std::string segment_name(std::uint64_t number, UtcTime time) {
     // "2026-03-01T13:00:00Z" without its punctuation.
     std::string stamp = to_rfc3339(time);
@@ -54,9 +57,16 @@ void Writer::begin_segment(const Header& header) {
 void Writer::append(const Chunk& chunk) {
     require_invariant(header_.has_value(), "a segment is begun before a chunk");
     if (!segment_) rewrite_unsynced();
-    write(chunk);
-    unsynced_.push_back(chunk);
-    require_invariant(next_sequence_ - first_unsynced_ == unsynced_.size(),
+    const std::size_t before = unsynced_.size();
+    append_chunk(unsynced_, chunk, next_sequence_);
+    try {
+        write(std::span(unsynced_).subspan(before));
+    } catch (...) {
+        unsynced_.resize(before);
+        throw;
+    }
+    ++unsynced_count_;
+    require_invariant(next_sequence_ - first_unsynced_ == unsynced_count_,
                       "each chunk after the last sync is in memory, once");
     if (const auto* reading = std::get_if<timing::ClockReading>(&chunk)) newest_clock_ = *reading;
 }
@@ -93,7 +103,12 @@ void Writer::rewrite_unsynced() {
     Header header = *header_;
     header.clock = synced_clock_;
     open_segment(header);
-    for (const Chunk& chunk : unsynced_) write(chunk);
+    for (auto left = std::span(unsynced_); !left.empty();) {
+        const auto chunk = left.first(kChunkHeaderSize + decode_chunk_header(left).length);
+        renumber_chunk(chunk, next_sequence_);
+        write(chunk);
+        left = left.subspan(chunk.size());
+    }
 }
 
 void Writer::open_segment(const Header& header) {
@@ -101,8 +116,7 @@ void Writer::open_segment(const Header& header) {
     head.repeats = lost_from_;
     const auto path = directory_ / segment_name(++number_, header.clock.realtime);
     auto bytes = encode_preamble();
-    const auto chunk = encode_chunk(head, 0);
-    bytes.insert(bytes.end(), chunk.begin(), chunk.end());
+    append_chunk(bytes, head, 0);
     auto segment = files_.create(path);
     try {
         segment->append(bytes);
@@ -117,16 +131,15 @@ void Writer::open_segment(const Header& header) {
     bytes_written_ += bytes.size();
 }
 
-void Writer::write(const Chunk& chunk) {
-    const auto bytes = encode_chunk(chunk, next_sequence_);
+void Writer::write(std::span<const std::byte> chunk) {
     try {
-        segment_->append(bytes);
+        segment_->append(chunk);
     } catch (...) {
         give_up();
         throw;
     }
     ++next_sequence_;
-    bytes_written_ += bytes.size();
+    bytes_written_ += chunk.size();
 }
 
 // If chunks cannot be written again either, the place where they were first is kept.
@@ -137,6 +150,8 @@ void Writer::give_up() noexcept {
 
 void Writer::forget_unsynced() {
     unsynced_.clear();
+    if (unsynced_.capacity() > kMostKeptBytes) unsynced_.shrink_to_fit();
+    unsynced_count_ = 0;
     lost_from_.reset();
     require_invariant(first_unsynced_ <= next_sequence_, "sequence numbers ascend");
     first_unsynced_ = next_sequence_;

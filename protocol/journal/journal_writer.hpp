@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "protocol/files/file_layer.hpp"
@@ -36,7 +37,8 @@ inline constexpr std::uint64_t kLargestSegment = std::uint64_t{64} << 20;
 /// (`repeats`).
 ///
 /// Every chunk appended since the last good sync() is therefore in memory.  Without sync() this
-/// memory grows without limit.
+/// memory grows without limit.  It is used again after the sync, so that append() and sync() do not
+/// allocate at a steady rate.
 ///
 /// Whichever operation of the disk fails, once or twice, a reader finds every appended chunk once
 /// and in order (journal_writer_test.cpp).
@@ -70,7 +72,8 @@ public:
     /// Appends a chunk by one write, to the segment that is open, whatever its age and size.
     /// Precondition: begin_segment() was called.
     ///
-    /// The chunk is copied.  After std::system_error, append the same chunk again: it was not kept.
+    /// The writer keeps the bytes of the chunk, not the chunk.  After std::system_error, append the
+    /// same chunk again: it was not kept.
     ///
     /// @param chunk  any kind but Header, which would end the segment for every reader; this
     ///               is not checked.  Use begin_segment() for a header.
@@ -100,7 +103,7 @@ public:
 
 private:
     void open_segment(const Header& header);
-    void write(const Chunk& chunk);
+    void write(std::span<const std::byte> chunk);
     void give_up() noexcept;
     void rewrite_unsynced();
     void forget_unsynced();
@@ -113,7 +116,8 @@ private:
     std::unique_ptr<files::AppendFile> segment_;
     std::uint64_t number_ = 0;  ///< Number of the newest segment.
     std::uint32_t next_sequence_ = 0;
-    std::vector<Chunk> unsynced_;
+    std::vector<std::byte> unsynced_;          ///< Bytes of the chunks; its memory is kept.
+    std::uint32_t unsynced_count_ = 0;         ///< Number of these chunks.
     std::optional<RepeatedChunks> lost_from_;  ///< First place of unsynced_, if that sync failed.
     std::uint32_t first_unsynced_ = 1;         ///< First unsynced chunk of the open segment.
     timing::ClockReading newest_clock_, synced_clock_;

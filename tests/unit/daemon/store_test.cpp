@@ -126,11 +126,12 @@ TEST_CASE("after the journal is drained only chunks posted by the archive are wr
     chunk_maker.drain();
     journal.drain();
     rig.pass(std::chrono::seconds(5));  // Time that the archive takes to end.
-    journal.push({0, journal::MarkChunk{}});
+    journal.push(0, journal::MarkChunk{});
     CHECK(journal.finish());
 
     std::size_t handed_over = 0;
-    while (decoded.try_pop()) ++handed_over;
+    NumberedChunk next;
+    while (decoded.try_pop(next)) ++handed_over;
     std::vector<journal::Chunk> journaled;
     journal::Sequence chunks(journal::segment_files(rig.root / "journal"));
     while (auto chunk = chunks.next()) journaled.push_back(std::move(*chunk));
@@ -232,7 +233,8 @@ TEST_CASE_METHOD(Rig, "damaged station metadata are set aside and written again"
     REQUIRE(eventually([&] { return status_of(store).received == 99; }));
     CHECK(store.stop());
     bool is_told = false;
-    for (const auto& reason : status_of(store).reasons) is_told |= reason.english().find("metadata: ") == 0;
+    for (const auto& reason : status_of(store).reasons)
+        is_told |= reason.english().find("metadata: ") == 0;
     CHECK(is_told);
 }
 
