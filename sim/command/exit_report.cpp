@@ -105,6 +105,8 @@ std::string to_json(const ExitReport& report, int indent) {
         {"faults", by_kind(report.faults)},
         {"faults_applied", applied(report.faults)},
         {"faults_refused", refused(report.faults)},
+        {"faults_applied_in_all", report.faults.applied_in_all},
+        {"faults_refused_in_all", report.faults.refused_in_all},
     };
     if (report.oven) json["oven"] = to_json(*report.oven);
     // The scenario may be a file whose name is not UTF-8: JSON cannot hold such bytes.

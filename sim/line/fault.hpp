@@ -27,7 +27,7 @@ enum class FaultKind {
     reorder_frames,
     truncate_frame,
     lose_frames,
-    // Faults of the device.
+    // Faults of the device.  Those up to error_flags begin with the next frame.
     counter_jump,
     counter_stuck,
     counter_reset,

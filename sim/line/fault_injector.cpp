@@ -14,6 +14,8 @@ using namespace std::chrono_literals;
 /// Time without a frame after which no frame is expected to take a fault, simulated.
 constexpr Nanoseconds kNoFrames = 1s;
 
+constexpr auto kMostListed = static_cast<std::int64_t>(FaultReport::kMostListed);
+
 /// Returns the code of a value, shifted to the high byte of its register.
 std::uint16_t high_code(std::span<const wire::Coded> values, int value) {
     const auto found = std::ranges::find(values, value, &wire::Coded::value);
@@ -179,10 +181,20 @@ void FaultInjector::put_other_unit() {
     is_unit_waiting_ = false;
 }
 
+/// Refuses a fault of frames, counter or flags if too many wait already.
+void FaultInjector::require_room(const Fault& fault) const {
+    const bool is_of_frame = fault.kind <= FaultKind::lose_frames;
+    if ((is_of_frame ? waiting_.size() : run_faults_.waiting()) < kMostWaiting) return;
+    throw InputError(fault.name + ": too many faults wait for a frame; allowed: " +
+                     std::to_string(kMostWaiting));
+}
+
 void FaultInjector::apply(const Fault& fault, UtcTime simulated) {
+    if (fault.kind <= FaultKind::error_flags) require_room(fault);
     if (fault.kind == FaultKind::oven && !(oven_ && oven_(fault.name, fault.count)))
         throw InputError(fault.name + ": no oven takes this fault; allowed: with --oven-link");
-    report_.applied.push_back({fault.name, simulated, frames_made_});
+    if (++report_.applied_in_all <= kMostListed)
+        report_.applied.push_back({fault.name, simulated, frames_made_});
     const UtcTime end = later_by(fault.seconds, simulated);
     if (fault.kind <= FaultKind::lose_frames) {  // Faults of frames come first.
         waiting_.push_back({fault, fault.count});
@@ -238,7 +250,8 @@ void FaultInjector::apply_due(UtcTime now, UtcTime leaves) {
         try {
             apply(*due, leaves);
         } catch (const std::exception& error) {
-            report_.refused.push_back({due->name, leaves, error.what()});
+            if (++report_.refused_in_all <= kMostListed)
+                report_.refused.push_back({due->name, leaves, error.what()});
         }
     }
 }

@@ -4,6 +4,7 @@
 /// script or the control socket asks for.  No I/O and no clock.
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,7 +25,7 @@ struct AppliedFault {
     std::int64_t frames_made = 0;  ///< Frames that the device had made by then.
 };
 
-/// A fault of the script that could not be applied.
+/// A fault of the script that could not be applied, or found no frame in time.
 struct RefusedFault {
     std::string name;
     UtcTime at;  ///< Simulated.
@@ -37,15 +38,24 @@ struct FaultReport {
     std::int64_t bytes_dropped = 0;
     std::int64_t bytes_inserted = 0;
     std::int64_t bytes_garbage = 0;
-    std::int64_t frames_cut = 0;  ///< Frames cut by answers.
-    std::vector<AppliedFault> applied;
-    std::vector<RefusedFault> refused;
+    std::int64_t frames_cut = 0;        ///< Frames cut by answers.
+    std::vector<AppliedFault> applied;  ///< The first kMostListed.
+    std::vector<RefusedFault> refused;  ///< The first kMostListed.
+    std::int64_t applied_in_all = 0;    ///< Including those not listed.
+    std::int64_t refused_in_all = 0;
+
+    /// Most faults of a list: those of a day with one in 9 s.  Their JSON takes 5 MB.
+    static constexpr std::size_t kMostListed = 10'000;
 };
 
 /// A frame has one fault at most: waiting faults take the next frames in turn.  A fault of the
 /// device that is triggered by a frame shows from the next frame on.
 class FaultInjector final : public device::LineSink {
 public:
+    /// Most faults that wait for a frame: a second of frames at the highest output rate.  Random
+    /// faults can be more frequent than frames; more are refused while so many wait.
+    static constexpr std::size_t kMostWaiting = 1000;
+
     /// Applies an oven fault by name; returns false if the oven does not know it.
     using OvenHandler = std::function<bool(std::string_view kind, int count)>;
 
@@ -73,7 +83,8 @@ public:
     void catch_up(const device::Instant& now);
 
     /// Applies a fault now.
-    /// @throws InputError         the oven does not know the fault, or its link is taken.
+    /// @throws InputError         the oven does not know the fault, or its link is taken; too many
+    ///                            faults wait for a frame.
     /// @throws std::system_error  an operation on the oven's terminal failed.
     void apply(const Fault& fault, UtcTime simulated);
 
@@ -104,6 +115,7 @@ private:
     void release_answer(UtcTime leaves);
     void release_held(UtcTime leaves);
     void apply_due(UtcTime now, UtcTime leaves);
+    void require_room(const Fault& fault) const;
     void pull_out(const HangUp& asked, UtcTime simulated);
     void put_other_unit();
     void count(FaultKind kind) { ++report_.by_kind[static_cast<std::size_t>(kind)]; }
@@ -121,7 +133,7 @@ private:
     std::int64_t frames_made_ = 0;
     UtcTime last_frame_;  ///< Instant at which the last frame left.
 
-    std::vector<Waiting> waiting_;
+    std::deque<Waiting> waiting_;
     std::optional<HeldFrame> held_frame_;  ///< To be sent after the next frame.
     Bytes held_answer_;                    ///< To be sent within the next frame.
     UtcTime muted_until_, overrun_until_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -21,6 +22,9 @@ public:
 
     /// Adds a counter_jump, counter_stuck, counter_reset or error_flags.
     void add(const Fault& fault) { waiting_.push_back(fault); }
+
+    /// Returns the number of faults that wait for a frame.
+    [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size(); }
 
     /// Sets the fate of this frame by its counter, and prepares counter and flags for the next.
     void follow(truth::Record& frame);

@@ -326,6 +326,32 @@ TEST_CASE("random faults follow their rates and depend only on the seed", "[sim]
     check_report(rig);
 }
 
+TEST_CASE("random faults that find no frame in time are refused and counted", "[sim][fault]") {
+    Rig rig("[random]\nflip_bit_per_h = 1e6\ndrop_bytes_per_h = 1e6\ncounter_jump_per_h = 1e6\n");
+    check_report(rig);
+    rig.run_to(UtcTime(60s));
+    const FaultReport& report = rig.faults.report();
+    const auto frames = static_cast<std::int64_t>(rig.truth.size());
+    const auto made = [&report](FaultKind kind) {
+        return report.by_kind[static_cast<std::size_t>(kind)];
+    };
+    // Poisson: five sigma.
+    const double due = 3 * 1e6 / 60;
+    CHECK(static_cast<double>(report.applied_in_all + report.refused_in_all) ==
+          Approx(due).margin(5 * std::sqrt(due)));
+    CHECK(report.refused_in_all > 0);
+    CHECK(report.applied.size() == FaultReport::kMostListed);
+    CHECK(report.refused.size() == FaultReport::kMostListed);
+    CHECK(report.refused[0].reason.ends_with(": too many faults wait for a frame; allowed: 1000"));
+    // Every frame has a fault; the rest of those applied waits.
+    const std::int64_t of_frames = made(FaultKind::flip_bit) + made(FaultKind::drop_bytes);
+    CHECK(of_frames == frames);
+    CHECK(rig.count(Fate::damaged) == frames);
+    const std::int64_t waiting = report.applied_in_all - of_frames - made(FaultKind::counter_jump);
+    CHECK(waiting > 0);
+    CHECK(waiting <= static_cast<std::int64_t>(FaultInjector::kMostWaiting));
+}
+
 TEST_CASE("faults with extremely low rates do not happen, and times do not overflow",
           "[sim][fault]") {
     const auto rate = GENERATE("1e-9", "1e-300", "5e-324");
