@@ -132,10 +132,11 @@ std::optional<TornTail> repair_tail(files::FileLayer& files, const fs::path& day
     TornTail tail{day_file, whole, size - whole};
     if (tail.byte_count > 0) {
         // Several crashes may happen in a day; the offset in the name keeps their files apart.
+        static_cast<void>(files.open_append(day_file));  // Refuses a link in place of a folder.
         files.create_directories(side);
         files::replace_file(files,
                             side / fmt::format("{}.{}.torn", day_file.filename().string(), whole),
-                            files::read_bytes(day_file, whole, tail.byte_count));
+                            files::read_own_bytes(day_file, whole, tail.byte_count));
     }
     if (whole > 0) {
         files.truncate(day_file, whole);

@@ -72,7 +72,8 @@ struct TornTail {
 ///                      page may be missing; so the first bytes that are not a record are cut, with
 ///                      everything after them.
 /// @return the part that was cut, if any.
-/// @throws std::system_error  the file cannot be read or changed; call it again.
+/// @throws std::system_error  the file cannot be read or changed; call it again.  Nothing is copied
+///                            through a link in place of the file.
 std::optional<TornTail> repair_tail(files::FileLayer& files, const std::filesystem::path& day_file,
                                     const std::filesystem::path& side,
                                     std::optional<UtcTime> synced_until = std::nullopt);

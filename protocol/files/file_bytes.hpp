@@ -25,4 +25,10 @@ namespace a351::files {
 [[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& file,
                                                 std::uint64_t offset, std::uint64_t count);
 
+/// Reads bytes like read_bytes(), but not through a link in place of the file.  Use it for bytes
+/// that are copied: in a folder that others may write, a link would show them any file.
+/// @throws std::system_error  `file` is a link.
+[[nodiscard]] std::vector<std::byte> read_own_bytes(const std::filesystem::path& file,
+                                                    std::uint64_t offset, std::uint64_t count);
+
 }  // namespace a351::files

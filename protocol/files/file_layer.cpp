@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/files/link_refused.hpp"
+
 namespace a351::files {
 
 namespace {
@@ -25,15 +27,15 @@ class Descriptor {
 public:
     /// @param folder     an open folder, or AT_FDCWD.
     /// @param operation  operation and whole path, for an error.
+    /// @param link       path up to `name`, if that is not the whole path.
     Descriptor(int folder, const std::filesystem::path& name, int flags, const char* operation,
-               const std::filesystem::path& path) {
+               const std::filesystem::path& path, const std::filesystem::path& link = {}) {
         do fd_ = ::openat(folder, name.c_str(), flags | O_CLOEXEC, 0644);
         while (fd_ < 0 && errno == EINTR);
         if (fd_ >= 0) return;
         const int error = errno;
-        std::string failed = operation;
-        if (is_link(folder, name, error)) failed += " without following a link";
-        fail(failed.c_str(), path, error);
+        if (is_link(folder, name, error)) throw LinkRefused(link.empty() ? path : link);
+        fail(operation, path, error);
     }
     Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
     Descriptor& operator=(Descriptor&& other) noexcept {
@@ -188,8 +190,11 @@ private:
         if (*below.begin() == "..")
             return {AT_FDCWD, folder.empty() ? "." : folder, kFlags, operation, path};
         Descriptor opened(AT_FDCWD, root_, kFlags, operation, path);
-        for (const auto& name : below)
-            opened = Descriptor(opened.get(), name, kFlags | kNoLink, operation, path);
+        std::filesystem::path reached = root_;
+        for (const auto& name : below) {
+            reached /= name;
+            opened = Descriptor(opened.get(), name, kFlags | kNoLink, operation, path, reached);
+        }
         return opened;
     }
 

@@ -280,7 +280,7 @@ std::optional<Damage> repair_newest_segment(files::FileLayer& files,
         files.sync_directory(directory);
     } else {
         files::replace_file(files, side,
-                            files::read_bytes(damage.file, damage.offset, damage.byte_count));
+                            files::read_own_bytes(damage.file, damage.offset, damage.byte_count));
         files.truncate(damage.file, damage.offset);
     }
     return damage;

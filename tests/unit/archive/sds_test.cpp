@@ -217,6 +217,30 @@ TEST_CASE("a hole behind the synced records is cut off although a set-back clock
     CHECK(fs::file_size(file) == 2 * kRecordSize);
 }
 
+TEST_CASE("nothing is copied from a damaged file to which a link in place of a day file leads",
+          "[record][sds]") {
+    const test::TemporaryDirectory directory;
+    const auto root = directory.path() / "data", victim = directory.path() / "victim";
+    const auto files = files::files_below(root);
+    fs::create_directories(root / "archive");
+    fs::create_directory(victim);
+    const std::string secret(700, 'x');
+    test::write_bytes(victim / "day", std::as_bytes(std::span(secret)));
+    const bool is_folder = GENERATE(false, true);
+    const auto folder = root / "archive" / "BNZ.D";
+    if (is_folder) {
+        fs::create_directory_symlink(victim, folder);
+    } else {
+        fs::create_directory(folder);
+        fs::create_symlink(victim / "day", folder / "day");
+    }
+    CHECK_THROWS_WITH(repair_tail(*files, folder / "day", root / "state"),
+                      (is_folder ? folder : folder / "day").string() +
+                          " is a link; links in a data root are not followed");
+    CHECK_FALSE(fs::exists(root / "state" / "day.0.torn"));
+    CHECK(fs::file_size(victim / "day") == secret.size());
+}
+
 TEST_CASE("an empty day file is removed", "[record][sds]") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "day";

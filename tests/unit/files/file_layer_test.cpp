@@ -52,6 +52,8 @@ TEST_CASE("a failure names operation and path", "[record][file_layer]") {
     CHECK_THROWS_AS(files.sync_directory(absent), std::system_error);
 }
 
+constexpr const char* kLinkRefused = " is a link; links in a data root are not followed";
+
 TEST_CASE("a link in place of a file is not followed", "[record][file_layer]") {
     const test::TemporaryDirectory directory;
     const auto victim = directory.path() / "victim", link = directory.path() / "log";
@@ -61,7 +63,7 @@ TEST_CASE("a link in place of a file is not followed", "[record][file_layer]") {
         std::filesystem::remove(link);
         std::filesystem::create_symlink(victim, link);
         auto& files = posix_files();
-        CHECK_THROWS_WITH(files.open_append(link), ContainsSubstring("without following a link"));
+        CHECK_THROWS_WITH(files.open_append(link), std::string(link) + kLinkRefused);
         CHECK_THROWS_AS(files.truncate(link, 0), std::system_error);
         CHECK_THROWS_AS(files.allocate(link, 4096), std::system_error);
         // A link in place of the temporary file is removed, and the file itself is replaced.
@@ -87,13 +89,12 @@ TEST_CASE("a link in place of a folder below the root is not followed", "[record
     CHECK(std::filesystem::is_directory(directory.path() / "disk" / "archive" / "2026"));
     for (const auto& folder : {root / "events", root / "archive" / "2026" / "XX"}) {
         std::filesystem::create_directory_symlink(victim, folder);
-        CHECK_THROWS_WITH(files->open_append(folder / "log"),
-                          ContainsSubstring("without following a link"));
+        CHECK_THROWS_WITH(files->open_append(folder / "log"), std::string(folder) + kLinkRefused);
         CHECK_THROWS_AS(files->create(folder / "new"), std::system_error);
         CHECK_THROWS_AS(files->truncate(folder / "log", 0), std::system_error);
         CHECK_THROWS_AS(files->allocate(folder / "new", 4096), std::system_error);
         CHECK_THROWS_AS(files->remove(folder / "log"), std::system_error);
-        CHECK_THROWS_AS(files->sync_directory(folder), std::system_error);
+        CHECK_THROWS_WITH(files->sync_directory(folder), std::string(folder) + kLinkRefused);
         CHECK_THROWS_AS(files->create_directories(folder / "new"), std::system_error);
         test::write_bytes(root / "own", bytes_of("own"));
         CHECK_THROWS_AS(files->rename(root / "own", folder / "log"), std::system_error);

@@ -271,6 +271,20 @@ TEST_CASE_METHOD(Fixture,
     CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
 }
 
+TEST_CASE_METHOD(Fixture, "repair copies nothing from a file to which a link leads",
+                 "[record][journal]") {
+    auto torn = whole_;
+    append(torn, Bytes(17, std::byte{0xAA}));
+    const auto victim = directory_.path() / "victim";
+    test::write_bytes(victim, torn);
+    std::filesystem::remove(file_);
+    std::filesystem::create_symlink(victim, file_);
+    CHECK_THROWS_WITH(repair_newest_segment(posix_files(), directory_.path()),
+                      file_.string() + " is a link; links in a data root are not followed");
+    CHECK_FALSE(std::filesystem::exists(file_.string() + ".torn"));
+    CHECK(test::read_bytes(victim) == torn);
+}
+
 TEST_CASE_METHOD(Fixture, "repair leaves good chunks behind damage in their place",
                  "[record][journal]") {
     auto damaged = whole_;
