@@ -24,6 +24,10 @@ using reading::SurveyRow;
 /// right, and at least so badly.  Reason: twice the 2.6 mGal of the publication.
 constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
 
+/// Probability of a test of the fit below which it is a finding.  Reason: all findings together may be
+/// false on one day in 20; the test of the step alone is false on half as many as a remark.
+constexpr double kMisfitP = 0.008;
+
 /// A survey with mistakes put right.
 struct AmendedSurvey {
     std::vector<SurveyRow> rows;
@@ -76,17 +80,28 @@ std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
     return readings;
 }
 
+/// Says that the model does not fit the day, if so: a curvature, or a step of which the search is not
+/// sure.
 std::optional<Finding> misfit(const model::SurveyCorrection& result) {
     const auto* const day = result.as<model::WholeDayPart>();
     if (day == nullptr) return std::nullopt;
-    for (const whole_day::FitTest& test : day->fit_tests)
-        if (test.misfit == whole_day::Misfit::curvature && test.is_misfit())
-            return Finding{
-                .kind = "misfit",
-                .code = "curvature",
-                .text = text::message(
-                    "the model does not fit this day: the residuals follow the square of the {}",
-                    test.place == 0 ? text::message("temperature") : text::message("time"))};
+    for (const whole_day::FitTest& test : day->fit_tests) {
+        if (test.p >= kMisfitP || test.misfit == whole_day::Misfit::tails) continue;
+        Finding finding{.kind = "misfit", .code = "curvature"};
+        if (test.misfit == whole_day::Misfit::curvature) {
+            finding.text = text::message(
+                "the model does not fit this day: the residuals follow the square of the {}",
+                test.place == 0 ? text::message("temperature") : text::message("time"));
+            return finding;
+        }
+        const SurveyRow& row = result.rows[test.place].row;
+        finding.code = "misfit_step";
+        set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
+        finding.text = text::message(
+            "the model does not fit this day: the readings from {} ({}) on seem to be off by a step",
+            row.site, std::to_string(row.occupation));
+        return finding;
+    }
     return std::nullopt;
 }
 

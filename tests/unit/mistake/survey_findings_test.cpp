@@ -177,6 +177,28 @@ TEST_CASE("a base with one stay is named", "[mistake]") {
           "the base B has 1 stay of 12, at least 2 show a drift without the references");
 }
 
+TEST_CASE("a day that the model does not fit is named, with the reading after the step", "[mistake]") {
+    using whole_day::Misfit;
+    const Day day;
+    model::SurveyOptions options;
+    options.model = "paper";  // a model that is not searched
+    model::SurveyCorrection result = model::correct_survey(day.rows, options);
+    const auto said = [&](const whole_day::FitTest& test) {
+        model::WholeDayPart part;
+        part.fit_tests = {test};
+        result.own = part;
+        return mistake::find_mistakes(result, {day.rows, day.sites, nullptr}).front();
+    };
+    const Finding step = said({Misfit::step, 0.007, 4});
+    CHECK(step.code == "misfit_step");
+    CHECK(step.site == day.rows[4].site);
+    CHECK_FALSE(step.is_headline);
+    CHECK(said({Misfit::curvature, 0.007, 1}).text.english() ==
+          "the model does not fit this day: the residuals follow the square of the time");
+    CHECK(said({Misfit::step, 0.009, 4}).kind != "misfit");
+    CHECK(said({Misfit::tails, 0.001, 4}).kind != "misfit");
+}
+
 TEST_CASE("a table has findings, but no amendments", "[mistake]") {
     Day day;
     for (auto& row : day.rows) row.listed = {};
