@@ -42,6 +42,19 @@ DecodedRecord decode_own(const PackedRecord& record) {
     return *std::move(decoded);
 }
 
+/// Returns the sequence number of the last whole record; 0 if there is none.
+int last_sequence(const std::filesystem::path& day_file) {
+    const auto size = std::filesystem::file_size(day_file);
+    if (size < kRecordSize) return 0;
+    auto in = open_day_file(day_file);
+    in.seekg(static_cast<std::streamoff>((size / kRecordSize - 1) * kRecordSize));
+    std::array<char, kSequenceDigits> digits{};
+    in.read(digits.data(), digits.size());
+    int sequence = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), sequence);
+    return sequence;
+}
+
 void stamp_sequence(PackedRecord& record, int sequence) {
     for (std::size_t digit = kSequenceDigits; digit-- > 0; sequence /= 10)
         record.bytes[kSequenceAt + digit] =
@@ -187,18 +200,17 @@ void Writer::settle() {
     for (auto& [name, channel] : channels_) settle(name, channel, nullptr);
 }
 
+/// Returns the sequence number of the record written last.  After a clock was set back over
+/// midnight, that record is not in the file of the newest day.
 int Writer::newest_sequence(const std::string& channel) const {
-    const auto day_file = newest_day_file(archive_, codes_, channel);
-    if (!day_file) return 0;
-    const auto size = std::filesystem::file_size(*day_file);
-    if (size < kRecordSize) return 0;
-    auto in = open_day_file(*day_file);
-    in.seekg(static_cast<std::streamoff>((size / kRecordSize - 1) * kRecordSize));
-    std::array<char, kSequenceDigits> digits{};
-    in.read(digits.data(), digits.size());
-    int sequence = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), sequence);
-    return sequence;
+    constexpr std::size_t kDays = 3;  // A clock that was set back by up to two days.
+    const auto files = day_files(archive_, codes_, channel);
+    int newest = 0;
+    for (std::size_t i = files.size() - std::min(kDays, files.size()); i < files.size(); ++i) {
+        const int last = last_sequence(files[i]);
+        if (newest == 0 || (last != 0 && precedes(newest, last))) newest = last;
+    }
+    return newest;
 }
 
 void Writer::record(const std::string& name, const PackedRecord& record, std::int64_t last_index) {

@@ -45,6 +45,19 @@ TEST_CASE("record numbers of a channel continue across day files and restarts",
     CHECK(sequences(root) == std::vector{1, 2, 3, 4, 5, 6});
 }
 
+TEST_CASE("record numbers continue after a clock was set back over midnight and a restart",
+          "[record][archive_writer]") {
+    DataRoot root;
+    const UtcTime today(std::chrono::ceil<std::chrono::days>(kStart.time_since_epoch()));
+    const auto record = [&root](std::vector<UtcTime> starts) {
+        archive::Writer writer(posix_files(), root.archive(), {});
+        for (const UtcTime start : starts) writer.record("BNZ", record_at(start, {1, 2, 3}), 2);
+    };
+    record({today - 2min, today + 1min, today - 1min});  // The clock is set back before the last.
+    record({today - 30s, today + 2min});
+    CHECK(sequences(root) == std::vector{1, 3, 4, 2, 5});
+}
+
 TEST_CASE("the record number after 999999 is 1", "[record][archive_writer]") {
     DataRoot root;
     RecordHeader header = decode_record(record_at(kStart, {1}).bytes)->header;
