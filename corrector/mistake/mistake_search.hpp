@@ -67,7 +67,7 @@ using ResidualsOf = std::function<std::optional<residual::Residuals>(
     const std::vector<Mistake>& known, const std::vector<Mistake>& quiet)>;
 
 /// Probability that a mistake is found where there is none.  Reason: with 2 % something false was said
-/// on 6 % of 436 days without a mistake, 5 % are allowed.  The excess is that of the estimated noise
+/// on 5.5 % of 200 days without a mistake, 5 % are allowed.  The excess is that of the estimated noise
 /// and of what else is searched: trials and the fit of the model.
 inline constexpr double kMistakeAlpha = 0.012;
 /// The same for one that is sure only when another one was put right on trial.  Reason: there are two

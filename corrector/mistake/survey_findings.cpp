@@ -80,19 +80,19 @@ std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
     return readings;
 }
 
-/// Says that the model does not fit the day, if so: a curvature, or a step of which the search is not
+/// Says how the model does not fit the day, if so: a curvature, a step of which the search is not
 /// sure.
-std::optional<Finding> misfit(const model::SurveyCorrection& result) {
+void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& findings) {
     const auto* const day = result.as<model::WholeDayPart>();
-    if (day == nullptr) return std::nullopt;
+    if (day == nullptr) return;
     for (const whole_day::FitTest& test : day->fit_tests) {
         if (test.p >= kMisfitP || test.misfit == whole_day::Misfit::tails) continue;
-        Finding finding{.kind = "misfit", .code = "curvature"};
+        Finding& finding = findings.emplace_back(Finding{.kind = "misfit", .code = "curvature"});
         if (test.misfit == whole_day::Misfit::curvature) {
             finding.text = text::message(
                 "the model does not fit this day: the residuals follow the square of the {}",
                 test.place == 0 ? text::message("temperature") : text::message("time"));
-            return finding;
+            continue;
         }
         const SurveyRow& row = result.rows[test.place].row;
         finding.code = "misfit_step";
@@ -100,9 +100,7 @@ std::optional<Finding> misfit(const model::SurveyCorrection& result) {
         finding.text = text::message(
             "the model does not fit this day: the readings from {} ({}) on seem to be off by a step",
             row.site, std::to_string(row.occupation));
-        return finding;
     }
-    return std::nullopt;
 }
 
 /// Returns the place of a finding in the list: headlines, mistakes, remarks, what was not visited.
@@ -174,8 +172,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
         }
     }
     // A mistake that was found is a misfit of its own.
-    if (!right)
-        if (auto finding = misfit(result)) findings.push_back(std::move(*finding));
+    if (!right) say_misfits(result, findings);
     const auto is_said = [&](const Finding& remark) {  // the sentence has the temperature too
         return remark.kind == "temperature_moving" &&
                std::ranges::any_of(findings, [&](const Finding& one) {

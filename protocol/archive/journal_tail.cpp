@@ -142,12 +142,15 @@ JournalTail::JournalTail(const fs::path& journal, const journal::StationCodes& c
     Archiver archiver(gather);
     journal::Sequence chunks(segments);
     Nanoseconds raw_to_utc{0};
+    bool is_at_part = false;  // A clock that is ahead at the start and set back later is no end.
     while (const auto chunk = chunks.next()) {
         const timing::ClockReading* reading = std::get_if<timing::ClockReading>(&*chunk);
         if (const auto* header = std::get_if<journal::Header>(&*chunk)) reading = &header->clock;
         if (reading != nullptr) {
             raw_to_utc = reading->realtime.time_since_epoch() - reading->raw.time_since_epoch();
-            if (reading->realtime > to + kBeyond) break;
+            const bool is_beyond = reading->realtime > to + kBeyond;
+            if (is_beyond && is_at_part) break;
+            is_at_part = is_at_part || !is_beyond;
         }
         if (const auto* received = std::get_if<journal::RxChunk>(&*chunk);
             received != nullptr && !received->reads.empty() &&

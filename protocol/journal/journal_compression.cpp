@@ -136,7 +136,8 @@ std::vector<std::byte> decompress_segment(const std::filesystem::path& segment) 
 }
 
 void compress_segment(files::FileLayer& files, const std::filesystem::path& segment) {
-    const auto bytes = files::read_bytes(segment);
+    static_cast<void>(files.open_append(segment));  // Refuses a link in place of a folder.
+    const auto bytes = files::read_own_bytes(segment, 0, std::filesystem::file_size(segment));
     const auto packed_name = segment.string() + ".zst";
     const auto partial = packed_name + ".partial";
     if (std::filesystem::exists(std::filesystem::symlink_status(partial))) files.remove(partial);

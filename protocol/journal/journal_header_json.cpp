@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "protocol/journal/journal_codec.hpp"
@@ -7,6 +8,9 @@ namespace a351::journal {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Largest relative difference of a declared rate from the nominal one, as in records of the archive.
+constexpr double kFarthestRate = 0.1;
 
 Json clock_to_json(const timing::ClockReading& clock) {
     Json json = {{"raw_ns", clock.raw.time_since_epoch().count()},
@@ -56,8 +60,11 @@ Header header_from_json(const Json& json) {
     header.filter = json.at("filter").get<std::string>();
     header.burst_ctrl = json.at("burst_ctrl").get<std::uint16_t>();
     header.baud = json.at("baud").get<int>();
-    if (json.contains("declared_rate_hz"))
+    if (json.contains("declared_rate_hz")) {
         header.declared_rate_hz = json.at("declared_rate_hz").get<double>();
+        if (!(std::abs(*header.declared_rate_hz / header.output_rate_hz - 1.0) <= kFarthestRate))
+            throw std::invalid_argument("declared_rate_hz");
+    }
     header.oven_interval = std::chrono::seconds(json.value("oven_interval_s", 1));
     if (header.oven_interval < kShortestOvenInterval || header.oven_interval > kLongestOvenInterval)
         throw std::invalid_argument("oven_interval_s");

@@ -201,7 +201,7 @@ def is_said(findings, expected):
         if "step" in expected["kinds"] and (finding["kind"] == "step" or finding["code"].endswith("_or_step")) \
                 and abs(abs(finding["size_mgal"]) - expected["off_mgal"]) < 4.0 * finding["u_mgal"]:
             return True
-        if "step" in expected["kinds"] and finding["kind"] == "misfit":
+        if "step" in expected["kinds"] and finding["code"] == "misfit_step":
             return True
         if finding["kind"] == "not_visited" in expected["kinds"] and expected["sites"] & set(finding["text"].split(": ")[1].split(", ")):
             return True
@@ -233,8 +233,9 @@ def play(folder, scenario_file, seed, count=3, names=None):
 
     @param scenario_file  function of further sections of the scenario, which returns a scenario file
     @param names          names of the mistakes; None: `count` are drawn
-    @return  the mistakes with what was said before or after the proposals were carried out, ratio of the left-out errors on the
-             same sites with every proposal carried out to those of the day without mistakes, and without a proposal, and the findings
+    @return  the mistakes with what was said before or after the proposals were carried out, if it was said that the model does
+             not fit, ratio of the left-out errors on the same sites with every proposal carried out to those of the day without
+             mistakes, and without a proposal, and the findings
     """
     draw = random.Random(seed)
     chosen = [mistake for mistake in MISTAKES if mistake["name"] in names] if names else draw.sample(MISTAKES, count)
@@ -276,4 +277,5 @@ def play(folder, scenario_file, seed, count=3, names=None):
     changed = max(abs(errors[site][0] - clean_errors[site][0]) / clean_errors[site][1] for site in clean_errors.keys() & errors.keys())
     for mistake in made:
         mistake["is_said"] = mistake["is_noticed"] or not mistake["kinds"] or is_said(findings + left, mistake)
-    return {"made": made, "raw": ratio(raw_errors), "amended": ratio(errors), "changed": changed, "findings": findings}
+    is_misfit = any(finding["kind"] == "misfit" for finding in findings + left)
+    return {"made": made, "is_misfit": is_misfit, "raw": ratio(raw_errors), "amended": ratio(errors), "changed": changed, "findings": findings}

@@ -158,6 +158,20 @@ TEST_CASE("no record reaches over UTC midnight", "[record][archiver]") {
     }
 }
 
+TEST_CASE("records later than any that can be read are withheld", "[record][archiver]") {
+    const auto years = 365 * 24h * 150;
+    JournalStream stream(1, years);
+    for (std::int64_t k = 0; k < 5000; ++k) {
+        stream.bytes(frame_of(values_of(k)), years + due(k));
+        if (k % 50 == 49) stream.second(years + due(k));
+    }
+    stream.flush();
+    const auto run = archived(stream.chunks);
+    CHECK(run.sink.packed.empty());
+    CHECK(run.counters.records_withheld > 0);
+    CHECK(run.sink.samples.size() == 5000);
+}
+
 TEST_CASE("by the times of its header no record reaches over UTC midnight", "[record][archiver]") {
     // The sensor is 100 ppm fast, so header and sample clock differ by up to 1 ms in a record.
     const auto midnight = *parse_rfc3339("2026-03-02T00:00:00Z");

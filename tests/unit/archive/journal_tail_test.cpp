@@ -180,3 +180,12 @@ TEST_CASE("the newest clock reading of a journal is its end", "[tail]") {
     root.write_journal(stream.chunks);
     CHECK(journal_end(root.journal()) == kStart + due(499));
 }
+
+TEST_CASE("a host clock that was ahead at the start and set back does not end the tail", "[tail]") {
+    auto chunks = half_an_hour();
+    const auto set_back = chunks.begin() + static_cast<std::ptrdiff_t>(chunks.size() / 10);
+    std::ranges::copy(ahead({chunks.begin(), set_back}, 3h), chunks.begin());  // beyond kTo
+    const DataRoot root;
+    root.write_journal(chunks);
+    CHECK(counts_of(with_tail(root, "BNZ")).size() > kCount * 7 / 10);
+}

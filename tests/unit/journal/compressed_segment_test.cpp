@@ -33,6 +33,17 @@ TEST_CASE_METHOD(Fixture, "a compressed segment reads like the original", "[reco
     CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
 }
 
+TEST_CASE_METHOD(Fixture, "a file to which a link leads is not compressed", "[record][journal]") {
+    const auto victim = directory_.path() / "victim";
+    test::write_bytes(victim, whole_);
+    std::filesystem::create_symlink(victim, file_);
+    CHECK_THROWS_WITH(compress_segment(posix_files(), file_),
+                      file_.string() + " is a link; links in a data root are not followed");
+    CHECK(std::filesystem::exists(victim));
+    CHECK_FALSE(std::filesystem::exists(file_.string() + ".zst"));
+    CHECK_FALSE(std::filesystem::exists(file_.string() + ".zst.partial"));
+}
+
 TEST_CASE_METHOD(Fixture,
                  "damage in a compressed segment is reported and never thrown as an exception",
                  "[record][journal]") {

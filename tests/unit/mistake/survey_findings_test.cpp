@@ -187,7 +187,9 @@ TEST_CASE("a day that the model does not fit is named, with the reading after th
         model::WholeDayPart part;
         part.fit_tests = {test};
         result.own = part;
-        return mistake::find_mistakes(result, {day.rows, day.sites, nullptr}).front();
+        const auto findings = mistake::find_mistakes(result, {day.rows, day.sites, nullptr});
+        REQUIRE_FALSE(findings.empty());
+        return findings.front();
     };
     const Finding step = said({Misfit::step, 0.007, 4});
     CHECK(step.code == "misfit_step");
