@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "corrector/command/calibrate_records.hpp"
 #include "corrector/command/calibration_origin.hpp"
@@ -90,13 +91,35 @@ std::string series_text(const series::TiltSeries& series, const std::string& nam
     return lines;
 }
 
-/// Adds parts that this run has not measured, with the data they come from.
-void take_over(unit::Calibration& calibration, const std::string& file) {
+/// Biases of the horizontal axes to write, and the series or file that they come from.
+struct AxisBiasChoice {
+    std::optional<unit::AxisBias> bias;
+    std::string source;
+
+    /// Takes other biases if there are none yet, or if the sum of their variances is smaller.
+    void offer(const std::optional<unit::AxisBias>& other, const std::string& from) {
+        if (!other || (bias && bias->covariance.trace() <= other->covariance.trace())) return;
+        bias = other;
+        source = from;
+    }
+    /// Returns the biases in a line; empty without any.
+    [[nodiscard]] std::string text() const {
+        if (!bias) return "";
+        return fmt::format(
+            "biases of the horizontal axes, written from {}: x {} +- {}, y {} +- {} mGal/g\n", source,
+            text::fixed(bias->values(0), 1), text::fixed(std::sqrt(bias->covariance(0, 0)), 1),
+            text::fixed(bias->values(1), 1), text::fixed(std::sqrt(bias->covariance(1, 1)), 1));
+    }
+};
+
+/// Adds parts that this run has not measured, and more certain axis biases, with the data they come
+/// from.
+void take_over(unit::Calibration& calibration, AxisBiasChoice& axis_bias, const std::string& file) {
     const unit::Calibration other = unit::read_calibration(file);
     if (other.serial_number != calibration.serial_number)
         throw InputError(fmt::format("{}: serial_number = {}: another unit; allowed: {}", file,
                                      other.serial_number, calibration.serial_number));
-    if (!calibration.axis_bias) calibration.axis_bias = other.axis_bias;
+    axis_bias.offer(other.axis_bias, file);
     if (!calibration.thermal) calibration.thermal = other.thermal;
     if (!calibration.warm_up) calibration.warm_up = other.warm_up;
     if (!calibration.placement) calibration.placement = other.placement;
@@ -127,7 +150,8 @@ void read_series(unit::Calibration& calibration, const std::vector<std::string>&
     }
 }
 
-void calibrate_from_tilt(unit::Calibration& calibration, const std::vector<std::string>& files) {
+void calibrate_from_tilt(unit::Calibration& calibration, AxisBiasChoice& axis_bias,
+                         const std::vector<std::string>& files) {
     std::vector<series::TiltSeries> all;
     read_series(calibration, files,
                 [&all](const reading::OccupationRows& read, const std::string& name,
@@ -135,7 +159,7 @@ void calibrate_from_tilt(unit::Calibration& calibration, const std::vector<std::
                     all.push_back(series::measure_axis_bias(read, file));
                     std::cout << series_text(all.back(), name);
                 });
-    calibration.axis_bias = series::combine(all);
+    axis_bias.offer(series::combine(all), "the tilt series");
 }
 
 std::string tumble_text(const series::Tumble& tumble, const std::string& name) {
@@ -148,7 +172,7 @@ std::string tumble_text(const series::Tumble& tumble, const std::string& name) {
         "{}: {} positions at {} degC (within {}), gravity {} +- {} mGal, a position is expected "
         "within {} mGal{}\n",
         name, tumble.positions, text::fixed(tumble.mean_degc, 2), text::fixed(tumble.range_degc, 2),
-        text::fixed(tumble.gravity.value(), 3), text::fixed(tumble.u_gravity.value(), 3),
+        text::fixed(tumble.gravity.value(), 3), text::fixed_or(tumble.u_gravity, 3, "?"),
         text::fixed(tumble.expected_mgal, 1),
         tumble.residual_mgal ? fmt::format(", found {}", text::fixed(*tumble.residual_mgal, 1))
                              : ", nothing is left over to test it");
@@ -183,24 +207,30 @@ unit::Scale mean_scale(const std::vector<series::Tumble>& all) {
         least = std::min(least, tumble.scale.standard_error);
     }
     for (const series::Tumble& tumble : all) squares += std::pow(tumble.scale.value - mean, 2);
+    if (all.size() == 1) return {mean, least};
     // The prior of the quadratic term is common to all, so the mean is not better than the best.  At
     // other temperatures the scale may differ.
-    return {mean, std::max(least, std::sqrt(squares / static_cast<double>(all.size())))};
+    return {mean, std::max(least, std::sqrt(squares / static_cast<double>(all.size() - 1)))};
 }
 
-void calibrate_from_tumble(unit::Calibration& calibration, const std::vector<std::string>& files) {
+void calibrate_from_tumble(unit::Calibration& calibration, AxisBiasChoice& axis_bias,
+                           const std::vector<std::string>& files) {
     std::vector<series::Tumble> all;
     read_series(
         calibration, files,
-        [&all](const reading::OccupationRows& read, const std::string& name,
-               const std::string& file) {
+        [&](const reading::OccupationRows& read, const std::string& name, const std::string& file) {
             all.push_back(series::measure_tumble(read, file));
-            std::cout << tumble_text(all.back(), name);
+            const series::Tumble& tumble = all.back();
+            std::cout << tumble_text(tumble, name);
+            if (!tumble.u_gravity)
+                std::cerr << fmt::format(
+                    "a351-correct: {}: {} has no u_gravity_mgal in the table of sites, so the "
+                    "error of the scale lacks that of gravity\n",
+                    name, read.rows.front().site);
+            axis_bias.offer(tumble.axis_bias, file);
         },
         true);
     calibration.scale = mean_scale(all);
-    // A tilt series of the same run measures them better.
-    if (!calibration.axis_bias) calibration.axis_bias = all.front().axis_bias;
 }
 
 std::string placement_text(const unit::Placement& placement) {
@@ -245,13 +275,17 @@ void calibrate(const CalibrateOptions& options) {
     require_file_option("--out", options.out);
     unit::Calibration calibration;
     calibration.program = "a351-correct " A351_VERSION;
-    if (!options.tilt.empty()) calibrate_from_tilt(calibration, options.tilt);
-    if (!options.tumble.empty()) calibrate_from_tumble(calibration, options.tumble);
+    AxisBiasChoice axis_bias;
+    if (!options.tilt.empty()) calibrate_from_tilt(calibration, axis_bias, options.tilt);
+    if (!options.tumble.empty()) calibrate_from_tumble(calibration, axis_bias, options.tumble);
+    calibration.axis_bias = axis_bias.bias;
     if (!options.records.empty())
         std::cout << calibrate_from_records(calibration, record_options(options));
     // Last, because the other parts are the priors of its fit.
     if (!options.placement.empty()) calibrate_from_placement(calibration, options.placement);
-    if (!options.merge.empty()) take_over(calibration, options.merge);
+    if (!options.merge.empty()) take_over(calibration, axis_bias, options.merge);
+    calibration.axis_bias = axis_bias.bias;
+    std::cout << axis_bias.text();
     if (!options.valid_from.empty())
         calibration.valid_from = instant_option("--valid-from", options.valid_from);
     if (!options.valid_to.empty())

@@ -224,7 +224,7 @@ Tumble measure_tumble(const reading::OccupationRows& read, const std::string& or
     Tumble tumble;
     tumble.positions = positions.size();
     tumble.gravity = *read.rows.front().reference;
-    tumble.u_gravity = read.rows.front().u_reference.value_or(MilliGal(0.0));
+    tumble.u_gravity = read.rows.front().u_reference;
     const auto [coldest, warmest] = std::ranges::minmax(positions, {}, &Position::degc);
     tumble.range_degc = warmest.degc - coldest.degc;
     double variance = 0.0;
@@ -235,7 +235,7 @@ Tumble measure_tumble(const reading::OccupationRows& read, const std::string& or
     tumble.expected_mgal = std::sqrt(variance);
     for (Position& position : positions) position.degc -= tumble.mean_degc;
 
-    const Parameters deviations = prior_deviations(tumble.u_gravity.value());
+    const Parameters deviations = prior_deviations(tumble.u_gravity.value_or(MilliGal(0.0)).value());
     Solution found = solve(positions, deviations);
     if (found.left_over >= 1.0) {
         const double ratio = found.chi_square / found.left_over;

@@ -29,7 +29,9 @@ namespace a351::corrector::series {
 /// A measured value with its standard deviation, which contains the prior.
 struct TumbleTerm {
     double value = 0.0, standard_error = 0.0;
-    bool is_determined = false;  ///< False: more than half of the standard deviation is prior.
+    /// True: the standard error is below half of the one that the priors alone give.  For a bias and
+    /// the slope this is that of the quadratic term, because bias and scale are free.
+    bool is_determined = false;
 };
 
 /// Result for one axis.
@@ -50,15 +52,16 @@ struct Tumble {
     std::optional<unit::AxisBias> axis_bias;
     std::size_t positions = 0;  ///< Number of positions used.
     double mean_degc = 0.0, range_degc = 0.0;  ///< Temperature of the positions.
-    MilliGal gravity, u_gravity;               ///< Gravity of the site and its uncertainty.
+    MilliGal gravity;                          ///< Gravity of the site.
+    std::optional<MilliGal> u_gravity;         ///< Its uncertainty; absent: counted as exact.
     double expected_mgal = 0.0;                ///< Rms error expected of a position.
     std::optional<double> residual_mgal;       ///< Rms error found; absent if nothing is left over.
 };
 
 /// Measures a tumble.
 ///
-/// Weighted least squares with priors, iterated until nothing is linear any more.  Deviations of the
-/// priors: bias 1e5 mGal and scale 0.1, which decide nothing; quadratic term 300 mGal and angle 3 mrad,
+/// Weighted least squares with priors, iterated until no error of linearisation is left.  Deviations of
+/// the priors: bias 1e5 mGal and scale 0.1, which decide nothing; quadratic term 300 mGal and angle 3 mrad,
 /// from the data sheet; change of each bias with temperature 100 mGal/degC, from the data sheet;
 /// gravity its uncertainty.  Errors of a position: placement and flicker of a usual unit, and the
 /// standard error of its mean.  Residuals larger than expected enlarge these errors, smaller ones do not

@@ -139,6 +139,22 @@ with Scratch() as scratch:
            abs(scale["value"] - 1.0) < 3.0 * scale["standard_error"] < 3e-5)
     correct("calibrate", "--placement", "placement", "--merge", "tumble.toml", "--out", "with-scale.toml", cwd=scratch)
     demand("the scale is merged", tomllib.loads((scratch / "with-scale.toml").read_text())["scale"] == scale)
+    better = tomllib.loads((scratch / "tumble.toml").read_text())["axis_bias"]
+    demand("the biases of the tumble are more certain than those of the tilt series",
+           better["covariance"][0] + better["covariance"][3] < covariance[0] + covariance[3])
+    for way in (("--tilt", "tilt-series", "--tumble", "tumble"), ("--tumble", "tumble", "--merge", "c.toml"),
+                ("--tilt", "tilt-series", "--merge", "tumble.toml")):
+        said = correct("calibrate", *way, "--out", "best.toml", cwd=scratch)
+        demand(f"with {' '.join(way)} they are written, and the program says so",
+               tomllib.loads((scratch / "best.toml").read_text())["axis_bias"] == better and
+               "horizontal axes, written from tumble" in said.stdout)
+    shutil.copytree(scratch / "tumble", scratch / "rough")
+    sites = rows(scratch / "rough" / "sites.csv")
+    names = [name for name in sites[0] if name != "u_gravity_mgal"]
+    (scratch / "rough" / "sites.csv").write_text("".join(",".join(line) + "\n" for line in [names, *([site[name] for name in names] for site in sites)]))
+    said = correct("calibrate", "--tumble", "rough", "--out", "rough.toml", cwd=scratch)
+    print(said.stderr.strip())
+    demand("a gravity without uncertainty gives a warning of one line", said.stderr.count("\n") == 1 and "lacks that of gravity" in said.stderr)
     refused = correct("calibrate", "--tumble", "tilt-series", "--out", "no.toml", check=False, cwd=scratch)
     print(refused.stderr.strip())
     demand("a series without upturned positions is refused", refused.returncode == 2 and "no position with x up" in refused.stderr)
