@@ -51,27 +51,39 @@ std::optional<PressureChannel> pressure_channel(const std::string& name) {
     return channel;
 }
 
-AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcTime to) {
+AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcTime to,
+                              std::vector<std::string>& warnings) {
     AirPressure pressure;
+    std::size_t bad_count = 0;
+    std::string first_bad;
     for (const archive::Segment& segment :
          archive::read_channel(channel.archive, channel.codes, channel.channel, from, to).segments)
         for (std::size_t i = 0; i < segment.counts.size(); ++i) {
             const UtcTime time = segment.time_of(i);
             if (!pressure.times_.empty() && time <= pressure.times_.back()) continue;
             const double hpa = static_cast<double>(segment.counts[i]) / channel.counts_per_hpa;
-            if (!(hpa >= kLeastPressure_hpa && hpa <= kGreatestPressure_hpa))
-                throw InputError(fmt::format(
-                    "{}: {} hPa at {}: not a pressure on the ground; allowed: {} to {}, with the "
-                    "right pressure_counts_per_hpa",
-                    channel.name(), text::fixed(hpa, 2), to_rfc3339(time),
-                    text::fixed(kLeastPressure_hpa, 0), text::fixed(kGreatestPressure_hpa, 0)));
+            if (!(hpa >= kLeastPressure_hpa && hpa <= kGreatestPressure_hpa)) {
+                if (bad_count++ == 0)
+                    first_bad = fmt::format("{} hPa at {}", text::fixed(hpa, 2), to_rfc3339(time));
+                continue;
+            }
             pressure.times_.push_back(time);
             pressure.values_hpa_.push_back(hpa);
         }
+    if (pressure.times_.empty() && bad_count > 0)
+        throw InputError(fmt::format(
+            "{}: {}: not a pressure on the ground, like all others; allowed: {} to {}, with the "
+            "right pressure_counts_per_hpa",
+            channel.name(), first_bad, text::fixed(kLeastPressure_hpa, 0),
+            text::fixed(kGreatestPressure_hpa, 0)));
     if (pressure.times_.size() < 2)
         throw InputError(fmt::format(
             "{}: no samples in {} between {} and {}; allowed: a channel with samples in the survey",
             channel.name(), channel.archive.string(), to_rfc3339(from), to_rfc3339(to)));
+    if (bad_count > 0)
+        warnings.push_back(fmt::format(
+            "{}: samples that are no pressure on the ground are left out: {}, the first {}",
+            channel.name(), bad_count, first_bad));
     return pressure;
 }
 

@@ -46,11 +46,14 @@ struct PressureChannel {
 /// Air pressure by time, from a CSV with the columns time and pressure_hpa, or from an archive.
 class AirPressure {
 public:
-    /// Reads the samples of a channel.  Samples that are not later than the one before are left out.
-    /// @throws InputError  fewer than two samples in the interval, or a pressure that is not within the
-    ///                     limits, for example because it is in Pa.
+    /// Reads the samples of a channel.  Samples that are not later than the one before are left out,
+    /// and so are those that are not within the limits, because nobody can edit an archive.
+    /// @param warnings  a sentence with the number of samples outside the limits is added.
+    /// @throws InputError  fewer than two samples in the interval, or none within the limits, for
+    ///                     example because they are in Pa.
     /// @throws std::system_error  as archive::read_channel().
-    [[nodiscard]] static AirPressure read(const PressureChannel& channel, UtcTime from, UtcTime to);
+    [[nodiscard]] static AirPressure read(const PressureChannel& channel, UtcTime from, UtcTime to,
+                                          std::vector<std::string>& warnings);
 
     /// Reads a file with two rows or more in ascending time.
     /// @throws InputError  a time without zone or not after the one before, a pressure that is not

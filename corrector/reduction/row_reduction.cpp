@@ -106,7 +106,7 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
     if (choice.pressure_channel)
         pressure = AirPressure::read(*choice.pressure_channel,
                                      rows.front().time - kLongestPressureStep,
-                                     rows.back().time + kLongestPressureStep);
+                                     rows.back().time + kLongestPressureStep, warnings);
     for (reading::SurveyRow& row : rows) {
         if (!row.instrument_height) row.instrument_height = choice.height;
         if (!row.pressure_hpa && pressure) row.pressure_hpa = pressure->at(row.time);

@@ -56,26 +56,33 @@ TEST_CASE("a barometer's channel in the archive gives the pressure of a reading"
     header.location = "00";
     header.channel = "LDO";
     header.nominal_rate = Hertz(1.0);
-    // Two hours over midnight, 900 hPa and 1 Pa more each minute.
+    // Two hours over midnight, 900 hPa and 1 Pa more each minute, without the barometer in minute 30.
     for (int minute = 0; minute < 120; ++minute) {
-        const std::vector<std::int32_t> counts(60, 90000 + minute);
+        const std::vector<std::int32_t> counts(60, minute == 30 ? 0 : 90000 + minute);
         header.start = start + std::chrono::minutes(minute);
         writer.append("LDO", archive::pack_record(header, counts));
     }
     writer.sync();
     const UtcTime end = start + std::chrono::hours(2);
     CHECK(channel.files(start, end).size() == 2);
-    const AirPressure record = AirPressure::read(channel, start, end);
+    std::vector<std::string> warnings;
+    const AirPressure record = AirPressure::read(channel, start, end, warnings);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings.front(), ContainsSubstring("XX.BARO.00.LDO") &&
+                                     ContainsSubstring("left out: 60, the first 0.00 hPa"));
+    CHECK(record.at(start + std::chrono::seconds(30 * 60 + 30)).value() ==
+          Approx(900.3).epsilon(0).margin(0.01));
     CHECK(record.at(start + std::chrono::seconds(90 * 60 + 30)).value() ==
           Approx(900.9).epsilon(0).margin(1e-9));
     CHECK_FALSE(record.at(end + std::chrono::hours(1)));
 
     channel.counts_per_hpa = 1.0;
-    CHECK_THROWS_WITH(AirPressure::read(channel, start, end),
+    CHECK_THROWS_WITH(AirPressure::read(channel, start, end, warnings),
                       ContainsSubstring("XX.BARO.00.LDO: 90000.00 hPa") &&
                           ContainsSubstring("pressure_counts_per_hpa"));
     channel.codes.station = "OTHER";
-    CHECK_THROWS_WITH(AirPressure::read(channel, start, end), ContainsSubstring("no samples"));
+    CHECK_THROWS_WITH(AirPressure::read(channel, start, end, warnings),
+                      ContainsSubstring("no samples"));
     for (const char* const bad : {"XX.BARO.00.LNO", "XX.BARO.LDO", "XX.../.LDO", "XX.BARO.00.LdO"})
         CHECK_FALSE(pressure_channel(bad));
     CHECK(pressure_channel("XX.BARO..LDI"));
