@@ -37,7 +37,7 @@ void set_unknown_gravity(AppliedFit& applied, const LinearModel& model,
 }
 
 /// Makes the coefficient k the scale 1 + k, and reports it.  Its error is at most that of the prior,
-/// also if the readings scatter by more than reading_sd.
+/// also if the readings scatter by more than reading_sd.  Limit: methods.md, "Scale factor".
 void set_scale(Fit& result, const LinearModel& model, const AppliedFit& applied,
                const Priors& priors) {
     const auto at = static_cast<std::size_t>(scale_column(model)) + 1;

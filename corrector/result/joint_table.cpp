@@ -1,10 +1,11 @@
 #include "corrector/result/joint_table.hpp"
-#include "protocol/text/message.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::result {
 namespace {
