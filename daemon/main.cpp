@@ -30,6 +30,7 @@
 #include "daemon/status/status_log.hpp"
 #include "daemon/store/store.hpp"
 #include "daemon/survey/occupations.hpp"
+#include "daemon/verdict/lasting_verdict.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace {
@@ -228,11 +229,11 @@ void reload(const std::filesystem::path& config_file, const source::HostClock& c
     }
 }
 
-/// Logs each new verdict, for the report of the evening.
-void log_verdict(store::Store& store, const verdict::Verdict& verdict,
-                 std::optional<verdict::State>& last) {
-    if (verdict.since == UtcTime{} || verdict.state == last) return;
-    last = verdict.state;
+/// Logs each new verdict that lasts, for the report of the evening.
+void log_verdict(store::Store& store, const status::Status& status,
+                 verdict::LastingVerdict& lasting) {
+    const verdict::Verdict& verdict = status.verdict;
+    if (!lasting.is_due(verdict, status.now)) return;
     events::Event event{"verdict", verdict.since, {}, {}, {}};
     event.details["state"] = verdict::to_text(verdict.state);
     store.note(event);
@@ -304,12 +305,12 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     notice.ready();
 
     constexpr timespec kSecond{1, 0};
-    std::optional<verdict::State> last_verdict;
+    verdict::LastingVerdict lasting_verdict;
     while (true) {
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
         const status::Status status = snapshot(config, clock, link, oven, store, live);
         status_log.note(status, std::chrono::steady_clock::now());
-        log_verdict(store, status.verdict, last_verdict);
+        log_verdict(store, status, lasting_verdict);
         notice.beat(store.is_alive(), brief(status));
         if (signal == SIGHUP) reload(config.file, clock, log, live, occupations, page);
         if (signal == SIGINT || signal == SIGTERM) break;

@@ -22,9 +22,6 @@ std::string detail(const events::Event& event, const std::string& key) {
     return event.details.contains(key) ? event.details.at(key) : "";
 }
 
-constexpr int kFewestSetUps = 2;
-constexpr int kMostSetUps = 100;  ///< Five hours; more are a slip of the hand.
-
 constexpr const char* kTargetKey = "target_mgal";
 
 bool is_target(MilliGal target) { return target.value() >= 0.01 && target.value() <= 1000.0; }
@@ -99,9 +96,9 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
                                      named(*running()), shown(running()->start)));
     }
     if (auto trouble = trouble_with_site(site)) return refused(*std::move(trouble));
-    if (set_ups && (*set_ups < kFewestSetUps || *set_ups > kMostSetUps))
-        return refused(text::message("{} set-ups; allowed: {} to {}", *set_ups, kFewestSetUps,
-                                     kMostSetUps));
+    if (set_ups && !events::is_planned_set_ups(*set_ups))
+        return refused(text::message("{} set-ups; allowed: {} to {}", *set_ups,
+                                     events::kFewestPlannedSetUps, events::kMostPlannedSetUps));
     const auto placed = place(at);
     if (!placed.instant) return refused(placed.trouble);
     for (const auto& one : list()) {

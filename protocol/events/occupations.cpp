@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <system_error>
 #include <utility>
 
 namespace a351::events {
@@ -60,6 +61,14 @@ std::string key_text(UtcTime start) {
 
 }  // namespace
 
+std::optional<int> parse_planned_set_ups(std::string_view text) noexcept {
+    int count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    const bool is_whole = error == std::errc() && end == text.data() + text.size();
+    if (!is_whole || !is_planned_set_ups(count)) return std::nullopt;
+    return count;
+}
+
 void OccupationReplay::take(const Event& event) {
     apply(event);
     renumber();
@@ -108,10 +117,7 @@ void OccupationReplay::start(const Event& event) {
         key,         detail(event, "site"),     1, event.utc, {event.utc}, event.session,
         event.index, detail(event, "operator"), ""};
     add_note(running_->note, event);
-    const std::string planned = detail(event, "set_ups");
-    if (int count = 0; std::from_chars(planned.data(), planned.data() + planned.size(), count).ec ==
-                           std::errc() && count > 0)
-        running_->planned_set_ups = count;
+    running_->planned_set_ups = parse_planned_set_ups(detail(event, "set_ups"));
 }
 
 void OccupationReplay::end_running(UtcTime end, bool is_stopped) {

@@ -17,12 +17,26 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/event_log.hpp"
 
 namespace a351::events {
+
+/// Limits of the detail `set_ups` of a start.  Reason: one is no plan of set-ups; more than a
+/// hundred, five hours at three minutes each, are a slip of the hand.
+inline constexpr int kFewestPlannedSetUps = 2;
+inline constexpr int kMostPlannedSetUps = 100;
+
+[[nodiscard]] constexpr bool is_planned_set_ups(int count) noexcept {
+    return count >= kFewestPlannedSetUps && count <= kMostPlannedSetUps;
+}
+
+/// Reads the detail `set_ups`.
+/// @return std::nullopt if the text is no whole number within the limits.
+[[nodiscard]] std::optional<int> parse_planned_set_ups(std::string_view text) noexcept;
 
 /// Stay at a benchmark that has ended: one or more set-ups of the sensor.
 ///
@@ -66,7 +80,8 @@ struct RunningOccupation {
     std::string operator_name;  ///< Detail `operator` of the start; empty if not given.
     std::string note;           ///< Notes so far, joined by "; ".
     std::optional<UtcTime> not_moved_until{};  ///< As Occupation::not_moved_until.
-    /// Detail `set_ups` of the start: planned set-ups of this stay; absent if not given.
+    /// Detail `set_ups` of the start: planned set-ups of this stay; absent if not
+    /// given or not within the limits.
     std::optional<int> planned_set_ups{};
 };
 

@@ -119,6 +119,22 @@ TEST_CASE("notes during an occupation are joined, other notes stay only in the l
     CHECK(occupations[0].note == "wind; lorry; calm");
 }
 
+TEST_CASE("planned set-ups that are no whole number from 2 to 100 count as not given",
+          "[record][occupations]") {
+    const auto planned = [](const char* text) {
+        auto begin = start("09:00", "A");
+        begin.details["set_ups"] = text;
+        return OccupationReplay({begin}).running()->planned_set_ups;
+    };
+    CHECK(planned("2") == 2);
+    CHECK(planned("100") == 100);
+    for (const char* text : {"", "1", "101", "-20", "20.0", "20abc", " 20", "2000000000abc",
+                             "2000000000", "99999999999999999999"}) {
+        CAPTURE(text);
+        CHECK_FALSE(planned(text));
+    }
+}
+
 TEST_CASE("events of other kinds change no occupation", "[record][occupations]") {
     CHECK(shown({start("09:00", "A"), event_of("fault", "09:05"), event_of("clock_step", "09:06"),
                  stop("09:10")}) == Lines{"A#1 09:00-09:10"});
