@@ -164,11 +164,13 @@ int show_own_address(const Client& client, const Arguments& arguments) {
                           url.host));
         return kRefused;
     }
-    // The body is refused, but only after the token was accepted.
-    constexpr int kForbidden = 403;
+    // The empty note is refused with this status, but only after the token was accepted.
+    constexpr int kConflict = 409;
     const Reply reply = client.post("/api/note", "{}", arguments.token);
-    if (reply.status == kForbidden) {
-        complain(answer_of(reply).error);
+    if (reply.status != kConflict) {
+        const std::string error = answer_of(reply).error;
+        complain(error.empty() ? text::tr("the daemon answered with status {}", reply.status)
+                               : error);
         return kRefused;
     }
     print_code(page_url(url.authority(), arguments.token));

@@ -1,5 +1,7 @@
 #include "daemon/page/order.hpp"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -7,6 +9,7 @@
 
 #include "daemon/page/message.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/echo.hpp"
 
 namespace a351::daemon::page {
 
@@ -14,11 +17,14 @@ using nlohmann::json;
 
 namespace {
 
-int parse_count(const std::string& key, const std::string& text) {
+/// Reads a whole number; the rules of the stay limit it.
+int parse_set_ups(const std::string& key, const std::string& text) {
     int count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (error != std::errc() || end != text.data() + text.size())
-        throw InputError("body: key " + key + ": not a whole number");
+        throw InputError(fmt::format("body: key {} = {}: not a whole number; allowed: {} to {}",
+                                     key, text::echoed(text), events::kFewestPlannedSetUps,
+                                     events::kMostPlannedSetUps));
     return count;
 }
 
@@ -38,7 +44,7 @@ Order parse_order(std::string_view body, const std::vector<std::string>& allowed
         if (key == "operator") order.remark.operator_name = text;
         if (key == "note") order.remark.note = text;
         if (key == "reason") order.remark.reason = text;
-        if (key == "set_ups" && !text.empty()) order.set_ups = parse_count(key, text);
+        if (key == "set_ups" && !text.empty()) order.set_ups = parse_set_ups(key, text);
         for (const auto& [name, instant] :
              {std::pair{"at", &order.at}, {"from", &order.from}, {"to", &order.to}})
             if (key == name && !text.empty()) *instant = parse_instant("body", key, text);

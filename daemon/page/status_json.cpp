@@ -59,6 +59,7 @@ json occupation_of(const survey::Occupations& occupations, const survey::FieldSt
     occupation["whole"] = to_json(field.whole, occupations.target());
     occupation["planned_s"] = std::chrono::duration<double>(occupations.planned()).count();
     occupation["planned_set_ups"] = field.plan.planned;
+    occupation["has_own_plan"] = running->planned_set_ups.has_value();
     occupation["set_up_left_s"] = field.plan.left_s;
     occupation["propose_set_up"] = field.plan.proposes_next;
     occupation["may_stop"] = field.plan.may_stop;

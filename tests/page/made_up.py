@@ -39,7 +39,7 @@ def occupation(site="No.5", **changes):
     start = rfc3339(time.time() - 400)
     return {"key": "20260301T013000Z", "site": site, "number": 1, "operator": "T. Sato", "note": "on the pillar", "start": start, "set_up": start,
             "set_up_count": 1, "session": "00", "index": 1, "running_s": 400.0, "reading": reading(),
-            "whole": reading(), "planned_s": 720.0, "planned_set_ups": 2, "set_up_left_s": 130.0, "propose_set_up": False,
+            "whole": reading(), "planned_s": 720.0, "planned_set_ups": 2, "has_own_plan": False, "set_up_left_s": 130.0, "propose_set_up": False,
             "may_stop": False, "warnings": [], **changes}
 
 

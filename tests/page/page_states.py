@@ -83,7 +83,11 @@ def count_set_ups_down(stub, browser):
 
 
 def count_a_placement_test(stub, browser):
-    test = {"planned_set_ups": 20, "planned_s": 3600.0, "set_up_count": 7, "set_up_left_s": 65.0}
+    configured = {"planned_set_ups": 20, "planned_s": 3600.0, "set_up_count": 7, "set_up_left_s": 66.0}
+    stub.status["occupation"] = occupation(**configured)
+    browser.wait_for_text("run-plan", "set-up 7 of 20: 1:06 left")
+    demand("twenty configured set-ups are no placement test", not browser.find("#run-test").is_displayed())
+    test = {**configured, "has_own_plan": True, "set_up_left_s": 65.0}
     stub.status["occupation"] = occupation(**test)
     browser.wait_for_text("run-plan", "set-up 7 of 20: 1:05 left")
     browser.wait_for_text("run-test", "Placement test: the scatter is shown from 8 set-ups on.")

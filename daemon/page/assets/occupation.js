@@ -12,7 +12,7 @@ import { StayDialogs } from "./stay_dialogs.js";
 import { nearest_instant, time_of_day, time_with_utc } from "./time.js";
 
 const kDay_ms = 24 * 3600 * 1000;
-const kTestSetUps = "20"; // Of a placement test; they give the scatter within about 40 % (95 %).
+const kTestSetUps = "20"; // Twenty set-ups give the scatter of placement within about 40 % (95 %).
 const kFewestTested = 8; // Fewer are refused by a351-correct calibrate --placement.
 
 function distance_text(metres) {
@@ -302,7 +302,7 @@ export class OccupationPanel {
                 (whole?.set_ups > 1 ? tr(" Scatter of {} set-ups: {} mGal, of their mean {} mGal.", whole.set_ups,
                     number(whole.set_up_sd_mgal, 2), number(whole.set_up_error_mgal, 2)) : ""));
         }
-        const is_test = one.planned_set_ups >= kFewestTested;
+        const is_test = one.has_own_plan && one.planned_set_ups >= kFewestTested; // Else many short set-ups are configured.
         show("run-test", is_test);
         if (is_test) set_text("run-test", test_text(one));
         const is_proposed = Boolean(one.propose_set_up);

@@ -44,13 +44,15 @@ TEST_CASE("an occupation is started, set up again, renamed and stopped by POST",
 TEST_CASE("a stay can have a plan of its own, which the log keeps", "[daemon][page]") {
     Page page;
     const std::string start = R"({"site":"No.0","at":"2026-03-14T08:10:00Z","set_ups":)";
-    page.ask(post("/api/occupation/start", start + R"("twenty"})"), 400);
+    CHECK(page.ask(post("/api/occupation/start", start + R"("20abc"})"), 400)["error"] ==
+          "body: key set_ups = 20abc: not a whole number; allowed: 2 to 100");
     page.ask(post("/api/occupation/start", start + R"("101"})"), 409);
     page.ask(post("/api/occupation/start", start + R"("20"})"));
     REQUIRE(page.recorder.log.size() == 1);
     CHECK(page.recorder.log[0].details.at("set_ups") == "20");
     const auto status = page.ask(get("/api/status"));
     CHECK(is(status, "/occupation/planned_set_ups", "20"));
+    CHECK(is(status, "/occupation/has_own_plan", "true"));
     CHECK(is(status, "/occupation/planned_s", "3600.0"));
 }
 

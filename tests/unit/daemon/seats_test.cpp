@@ -46,7 +46,7 @@ TEST_CASE("another host takes at most 16 seats, and its own oldest connection ma
     room.seats.leave(first);
 }
 
-TEST_CASE("the addresses of an IPv6 host, which share 64 bits, share its seats", "[daemon][page]") {
+TEST_CASE("global IPv6 addresses of one subnet share the seats of a host", "[daemon][page]") {
     CHECK(host_of(boost::asio::ip::make_address("2001:db8:1:2:3:4:5:6")) == "2001:db8:1:2::");
     CHECK(host_of(boost::asio::ip::make_address("::1")) == "::1");
     Room room;
@@ -55,6 +55,16 @@ TEST_CASE("the addresses of an IPv6 host, which share 64 bits, share its seats",
     CHECK(room.left == std::vector<std::string>{"2001:db8:1:2::1"});
     CHECK(room.take("2001:db8:1:3::1") != room.seats.end());
     CHECK(room.left.size() == 1);
+}
+
+TEST_CASE("private and link-local IPv6 addresses of one subnet have seats of their own",
+          "[daemon][page]") {
+    for (const char* prefix : {"fe80::", "fd00:1:2:3::", "fc00::"}) {
+        Room room;
+        for (int i = 0; i < 18; ++i)
+            REQUIRE(room.seats.begin_stream(room.take(prefix + std::to_string(i + 1))));
+        CHECK(room.left.empty());
+    }
 }
 
 TEST_CASE("the client that is waited for longest makes room, and a stream never",

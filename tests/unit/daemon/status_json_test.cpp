@@ -139,6 +139,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/occupation/index", "3000"));
     CHECK(is(status, "/occupation/planned_s", "600.0"));
     CHECK(is(status, "/occupation/planned_set_ups", "1"));
+    CHECK(is(status, "/occupation/has_own_plan", "false"));
     CHECK(is(status, "/occupation/set_up_left_s", "0.0"));
     CHECK(is(status, "/occupation/propose_set_up", "true"));
     CHECK(is(status, "/occupation/may_stop", "true"));
