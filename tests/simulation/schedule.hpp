@@ -81,7 +81,7 @@ public:
 private:
     static constexpr Nanoseconds kClockReading{50};
 
-    /// What the C++ library knows of the exceptions of a thread, see __cxa_get_globals in its ABI.
+    /// Knowledge of the C++ library about a thread's exceptions, see __cxa_get_globals in its ABI.
     struct Exceptions {
         void* caught = nullptr;
         unsigned int uncaught = 0;

@@ -157,7 +157,7 @@ TEST_CASE("a replay writes records into the time of an older session beyond a mi
     const auto after_midnight = record_at(midnight + 1s, {11, 12});
     {
         archive::Writer writer(posix_files(), root.archive(), {});
-        writer.record("BNZ", record_at(midnight - 1s, {1, 2, 3}), 2);  // Of an older session.
+        writer.record("BNZ", record_at(midnight - 1s, {1, 2, 3}), 2);  // It is of an older session.
         writer.record("BNZ", after_midnight, 1);
     }
     archive::Writer writer(posix_files(), root.archive(), {});

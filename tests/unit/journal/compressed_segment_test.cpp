@@ -132,7 +132,7 @@ TEST_CASE_METHOD(Fixture, "a flipped bit in a compressed segment costs at most o
 TEST_CASE_METHOD(Fixture,
                  "a compressed segment cut at any byte has the chunks before, and the rest is damage",
                  "[record][journal][long]") {
-    std::vector<std::size_t> ends;  // Of the chunks.
+    std::vector<std::size_t> ends;  // Ends of the chunks.
     auto bytes = encode_preamble();
     append(bytes, encode_chunk(test::journal_header(), 0));
     ends.push_back(bytes.size());

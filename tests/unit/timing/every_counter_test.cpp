@@ -52,7 +52,7 @@ TEST_CASE("two frames are placed by the law of the counter, whatever its two val
     for (const int rate_hz : {50, 100, 200, 500, 1000}) {
         const int step = 4000 / rate_hz;
         const auto steps = steps_to(step);
-        // Of the other rates every difference is tried, from 64 values.
+        // At the other rates every difference is tried, from 64 values.
         const int stride = !test::is_long() ? 4093 : rate_hz == 50 ? 1 : 1021;
         const RawTime start(100s), end = start + Nanoseconds(1s) / rate_hz;
         for (int first = 0; first < kCounts; first += stride) {
