@@ -106,9 +106,10 @@ struct AxisBiasChoice {
     [[nodiscard]] std::string text() const {
         if (!bias) return "";
         return fmt::format(
-            "biases of the horizontal axes, written from {}: x {} +- {}, y {} +- {} mGal/g\n", source,
-            text::fixed(bias->values(0), 1), text::fixed(std::sqrt(bias->covariance(0, 0)), 1),
-            text::fixed(bias->values(1), 1), text::fixed(std::sqrt(bias->covariance(1, 1)), 1));
+            "biases of the horizontal axes, written from {}: x {} +- {}, y {} +- {} mGal/g\n",
+            source, text::fixed(bias->values(0), 1),
+            text::fixed(std::sqrt(bias->covariance(0, 0)), 1), text::fixed(bias->values(1), 1),
+            text::fixed(std::sqrt(bias->covariance(1, 1)), 1));
     }
 };
 

@@ -35,9 +35,8 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey, 
     if (!survey.reduction.pressure.empty())
         more.push_back(text::describe_input("pressure", survey.reduction.pressure));
     if (const auto& channel = survey.reduction.pressure_channel)
-        for (const std::filesystem::path& file :
-             channel->files(first - reduction::kLongestPressureStep,
-                            last + reduction::kLongestPressureStep))
+        for (const std::filesystem::path& file : channel->files(
+                 first - reduction::kLongestPressureStep, last + reduction::kLongestPressureStep))
             more.push_back(text::describe_input("pressure", file));
     if (survey.reference)
         more.push_back(text::describe_input("reference", survey.reference->observations));

@@ -45,7 +45,10 @@ std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings
     return best->mistake;
 }
 
-double alpha_of(bool needs_trial) { return needs_trial ? kTrialAlpha : kMistakeAlpha; }
+/// Returns the probability divided by the level that it must not exceed.
+double share_of_level(const Mistake& mistake, double alpha) {
+    return mistake.p / (mistake.needed_trial ? kTrialShare * alpha : alpha);
+}
 
 std::vector<Mistake> without(std::vector<Mistake> mistakes, std::size_t k) {
     mistakes.erase(mistakes.begin() + static_cast<std::ptrdiff_t>(k));
@@ -69,7 +72,7 @@ void refine(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& 
 }  // namespace
 
 std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
-                                     const ResidualsOf& residuals_of) {
+                                     const ResidualsOf& residuals_of, double alpha) {
     std::vector<Mistake> mistakes;
     const auto accepted =
         static_cast<std::size_t>(std::ranges::count(readings, true, &SearchedReading::is_accepted));
@@ -78,7 +81,8 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
         const bool is_known_sure = mistakes.size() == sure.size();
         auto found = next_mistake(readings, residuals_of, mistakes, is_known_sure);
         if (!found) break;
-        const bool is_sure = found->p <= alpha_of(!is_known_sure);
+        found->needed_trial = !is_known_sure;
+        const bool is_sure = share_of_level(*found, alpha) <= 1.0;
         mistakes.push_back(std::move(*found));
         if (mistakes.size() > 1) refine(mistakes, readings, residuals_of);
         if (!is_sure) continue;
@@ -100,8 +104,8 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
             mistakes[k].u_mgal = mistake.u_mgal;
         }
         const auto worst = std::ranges::max_element(
-            mistakes, {}, [](const Mistake& one) { return one.p / alpha_of(one.needed_trial); });
-        if (worst->p <= alpha_of(worst->needed_trial)) break;
+            mistakes, {}, [&](const Mistake& one) { return share_of_level(one, alpha); });
+        if (share_of_level(*worst, alpha) <= 1.0) break;
         mistakes.erase(worst);
     }
     return mistakes;

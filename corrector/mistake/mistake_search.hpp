@@ -10,7 +10,7 @@
 ///
 /// The search takes one mistake after another, each time the one that explains most.  It compares
 /// them by the scatter that is left, with a penalty for an unknown size and for the number of its
-/// class.  A mistake is kept if fewer than kMistakeAlpha of simulated surveys without one contain
+/// class.  A mistake is kept if fewer than `alpha` of simulated surveys without one contain
 /// anything as clear.
 ///
 /// Method, false alarms and power: corrector/methods.md, "Search for mistakes".
@@ -66,14 +66,16 @@ struct SearchedReading {
 using ResidualsOf = std::function<std::optional<residual::Residuals>(
     const std::vector<Mistake>& known, const std::vector<Mistake>& quiet)>;
 
-/// Probability that a mistake is found where there is none.  Reason: with 2 % something false was said
-/// on 5.5 % of 200 days without a mistake, 5 % are allowed.  The excess is that of the estimated noise
-/// and of what else is searched: trials and the fit of the model.
-inline constexpr double kMistakeAlpha = 0.012;
-/// The same for one that is sure only when another one was put right on trial.  Reason: there are two
-/// such searches, which may add a fifth to the false alarms; large mistakes that hid each other are
-/// far below it.
-inline constexpr double kTrialAlpha = kMistakeAlpha / 10.0;
+/// Probability that a mistake is found where there is none.
+inline constexpr double kMistakeAlpha = 0.02;
+/// The same in the residuals of the whole-day model.  Reason: its lags and noise are estimated from
+/// the same day, so small probabilities are too small; 2 % of them are found on 5 % of the days
+/// (corrector/methods.md).
+inline constexpr double kWholeDayMistakeAlpha = 0.012;
+/// Share of the probability that is left for a mistake that is sure only when another one was put
+/// right on trial.  Reason: there are two such searches, which may add a fifth to the false alarms;
+/// large mistakes that hid each other are far below it.
+inline constexpr double kTrialShare = 0.1;
 
 /// Returns the mistakes that were found, in the order in which they were.
 ///
@@ -82,7 +84,9 @@ inline constexpr double kTrialAlpha = kMistakeAlpha / 10.0;
 /// right is dropped.  The simulations have a fixed seed.
 /// @param readings     in order of time.
 /// @param residuals_of called about ten times for each mistake.
+/// @param alpha        probability that a mistake is found where there is none.
 [[nodiscard]] std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
-                                                   const ResidualsOf& residuals_of);
+                                                   const ResidualsOf& residuals_of,
+                                                   double alpha = kMistakeAlpha);
 
 }  // namespace a351::corrector::mistake

@@ -98,7 +98,8 @@ void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& fi
         finding.code = "misfit_step";
         set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
         finding.text = text::message(
-            "the model does not fit this day: the readings from {} ({}) on seem to be off by a step",
+            "the model does not fit this day: the readings from {} ({}) on seem to be off by a "
+            "step",
             row.site, std::to_string(row.occupation));
     }
 }
@@ -159,7 +160,9 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
             const AmendedSurvey with = amended(rows, result.options, known);
             return model.residuals({{with.rows, with.options, survey.day}, with.choice}, *of_quiet);
         };
-        const std::vector<Mistake> mistakes = search_mistakes(searched(rows, choice), residuals_of);
+        const std::vector<Mistake> mistakes = search_mistakes(
+            searched(rows, choice), residuals_of,
+            result.model == model::kWholeDay ? kWholeDayMistakeAlpha : kMistakeAlpha);
         for (const Mistake& mistake : mistakes)
             for (Finding& finding : findings_of(mistake, rows, choice, survey.sites))
                 findings.push_back(std::move(finding));

@@ -30,9 +30,9 @@ void set_unknown_gravity(AppliedFit& applied, const LinearModel& model,
         double& above_mgal = applied.columns(static_cast<Eigen::Index>(i), at);
         const reading::SurveyRow& row = problem.rows[i];
         const double effects_mgal = applied.fit.at(applied.regressors_of(i)) - k * above_mgal;
-        above_mgal = ((row.acceleration - row.tide).value() - effects_mgal -
-                      kMilliGalPerStandardGravity) /
-                     (1.0 + k);
+        above_mgal =
+            ((row.acceleration - row.tide).value() - effects_mgal - kMilliGalPerStandardGravity) /
+            (1.0 + k);
     }
 }
 

@@ -152,8 +152,7 @@ void remark_unused_uncertainties(Fit& result, const Model& model) {
 /// Says that a model has no scale, and so does not use the prior that is given for it.
 void remark_unused_scale(Fit& result, const Model& model, const Priors& priors) {
     if (!result.scales.empty() || priors.find(kScale) == nullptr) return;
-    result.remarks.push_back(
-        fmt::format("{} has no scale: its prior is not used", model.name));
+    result.remarks.push_back(fmt::format("{} has no scale: its prior is not used", model.name));
 }
 
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {

@@ -16,7 +16,7 @@ namespace a351::corrector::reading {
 /// A time in which one verdict was shown.
 struct VerdictSpan {
     UtcTime start, end;
-    std::string state;  ///< As the event has it, for example "settling".
+    std::string state;  ///< Word of the event, for example "settling".
 };
 
 /// Returns the verdicts in order of time; none if the log has none, as that of older recorders.

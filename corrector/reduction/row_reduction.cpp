@@ -104,9 +104,9 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
     std::optional<AirPressure> pressure;
     if (!choice.pressure.empty()) pressure = AirPressure::read(choice.pressure);
     if (choice.pressure_channel)
-        pressure = AirPressure::read(*choice.pressure_channel,
-                                     rows.front().time - kLongestPressureStep,
-                                     rows.back().time + kLongestPressureStep, warnings);
+        pressure =
+            AirPressure::read(*choice.pressure_channel, rows.front().time - kLongestPressureStep,
+                              rows.back().time + kLongestPressureStep, warnings);
     for (reading::SurveyRow& row : rows) {
         if (!row.instrument_height) row.instrument_height = choice.height;
         if (!row.pressure_hpa && pressure) row.pressure_hpa = pressure->at(row.time);

@@ -22,8 +22,8 @@ constexpr double kUpright = 0.9;
 
 // Places of the parameters: three biases, scales, quadratic terms, angles, changes of the biases with
 // temperature, and the error of gravity.
-constexpr Index kBias = 0, kScale = 3, kQuadratic = 6, kAngle = 9, kByTemperature = 12, kGravity = 15,
-                kParameters = 16;
+constexpr Index kBias = 0, kScale = 3, kQuadratic = 6, kAngle = 9, kByTemperature = 12,
+                kGravity = 15, kParameters = 16;
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Covariance = Eigen::Matrix<double, kParameters, kParameters>;
 
@@ -68,9 +68,9 @@ std::vector<Position> positions_of(const reading::OccupationRows& read, const st
         if (!is_position(row)) continue;
         const reading::RecordSummary& record = row.axes_for("tumble");
         Position position;
-        position.mean_mgal = kMilliGalPerStandardGravity *
-                             Eigen::Vector3d(record.x.mean.value(), record.y.mean.value(),
-                                             record.z.mean.value());
+        position.mean_mgal =
+            kMilliGalPerStandardGravity *
+            Eigen::Vector3d(record.x.mean.value(), record.y.mean.value(), record.z.mean.value());
         position.degc = row.temperature.value();
         position.gravity_mgal = (*row.reference + row.tide).value();
         const double white_mgal = record.standard_error.value_or(MilliGal(0.0)).value();
@@ -116,8 +116,8 @@ Eigen::Vector3d true_vector(const Position& position, const Parameters& at) {
     Eigen::Vector3d a = position.mean_mgal;
     for (int round = 0; round < kRounds; ++round) {
         const Eigen::Vector3d quadratic =
-            at.segment<3>(kQuadratic).cwiseProduct(a.cwiseProduct(a)) / kMilliGalPerStandardGravity /
-            kMilliGalPerStandardGravity;
+            at.segment<3>(kQuadratic).cwiseProduct(a.cwiseProduct(a)) /
+            kMilliGalPerStandardGravity / kMilliGalPerStandardGravity;
         a = position.mean_mgal - bias - cross * a - quadratic;
     }
     return a;
@@ -194,7 +194,8 @@ void set_terms(Tumble& tumble, const Solution& found, const Parameters& deviatio
         axis.scale = named(along(kScale + k));
         axis.scale.value += 1.0;
         axis.bias_mgal = named(along(kBias + k));
-        axis.bias_mgal.is_determined = axis.bias_mgal.standard_error < kDeterminedShare * kQuadratic_mgal;
+        axis.bias_mgal.is_determined =
+            axis.bias_mgal.standard_error < kDeterminedShare * kQuadratic_mgal;
         axis.quadratic_mgal = named(along(kQuadratic + k));
         tumble.angle_rad.at(std::size_t(k)) = named(along(kAngle + k));
     }
@@ -213,7 +214,8 @@ void set_terms(Tumble& tumble, const Solution& found, const Parameters& deviatio
     bias.values = horizontal * found.values;
     const Eigen::Matrix2d covariance = horizontal * found.covariance * horizontal.transpose();
     bias.covariance << covariance(0, 0), covariance(0, 1), covariance(0, 1), covariance(1, 1);
-    if (std::sqrt(covariance.diagonal().maxCoeff()) < kUsefulBias_mgal_per_g) tumble.axis_bias = bias;
+    if (std::sqrt(covariance.diagonal().maxCoeff()) < kUsefulBias_mgal_per_g)
+        tumble.axis_bias = bias;
 }
 
 }  // namespace
@@ -235,7 +237,8 @@ Tumble measure_tumble(const reading::OccupationRows& read, const std::string& or
     tumble.expected_mgal = std::sqrt(variance);
     for (Position& position : positions) position.degc -= tumble.mean_degc;
 
-    const Parameters deviations = prior_deviations(tumble.u_gravity.value_or(MilliGal(0.0)).value());
+    const Parameters deviations =
+        prior_deviations(tumble.u_gravity.value_or(MilliGal(0.0)).value());
     Solution found = solve(positions, deviations);
     if (found.left_over >= 1.0) {
         const double ratio = found.chi_square / found.left_over;

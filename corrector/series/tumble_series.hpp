@@ -44,13 +44,13 @@ struct TumbleAxis {
 
 /// Result of a tumble.
 struct Tumble {
-    std::array<TumbleAxis, 3> axes;       ///< x, y, z; z is the axis that the metadata call vertical.
+    std::array<TumbleAxis, 3> axes;  ///< x, y, z; z is the axis that the metadata call vertical.
     std::array<TumbleTerm, 3> angle_rad;  ///< 90 deg minus the angle of x y, x z, y z.
-    TumbleTerm slope;    ///< Change of the reading divided by that of gravity, z upwards.
-    unit::Scale scale;   ///< `slope`, for calibration.toml.
+    TumbleTerm slope;   ///< Change of the reading divided by that of gravity, z upwards.
+    unit::Scale scale;  ///< `slope`, for calibration.toml.
     /// Change of the norm by 1 g along x and y, z upwards; absent if not determined.
     std::optional<unit::AxisBias> axis_bias;
-    std::size_t positions = 0;  ///< Number of positions used.
+    std::size_t positions = 0;                 ///< Number of positions used.
     double mean_degc = 0.0, range_degc = 0.0;  ///< Temperature of the positions.
     MilliGal gravity;                          ///< Gravity of the site.
     std::optional<MilliGal> u_gravity;         ///< Its uncertainty; absent: counted as exact.

@@ -39,8 +39,8 @@ enum class Misfit { curvature, step, tails };
 inline constexpr std::array<std::string_view, 3> kMisfitNames{"curvature", "step", "tails"};
 
 /// Probabilities below which a test counts as a misfit.  Reason: at most one ordinary day in 20 may
-/// be named, so their sum is 5 %.  The level of the step is the
-/// largest, because temperature and drift hide a step best.
+/// be named, so their sum is 5 %.  The level of the step is the largest, because temperature and
+/// drift hide a step best.
 inline constexpr std::array<double, 3> kMisfitProbabilities{0.008, 0.030, 0.012};
 
 /// A test of the fit.

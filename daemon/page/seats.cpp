@@ -8,9 +8,10 @@ namespace a351::daemon::page {
 
 std::string host_of(const boost::asio::ip::address& address) {
     if (address.is_v4() || address.is_loopback()) return address.to_string();
-    auto bytes = address.to_v6().to_bytes();
+    const auto v6 = address.to_v6();
+    auto bytes = v6.to_bytes();
     const bool is_private = (bytes[0] & 0xfe) == 0xfc;  // fc00::/7, RFC 4193.
-    if (is_private || address.to_v6().is_link_local()) return address.to_string();
+    if (is_private || v6.is_link_local() || v6.is_v4_mapped()) return address.to_string();
     std::fill(bytes.begin() + bytes.size() / 2, bytes.end(), std::uint8_t{0});
     return boost::asio::ip::address_v6(bytes).to_string();
 }

@@ -16,8 +16,8 @@ namespace a351::daemon::page {
 
 /// Returns the name under which connections from this address share their seats: the address, or of
 /// a global IPv6 address the subnet, its first 64 bits.  A host chooses addresses in its subnet as
-/// it likes (RFC 4291, 2.5.1).  Private and link-local addresses count singly, as IPv4 does: all
-/// telephones of one Wi-Fi share the subnet.
+/// it likes (RFC 4291, 2.5.1).  Private and link-local addresses count singly, as IPv4 does (also
+/// mapped): all telephones of one Wi-Fi share the subnet.
 [[nodiscard]] std::string host_of(const boost::asio::ip::address& address);
 
 /// The seats and their holders.  One thread at a time.

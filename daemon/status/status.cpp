@@ -94,7 +94,8 @@ void assess_clock(Status& status) {
             "time, or the clock was set back; start a351d with the emulator's --clock, or see "
             "sim/relive"));
     }
-    if (status.timing_uncertainty && *status.timing_uncertainty > kUnknown) {
+    if (!status.is_host_synchronised && status.timing_uncertainty &&
+        *status.timing_uncertainty > kUnknown) {
         // Without the number, which grows: the log would say it again each second.
         status.warn(
             text::message("the laptop's clock was never synchronised: times may be wrong by many "

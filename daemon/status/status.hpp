@@ -53,6 +53,7 @@ struct Status {
 
     timing::State timing_state = timing::State::unlocked;
     std::optional<Nanoseconds> timing_uncertainty;       ///< 95 %; absent before the first sample.
+    bool is_host_synchronised = false;
     timing::LeapSecond leap = timing::LeapSecond::none;  ///< Leap second announced by the host.
     std::optional<ClockStep> clock_step;                 ///< Newest one of this run.
     std::optional<timing::MeasuredRate> measured_rate;

@@ -352,8 +352,8 @@ void ArchiveThread::reopen() {
         }
     }
     for (const std::string& channel : archive::channels_in(archive_, codes_))
-        if (const auto file = archive::newest_day_file(archive_, codes_, channel))
-            archive::repair_tail(files_, *file, archive::side_directory(archive_));
+        for (const auto& file : archive::recent_day_files(archive_, codes_, channel))
+            archive::repair_tail(files_, file, archive::side_directory(archive_));
     writer_->reopen();
 }
 
@@ -384,6 +384,7 @@ ArchiveStatus ArchiveThread::status() {
     if (const timing::SampleClock* const sample_clock = archiver_->clock()) {
         status.timing_state = sample_clock->state();
         status.timing_uncertainty = sample_clock->uncertainty();
+        status.is_host_synchronised = sample_clock->is_host_synchronised();
         status.measured_rate = sample_clock->measured_rate();
     }
     return status;

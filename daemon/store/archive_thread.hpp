@@ -51,6 +51,7 @@ struct ArchiveStatus {
     std::optional<archive::Sample> last_sample;
     timing::State timing_state = timing::State::unlocked;
     std::optional<Nanoseconds> timing_uncertainty;  ///< Absent before the first session.
+    bool is_host_synchronised = false;
     std::optional<status::ClockStep> clock_step;    ///< Newest one of this run.
     std::optional<timing::MeasuredRate> measured_rate;
 };

@@ -137,8 +137,7 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     add(event, "site", running()->site);
     add(event, remark);
     auto message = text::message("stopped {} at {}", named(*running()), shown(utc));
-    if (const auto made = running()->set_ups.size();
-        static_cast<int>(made) < planned_set_ups()) {
+    if (const auto made = running()->set_ups.size(); static_cast<int>(made) < planned_set_ups()) {
         message += text::message("; {} of {} planned set-ups", made, planned_set_ups());
     }
     using Minutes = std::chrono::duration<double, std::ratio<60>>;

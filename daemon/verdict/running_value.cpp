@@ -32,7 +32,8 @@ double sd_of(const std::vector<double>& values) {
 std::array<MilliGal, 2> limits_of_sd(double sd_mgal, double degrees) {
     const boost::math::chi_squared distribution(degrees);
     const auto at = [&](double quantile) {
-        return MilliGal(sd_mgal * std::sqrt(degrees / boost::math::quantile(distribution, quantile)));
+        return MilliGal(sd_mgal *
+                        std::sqrt(degrees / boost::math::quantile(distribution, quantile)));
     };
     return {at(0.975), at(0.025)};
 }

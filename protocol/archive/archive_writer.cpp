@@ -203,11 +203,9 @@ void Writer::settle() {
 /// Returns the sequence number of the record written last.  After a clock was set back over
 /// midnight, that record is not in the file of the newest day.
 int Writer::newest_sequence(const std::string& channel) const {
-    constexpr std::size_t kDays = 3;  // A clock that was set back by up to two days.
-    const auto files = day_files(archive_, codes_, channel);
     int newest = 0;
-    for (std::size_t i = files.size() - std::min(kDays, files.size()); i < files.size(); ++i) {
-        const int last = last_sequence(files[i]);
+    for (const auto& day_file : recent_day_files(archive_, codes_, channel)) {
+        const int last = last_sequence(day_file);
         if (newest == 0 || (last != 0 && precedes(newest, last))) newest = last;
     }
     return newest;

@@ -25,7 +25,7 @@ constexpr std::size_t kComparedSamples = 100;
 // reading in error it is below a millisecond.
 constexpr std::chrono::milliseconds kMostShift(500);
 
-/// What is read of a journal.
+/// Part of a journal to read.
 struct Part {
     std::vector<fs::path> segments;  ///< The oldest first.
     UtcTime begin;                   ///< Bytes that arrived before are skipped.

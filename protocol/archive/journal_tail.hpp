@@ -36,8 +36,8 @@ namespace a351::archive {
 /// Memory: the samples of the tail.  Not changed after construction, so threads may share it.
 class JournalTail {
 public:
-    /// A session of twelve hours costs half a second of processor; of a longer one the last 15
-    /// minutes give times within 0.2 ms of the archive's.
+    /// Reason: the time to read a session grows with its length, and most survey days are shorter.
+    /// The last 15 minutes of a longer one give times within 0.2 ms of the archive's.
     static constexpr std::chrono::hours kLongestSession{12};
 
     /// Reads the journal from the begin of the session until `to`, so that the times are those that

@@ -49,11 +49,11 @@ bool replay_journal(files::FileLayer& files, const std::filesystem::path& archiv
                     const std::function<bool(const journal::Chunk&)>& take,
                     RecoveryReport& report) {
     for (const auto& channel : channels_in(archive, replay.codes)) {
-        const auto day_file = newest_day_file(archive, replay.codes, channel);
-        if (!day_file) continue;
-        const auto tail =
-            repair_tail(files, *day_file, side_directory(archive), synced_until(replay, channel));
-        if (tail) report.archive.push_back(*tail);
+        for (const auto& day_file : recent_day_files(archive, replay.codes, channel)) {
+            const auto tail = repair_tail(files, day_file, side_directory(archive),
+                                          synced_until(replay, channel));
+            if (tail) report.archive.push_back(*tail);
+        }
     }
 
     writer.begin_replay();

@@ -76,6 +76,14 @@ std::vector<fs::path> day_files(const fs::path& archive, const journal::StationC
     return files;
 }
 
+std::vector<fs::path> recent_day_files(const fs::path& archive, const journal::StationCodes& codes,
+                                       const std::string& channel) {
+    constexpr std::size_t kRecent = 3;
+    auto files = day_files(archive, codes, channel);
+    if (files.size() > kRecent) files.erase(files.begin(), files.end() - kRecent);
+    return files;
+}
+
 std::optional<fs::path> newest_day_file(const fs::path& archive, const journal::StationCodes& codes,
                                         const std::string& channel) {
     const auto files = day_files(archive, codes, channel);

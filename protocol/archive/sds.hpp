@@ -44,6 +44,13 @@ namespace a351::archive {
                                                            const journal::StationCodes& codes,
                                                            const std::string& channel);
 
+/// Returns the day files of a channel to which records may have been added last: the three newest,
+/// sorted by day.  After the host's clock was set back over midnight an older day continues; a clock
+/// set back by more than two days is not covered.
+[[nodiscard]] std::vector<std::filesystem::path> recent_day_files(
+    const std::filesystem::path& archive, const journal::StationCodes& codes,
+    const std::string& channel);
+
 /// Returns the newest day file of a channel, if there is one.  Newest is the latest day in the
 /// name, not the time of the last change.
 [[nodiscard]] std::optional<std::filesystem::path> newest_day_file(

@@ -152,6 +152,9 @@ public:
     /// nothing for times given by use(); SampleTime::state does.
     [[nodiscard]] State state() const noexcept;
 
+    /// Returns true if the host's clock is synchronised now: UtcMapping::is_synchronised().
+    [[nodiscard]] bool is_host_synchronised() const noexcept { return mapping_.is_synchronised(); }
+
     /// Returns the rate of the sensor's oscillator, from the newest sample and that earlier one (of
     /// the remembered 24 h, after the last break) which gives the least uncertainty.  std::nullopt
     /// while the span is below 1 min, and for times given by use().

@@ -136,7 +136,7 @@ public:
 
     /// Counts in simulated residuals how often the best test names a reference that is off: it knows
     /// the noise of the day and searches references only.  It takes the one with the largest |t|, and
-    /// finds something in kMistakeAlpha of the surveys without a mistake.
+    /// finds something in kWholeDayMistakeAlpha of the surveys without a mistake.
     void attainable(double size_mgal) {
         namespace model = corrector::model;
         constexpr int kDraws = 4000;
@@ -164,8 +164,9 @@ public:
         std::vector<double> clean;
         for (int k = 0; k < kDraws; ++k)
             clean.push_back(largest(residuals->simulated(generator)).first);
-        const auto limit = clean.begin() + static_cast<std::ptrdiff_t>(
-                                               (1.0 - corrector::mistake::kMistakeAlpha) * kDraws);
+        const auto limit =
+            clean.begin() +
+            static_cast<std::ptrdiff_t>((1.0 - corrector::mistake::kWholeDayMistakeAlpha) * kDraws);
         std::nth_element(clean.begin(), limit, clean.end());
         Count total;
         for (total.trials = 0; total.trials < kDraws; ++total.trials) {

@@ -97,6 +97,24 @@ TEST_CASE("recovery of an empty data root does nothing", "[record][recovery]") {
     CHECK(root.files().empty());
 }
 
+TEST_CASE("a torn tail of the day before the newest is cut", "[record][recovery]") {
+    const auto chunks = eventful_session();
+    DataRoot whole;
+    whole.write_journal(chunks);
+    archive_all(whole, chunks);
+    const auto reference = whole.files();
+    for (const auto& channel : channels_in(whole.archive(), {})) {
+        const auto days = day_files(whole.archive(), {}, channel);
+        REQUIRE(days.size() == 2);  // as after a clock was set back over midnight
+        auto torn = test::read_bytes(days.front());
+        torn.resize(torn.size() + 100);
+        test::write_bytes(days.front(), torn);
+    }
+    const auto report = recover(posix_files(), whole.path());
+    CHECK(report.archive.size() == channels_in(whole.archive(), {}).size());
+    CHECK(whole.files() == reference);
+}
+
 TEST_CASE("an archive cut at any record, torn or not, is recovered to the same bytes",
           "[record][recovery]") {
     const auto chunks = eventful_session();

@@ -49,6 +49,7 @@ TEST_CASE("another host takes at most 16 seats, and its own oldest connection ma
 TEST_CASE("global IPv6 addresses of one subnet share the seats of a host", "[daemon][page]") {
     CHECK(host_of(boost::asio::ip::make_address("2001:db8:1:2:3:4:5:6")) == "2001:db8:1:2::");
     CHECK(host_of(boost::asio::ip::make_address("::1")) == "::1");
+    CHECK(host_of(boost::asio::ip::make_address("::ffff:192.0.2.1")) == "::ffff:192.0.2.1");
     Room room;
     for (int i = 0; i < 17; ++i)
         static_cast<void>(room.take("2001:db8:1:2::" + std::to_string(i + 1)));

@@ -129,9 +129,9 @@ TEST_CASE_METHOD(Fixture, "a flipped bit in a compressed segment costs at most o
     CHECK(most_lost <= chunk_count / 8 + 2);
 }
 
-TEST_CASE_METHOD(Fixture,
-                 "a compressed segment cut at any byte has the chunks before, and the rest is damage",
-                 "[record][journal][long]") {
+TEST_CASE_METHOD(
+    Fixture, "a compressed segment cut at any byte has the chunks before, and the rest is damage",
+    "[record][journal][long]") {
     std::vector<std::size_t> ends;  // Ends of the chunks.
     auto bytes = encode_preamble();
     append(bytes, encode_chunk(test::journal_header(), 0));
@@ -159,8 +159,8 @@ TEST_CASE_METHOD(Fixture,
         const auto reading = read_all(packed);
         INFO("cut at " << size);
         const auto whole_frames = std::ranges::upper_bound(frames, size) - frames.begin() - 1;
-        const auto unpacked = static_cast<std::size_t>(std::max<std::ptrdiff_t>(whole_frames, 0)) *
-                              kFrame;
+        const auto unpacked =
+            static_cast<std::size_t>(std::max<std::ptrdiff_t>(whole_frames, 0)) * kFrame;
         const auto least = std::ranges::upper_bound(ends, unpacked) - ends.begin();
         REQUIRE(reading.chunk_count >= static_cast<std::size_t>(least));
         REQUIRE(reading.chunk_count >= good);  // A longer part has no fewer chunks.

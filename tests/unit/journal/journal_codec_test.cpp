@@ -86,7 +86,8 @@ TEST_CASE("a decoded header has all fields that were encoded", "[record][journal
     CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
     uncommissioned.oven_interval = std::chrono::seconds(1);
     CHECK_FALSE(parse_header(header_to_json(uncommissioned))->declared_rate_hz);
-    uncommissioned.declared_rate_hz = 1.2 * uncommissioned.output_rate_hz;  // No record can have it.
+    uncommissioned.declared_rate_hz =
+        1.2 * uncommissioned.output_rate_hz;  // No record can have it.
     CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
     const auto as_asked = parse_header(header_to_json(test::journal_header()));
     CHECK_FALSE(as_asked->is_device_assumed);

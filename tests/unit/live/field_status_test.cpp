@@ -78,7 +78,8 @@ TEST_CASE("a stay is good enough only with its planned set-ups", "[field]") {
     CHECK(field.occupations.stop({}, minute(42)).message.english().find("planned") == std::string::npos);
 }
 
-TEST_CASE("a placement test counts twenty set-ups of three minutes, also after a restart", "[field]") {
+TEST_CASE("a placement test counts twenty set-ups of three minutes, also after a restart",
+          "[field]") {
     Field field;
     CHECK(field.occupations.start("No.0", {}, minute(20), 1).kind == Outcome::Kind::refused);
     CHECK(field.occupations.start("No.0", {}, minute(20), 101).kind == Outcome::Kind::refused);
@@ -93,8 +94,9 @@ TEST_CASE("a placement test counts twenty set-ups of three minutes, also after a
     const Occupations restarted(field.recorder, two_sites(), field.recorder.log);
     CHECK(restarted.planned_set_ups() == 20);
     CHECK(restarted.planned() == std::chrono::hours(1));
-    CHECK(field.occupations.stop({}, minute(30)).message.english().ends_with(
-        "; 2 of 20 planned set-ups; shorter than planned: 10.0 of 60 min"));
+    CHECK(field.occupations.stop({}, minute(30))
+              .message.english()
+              .ends_with("; 2 of 20 planned set-ups; shorter than planned: 10.0 of 60 min"));
     CHECK(field.occupations.planned() == std::chrono::minutes(10));
     CHECK(field.occupations.planned_set_ups() == 1);
 }

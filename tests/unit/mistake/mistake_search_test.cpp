@@ -136,8 +136,8 @@ TEST_CASE("in surveys without a mistake one is found as seldom as stated", "[mis
     for (int seed = 1; seed <= kSurveys; ++seed)
         if (!MadeUp(static_cast<std::uint64_t>(1000 + seed)).search().empty()) ++found;
     WARN("found in " << found << " of " << kSurveys);
-    // kMistakeAlpha and twice kTrialAlpha; the limit is exceeded by chance once in a thousand runs of other seeds.
-    CHECK(found <= 6);
+    // kMistakeAlpha and twice a tenth of it; the limit is exceeded by chance once in a thousand runs of other seeds.
+    CHECK(found <= 8);
 }
 
 TEST_CASE("without a mistake the clearest one has any probability equally often", "[mistake]") {

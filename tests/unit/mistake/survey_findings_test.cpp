@@ -177,7 +177,8 @@ TEST_CASE("a base with one stay is named", "[mistake]") {
           "the base B has 1 stay of 12, at least 2 show a drift without the references");
 }
 
-TEST_CASE("a day that the model does not fit is named, with the reading after the step", "[mistake]") {
+TEST_CASE("a day that the model does not fit is named, with the reading after the step",
+          "[mistake]") {
     using whole_day::Misfit;
     const Day day;
     model::SurveyOptions options;

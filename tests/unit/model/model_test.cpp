@@ -122,8 +122,8 @@ TEST_CASE("a model without a scale says that it does not use the prior of the sc
     for (const std::string name : {"robust", "network", "t-rate-drift"}) {
         options.model = name;
         const std::string remark = text::joined(correct_survey(rows, options).remarks);
-        CHECK((remark.find("has no scale: its prior is not used") !=
-               std::string::npos) == (name == "robust"));
+        CHECK((remark.find("has no scale: its prior is not used") != std::string::npos) ==
+              (name == "robust"));
     }
 }
 

@@ -40,9 +40,9 @@ std::vector<Eigen::Vector3d> directions(bool is_halfway_too) {
     for (int k = 0; k < 3; ++k)
         for (const double one : {1.0, -1.0})
             for (const double other : {1.0, -1.0})
-                list.push_back((one * Eigen::Vector3d::Unit(k) +
-                                other * Eigen::Vector3d::Unit((k + 1) % 3)) /
-                               std::numbers::sqrt2);
+                list.push_back(
+                    (one * Eigen::Vector3d::Unit(k) + other * Eigen::Vector3d::Unit((k + 1) % 3)) /
+                    std::numbers::sqrt2);
     return list;
 }
 
@@ -81,8 +81,8 @@ bool is_within(const TumbleTerm& found, double truth) {
 }
 
 double slope_of(const Truth& truth) {
-    return truth.scale(2) + 2.0 * truth.quadratic(2) * kGravity_mgal /
-                                kMilliGalPerStandardGravity / kMilliGalPerStandardGravity;
+    return truth.scale(2) + 2.0 * truth.quadratic(2) * kGravity_mgal / kMilliGalPerStandardGravity /
+                                kMilliGalPerStandardGravity;
 }
 
 std::string refusal_of_tumble(const OccupationRows& read) {
@@ -101,7 +101,7 @@ TEST_CASE("without noise a tumble gives the sensor it was made with", "[survey][
     Truth truth = drawn(random);
     truth.bias = {20000.0, -20000.0, 1838.0};
     const Tumble found = measure_tumble(tumbled(truth, directions(true), random, 0.0), "tumble");
-    // What is left is the pull of the priors: (error / deviation of the prior)^2 of the term.
+    // The priors pull each term by the share (error / deviation of its prior)^2.
     for (std::size_t k = 0; k < 3; ++k) {
         const auto axis = static_cast<Eigen::Index>(k);
         CHECK(found.axes[k].bias_mgal.value == Approx(truth.bias(axis)).margin(0.1));
@@ -147,8 +147,9 @@ TEST_CASE("in twenty tumbles the limits contain the truth of each term in sevent
     std::printf("; scale of the reading %d, bias of x at level %d\n", slopes, biases);
 }
 
-TEST_CASE("six positions give the scale between up and down and leave the quadratic term to the prior",
-          "[survey][tumble]") {
+TEST_CASE(
+    "six positions give the scale between up and down and leave the quadratic term to the prior",
+    "[survey][tumble]") {
     int within = 0, slopes = 0;
     for (std::uint64_t seed = 101; seed <= 120; ++seed) {
         std::mt19937_64 random(seed);
@@ -164,7 +165,8 @@ TEST_CASE("six positions give the scale between up and down and leave the quadra
         CHECK_FALSE(found.angle_rad[0].is_determined);
         CHECK_FALSE(found.slope.is_determined);
         CHECK_FALSE(found.axis_bias);
-        CHECK(found.scale.standard_error == Approx(2.0 * 300.0 / kMilliGalPerStandardGravity).epsilon(0.05));
+        CHECK(found.scale.standard_error ==
+              Approx(2.0 * 300.0 / kMilliGalPerStandardGravity).epsilon(0.05));
         within += is_within(z.scale, truth.scale(2));
         slopes += is_within(found.slope, slope_of(truth));
     }
@@ -174,7 +176,8 @@ TEST_CASE("six positions give the scale between up and down and leave the quadra
                 within, slopes);
 }
 
-TEST_CASE("a wrong gravity within its uncertainty is within that of the scale", "[survey][tumble]") {
+TEST_CASE("a wrong gravity within its uncertainty is within that of the scale",
+          "[survey][tumble]") {
     std::mt19937_64 random(1);
     const Truth truth = drawn(random);
     OccupationRows read = tumbled(truth, directions(true), random);

@@ -135,6 +135,11 @@ TEST_CASE("a clock that was never synchronised is one warning, however its uncer
     later.timing_uncertainty = std::chrono::seconds(45);
     assess(later);
     CHECK(later.reasons == status.reasons);
+    Status synchronised = healthy();  // The samples are uncertain for another reason.
+    synchronised.is_host_synchronised = true;
+    synchronised.timing_uncertainty = std::chrono::seconds(45);
+    assess(synchronised);
+    CHECK(synchronised.reasons.empty());
 }
 
 TEST_CASE("an oven that is not enabled is no trouble, an oven that does not answer is a warning",

@@ -78,9 +78,10 @@ TEST_CASE("two frames are placed by the law of the counter, whatever its two val
             }
         }
     }
-    std::printf("%lld pairs: %lld next, %lld gaps, %lld duplicates, %lld anomalies, %lld sessions\n",
-                static_cast<long long>(pairs), static_cast<long long>(kinds[1]),
-                static_cast<long long>(kinds[2]), static_cast<long long>(kinds[3]),
-                static_cast<long long>(kinds[4]), static_cast<long long>(kinds[5]));
+    std::printf(
+        "%lld pairs: %lld next, %lld gaps, %lld duplicates, %lld anomalies, %lld sessions\n",
+        static_cast<long long>(pairs), static_cast<long long>(kinds[1]),
+        static_cast<long long>(kinds[2]), static_cast<long long>(kinds[3]),
+        static_cast<long long>(kinds[4]), static_cast<long long>(kinds[5]));
     CHECK(wrong == 0);
 }

@@ -56,6 +56,11 @@ public:
         return files_.back();
     }
 
+    /// Adds a segment with one word each after 5, 6 and 9 s.
+    void three_words() {
+        segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    }
+
     [[nodiscard]] Device device(Timing timing = Timing::as_recorded) const {
         return {std::make_unique<JournalRecording>(files_), timing, Nanoseconds(0)};
     }
@@ -103,7 +108,7 @@ TEST_CASE("a device that replays a journal starts at the recorded baud rate", "[
 TEST_CASE("recorded bytes leave at their recorded times, and not before the host starts sampling",
           "[sim][replay]") {
     Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    recorded.three_words();
     Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.wait(4s);
@@ -140,7 +145,7 @@ TEST_CASE("reads of one chunk keep their own times", "[sim][replay]") {
 TEST_CASE("a host that starts late gets the missed bytes at once and the rest on time",
           "[sim][replay]") {
     Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    recorded.three_words();
     Device device = recorded.device();
     ReplayHost host(device, kStart + 7s);
     host.configure({}, kProfile);
@@ -249,7 +254,7 @@ TEST_CASE("a session ends in configuration mode, and the next waits for a new st
 TEST_CASE("a host that stops and starts again continues with the next recorded byte",
           "[sim][replay]") {
     Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    recorded.three_words();
     Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
@@ -267,7 +272,7 @@ TEST_CASE("a host that stops and starts again continues with the next recorded b
 TEST_CASE("bytes that a host has not seen when it stops are replayed when it starts again",
           "[sim][replay]") {
     Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    recorded.three_words();
     Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
@@ -282,7 +287,7 @@ TEST_CASE("bytes that a host has not seen when it stops are replayed when it sta
 
 TEST_CASE("a host that took a paused replay for a silent sensor misses no byte", "[sim][replay]") {
     Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
+    recorded.three_words();
     Device device = recorded.device();
     ReplayHost host(device, kStart);
     host.configure({}, kProfile);
