@@ -326,7 +326,10 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         log.warn(
             "the archive is incomplete; the next start adds the missing data from the journal");
     if (is_on_disk) return kDone;
-    log.error("some data could not be written to disk or archived; see the messages above");
+    status::Status end;  // A fault of the last second has not been logged.
+    store.fill(end);
+    for (const auto& reason : end.reasons) log.error("{}", reason.english());
+    log.error("some data could not be written to disk or archived, for the reasons above");
     return kFailed;
 }
 

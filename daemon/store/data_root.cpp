@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::array kFolders{"journal", "archive", "metadata", "events", "state"};
 
+void lock(const std::filesystem::path& root, int descriptor) {
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        throw DataRootLocked(root.string() + ": another a351d is using this data root");
+}
+
 }  // namespace
 
 DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path& root) {
@@ -25,8 +30,11 @@ DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path&
     // The layer refuses a link in place of a folder, which the lock would follow.
     for (const char* name : kFolders) files.sync_directory(root / name);
     try {
-        lock(root, root, O_RDONLY | O_DIRECTORY);
-        lock(root, root / "state" / "lock", O_RDWR | O_CREAT | O_NOFOLLOW);
+        const int folder = open(root, AT_FDCWD, root, O_RDONLY | O_DIRECTORY);
+        lock(root, folder);
+        // One after the other, because the kernel follows links in all parts of a path but the last.
+        const int state = open(root, folder, "state", O_PATH | O_DIRECTORY | O_NOFOLLOW);
+        lock(root, open(root, state, "lock", O_RDWR | O_CREAT | O_NOFOLLOW));
     } catch (...) {
         for (const int descriptor : descriptors_) close(descriptor);
         throw;
@@ -37,14 +45,14 @@ DataRootLock::~DataRootLock() {
     for (const int descriptor : descriptors_) close(descriptor);
 }
 
-void DataRootLock::lock(const std::filesystem::path& root, const std::filesystem::path& file,
-                        int flags) {
-    const int descriptor = open(file.c_str(), flags | O_CLOEXEC, 0644);
+int DataRootLock::open(const std::filesystem::path& root, int folder,
+                       const std::filesystem::path& name, int flags) {
+    const int descriptor = ::openat(folder, name.c_str(), flags | O_CLOEXEC, 0644);
     if (descriptor < 0)
-        throw std::system_error(errno, std::generic_category(), "cannot open " + file.string());
+        throw std::system_error(errno, std::generic_category(),
+                                root.string() + ": cannot open " + name.string());
     descriptors_.push_back(descriptor);
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-        throw DataRootLocked(root.string() + ": another a351d is using this data root");
+    return descriptor;
 }
 
 std::optional<std::string> describe_station(files::FileLayer& files,

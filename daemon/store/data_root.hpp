@@ -32,7 +32,8 @@ public:
     DataRootLock& operator=(const DataRootLock&) = delete;
 
 private:
-    void lock(const std::filesystem::path& root, const std::filesystem::path& file, int flags);
+    int open(const std::filesystem::path& root, int folder, const std::filesystem::path& name,
+             int flags);
 
     std::vector<int> descriptors_;
 };

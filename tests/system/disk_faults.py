@@ -156,6 +156,26 @@ def full_disk():
         demand("the event is in the event log", "in the reserve" in "".join(
             file.read_text() for file in (data / "events").iterdir()))
         run("umount", data)
+    stop_on_a_full_disk()
+
+
+def stop_on_a_full_disk():
+    with Scratch() as scratch:
+        data = scratch / "data"
+        small_disk.mount(data)
+        day = Day(scratch)
+        small_disk.fill(data / "filler")
+        day.wait_for("the reserve is released", lambda state: state["disk"]["reserve"] == "given_up")
+        small_disk.fill(data / "filler2")
+        day.wait_for("the journal has a fault", lambda state: state["counters"]["journal_faults"] > 0)
+        day.daemon.send_signal(signal.SIGTERM)
+        status = day.daemon.wait(timeout=60)
+        day.sim.send_signal(signal.SIGTERM)
+        day.sim.wait(timeout=30)
+        last = (scratch / "a351d.log").read_text().split(" stopping\n")[1].splitlines()
+        demand(f"stopped on a full disk it ends with {status}, and its last lines have the reason: {last}",
+               status == 1 and any(" error: journal: " in line for line in last))
+        run("umount", data)
 
 
 # Failing system calls
