@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "corrector/command/calibrate_records.hpp"
-#include "corrector/command/calibration_origin.hpp"
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
@@ -21,6 +20,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/write_together.hpp"
+#include "protocol/unit/calibration_origin.hpp"
 
 namespace a351::corrector::command {
 namespace {
@@ -125,7 +125,7 @@ void take_over(unit::Calibration& calibration, AxisBiasChoice& axis_bias, const 
     if (!calibration.warm_up) calibration.warm_up = other.warm_up;
     if (!calibration.placement) calibration.placement = other.placement;
     if (!calibration.scale) calibration.scale = other.scale;
-    for (const unit::CalibrationData& data : other.data) list_data(calibration, data);
+    for (const unit::CalibrationData& data : other.data) unit::list_data(calibration, data);
     calibration.valid_from = std::max(calibration.valid_from, other.valid_from);
     calibration.valid_to = other.valid_to;
 }
@@ -147,7 +147,8 @@ void read_series(unit::Calibration& calibration, const std::vector<std::string>&
         measure(read, survey.name, file);
         const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
         counted.add(read.rows,
-                    note_origin(calibration, read.serial_number, start, read.inputs, file), file);
+                    unit::note_origin(calibration, read.serial_number, start, read.inputs, file),
+                    file);
     }
 }
 

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "corrector/command/calibration_origin.hpp"
 #include "corrector/command/record_input.hpp"
 #include "corrector/long_record/joined_record.hpp"
 #include "corrector/long_record/record_calibration.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/unit/calibration_origin.hpp"
 
 namespace a351::corrector::command {
 namespace {
@@ -102,8 +102,8 @@ std::string calibrate_from_records(unit::Calibration& calibration,
     const long_record::LongRecord record =
         long_record::joined_record(read_records(options.files, {}));
     const std::string& file = options.files.front();
-    note_origin(calibration, unit_of(record, file), record.stretches.front().times.front(),
-                record.inputs, file);
+    unit::note_origin(calibration, unit_of(record, file), record.stretches.front().times.front(),
+                      record.inputs, file);
     const long_record::RecordSegments parts = divide_or_refuse(record, {}, file);
     const double within_mgal = options.within_mgal.value_or(unit::WarmUpGuidance{}.within_mgal);
     long_record::WarmUpReading warm_up{

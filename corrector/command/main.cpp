@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     command::add_design_command(program);
     command::add_emd_command(program);
     command::add_export_command(program);
+    command::add_history_command(program);
     command::add_import_command(program);
     command::add_record_command(program);
     command::add_retime_command(program);

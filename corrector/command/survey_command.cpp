@@ -81,6 +81,9 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
     nlohmann::ordered_json settings;
     settings["command"] = "survey";
     settings["name"] = survey.name;
+    settings["serial_number"] = read.serial_number.empty()
+                                    ? nlohmann::ordered_json(nullptr)
+                                    : nlohmann::ordered_json(read.serial_number);
     settings["model"] = survey.survey.model;
     settings["flags"] = survey.survey.use_flags ? "use" : "ignore";
     tide::describe_tide(settings, survey.tide);

@@ -12,11 +12,11 @@
 #include "protocol/text/input_file.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector::command {
+namespace a351::unit {
 
 /// Adds a file to the list unless it is there already.  Name and checksum are compared, so a
 /// changed file of the same name is listed twice.
-void list_data(unit::Calibration& calibration, const unit::CalibrationData& data);
+void list_data(Calibration& calibration, const CalibrationData& data);
 
 /// Notes where numbers of a calibration come from: unit, files, the time of the first reading.
 ///
@@ -28,9 +28,8 @@ void list_data(unit::Calibration& calibration, const unit::CalibrationData& data
 /// @param file           name of the input as the user gave it, for messages.
 /// @return  SHA-256 of every file of the archive.
 /// @throws InputError  no serial number, or not the one of the inputs before.
-std::vector<std::string> note_origin(unit::Calibration& calibration,
-                                     const std::string& serial_number, UtcTime start,
-                                     const std::vector<text::InputFile>& inputs,
+std::vector<std::string> note_origin(Calibration& calibration, const std::string& serial_number,
+                                     UtcTime start, const std::vector<text::InputFile>& inputs,
                                      const std::string& file);
 
-}  // namespace a351::corrector::command
+}  // namespace a351::unit

@@ -1,4 +1,4 @@
-#include "corrector/command/calibration_origin.hpp"
+#include "protocol/unit/calibration_origin.hpp"
 
 #include <fmt/core.h>
 
@@ -7,16 +7,15 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
 
-namespace a351::corrector::command {
+namespace a351::unit {
 
-void list_data(unit::Calibration& calibration, const unit::CalibrationData& data) {
+void list_data(Calibration& calibration, const CalibrationData& data) {
     if (std::ranges::find(calibration.data, data) == calibration.data.end())
         calibration.data.push_back(data);
 }
 
-std::vector<std::string> note_origin(unit::Calibration& calibration,
-                                     const std::string& serial_number, UtcTime start,
-                                     const std::vector<text::InputFile>& inputs,
+std::vector<std::string> note_origin(Calibration& calibration, const std::string& serial_number,
+                                     UtcTime start, const std::vector<text::InputFile>& inputs,
                                      const std::string& file) {
     if (serial_number.empty())
         throw InputError(file +
@@ -39,4 +38,4 @@ std::vector<std::string> note_origin(unit::Calibration& calibration,
     return of_archive;
 }
 
-}  // namespace a351::corrector::command
+}  // namespace a351::unit
