@@ -14,7 +14,6 @@
 namespace a351::archive {
 namespace {
 
-constexpr int kLargestSequence = 999'999;
 constexpr std::size_t kSequenceDigits = 6;
 
 bool read_record(std::istream& in, std::array<std::byte, kRecordSize>& bytes) {
@@ -26,12 +25,6 @@ std::ifstream open_day_file(const std::filesystem::path& day_file) {
     std::ifstream in(day_file, std::ios::binary);
     if (!in) throw std::system_error(errno, std::generic_category(), "open " + day_file.string());
     return in;
-}
-
-/// Returns true if a record was written before another one of its channel.
-bool precedes(int sequence, int other) {
-    const int ahead = (other - sequence + kLargestSequence) % kLargestSequence;
-    return ahead > 0 && ahead <= kLargestSequence / 2;
 }
 
 /// Returns a record that was made here, as a reader sees it.
@@ -62,6 +55,11 @@ void stamp_sequence(PackedRecord& record, int sequence) {
 }
 
 }  // namespace
+
+bool precedes(int sequence, int other) noexcept {
+    const int ahead = (other - sequence + kLargestSequence) % kLargestSequence;
+    return ahead > 0 && ahead <= kLargestSequence / 2;
+}
 
 Writer::Writer(files::FileLayer& files, std::filesystem::path archive, journal::StationCodes codes)
     : files_(files),

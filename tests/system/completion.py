@@ -68,6 +68,7 @@ esac
             (("a351-sim", "replay", "--speed", "m"), ["max"]),
             (("a351-correct", "tide", "--model", "di"), ["direct"]),
             (("a351-correct", "export", "data", "--channel", "B"), ["BNZ"]),
+            (("a351-stream", "data", "ring.example", "--st"), ["--state"]),
             (("a351-sim", "survey", "--scenario", "t"), ["three-links", "tilt-series", "tilted", "transport-step", "tsukuba", "tumble"]),
             (("a351-sim", "device", "--profile", "A35"), ["A351", "A352AD10"])):
         offered = completed(scratch, *words)

@@ -17,7 +17,7 @@ from fresh_root import SUITES, inside, make_root
 from programs import TOOLS, TOP, Scratch, demand, run, skip
 
 CLONE, ELSEWHERE = "/srv/a351", "/srv/built elsewhere"
-PROGRAMS = "a351d a351ctl a351-sim a351-correct"
+PROGRAMS = "a351d a351ctl a351-stream a351-sim a351-correct"
 
 
 def timed(root, title, command):

@@ -14,6 +14,7 @@ PAGES = {
     "a351ctl": ("daemon/ctl/a351ctl.1",
                 ["status", "watch", "start", "stop", "setup", "discard", "restore", "resume", "not-moved", "rename", "retime", "note", "target",
                  "sites", "site add", "list", "survey"]),
+    "a351-stream": ("daemon/stream/a351-stream.1", []),
 }
 OPTION = r"(?<![\w-])--[a-z][a-z0-9-]*"
 INSTALLED = (TOP / "config" / "CMakeLists.txt").read_text()

@@ -12,11 +12,12 @@ import time
 from programs import BIN, IS_SANITIZED, Scratch, demand, read_json, run, skip
 
 BUILD = BIN.parent
-SYSTEM_FILES = ["systemd/system/a351d@.service", "udev/rules.d/60-a351.rules"]
+SYSTEM_FILES = ["systemd/system/a351d@.service", "systemd/system/a351-stream@.service", "udev/rules.d/60-a351.rules"]
 PACKAGES = ["a351", "a351-correct", "a351-sim"]
-PROGRAMS = {"a351": ["a351d", "a351ctl"], "a351-correct": ["a351-correct"], "a351-sim": ["a351-sim"]}
+PROGRAMS = {"a351": ["a351d", "a351ctl", "a351-stream"], "a351-correct": ["a351-correct"], "a351-sim": ["a351-sim"]}
 MORE_FILES = {
     "a351": ["usr/lib/sysusers.d/a351.conf", "usr/share/a351/a351d.toml", "usr/share/a351/sites.csv",
+             "usr/share/man/man1/a351-stream.1.gz",
              "usr/share/man/man5/a351d.toml.5.gz", "usr/share/man/man7/a351d-http.7.gz",
              "usr/share/doc/a351/daemon/field-guide.md", "usr/share/doc/a351/daemon/field-guide.ja.md",
              "usr/share/doc/a351/protocol/journal/journal-format.md"],

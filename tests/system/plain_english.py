@@ -83,7 +83,7 @@ for path in files(PAGES):
     for number, line in enumerate(path.read_text().splitlines(), 1):
         texts += 1
         found += [f"{path.relative_to(TOP)}:{number}: {word}" for word in dialect_of(line)]
-for program in ("a351d", "a351ctl", "a351-sim", "a351-correct"):
+for program in ("a351d", "a351ctl", "a351-stream", "a351-sim", "a351-correct"):
     overview = run(BIN / program, "--help").stdout
     commands = re.findall(r"^  ([a-z]+) ", overview.split("Subcommands:\n")[1], re.M) if "Subcommands:\n" in overview else []
     for command in [[], *([one] for one in commands)]:

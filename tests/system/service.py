@@ -16,6 +16,7 @@ from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_stat
 
 PORT = 28352
 UNIT = TOP / "config" / "a351d@.service"
+STREAM_UNIT = TOP / "config" / "a351-stream@.service"
 WORST_EXPOSURE = 2.5  # Limit for systemd-analyze security, 0 (best) to 10; the unit has 2.2, one without restrictions 9.6.
 
 
@@ -70,13 +71,13 @@ def notices():
         end(sim)
 
 
-def unit_is_clean(scratch):
-    """Checks the unit with systemd-analyze, with the program that was built."""
-    unit = scratch / "a351d@.service"
-    unit.write_text(UNIT.read_text().replace("ExecStart=a351d", f"ExecStart={BIN / 'a351d'}"))
-    checked = run("systemd-analyze", "verify", "--man=no", scratch / "a351d@here.service", check=False)
-    said = [line for line in (checked.stdout + checked.stderr).splitlines() if "a351d" in line]
-    demand(f"systemd-analyze verify reports {said or 'nothing'}", not said and checked.returncode == 0)
+def unit_is_clean(scratch, source):
+    """Checks a unit with systemd-analyze, with the program that was built."""
+    program, unit = source.name.removesuffix("@.service"), scratch / source.name
+    unit.write_text(source.read_text().replace(f"ExecStart={program}", f"ExecStart={BIN / program}"))
+    checked = run("systemd-analyze", "verify", "--man=no", scratch / f"{program}@here.service", check=False)
+    said = [line for line in (checked.stdout + checked.stderr).splitlines() if program in line]
+    demand(f"systemd-analyze verify reports {said or 'nothing'} of {source.name}", not said and checked.returncode == 0)
     security = run("systemd-analyze", "security", "--no-pager", "--offline=true", unit, check=False).stdout
     exposure = re.search(r"Overall exposure level for .*: ([\d.]+)", security)
     if exposure:
@@ -121,5 +122,6 @@ if missing or IS_SANITIZED:  # Sanitizers make additional system calls.
     skip("the notifications are correct; the unit was not tested: "
          f"{' and '.join(missing) + ' missing' if missing else 'sanitizers make additional system calls'}")
 with Scratch() as scratch:
-    unit_is_clean(scratch)
+    unit_is_clean(scratch, UNIT)
+    unit_is_clean(scratch, STREAM_UNIT)
     calls_are_allowed(scratch)

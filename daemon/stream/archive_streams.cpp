@@ -1,0 +1,251 @@
+#include "daemon/stream/archive_streams.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "protocol/archive/archive_writer.hpp"
+#include "protocol/archive/sds.hpp"
+#include "protocol/files/file_bytes.hpp"
+#include "protocol/files/file_layer.hpp"
+
+namespace a351::daemon::stream {
+namespace {
+
+namespace fs = std::filesystem;
+using archive::kRecordSize;
+using std::chrono::days;
+using std::chrono::sys_days;
+
+/// A clock set back over midnight continues an older day; see archive::recent_day_files().
+constexpr days kSetBack{2};
+/// Records read at once: 32 KiB, so that ten streams need little memory.
+constexpr std::uint64_t kRecordsAhead = 64;
+constexpr std::chrono::seconds kBetweenLists{5};
+
+struct DayName {
+    journal::StationCodes codes;
+    std::string channel;
+    sys_days day;
+};
+
+bool is_code_character(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
+
+/// Reads the name of a day file: NET.STA.LOC.CHAN.D.YEAR.DAY.
+std::optional<DayName> parse_day_name(const std::string& name) {
+    std::vector<std::string> parts(1);
+    for (const char c : name) {
+        if (c == '.')
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    if (parts.size() != 7 || parts[4] != "D" || !files::has_shape(parts[5], "####") ||
+        !files::has_shape(parts[6], "###") || parts[3].size() != 3 ||
+        !std::ranges::all_of(parts[3], is_code_character))
+        return std::nullopt;
+    DayName day{.codes = {.network = parts[0], .station = parts[1], .location = parts[2]},
+                .channel = parts[3],
+                .day = sys_days(std::chrono::year(std::stoi(parts[5])) / 1 / 1) +
+                       days(std::stoi(parts[6]) - 1)};
+    if (!are_valid(day.codes)) return std::nullopt;
+    return day;
+}
+
+std::uint64_t size_of(const fs::path& file) {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    return error ? 0 : size;  // A day file that a repair removed has no records.
+}
+
+/// Returns the offset behind a record in a day file; 0 if it is not there.
+std::uint64_t offset_behind(const fs::path& file, const Mark& mark) {
+    const auto bytes = files::read_bytes(file);
+    const std::string digits = fmt::format("{:06}", mark.sequence);
+    for (std::size_t at = 0; at + kRecordSize <= bytes.size(); at += kRecordSize) {
+        if (std::memcmp(bytes.data() + at, digits.data(), digits.size()) != 0) continue;
+        const auto found = mark_of(std::span(bytes).subspan(at, kRecordSize));
+        if (found && found->start == mark.start) return at + kRecordSize;
+    }
+    return 0;
+}
+
+/// Returns true if the last whole record of a day file was sent before, or with, `last`.
+bool ends_sent(const fs::path& file, std::uint64_t size, const Mark& last) {
+    if (size < kRecordSize) return false;
+    const auto mark =
+        mark_of(files::read_bytes(file, (size / kRecordSize - 1) * kRecordSize, kRecordSize));
+    return mark && is_sent(*mark, last);
+}
+
+}  // namespace
+
+std::optional<Mark> mark_of(std::span<const std::byte> bytes) {
+    const auto record = archive::decode_record(bytes);
+    if (!record) return std::nullopt;
+    return Mark{record->header.sequence, record->header.start, record->last_sample()};
+}
+
+bool is_sent(const Mark& record, const Mark& last) {
+    if (record.sequence != last.sequence && !archive::precedes(record.sequence, last.sequence))
+        return false;
+    const days later = floor<days>(record.start) - floor<days>(last.start);
+    return record.start <= last.end || (later > days(0) && later <= kSetBack);
+}
+
+fs::path ArchiveStreams::file_of(const Stream& stream, sys_days day) const {
+    const std::chrono::year year = std::chrono::year_month_day(day).year();
+    const fs::path& stem = stream.stem;  // NET/STA/CHAN.D/NET.STA.LOC.CHAN.D
+    return archive_ / fmt::format("{:04}", static_cast<int>(year)) / stem.parent_path() /
+           fmt::format("{}.{:04}.{:03}", stem.filename().string(), static_cast<int>(year),
+                       (day - sys_days(year / 1 / 1)).count() + 1);
+}
+
+void ArchiveStreams::list() {
+    if (!fs::is_directory(archive_)) return;
+    for (const auto& entry : fs::recursive_directory_iterator(archive_)) {
+        const auto name = parse_day_name(entry.path().filename().string());
+        if (!name) continue;
+        const auto& [codes, channel, day] = *name;
+        Stream& stream = streams_[fmt::format("{}_{}_{}_{}", codes.network, codes.station,
+                                              codes.location, channel)];
+        stream.channel = channel;
+        stream.stem =
+            fs::path(codes.network) / codes.station / (channel + ".D") /
+            fmt::format("{}.{}.{}.{}.D", codes.network, codes.station, codes.location, channel);
+        if (entry.path() != file_of(stream, day)) continue;
+        if (day >= stream.first_day) stream.days.try_emplace(day);
+    }
+}
+
+void ArchiveStreams::begin_at(Stream& stream, UtcTime time) {
+    stream.first_day = floor<days>(time) - kSetBack;
+    stream.days.erase(stream.days.begin(), stream.days.lower_bound(stream.first_day));
+}
+
+/// Finds the sizes of the day files.  A day file that became shorter was repaired: what is appended
+/// then may have been sent before the repair, which is_sent() tells.
+void ArchiveStreams::examine(Stream& stream) const {
+    if (stream.days.empty()) return;
+    stream.days.try_emplace(stream.days.rbegin()->first + days(1));
+    for (auto& [day, file] : stream.days) {
+        file.size = size_of(file_of(stream, day));
+        if (file.size >= file.read_to) continue;
+        file.ahead.clear();
+        file.read_to = file.size;
+    }
+    if (stream.last) begin_at(stream, stream.last->start);
+    while (stream.days.size() > 1 && stream.days.rbegin()->second.size == 0)
+        stream.days.erase(std::prev(stream.days.end()));
+}
+
+void ArchiveStreams::look(std::chrono::steady_clock::time_point now) {
+    if (!listed_ || now - *listed_ >= kBetweenLists) {
+        list();
+        listed_ = now;
+    }
+    for (auto& [name, stream] : streams_) examine(stream);
+}
+
+std::vector<std::string> ArchiveStreams::unplaced() const {
+    std::vector<std::string> names;
+    for (const auto& [name, stream] : streams_)
+        if (!stream.is_placed) names.push_back(name);
+    return names;
+}
+
+void ArchiveStreams::place(const std::string& name, std::optional<Mark> last, UtcTime from) {
+    Stream& stream = streams_.at(name);
+    stream.is_placed = true;
+    stream.last = last;
+    stream.from = from;
+    begin_at(stream, last ? last->start : from);
+    if (!last) return;
+    for (auto& [day, file] : stream.days) {
+        const auto path = file_of(stream, day);
+        const days later = day - floor<days>(last->start);
+        if (later == days(0) && file.size > 0)
+            file.read_to = offset_behind(path, *last);
+        else if (later < days(0) && ends_sent(path, file.size, *last))
+            file.read_to = file.size / kRecordSize * kRecordSize;
+    }
+}
+
+/// Reads further records of a day file, if none is ahead.  Returns false if it has none.
+bool ArchiveStreams::fill(const std::string& name, Stream& stream, sys_days day) {
+    DayFile& file = stream.days.at(day);
+    const auto is_old = [&](const Mark& mark) {
+        return stream.last ? is_sent(mark, *stream.last) : mark.end < stream.from;
+    };
+    while (true) {
+        while (!file.ahead.empty() && is_old(file.ahead.front().mark)) file.ahead.pop_front();
+        if (!file.ahead.empty()) return true;
+        const std::uint64_t left = file.size - file.read_to;
+        if (left < kRecordSize) return false;
+        const auto path = file_of(stream, day);
+        const auto count = std::min(left / kRecordSize, kRecordsAhead) * kRecordSize;
+        const auto bytes = files::read_bytes(path, file.read_to, count);
+        std::size_t begin = 0;
+        for (std::size_t at = 0; const auto found = archive::next_record(bytes, stream.channel, at);
+             begin = at) {
+            Record record{
+                name, {}, {found->header.sequence, found->header.start, found->last_sample()}};
+            const std::size_t start = at - kRecordSize;
+            if (start > begin) damage_.push_back({path, file.read_to + begin, start - begin});
+            std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(start), kRecordSize,
+                        record.bytes.begin());
+            file.ahead.push_back(std::move(record));
+        }
+        if (begin == 0 && count == left / kRecordSize * kRecordSize)
+            return false;  // The end of the file is damaged: the daemon repairs it at its start.
+        if (begin == 0) {
+            begin = count - kRecordSize + 1;  // A record may begin in the last bytes.
+            damage_.push_back({path, file.read_to, begin});
+        }
+        file.read_to += begin;
+    }
+}
+
+/// Returns the day with the next record.  That is the oldest one, unless a newer day has the next
+/// sequence number.
+ArchiveStreams::DayFile* ArchiveStreams::day_of_next(const std::string& name, Stream& stream) {
+    DayFile* oldest = nullptr;
+    sys_days first;
+    for (auto& [day, file] : stream.days) {
+        if (oldest && day - first > kSetBack) break;
+        if (!fill(name, stream, day)) continue;
+        const int sequence = file.ahead.front().mark.sequence;
+        if (!stream.last || sequence == stream.last->sequence % archive::kLargestSequence + 1)
+            return &file;
+        if (!oldest) {
+            oldest = &file;
+            first = day;
+        }
+    }
+    return oldest;
+}
+
+std::optional<Record> ArchiveStreams::next() {
+    DayFile* earliest = nullptr;
+    Stream* owner = nullptr;
+    for (auto& [name, stream] : streams_) {
+        if (!stream.is_placed) continue;
+        DayFile* const file = day_of_next(name, stream);
+        if (!file) continue;
+        if (earliest && earliest->ahead.front().mark.end <= file->ahead.front().mark.end) continue;
+        earliest = file;
+        owner = &stream;
+    }
+    if (!earliest) return std::nullopt;
+    Record record = std::move(earliest->ahead.front());
+    earliest->ahead.pop_front();
+    owner->last = record.mark;
+    return record;
+}
+
+std::vector<archive::Damage> ArchiveStreams::take_damage() { return std::exchange(damage_, {}); }
+
+}  // namespace a351::daemon::stream
