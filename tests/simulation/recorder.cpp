@@ -186,6 +186,9 @@ void Recorder::check_promises(const Status& status) {
 /// The live record must follow what arrives, whatever the disk does.
 void Recorder::check_view(const Status& status) {
     const Nanoseconds now = world_.schedule.now();
+    // A handshake can fit between two looks.
+    const std::uint64_t sessions = status.more_counters.at("link_sessions");
+    if (std::exchange(watched_sessions_, sessions) != sessions) sampling_since_.reset();
     if (status.link_state != "sampling" || !is_recovered_) {
         sampling_since_.reset();
         return;

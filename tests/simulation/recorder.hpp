@@ -99,6 +99,7 @@ private:
     std::vector<std::string> attempted_;  ///< Events of the operator's present action.
     int stays_ = 0;
     std::optional<Nanoseconds> sampling_since_, last_taken_;
+    std::uint64_t watched_sessions_ = 0;  ///< Sessions of the link at the last look.
     std::size_t memory_at_start_ = 0;
 };
 
