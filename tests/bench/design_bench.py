@@ -1,9 +1,12 @@
 """Compares the uncertainty that `a351-correct design` expects with errors and uncertainties of simulated days of the same plan.
 
-usage: design_bench.py [SEEDS [FOLDER]]    (A351_BIN, A351_TOOLS)
+usage: design_bench.py [SEEDS [FOLDER [PLAN [NOISE]]]]    (A351_BIN, A351_TOOLS)
 SEEDS: default 12001-12040, which were not used while the command was developed.  FOLDER: keeps the results of each day; days
-with results are not computed again.  Each seed draws a unit within +-25 % and a day of tsukuba's weather for every plan.  Nothing
-is fitted to the days: the design knows the plan and a usual unit only.
+with results are not computed again.  PLAN: the first letters of a plan, default all.  NOISE: usual (default), placement and flicker
+of 1.2 mGal; drawn, both from the prior of a day, 1.2 mGal within a factor 2, in even steps of its distribution, so that u is right
+if it is the rms error; told, usual with the placement known to the day, from a calibration.
+Each seed draws a unit within +-25 % and a day of tsukuba's weather for every plan.  Nothing is fitted to the days: the design
+knows the plan and a usual unit only.
 
 Errors are those of gravity_mgal in stations.csv at the stations without a reference, u is u_gravity_mgal there.  Promised: the
 expected uncertainty is within 15 % of the rms error.  The limits of the ratios are 95 % bootstrap intervals, drawn by day.
@@ -16,6 +19,7 @@ import os
 import pathlib
 import random
 import shutil
+import statistics
 import sys
 import tomllib
 
@@ -30,6 +34,18 @@ PLANS = {"1 x 12 min": (ROUND, 1, 12.0, ("No.0", "No.7")), "2 x 6 min": (ROUND, 
          "4 x 3 min": (ROUND, 4, 3.0, ("No.0", "No.7")), "one datum, two loops": (LOOP, 1, 12.0, ("No.0",))}
 PROMISED = 0.85, 1.15
 DRAWS = 1000
+USUAL_MGAL, FACTOR = 1.2, 2.0  # Placement and flicker, and their prior: corrector/methods.md, "The whole-day model".
+CALIBRATION = """format = 1
+serial_number = "00000001"
+program = "design_bench"
+valid_from_utc = "2017-01-01T00:00:00Z"
+[placement]
+standard_deviation_mgal = 1.2
+limits_mgal = [1.14, 1.26]
+[[data]]
+name = "made up"
+sha256 = "0000000000000000000000000000000000000000000000000000000000000000"
+"""
 
 
 def instants(count):
@@ -78,14 +94,24 @@ def expected_u(folder, plan):
     return json.loads(run(BIN / "a351-correct", "design", "plan.csv", "--sites", "sites.csv", "--json", cwd=folder).stdout)["u_mgal"]
 
 
+def slow_noise(place, count):
+    """Returns the noise of the day at a place among `count` days: placement and flicker in even steps of their distributions."""
+    def mgal(share):
+        return USUAL_MGAL * FACTOR ** statistics.NormalDist().inv_cdf(share)
+    order = random.Random(count).sample(range(count), count)  # Of the flicker, so that it does not go with the placement.
+    return f"[slow_noise]\nplacement_mgal = {mgal((place + 0.5) / count)}\nflicker_mgal = {mgal((order[place] + 0.5) / count)}\n"
+
+
 def look_at(scratch, seed, plan):
     """Returns model and [error, u] of each unknown station of a day."""
     visits, set_ups, minutes_each, known = PLANS[plan]
     folder = scratch / f"{seed}-{list(PLANS).index(plan)}"
     folder.mkdir()
-    day = simulate(folder, "day", "tsukuba", seed, 0.25, scenario_of(visits, set_ups, minutes_each))
+    drawn = slow_noise(seeds.index(seed), len(seeds)) if noise == "drawn" else ""
+    day = simulate(folder, "day", "tsukuba", seed, 0.25, drawn + scenario_of(visits, set_ups, minutes_each))
     survey, truth = hide_references(day, known, "known")
-    out = correct(folder, survey, "result")
+    (folder / "unit.toml").write_text(CALIBRATION)
+    out = correct(folder, survey, "result", *(["--calibration", folder / "unit.toml"] if noise == "told" else []))
     found = [read_json(out / "result.json")["model"],
              [[float(row["gravity_mgal"]) - truth[row["site"]], float(row["u_gravity_mgal"])]
               for row in rows(out / "stations.csv") if row["site"] not in known]]
@@ -95,7 +121,7 @@ def look_at(scratch, seed, plan):
 
 def kept(store, scratch, seed, plan):
     """Returns the result of look_at(), computed now or read from an earlier run."""
-    file = store / f"{seed}-{list(PLANS).index(plan)}.json"
+    file = store / f"{noise}-{seed}-{list(PLANS).index(plan)}.json"
     if not file.exists():
         file.write_text(json.dumps(look_at(scratch, seed, plan)))
         print(f"{plan}: day {seed} done", flush=True)
@@ -110,11 +136,13 @@ def ratio_with_limits(expected, days, place):
 
 
 seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "12001-12040")
+only = sys.argv[3] if len(sys.argv) > 3 else ""
+noise = sys.argv[4] if len(sys.argv) > 4 else "usual"
 failures = []
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(int(os.environ.get("A351_JOBS", os.cpu_count()))) as pool:
     store = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else scratch
     store.mkdir(parents=True, exist_ok=True)
-    for plan in PLANS:
+    for plan in [plan for plan in PLANS if plan.startswith(only)]:
         expected = expected_u(scratch, plan)
         results = list(pool.map(lambda seed: kept(store, scratch, seed, plan), seeds))
         days = [day for _, day in results]
@@ -123,7 +151,7 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(int(os.environ.
         print(f"{plan}: expected {expected:.2f} mGal, {len(days)} days: rms error {expected / error:.2f} mGal, expected / error "
               f"{error:.2f} ({low:.2f} to {high:.2f}), promised {PROMISED[0]} to {PROMISED[1]}; rms of u {expected / stated:.2f} mGal, "
               f"expected / u {stated:.2f} ({stated_low:.2f} to {stated_high:.2f}); models {sorted({model for model, _ in results})}")
-        if not PROMISED[0] <= error <= PROMISED[1]:
+        if noise == "usual" and not PROMISED[0] <= error <= PROMISED[1]:
             failures.append(plan)
 print(f"NOT REACHED: {', '.join(failures)}" if failures else "all promises kept")
 sys.exit(bool(failures))
