@@ -17,6 +17,18 @@ std::int64_t ms_of(UtcTime time) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
 }
 
+/// Adds samples without noise: x and y as given, z about 1 g, temperature 0.
+void take_still(live::Record& live, std::int64_t first, std::int64_t last, std::int32_t z_counts) {
+    for (std::int64_t index = first; index < last; ++index)
+        live.take({index, instant_of(index), {-412, 1033, z_counts, 0}});
+}
+
+/// Returns the norm of such a sample.
+double still_norm_mgal(const wire::DeviceProfile& profile, std::int32_t z_counts) {
+    const auto g = [&](std::int32_t counts) { return profile.acceleration(counts).value(); };
+    return kMilliGalPerStandardGravity * std::hypot(g(-412), g(1033), g(z_counts));
+}
+
 }  // namespace
 
 TEST_CASE("a history has the smallest and largest value of each interval, with the unit",
@@ -77,6 +89,51 @@ TEST_CASE("a history has at most the requested number of points, within the requ
     const auto late = json::parse(history_json(
         live, "channel=x", kMorning + std::chrono::hours(24) + std::chrono::minutes(1)));
     CHECK(late["points"].size() == 30);
+}
+
+TEST_CASE("the norm of hours is that of the three axes, to 0.001 mGal", "[daemon][history]") {
+    constexpr std::int64_t kStep = 50 * 200, kEnd = 50 * 400;  // 200 s at one level, then another.
+    constexpr std::int32_t kBefore = 16'650'000, kAfter = 16'650'500;
+    live::Record live = quiet_live_record();
+    take_still(live, 0, kStep, kBefore);
+    take_still(live, kStep, kEnd, kAfter);
+    const double before = still_norm_mgal(live.profile(), kBefore),
+                 after = still_norm_mgal(live.profile(), kAfter);
+    const auto asked = [&](const std::string& query) {
+        return json::parse(history_json(live, "channel=norm&from=2026-03-14T08:00:00Z" + query, minute(10)));
+    };
+    const auto all = asked("");
+    CHECK(all["channel"] == "norm");
+    CHECK(all["unit"] == "mGal");
+    CHECK(all["interval_s"] == verdict::kLiveStepSeconds);
+    for (const json& point : all["points"]) {
+        // The filters mix both levels within kReachSeconds.
+        const double from_step_s = 1e-3 * (point[0].get<double>() - ms_of(instant_of(kStep)));
+        if (std::abs(from_step_s) <= verdict::kReachSeconds) continue;
+        CAPTURE(from_step_s);
+        CHECK(point[1].get<double>() == Approx(from_step_s < 0 ? before : after).margin(0.001));
+        CHECK(point[1] == point[2]);
+    }
+    // Joined intervals have the smallest and the largest value.
+    const auto joined = asked("&points=1")["points"];
+    REQUIRE(joined.size() == 1);
+    CHECK(joined[0][1].get<double>() <= before + 0.001);
+    CHECK(joined[0][2].get<double>() >= after - 0.001);
+    CHECK(asked("&points=7")["points"].size() <= 7);
+}
+
+TEST_CASE("the norm of hours has no points in a gap", "[daemon][history]") {
+    live::Record live = quiet_live_record();
+    take_still(live, 0, 50 * 100, 16'650'000);
+    take_still(live, 50 * 200, 50 * 300, 16'650'000);
+    const auto points = json::parse(
+        history_json(live, "channel=norm&from=2026-03-14T08:00:00Z", minute(10)))["points"];
+    const auto in_gap = [&](const json& point) {
+        return point[0].get<std::int64_t>() >= ms_of(instant_of(50 * 102)) &&
+               point[0].get<std::int64_t>() < ms_of(instant_of(50 * 198));
+    };
+    CHECK(points.size() > 50);
+    CHECK(std::ranges::none_of(points, in_gap));
 }
 
 TEST_CASE("the oven's history has process value and set point", "[daemon][history]") {
