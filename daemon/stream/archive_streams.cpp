@@ -61,14 +61,20 @@ std::uint64_t size_of(const fs::path& file) {
     return error ? 0 : size;  // A day file that a repair removed has no records.
 }
 
-/// Returns the offset behind a record in a day file; 0 if it is not there.
-std::uint64_t offset_behind(const fs::path& file, const Mark& mark) {
-    const auto bytes = files::read_bytes(file);
+/// Returns the offset behind a record in a day file; 0 if it is not there.  It is read from its end.
+std::uint64_t offset_behind(const fs::path& file, std::uint64_t size, const Mark& mark) {
     const std::string digits = fmt::format("{:06}", mark.sequence);
-    for (std::size_t at = 0; at + kRecordSize <= bytes.size(); at += kRecordSize) {
-        if (std::memcmp(bytes.data() + at, digits.data(), digits.size()) != 0) continue;
-        const auto found = mark_of(std::span(bytes).subspan(at, kRecordSize));
-        if (found && found->start == mark.start) return at + kRecordSize;
+    for (std::uint64_t end = size / kRecordSize; end > 0;) {
+        const std::uint64_t begin = (end - 1) / kRecordsAhead * kRecordsAhead;
+        const auto bytes =
+            files::read_bytes(file, begin * kRecordSize, (end - begin) * kRecordSize);
+        for (; end > begin; --end) {
+            const auto record =
+                std::span(bytes).subspan((end - 1 - begin) * kRecordSize, kRecordSize);
+            if (std::memcmp(record.data(), digits.data(), digits.size()) != 0) continue;
+            const auto found = mark_of(record);
+            if (found && found->start == mark.start) return end * kRecordSize;
+        }
     }
     return 0;
 }
@@ -78,7 +84,7 @@ bool ends_sent(const fs::path& file, std::uint64_t size, const Mark& last) {
     if (size < kRecordSize) return false;
     const auto mark =
         mark_of(files::read_bytes(file, (size / kRecordSize - 1) * kRecordSize, kRecordSize));
-    return mark && is_sent(*mark, last);
+    return mark && is_sent(*mark, last, true);
 }
 
 }  // namespace
@@ -89,11 +95,12 @@ std::optional<Mark> mark_of(std::span<const std::byte> bytes) {
     return Mark{record->header.sequence, record->header.start, record->last_sample()};
 }
 
-bool is_sent(const Mark& record, const Mark& last) {
+bool is_sent(const Mark& record, const Mark& last, bool is_last_archived) {
     if (record.sequence != last.sequence && !archive::precedes(record.sequence, last.sequence))
         return false;
+    if (record.start <= last.end) return true;
     const days later = floor<days>(record.start) - floor<days>(last.start);
-    return record.start <= last.end || (later > days(0) && later <= kSetBack);
+    return is_last_archived && later > days(0) && later <= kSetBack;
 }
 
 fs::path ArchiveStreams::file_of(const Stream& stream, sys_days day) const {
@@ -134,8 +141,9 @@ void ArchiveStreams::examine(Stream& stream) const {
     for (auto& [day, file] : stream.days) {
         file.size = size_of(file_of(stream, day));
         if (file.size >= file.read_to) continue;
-        file.ahead.clear();
+        while (!file.ahead.empty() && file.ahead.back().end > file.size) file.ahead.pop_back();
         file.read_to = file.size;
+        stream.is_last_archived = false;  // It may be among the records that were cut off.
     }
     if (stream.last) begin_at(stream, stream.last->start);
     while (stream.days.size() > 1 && stream.days.rbegin()->second.size == 0)
@@ -167,10 +175,12 @@ void ArchiveStreams::place(const std::string& name, std::optional<Mark> last, Ut
     for (auto& [day, file] : stream.days) {
         const auto path = file_of(stream, day);
         const days later = day - floor<days>(last->start);
-        if (later == days(0) && file.size > 0)
-            file.read_to = offset_behind(path, *last);
-        else if (later < days(0) && ends_sent(path, file.size, *last))
+        if (later == days(0)) {
+            file.read_to = offset_behind(path, file.size, *last);
+            stream.is_last_archived = file.read_to > 0;
+        } else if (later < days(0) && ends_sent(path, file.size, *last)) {
             file.read_to = file.size / kRecordSize * kRecordSize;
+        }
     }
 }
 
@@ -178,21 +188,24 @@ void ArchiveStreams::place(const std::string& name, std::optional<Mark> last, Ut
 bool ArchiveStreams::fill(const std::string& name, Stream& stream, sys_days day) {
     DayFile& file = stream.days.at(day);
     const auto is_old = [&](const Mark& mark) {
-        return stream.last ? is_sent(mark, *stream.last) : mark.end < stream.from;
+        return stream.last ? is_sent(mark, *stream.last, stream.is_last_archived)
+                           : mark.end < stream.from;
     };
     while (true) {
         while (!file.ahead.empty() && is_old(file.ahead.front().mark)) file.ahead.pop_front();
         if (!file.ahead.empty()) return true;
+        if (file.size < file.read_to + kRecordSize) return false;
         const std::uint64_t left = file.size - file.read_to;
-        if (left < kRecordSize) return false;
         const auto path = file_of(stream, day);
         const auto count = std::min(left / kRecordSize, kRecordsAhead) * kRecordSize;
         const auto bytes = files::read_bytes(path, file.read_to, count);
         std::size_t begin = 0;
         for (std::size_t at = 0; const auto found = archive::next_record(bytes, stream.channel, at);
              begin = at) {
-            Record record{
-                name, {}, {found->header.sequence, found->header.start, found->last_sample()}};
+            Record record{name,
+                          {},
+                          {found->header.sequence, found->header.start, found->last_sample()},
+                          file.read_to + at};
             const std::size_t start = at - kRecordSize;
             if (start > begin) damage_.push_back({path, file.read_to + begin, start - begin});
             std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(start), kRecordSize,
@@ -243,6 +256,7 @@ std::optional<Record> ArchiveStreams::next() {
     Record record = std::move(earliest->ahead.front());
     earliest->ahead.pop_front();
     owner->last = record.mark;
+    owner->is_last_archived = true;
     return record;
 }
 

@@ -44,16 +44,18 @@ struct Mark {
 /// Returns true if a record was sent before, or with, the last one that was sent.
 ///
 /// Its sequence number is not later, and it begins before the end of the last one.  The second
-/// condition matters after a power cut that cost records already sent: their numbers are used
-/// again for later samples.  On the two days after that of the last record the number decides
-/// alone, because the host's clock may have been set back over midnight.
-[[nodiscard]] bool is_sent(const Mark& record, const Mark& last);
+/// condition matters if the last one is not in the archive: after a power cut that cost records
+/// already sent, and in a new archive, their numbers are used again for later samples.
+/// @param is_last_archived  the last one is in the archive.  Then the number decides alone on the two
+///     days after it, because the host's clock may have been set back over midnight.
+[[nodiscard]] bool is_sent(const Mark& record, const Mark& last, bool is_last_archived);
 
 /// Record of the archive, as it is in its day file.
 struct Record {
     std::string stream;  ///< Name of the stream.
     std::array<std::byte, archive::kRecordSize> bytes{};
     Mark mark;
+    std::uint64_t end = 0;  ///< Offset behind it in its day file.
 };
 
 /// Streams of an archive.  A stream is one channel of one station, named NET_STA_LOC_CHAN.
@@ -96,6 +98,7 @@ private:
         std::string channel;
         bool is_placed = false;
         std::optional<Mark> last;  ///< Record taken last.
+        bool is_last_archived = false;
         UtcTime from;              ///< Used without `last`.
         std::chrono::sys_days first_day = std::chrono::sys_days::min();
         std::map<std::chrono::sys_days, DayFile> days;  ///< From `first_day` on.

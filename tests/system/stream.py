@@ -42,9 +42,19 @@ class Client:
         self.process = subprocess.Popen(self.command, stderr=self.log)
 
     def end(self, how=signal.SIGTERM):
+        """Returns what is wrong with the end, or nothing: demand() in a thread ends the thread only."""
         self.process.send_signal(how)
-        status = self.process.wait(timeout=30)
-        demand(f"a351-stream ends on signal {how} with {status}", status == (0 if how == signal.SIGTERM else -how))
+        try:
+            status = self.process.wait(timeout=30)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+            return [f"a351-stream does not end on signal {how}"]
+        return [] if status == (0 if how == signal.SIGTERM else -how) else [f"a351-stream ends on signal {how} with {status}"]
+
+    def end_well(self, how=signal.SIGTERM):
+        faults = self.end(how)
+        demand(f"a351-stream ends as told {faults}", not faults)
 
 
 def archived(archive):
@@ -83,8 +93,8 @@ def demand_headers(ring):
     demand(f"each packet says when its record begins and ends {wrong[:3]}", not wrong)
 
 
-def trouble_for(ring, client, stop):
-    """Restarts server and client until told to stop; every mood comes at least once."""
+def trouble_for(ring, client, stop, faults):
+    """Restarts server and client until told to stop; every mood comes at least once.  It adds what goes wrong to `faults`."""
     chance = random.Random(SEED)
     ring.moods = list(SEVEN_MOODS)
     restarts = 0
@@ -95,7 +105,7 @@ def trouble_for(ring, client, stop):
             stop.wait(chance.uniform(0.0, 0.5))
             ring.start()
         else:
-            client.end(chance.choice([signal.SIGTERM, signal.SIGKILL]))
+            faults += client.end(chance.choice([signal.SIGTERM, signal.SIGKILL]))
             client.start()
         restarts += 1
     print(f"{restarts} restarts, {ring.connections} connections: {', '.join(ring.seen)}")
@@ -113,25 +123,26 @@ def live(scratch):
     patient.start()
     waiting = Client(scratch / "data", patient.port, scratch / "waiting.log", scratch / "waiting.positions")
     session = Session(scratch, speed=SPEED, scenario="midnight.toml", start=START)
-    stop = threading.Event()
-    trouble = threading.Thread(target=trouble_for, args=(ring, client, stop))
+    stop, faults = threading.Event(), []
+    trouble = threading.Thread(target=trouble_for, args=(ring, client, stop, faults))
     trouble.start()
     session.wait_for_frames(FRAMES)
     stop.set()
     trouble.join()
+    demand(f"the client ended as told each time {faults}", not faults)
     while_growing = len(ring.packets)
     demand(f"{while_growing} packets came while the archive grew", while_growing > 0)
     session.end()
     session.archive_is_true(missing=0)
     demand("every kind of trouble happened", set(SEVEN_MOODS) <= set(ring.seen))
     if client.process.poll() is None:
-        client.end()
+        client.end_well()
     client.start()
     demand_same("after all troubles", ring, scratch / "data" / "archive")
     demand_headers(ring)
-    client.end()
+    client.end_well()
     demand_same("after a hang", patient, scratch / "data" / "archive")
-    waiting.end()
+    waiting.end_well()
     said = (scratch / "waiting.log").read_text()
     for text in ("no answer within 10 s", "connected again"):
         demand(f"the hang is reported: {text}", said.count(f"a351-stream: 127.0.0.1:{patient.port}: {text}\n") == 1)
@@ -163,13 +174,13 @@ def torn(scratch):
                     out.truncate(size)
                 cuts += 1
                 if chance.random() < 0.3:
-                    client.end(signal.SIGKILL)
+                    client.end_well(signal.SIGKILL)
                     client.start()
     print(f"{cuts} cuts of {len(days)} day files")
     demand_same("after cuts", ring, root / "archive")
 
     # A record is damaged, and good ones follow it: it is skipped and reported.
-    client.end()
+    client.end_well()
     damaged = scratch / "damaged"
     shutil.copytree(root / "archive", damaged / "archive")
     file = damaged / "archive" / days[0]

@@ -65,17 +65,20 @@ std::vector<int> sequences_after(const Archive& archive, std::optional<Mark> las
 TEST_CASE("a record counts as sent by its number, or by its time after a power cut",
           "[daemon][stream]") {
     const Mark last = mark(100, kNoon);
-    CHECK(is_sent(last, last));
-    CHECK(is_sent(mark(99, kNoon - seconds(10)), last));
-    CHECK_FALSE(is_sent(mark(101, kNoon + seconds(10)), last));
-    CHECK(is_sent(mark(999'999, kNoon - seconds(20)), mark(1, kNoon)));
-    CHECK_FALSE(is_sent(mark(1, kNoon + seconds(10)), mark(999'999, kNoon)));
+    CHECK(is_sent(last, last, true));
+    CHECK(is_sent(mark(99, kNoon - seconds(10)), last, true));
+    CHECK_FALSE(is_sent(mark(101, kNoon + seconds(10)), last, true));
+    CHECK(is_sent(mark(999'999, kNoon - seconds(20)), mark(1, kNoon), true));
+    CHECK_FALSE(is_sent(mark(1, kNoon + seconds(10)), mark(999'999, kNoon), true));
     // Numbers 99 and 100 were lost in a power cut after they were sent; later samples have them again.
-    CHECK_FALSE(is_sent(mark(99, kNoon + seconds(30)), last));
+    CHECK_FALSE(is_sent(mark(99, kNoon + seconds(30)), last, true));
     // The clock was set back: an earlier time with a later number.
-    CHECK_FALSE(is_sent(mark(101, kNoon - seconds(3600)), last));
+    CHECK_FALSE(is_sent(mark(101, kNoon - seconds(3600)), last, true));
     // It was set back over midnight: the records of the next day were sent before.
-    CHECK(is_sent(mark(99, kNoon + days(1)), last));
+    CHECK(is_sent(mark(99, kNoon + days(1)), last, true));
+    // The last record is not in the archive: it is another one, or a power cut took it.
+    CHECK_FALSE(is_sent(mark(99, kNoon + days(1)), last, false));
+    CHECK(is_sent(mark(99, kNoon - seconds(10)), last, false));
 }
 
 TEST_CASE("sending continues behind the last record in any file", "[daemon][stream]") {
@@ -91,6 +94,39 @@ TEST_CASE("sending continues behind the last record in any file", "[daemon][stre
     archive.append(5, midnight + seconds(40));
     archive.append(6, midnight + seconds(300));
     CHECK(sequences_after(archive, mark(5, midnight + seconds(40))) == std::vector{6});
+}
+
+TEST_CASE("a new archive is sent although its numbers are those of the day before",
+          "[daemon][stream]") {
+    Archive archive;
+    const UtcTime midnight = floor<days>(kNoon) + days(1);
+    for (int i = 1; i <= 3; ++i) archive.append(i, midnight + seconds(20 * i));
+    CHECK(sequences_after(archive, mark(5000, kNoon)) == std::vector{1, 2, 3});
+    CHECK(sequences_after(archive, mark(5000, kNoon - days(1))) == std::vector{1, 2, 3});
+}
+
+TEST_CASE("numbers that a power cut took are sent with their new samples after midnight",
+          "[daemon][stream]") {
+    Archive archive;
+    const UtcTime midnight = floor<days>(kNoon) + days(1);
+    for (int i = 1; i <= 2; ++i) archive.append(i, midnight - seconds(100 - 20 * i));
+    archive.append(3, midnight + seconds(20));
+    archive.append(4, midnight + seconds(40));
+    CHECK(sequences_after(archive, mark(4, midnight - seconds(20))) == std::vector{3, 4});
+}
+
+TEST_CASE("a cut of a day file leaves the records that were read before it", "[daemon][stream]") {
+    Archive archive;
+    for (int i = 1; i <= 10; ++i) archive.append(i, kNoon + seconds(20 * i));
+    ArchiveStreams streams(archive.root());
+    streams.look({});
+    streams.place("XX_A351_00_BNZ", std::nullopt, UtcTime::min());
+    CHECK(streams.next()->mark.sequence == 1);
+    const auto file = archive.day_of(kNoon);
+    std::filesystem::resize_file(file, 8 * 512);
+    streams.look({});
+    for (int i = 2; i <= 8; ++i) CHECK(streams.next()->mark.sequence == i);
+    CHECK_FALSE(streams.next());
 }
 
 TEST_CASE("records come in the order of writing after a clock was set back over midnight",
