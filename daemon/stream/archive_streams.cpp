@@ -24,6 +24,8 @@ using std::chrono::sys_days;
 constexpr days kSetBack{2};
 /// Records read at once: 32 KiB, so that ten streams need little memory.
 constexpr std::uint64_t kRecordsAhead = 64;
+/// Page of the kernel: it reads at least so much at once, so an unreadable sector costs that.
+constexpr std::uint64_t kPage = 4096;
 constexpr std::chrono::seconds kBetweenLists{5};
 
 struct DayName {
@@ -61,13 +63,24 @@ std::uint64_t size_of(const fs::path& file) {
     return error ? 0 : size;  // A day file that a repair removed has no records.
 }
 
+/// Reads bytes of a day file; none if the disk cannot read them all.
+std::vector<std::byte> readable(const fs::path& file, std::uint64_t offset, std::uint64_t count) {
+    try {
+        return files::read_bytes(file, offset, count);
+    } catch (const std::system_error&) {
+        if (size_of(file) < offset + count) throw;         // It was cut meanwhile.
+        static_cast<void>(files::read_bytes(file, 0, 0));  // Throws if it cannot be opened.
+        return {};
+    }
+}
+
 /// Returns the offset behind a record in a day file; 0 if it is not there.  It is read from its end.
 std::uint64_t offset_behind(const fs::path& file, std::uint64_t size, const Mark& mark) {
     const std::string digits = fmt::format("{:06}", mark.sequence);
     for (std::uint64_t end = size / kRecordSize; end > 0;) {
         const std::uint64_t begin = (end - 1) / kRecordsAhead * kRecordsAhead;
-        const auto bytes =
-            files::read_bytes(file, begin * kRecordSize, (end - begin) * kRecordSize);
+        const auto bytes = readable(file, begin * kRecordSize, (end - begin) * kRecordSize);
+        if (bytes.empty()) end = begin;
         for (; end > begin; --end) {
             const auto record =
                 std::span(bytes).subspan((end - 1 - begin) * kRecordSize, kRecordSize);
@@ -82,8 +95,8 @@ std::uint64_t offset_behind(const fs::path& file, std::uint64_t size, const Mark
 /// Returns true if the last whole record of a day file was sent before, or with, `last`.
 bool ends_sent(const fs::path& file, std::uint64_t size, const Mark& last) {
     if (size < kRecordSize) return false;
-    const auto mark =
-        mark_of(files::read_bytes(file, (size / kRecordSize - 1) * kRecordSize, kRecordSize));
+    const auto bytes = readable(file, (size / kRecordSize - 1) * kRecordSize, kRecordSize);
+    const auto mark = mark_of(bytes);
     return mark && is_sent(*mark, last, true);
 }
 
@@ -103,9 +116,9 @@ bool is_sent(const Mark& record, const Mark& last, bool is_last_archived) {
     return is_last_archived && later > days(0) && later <= kSetBack;
 }
 
-fs::path ArchiveStreams::file_of(const Stream& stream, sys_days day) const {
+/// @param stem  NET/STA/CHAN.D/NET.STA.LOC.CHAN.D
+fs::path ArchiveStreams::file_of(const fs::path& stem, sys_days day) const {
     const std::chrono::year year = std::chrono::year_month_day(day).year();
-    const fs::path& stem = stream.stem;  // NET/STA/CHAN.D/NET.STA.LOC.CHAN.D
     return archive_ / fmt::format("{:04}", static_cast<int>(year)) / stem.parent_path() /
            fmt::format("{}.{:04}.{:03}", stem.filename().string(), static_cast<int>(year),
                        (day - sys_days(year / 1 / 1)).count() + 1);
@@ -117,20 +130,32 @@ void ArchiveStreams::list() {
         const auto name = parse_day_name(entry.path().filename().string());
         if (!name) continue;
         const auto& [codes, channel, day] = *name;
-        Stream& stream = streams_[fmt::format("{}_{}_{}_{}", codes.network, codes.station,
-                                              codes.location, channel)];
-        stream.channel = channel;
-        stream.stem =
+        const fs::path stem =
             fs::path(codes.network) / codes.station / (channel + ".D") /
             fmt::format("{}.{}.{}.{}.D", codes.network, codes.station, codes.location, channel);
-        if (entry.path() != file_of(stream, day)) continue;
-        if (day >= stream.first_day) stream.days.try_emplace(day);
+        if (entry.path() != file_of(stem, day)) continue;  // A copy elsewhere, or no day of a year.
+        Stream& stream = streams_[fmt::format("{}_{}_{}_{}", codes.network, codes.station,
+                                              codes.location, channel)];
+        stream.codes = codes;
+        stream.channel = channel;
+        stream.stem = stem;
+        if (day >= stream.first_day) {
+            stream.days.try_emplace(day);
+            continue;
+        }
+        const std::uint64_t size = size_of(entry.path());
+        std::uint64_t& passed = stream.passed[day];
+        if (size > passed && stream.last) too_old_.push_back(entry.path());
+        passed = size;
     }
 }
 
 void ArchiveStreams::begin_at(Stream& stream, UtcTime time) {
     stream.first_day = floor<days>(time) - kSetBack;
-    stream.days.erase(stream.days.begin(), stream.days.lower_bound(stream.first_day));
+    const auto first = stream.days.lower_bound(stream.first_day);
+    for (auto it = stream.days.begin(); it != first; ++it)
+        stream.passed[it->first] = it->second.size;
+    stream.days.erase(stream.days.begin(), first);
 }
 
 /// Finds the sizes of the day files.  A day file that became shorter was repaired: what is appended
@@ -139,7 +164,7 @@ void ArchiveStreams::examine(Stream& stream) const {
     if (stream.days.empty()) return;
     stream.days.try_emplace(stream.days.rbegin()->first + days(1));
     for (auto& [day, file] : stream.days) {
-        file.size = size_of(file_of(stream, day));
+        file.size = size_of(file_of(stream.stem, day));
         if (file.size >= file.read_to) continue;
         while (!file.ahead.empty() && file.ahead.back().end > file.size) file.ahead.pop_back();
         file.read_to = file.size;
@@ -173,7 +198,7 @@ void ArchiveStreams::place(const std::string& name, std::optional<Mark> last, Ut
     begin_at(stream, last ? last->start : from);
     if (!last) return;
     for (auto& [day, file] : stream.days) {
-        const auto path = file_of(stream, day);
+        const auto path = file_of(stream.stem, day);
         const days later = day - floor<days>(last->start);
         if (later == days(0)) {
             file.read_to = offset_behind(path, file.size, *last);
@@ -196,9 +221,19 @@ bool ArchiveStreams::fill(const std::string& name, Stream& stream, sys_days day)
         if (!file.ahead.empty()) return true;
         if (file.size < file.read_to + kRecordSize) return false;
         const std::uint64_t left = file.size - file.read_to;
-        const auto path = file_of(stream, day);
-        const auto count = std::min(left / kRecordSize, kRecordsAhead) * kRecordSize;
-        const auto bytes = files::read_bytes(path, file.read_to, count);
+        const auto path = file_of(stream.stem, day);
+        const std::uint64_t to_page = kPage - file.read_to % kPage;
+        auto bytes =
+            readable(path, file.read_to, std::min(left / kRecordSize, kRecordsAhead) * kRecordSize);
+        if (bytes.empty() && to_page >= kRecordSize)
+            bytes =
+                readable(path, file.read_to, std::min(left, to_page) / kRecordSize * kRecordSize);
+        if (bytes.empty()) {
+            damage_.push_back({path, file.read_to, std::min(left, to_page)});
+            file.read_to += std::min(left, to_page);
+            continue;
+        }
+        const std::uint64_t count = bytes.size();
         std::size_t begin = 0;
         for (std::size_t at = 0; const auto found = archive::next_record(bytes, stream.channel, at);
              begin = at) {
@@ -208,6 +243,12 @@ bool ArchiveStreams::fill(const std::string& name, Stream& stream, sys_days day)
                           file.read_to + at};
             const std::size_t start = at - kRecordSize;
             if (start > begin) damage_.push_back({path, file.read_to + begin, start - begin});
+            if (const auto& codes = stream.codes; found->header.network != codes.network ||
+                                                  found->header.station != codes.station ||
+                                                  found->header.location != codes.location) {
+                damage_.push_back({path, file.read_to + start, kRecordSize, true});
+                continue;
+            }
             std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(start), kRecordSize,
                         record.bytes.begin());
             file.ahead.push_back(std::move(record));
@@ -260,6 +301,15 @@ std::optional<Record> ArchiveStreams::next() {
     return record;
 }
 
+void ArchiveStreams::leave_out(const std::string& name) {
+    Stream& stream = streams_.at(name);
+    stream.is_placed = true;
+    stream.first_day = sys_days::max();
+    stream.days.clear();
+}
+
 std::vector<archive::Damage> ArchiveStreams::take_damage() { return std::exchange(damage_, {}); }
+
+std::vector<fs::path> ArchiveStreams::take_too_old() { return std::exchange(too_old_, {}); }
 
 }  // namespace a351::daemon::stream

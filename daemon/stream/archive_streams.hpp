@@ -84,8 +84,16 @@ public:
     /// @throws std::system_error  a day file cannot be read.
     [[nodiscard]] std::optional<Record> next();
 
-    /// Returns the damage that was skipped since the last call.
+    /// Sends nothing of a stream.
+    void leave_out(const std::string& stream);
+
+    /// Returns the damage that was skipped since the last call: also records of another station or
+    /// channel, and what the disk cannot read.
     [[nodiscard]] std::vector<archive::Damage> take_damage();
+
+    /// Returns the day files that grew since the last call, although they are more than two days
+    /// older than the last record taken.  Their new records are not sent.
+    [[nodiscard]] std::vector<std::filesystem::path> take_too_old();
 
 private:
     struct DayFile {
@@ -95,18 +103,20 @@ private:
     };
     struct Stream {
         std::filesystem::path stem;  ///< Day file without year and day.
+        journal::StationCodes codes;
         std::string channel;
         bool is_placed = false;
         std::optional<Mark> last;  ///< Record taken last.
         bool is_last_archived = false;
         UtcTime from;              ///< Used without `last`.
         std::chrono::sys_days first_day = std::chrono::sys_days::min();
-        std::map<std::chrono::sys_days, DayFile> days;  ///< From `first_day` on.
+        std::map<std::chrono::sys_days, DayFile> days;          ///< From `first_day` on.
+        std::map<std::chrono::sys_days, std::uint64_t> passed;  ///< Sizes of older day files.
     };
     void list();
     static void begin_at(Stream& stream, UtcTime time);
     void examine(Stream& stream) const;
-    [[nodiscard]] std::filesystem::path file_of(const Stream& stream,
+    [[nodiscard]] std::filesystem::path file_of(const std::filesystem::path& stem,
                                                 std::chrono::sys_days day) const;
     [[nodiscard]] bool fill(const std::string& name, Stream& stream, std::chrono::sys_days day);
     [[nodiscard]] DayFile* day_of_next(const std::string& name, Stream& stream);
@@ -115,6 +125,7 @@ private:
     std::map<std::string, Stream, std::less<>> streams_;
     std::optional<std::chrono::steady_clock::time_point> listed_;
     std::vector<archive::Damage> damage_;
+    std::vector<std::filesystem::path> too_old_;
 };
 
 }  // namespace a351::daemon::stream

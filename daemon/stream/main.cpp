@@ -66,16 +66,20 @@ int main(int argc, char** argv) {
     std::string root, ring, from;
     SenderOptions options;
     app.add_option("ROOT", root, "Data root of a351d")->type_name("")->required();
-    app.add_option("RING", ring, "Address of the DataLink server, HOST[:PORT]; default port: 16000")
+    app.add_option("RING", ring,
+                   "Address of the DataLink server, HOST[:PORT], or [ADDRESS][:PORT] for IPv6; "
+                   "default port: 16000")
         ->type_name("")
         ->required();
-    app.add_option("--from", from,
-                   "Begin of what a ring without this station gets (RFC 3339); default: the oldest "
-                   "record")
+    app.add_option(
+           "--from", from,
+           "Begin of what is sent to a new ring (RFC 3339): the first record that ends then "
+           "or later; default: the oldest record")
         ->type_name("WHEN");
     std::string state;
     app.add_option("--state", state,
-                   "File that keeps the position for a ring that has lost a stream; default: none")
+                   "File with the record of each stream that was acknowledged last, one file for "
+                   "each server; default: none")
         ->type_name("FILE");
     app.add_flag("--once", options.is_once, "Send all records that there are, then exit");
     try {

@@ -11,6 +11,7 @@
 #include <chrono>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/echo.hpp"
 
 namespace a351::daemon::stream {
 namespace {
@@ -43,7 +44,8 @@ std::string Address::text() const {
 
 Address parse_address(std::string_view text) {
     const auto refuse = [&] {
-        throw InputError(fmt::format("{}: not an address; allowed: HOST[:PORT]", text));
+        throw InputError(fmt::format(
+            "RING = {}: not an address; allowed: HOST[:PORT], or [ADDRESS][:PORT] for IPv6", text));
     };
     Address address;
     std::string_view rest = text;
@@ -64,7 +66,8 @@ Address parse_address(std::string_view text) {
     const auto is_clean = [](char c) { return c > ' ' && c < '\x7f' && c != '/' && c != '@'; };
     if (address.host.empty() || !std::ranges::all_of(address.host, is_clean) ||
         address.port.empty() || address.port.size() > 5 ||
-        !std::ranges::all_of(address.port, is_digit) || std::stoi(address.port) > 65535)
+        !std::ranges::all_of(address.port, is_digit) || std::stoi(address.port) < 1 ||
+        std::stoi(address.port) > 65535)
         refuse();
     return address;
 }
@@ -107,7 +110,8 @@ asio::awaitable<RingConnection::Answer> RingConnection::answer(std::string_view 
     Answer answer;
     answer.header = parse_header(header);
     answer.data = co_await receive(answer.header.data_size);
-    if (answer.header.kind() == "ERROR") throw RingError("it refuses: " + answer.data);
+    if (answer.header.kind() == "ERROR")
+        throw RingError("it refuses: " + text::echoed(answer.data));
     if (answer.header.kind() != kind)
         throw RingError(fmt::format("it answers {} instead of {}", answer.header.kind(), kind));
     co_return answer;

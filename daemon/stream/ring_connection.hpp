@@ -8,7 +8,7 @@
 ///     const std::string bytes = co_await ring.read(ends.at("XX_A351_00_BNZ"));
 ///     const auto ids = co_await ring.write(records);
 ///
-/// Every exchange ends within 10 s.  All members throw RingError; the connection is useless then.
+/// Every exchange ends within 10 s; the name lookup has the resolver's own limit.  All members throw RingError; the connection is useless then.
 
 #include <cstdint>
 #include <map>
@@ -30,7 +30,7 @@ struct Address {
 
 /// Reads HOST[:PORT], or [ADDRESS][:PORT] for IPv6.  The default port is 16000, that of ringserver's
 /// documentation.
-/// @throws InputError  the text has another form.
+/// @throws InputError  the text has another form; names RING.
 [[nodiscard]] Address parse_address(std::string_view text);
 
 class RingConnection {

@@ -57,6 +57,18 @@ void Sender::save() {
     is_changed_ = false;
 }
 
+/// Saves while it sends: a full disk must not end a good connection.
+void Sender::try_save() {
+    try {
+        save();
+        if (is_save_failing_) say_(options_.state.string() + ": written again");
+        is_save_failing_ = false;
+    } catch (const std::exception& error) {
+        if (!is_save_failing_) say_(std::string(error.what()) + "; tried again once a minute");
+        is_save_failing_ = true;
+    }
+}
+
 asio::awaitable<void> Sender::run() {
     while (true) {
         std::string trouble;
@@ -93,7 +105,8 @@ asio::awaitable<void> Sender::session() {
             batch.push_back(*std::move(record));
         }
         note_damage(streams.take_damage());
-        if (Clock::now() - saved_ >= kBetweenSaves) save();
+        note_too_old(streams.take_too_old());
+        if (Clock::now() - saved_ >= kBetweenSaves) try_save();
         const bool is_idle = batch.empty();
         if (!is_idle) co_await send(ring, std::move(batch));
         note_success();
@@ -110,10 +123,14 @@ asio::awaitable<void> Sender::place(RingConnection& ring, ArchiveStreams& stream
         if (const auto last = latest.find(name); last != latest.end()) {
             const std::string bytes = co_await ring.read(last->second);
             const auto mark = mark_of(std::as_bytes(std::span(bytes)));
-            if (!mark)
-                throw RingError("its last packet of " + name +
-                                " is not a record of an a351 archive");
-            streams.place(name, mark, options_.from);
+            if (mark) {
+                streams.place(name, mark, options_.from);
+            } else {
+                streams.leave_out(name);
+                say_(name +
+                     ": the last packet in the ring is not a record of an a351 archive; the "
+                     "stream is not sent");
+            }
             continue;
         }
         const auto own = positions_.find(name);
@@ -158,6 +175,15 @@ void Sender::note_damage(const std::vector<archive::Damage>& damage) {
         said = one.offset + one.byte_count;
         say_(archive::to_text(one) + "; they are skipped");
     }
+}
+
+/// Reports each day file once, although it grows further.
+void Sender::note_too_old(const std::vector<std::filesystem::path>& days) {
+    for (const auto& file : days)
+        if (too_old_.insert(file).second)
+            say_(file.filename().string() +
+                 ": more than two days older than the last record sent; its new records are not "
+                 "sent");
 }
 
 }  // namespace a351::daemon::stream

@@ -219,6 +219,13 @@ def lost(scratch, ring):
         demand(f"--from: {name} begins with the record of that instant, not with the first",
                second_day[name].endswith(came) and 0 < len(came) < len(second_day[name]))
 
+    ring.packets, ring.next_id = [(1, slow, 0, 0, bytes(RECORD))], 2
+    said = run(*command).stderr
+    others = {name: data for name, data in archived(archive).items() if name != slow}
+    demand("a packet of another program stops its own stream only, with a message",
+           "XX_A351_00_LK1: the last packet in the ring is not a record" in said
+           and ring.data_of(slow) == bytes(RECORD) and all(ring.data_of(name) == data for name, data in others.items()))
+
 
 with Scratch() as scratch:
     ring = live(scratch)

@@ -160,6 +160,62 @@ TEST_CASE("damage within a day file is skipped and at its end waited for", "[dae
     CHECK(sequences.back() == 199);
 }
 
+TEST_CASE("a day file that grows too late is reported", "[daemon][stream]") {
+    Archive archive;
+    archive.append(1, kNoon - days(5));
+    archive.append(2, kNoon);
+    ArchiveStreams streams(archive.root());
+    std::chrono::steady_clock::time_point now{};
+    const auto look = [&] { streams.look(now += seconds(5)); };
+    look();
+    streams.place("XX_A351_00_BNZ", std::nullopt, UtcTime::min());
+    while (streams.next()) look();
+    look();
+    CHECK(streams.take_too_old().empty());
+    archive.append(3, kNoon - days(4));  // The clock was set back by four days.
+    archive.append(4, kNoon - days(1));
+    look();
+    CHECK(streams.take_too_old() == std::vector{archive.day_of(kNoon - days(4))});
+    CHECK(streams.next()->mark.sequence == 4);
+    look();
+    CHECK(streams.take_too_old().empty());
+}
+
+TEST_CASE("copies, impossible days and records of others are not sent", "[daemon][stream]") {
+    Archive archive;
+    for (int i = 1; i <= 3; ++i) archive.append(i, kNoon + seconds(20 * i));
+    const auto file = archive.day_of(kNoon);
+    std::filesystem::create_directory(archive.root() / "backup");
+    std::filesystem::copy(file, archive.root() / "backup" / "XX.OTHER.00.BNZ.D.2026.060");
+    std::filesystem::copy(file, file.parent_path() / "XX.A351.00.BNZ.D.2026.999");
+    {
+        std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+        bytes.seekp(512 + 8);
+        bytes << "B351";  // Station of the second record.
+    }
+    ArchiveStreams streams(archive.root());
+    streams.look({});
+    REQUIRE(streams.unplaced() == std::vector<std::string>{"XX_A351_00_BNZ"});
+    streams.place("XX_A351_00_BNZ", std::nullopt, UtcTime::min());
+    CHECK(streams.next()->mark.sequence == 1);
+    CHECK(streams.next()->mark.sequence == 3);
+    const auto damage = streams.take_damage();
+    REQUIRE(damage.size() == 1);
+    CHECK(damage[0].offset == 512);
+    CHECK(damage[0].is_of_another_station);
+}
+
+TEST_CASE("a stream that is left out gives nothing", "[daemon][stream]") {
+    Archive archive;
+    archive.append(1, kNoon);
+    ArchiveStreams streams(archive.root());
+    streams.look({});
+    streams.leave_out("XX_A351_00_BNZ");
+    streams.look(std::chrono::steady_clock::time_point{} + seconds(5));
+    CHECK(streams.unplaced().empty());
+    CHECK_FALSE(streams.next());
+}
+
 TEST_CASE("headers of answers are read, and all others refused", "[daemon][stream]") {
     CHECK(make_packet("READ 7") == std::string("DL\x06READ 7"));
     CHECK(header_length("DL\xff") == 255);
@@ -204,6 +260,7 @@ TEST_CASE("an address has a host and perhaps a port", "[daemon][stream]") {
     CHECK(parse_address("ring.example").text() == "ring.example:16000");
     CHECK(parse_address("127.0.0.1:18000").text() == "127.0.0.1:18000");
     CHECK(parse_address("[::1]:1").text() == "[::1]:1");
-    for (const char* text : {"", ":1", "a:", "a:x", "a:65536", "[::1", "[::1]1", "a b", "http://a"})
+    for (const char* text :
+         {"", ":1", "a:", "a:x", "a:0", "a:65536", "[::1", "[::1]1", "a b", "http://a"})
         CHECK_THROWS_AS(parse_address(text), InputError);
 }
