@@ -40,7 +40,7 @@ class Ring:
         threading.Thread(target=self._accept, args=(self.listener,), daemon=True).start()
 
     def stop(self):
-        """Ends like a killed server: all connections are reset."""
+        """Ends like a server that was stopped: all connections are closed."""
         listener, self.listener = self.listener, None
         listener.shutdown(socket.SHUT_RDWR)
         listener.close()
