@@ -21,6 +21,7 @@
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/result/anomalies.hpp"
+#include "corrector/result/columns.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
@@ -199,8 +200,11 @@ void correct_days(const SurveyCommandOptions& options) {
         auto result = days.begin();
         for (report::JointDay& day : joint_days)
             if (day.trouble.empty()) day.result = &(result++)->result;
-        text::write_together(out, {{"joint.csv", result::csv_table(result::joint_columns(), joint)},
-                                   {"joint.html", report::joint_html(joint_days)}});
+        text::write_together(
+            out, {{"joint.csv", result::csv_table(result::joint_columns(), joint)},
+                  {"joint-differences.csv", result::csv_table(result::difference_columns(),
+                                                              result::joint_differences(results))},
+                  {"joint.html", report::joint_html(joint_days)}});
         std::cout << (troubles.empty() ? "all days\n" : "all corrected days\n")
                   << result::aligned_text(result::table_of(result::joint_columns(), joint)) << '\n';
     }

@@ -23,6 +23,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -137,9 +138,16 @@ struct StationErrors {
     /// Contributions to u, mGal, in the order of whole_day::ErrorSource; the sum of their squares is
     /// u^2.
     std::array<double, whole_day::kErrorSources> parts_mgal{};
-    /// Errors that all days of one unit have in common (whole_day::GravityEstimate::shared_mgal).
-    std::array<double, whole_day::kSharedErrors> shared_mgal{};
-    bool is_calibrated = false;  ///< The shared errors are those of the unit's calibration.
+};
+
+/// Errors that a station of one day has in common with stations of other days, as only `day` knows
+/// them.
+struct SharedErrors {
+    /// Those of the unit (whole_day::GravityEstimate::shared_mgal).
+    std::array<double, whole_day::kSharedErrors> unit_mgal{};
+    bool is_calibrated = false;  ///< The unit's errors are those of its calibration.
+    /// Those of the uncertain references that are held, by site.
+    std::map<std::string, double> references_mgal;
 };
 
 /// Factor of a coverage of about 95 % where the standard deviations do not come from the scatter of
@@ -179,6 +187,8 @@ struct StationValue {
     /// without u_gravity; the degrees are absent for `network`, whose u is a priori.
     std::optional<double> dof, coverage_factor;
     std::optional<StationErrors> errors;  ///< `day` only.
+    /// Of left_out; of the reference, for a station that alone is held.  `day` only.
+    std::optional<SharedErrors> shared;
     /// Present if they are asked for, and latitude and altitude are known.
     std::optional<Anomalies> anomalies;
 };

@@ -43,11 +43,28 @@ Members members_of(const std::vector<CorrectedRow>& rows, const RowChoice& choic
     return members;
 }
 
-/// Sets what needs the reference of the station to be hidden; nothing if it alone is held.
-void set_left_out(StationValue& station, const Members& members, const DayFits& fits,
-                  bool is_calibrated) {
+/// Returns the errors that a gravity has in common with those of other days.
+SharedErrors shared_errors(const std::vector<CorrectedRow>& rows, const Fitted& fitted,
+                           const whole_day::GravityEstimate& gravity, bool is_calibrated) {
+    SharedErrors shared{gravity.shared_mgal, is_calibrated, {}};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const whole_day::DayStation& station = fitted.stations[i];
+        if (station.gravity && station.u_gravity.value() > 0.0)
+            shared.references_mgal[rows[i].row.site] = gravity.of_gravities_mgal[station.number];
+    }
+    return shared;
+}
+
+/// Sets what needs the reference of the station to be hidden; if it alone is held, only the errors
+/// of its reference.
+void set_left_out(StationValue& station, const std::vector<CorrectedRow>& rows,
+                  const Members& members, const DayFits& fits, bool is_calibrated) {
     const Fitted* const other = fits.with_unknown(members.rows.front(), station.site);
-    if (other == nullptr) return;
+    if (other == nullptr) {
+        const MilliGal u = rows[members.rows.front()].row.u_reference.value_or(MilliGal(0.0));
+        station.shared = SharedErrors{{}, is_calibrated, {{station.site, u.value()}}};
+        return;
+    }
     double sum = 0.0, squares = 0.0;
     for (const std::size_t i : members.rows) sum += other->fit.set_ups[i].corrected.value();
     for (const std::size_t number : members.numbers)
@@ -57,7 +74,8 @@ void set_left_out(StationValue& station, const Members& members, const DayFits& 
     station.u_left_out = station.u_gravity;
     if (members.numbers.size() != 1) return;
     const whole_day::GravityEstimate& gravity = other->gravity_of(members.rows.front());
-    station.errors = StationErrors{gravity.parts_mgal, gravity.shared_mgal, is_calibrated};
+    station.errors = StationErrors{gravity.parts_mgal};
+    station.shared = shared_errors(rows, *other, gravity, is_calibrated);
     station.dof = degrees_of_freedom(gravity, other->fit);
     station.coverage_factor = kCoverageFactor;
 }
@@ -127,7 +145,8 @@ void enlarge_uncertainties(Fit& result, double factor) {
         enlarge(station.u_left_out, factor);
         if (!station.errors) continue;
         for (double& part : station.errors->parts_mgal) part *= factor;
-        for (double& part : station.errors->shared_mgal) part *= factor;
+        for (double& part : station.shared->unit_mgal) part *= factor;
+        for (auto& [site, part] : station.shared->references_mgal) part *= factor;
     }
     for (StationDifference& difference : result.differences)
         difference.u = MilliGal(factor * difference.u.value());
@@ -155,7 +174,7 @@ void set_day_stations(Fit& result, const SurveyProblem& problem, const RowChoice
         station.row_count = members.rows.size();
         station.gravity = MilliGal(sum / static_cast<double>(members.rows.size()));
         if (station.reference) station.residual = *station.reference - station.gravity;
-        set_left_out(station, members, fits, is_calibrated);
+        set_left_out(station, rows, members, fits, is_calibrated);
         if (!station.is_flagged_only) {
             numbers.push_back(*members.numbers.begin());
             first_rows.push_back(members.rows.front());

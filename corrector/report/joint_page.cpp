@@ -106,8 +106,9 @@ void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days
             "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no u), "
             "with its standard uncertainty u. The value of a day does not use the station's own "
             "reference (left out); in sample: a day gives only a value that does. u contains what "
-            "the days share of the instrument's uncertainty, but not that of shared references. "
-            "NAME - joint: the day's value minus the mean. *: only readings that were left out of "
+            "the days share of the uncertainties of instrument and references. Differences of "
+            "stations are in joint-differences.csv. NAME - joint: the day's value minus the mean. "
+            "*: only readings that were left out of "
             "the day's fit."),
         table);
 }

@@ -4,6 +4,7 @@
 ///
 ///     const std::vector<JointStation> joint = join_days(days);
 ///     const std::string csv = csv_table(joint_columns(), joint);
+///     joint_differences(days);   // of all pairs, each with its uncertainty
 ///
 /// The days are corrected one by one before, and nothing is fitted here.  Values are those in which
 /// the station's own reference had no part, where the model gives them.
@@ -22,16 +23,14 @@ namespace a351::corrector::result {
 /// `reference` is that of the last day that has one; `residual` is reference - gravity.
 ///
 /// The uncertainty is sqrt(sum_de w_d w_e C_de) / sum w with w = 1/u^2.  C_dd = u_d^2, and C_de is
-/// the covariance by the unit's parameters, which the days of the whole-day model have in common.
-/// References that several days hold are in no covariance.
+/// covariance_mgal2().
 struct JointStation {
     std::string site;
     std::size_t day_count = 0;
     std::size_t row_count = 0;
-    /// Mean of the days, each weighted by 1/u^2; not weighted if a day has no u.  A u of 0 counts
-    /// as none.
+    /// Mean of the days, each weighted by 1/u^2; not weighted if a day has no u, or a u of 0.
     MilliGal gravity;
-    std::optional<MilliGal> u_gravity;
+    std::optional<MilliGal> u_gravity;  ///< Absent if a day has no u.
     std::optional<MilliGal> reference;
     std::optional<MilliGal> residual;
     bool is_in_sample = false;  ///< True: the fit of a day has seen the station's reference.
@@ -44,11 +43,16 @@ struct DayValue {
     bool is_in_sample = false;
 };
 
-/// Returns left_out with its uncertainty, or gravity if the model gives no such value.
+/// Returns left_out with its uncertainty, or gravity if the model gives no such value; for a station
+/// that alone is held by the whole-day model its reference.
 [[nodiscard]] DayValue day_value(const model::StationValue& station);
 
-/// Returns the covariance of two days' errors at a station, mGal^2: that of the unit's parameters, if
-/// both days took them from priors of one kind.  All days are taken as days of one unit.
+/// Returns the covariance of the errors of two stations of different days, or of one station on two
+/// days, mGal^2.
+///
+/// With the whole-day model it is that of the unit's parameters (lags, slopes, axis biases, scale), if
+/// both days took them from priors of one kind, and that of the references that both days hold.  All
+/// days are taken as days of one unit.  Drift and noise are of one day.  With other models it is 0.
 [[nodiscard]] double covariance_mgal2(const model::StationValue& a, const model::StationValue& b);
 
 /// Returns the stations in the order of their first appearance.
@@ -58,6 +62,17 @@ struct DayValue {
 /// near 980 000 mGal keep their last digits, because the sum is of differences from the first day.
 /// @param days  in any order; no days give no stations.
 [[nodiscard]] std::vector<JointStation> join_days(const std::vector<model::SurveyCorrection>& days);
+
+/// Returns the differences of all pairs of join_days(), in its order: gravity of `to` minus that of
+/// `from`, with u^2 = u_from^2 + u_to^2 - 2 C.
+///
+/// C is the covariance of both means.  Two stations of one day have the correlation of
+/// Fit::covariance, which the day's drift, response, scale and references make; stations of different
+/// days have covariance_mgal2().  A station is in no pair if a day has no u of it, or only flagged
+/// rows; or if the covariance of its day is not that of values without the own reference (`network`),
+/// or absent (`paper`, `robust`).
+[[nodiscard]] std::vector<model::StationDifference> joint_differences(
+    const std::vector<model::SurveyCorrection>& days);
 
 /// Returns the columns of joint.csv.  The list is made once and lives as long as the program.
 [[nodiscard]] const std::vector<Column<JointStation>>& joint_columns();

@@ -50,8 +50,10 @@ void set_gravities(const DayProblem& problem, const reading::DayRecord& record,
     const DayNoise noise = problem.noise(fit.expected);
     Eigen::MatrixXd whitening = Eigen::MatrixXd::Identity(all.rows(), all.rows());
     whiten(record.bins, noise, whitening);
-    for (std::size_t number = 0; number < problem.base_mgal().size(); ++number) {
+    const std::size_t numbers = problem.base_mgal().size();
+    for (std::size_t number = 0; number < numbers; ++number) {
         GravityEstimate& gravity = fit.gravity_mgal.emplace_back();
+        gravity.of_gravities_mgal.resize(numbers);
         gravity.value = problem.base_mgal()[number];
         const Index place = problem.place_of(number);
         if (place < 0) continue;
@@ -85,7 +87,10 @@ void set_gravities(const DayProblem& problem, const reading::DayRecord& record,
         const auto of = [&s](DayTerm term) { return s(static_cast<Index>(term)); };
         gravity.shared_mgal = {s(lags),           s(lags + 1),       of(DayTerm::level),
                                of(DayTerm::slow), of(DayTerm::fast), of(DayTerm::x),
-                               of(DayTerm::y)};
+                               of(DayTerm::y),    of(DayTerm::scale)};
+        for (std::size_t other = 0; other < numbers; ++other)
+            if (const Index at = problem.place_of(other); at >= 0)
+                gravity.of_gravities_mgal[other] = s(at);
     }
 }
 

@@ -160,7 +160,7 @@ enum class ErrorSource { placement, flicker, white, levelling, thermal, drift, d
 /// Number of sources.
 inline constexpr std::size_t kErrorSources = 8;
 /// Number of the unit's parameters in GravityEstimate::shared_mgal.
-inline constexpr std::size_t kSharedErrors = 7;
+inline constexpr std::size_t kSharedErrors = 8;
 
 /// The gravity of a station, estimated or held.
 struct GravityEstimate : Estimate {
@@ -168,9 +168,12 @@ struct GravityEstimate : Estimate {
     /// square (JCGM 100:2008, 5.1.2).  All 0 if an exact reference is held.
     std::array<double, kErrorSources> parts_mgal{};
     /// Contributions of the unit's parameters, whose priors several days of one unit have in common:
-    /// how the estimate answers to one deviation of the fast lag, the slow lag, rA, rS, rF, bx and
-    /// by, mGal.  All 0 if an exact reference is held.
+    /// how the estimate answers to one deviation of the fast lag, the slow lag, rA, rS, rF, bx, by
+    /// and k, mGal.  All 0 if an exact reference is held.
     std::array<double, kSharedErrors> shared_mgal{};
+    /// The same for the gravities, by their numbers: of a reference that is held, one deviation is its
+    /// uncertainty.  0 for exact references, practically 0 for unknown gravities.
+    std::vector<double> of_gravities_mgal;
 };
 
 /// One set-up.  Effects are means over its bins, mGal, with the sign that they have in the reading.

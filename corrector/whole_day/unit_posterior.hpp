@@ -16,9 +16,8 @@
 
 namespace a351::corrector::whole_day {
 
-/// Names of the parameters that all days of a unit have in common, in the order of
-/// GravityEstimate::shared_mgal.
-inline constexpr std::array<std::string_view, kSharedErrors> kUnitNames{
+/// Names of response and axis biases, in the order of GravityEstimate::shared_mgal.
+inline constexpr std::array<std::string_view, kSharedErrors - 1> kUnitNames{
     unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::fast_lag)],
     unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::slow_lag)],
     unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::level)],
@@ -29,8 +28,8 @@ inline constexpr std::array<std::string_view, kSharedErrors> kUnitNames{
 
 /// Response and axis biases of a unit with their joint covariance, and its noise.
 struct UnitPosterior {
-    using Vector = Eigen::Matrix<double, kSharedErrors, 1>;
-    using Matrix = Eigen::Matrix<double, kSharedErrors, kSharedErrors>;
+    using Vector = Eigen::Matrix<double, static_cast<int>(kUnitNames.size()), 1>;
+    using Matrix = Eigen::Matrix<double, Vector::SizeAtCompileTime, Vector::SizeAtCompileTime>;
 
     Vector values = Vector::Zero();          ///< In the order and units of kUnitNames.
     Matrix covariance = Matrix::Identity();  ///< Positive definite.

@@ -46,8 +46,8 @@ TEST_CASE("the expected scatter leaves out what the days share, with its sign", 
     const auto expected = [&days](double shared_a, double shared_b) {
         for (std::size_t k = 0; k < 2; ++k)
             for (StationValue& station : days[k].stations) {
-                station.errors = StationErrors{};
-                station.errors->shared_mgal[2] = k == 0 ? shared_a : shared_b;
+                station.shared = SharedErrors{};
+                station.shared->unit_mgal[2] = k == 0 ? shared_a : shared_b;
             }
         return scatter_of_days(days).value().expected_mgal.value();
     };

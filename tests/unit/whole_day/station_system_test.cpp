@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "protocol/unit/calibration.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;
@@ -124,6 +125,38 @@ TEST_CASE("a reference with an uncertainty gives way to the readings", "[day]") 
         else
             CHECK(std::abs(error) < 3.0 * fit.gravity_mgal[6].standard_error);
     }
+}
+
+TEST_CASE("a gravity follows the references and the scale's prior as its shared errors say",
+          "[day]") {
+    const auto record = kScattered.record();
+    auto stations = stations_without({2, 3, 4, 5, 6, 7, 8, 9, 10});
+    for (DayStation& station : stations) station.u_gravity = MilliGal(2.0);
+    DayPriors priors = usual_day_priors();
+    const DayFit fit = fit_day(record, stations, nullptr, priors).value();
+    const GravityEstimate& gravity = fit.gravity_mgal[9];
+    // The values have the most likely noise, the errors the expected one.
+    constexpr double kMargin = 0.02;
+    double sum = 0.0;
+    for (const std::size_t number : {0U, 1U}) {
+        auto moved = stations;
+        constexpr double kMove_mgal = 0.2;
+        for (DayStation& station : moved)
+            if (station.number == number) station.gravity = *station.gravity + MilliGal(kMove_mgal);
+        const DayFit other = fit_day(record, moved, &fit, priors).value();
+        const double answer = (other.gravity_mgal[9].value - gravity.value) / kMove_mgal;
+        CHECK(2.0 * answer == Approx(gravity.of_gravities_mgal[number]).margin(kMargin));
+        CHECK(answer > 0.2);
+        sum += gravity.of_gravities_mgal[number];
+    }
+    CHECK(sum == Approx(2.0).epsilon(1e-3));  // both together move every gravity
+    CHECK(std::abs(gravity.of_gravities_mgal[5]) < 1e-3);
+    constexpr double kMove = 0.25;  // deviations of the prior
+    priors.set_scale(1.0 + kMove * unit::kUsualScaleDeviation, unit::kUsualScaleDeviation);
+    const DayFit other = fit_day(record, stations, &fit, priors).value();
+    const double answer = (other.gravity_mgal[9].value - gravity.value) / kMove;
+    CHECK(answer == Approx(gravity.shared_mgal.back()).margin(kMargin));
+    CHECK(answer < -0.1);
 }
 
 TEST_CASE("the errors of the noise cover its scatter", "[day]") {
