@@ -120,7 +120,8 @@ public:
     /// deviations of the priors away.
     ///
     /// It evaluates cost() at most 2000 times and does not report if this was too few.
-    /// @param nearby  start of the search; absent: the priors' medians.
+    /// @param nearby  start of the search; absent: the priors' medians, with the size of the axis
+    ///                biases of 0, 2 and 4 deviations that has the least cost.
     [[nodiscard]] Point most_likely(const std::optional<Point>& nearby) const;
 
     /// Returns -ln(restricted likelihood x priors), up to a constant; infinite if it overflows.
