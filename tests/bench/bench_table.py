@@ -39,7 +39,7 @@ COMMANDS = [
      "t-rate-drift", "--flags", "ignore", "--out", TOOLS / "published-table"],
     [*PYTHON, HERE / "survey_accuracy.py", f"{FIRST_SEED}-{FIRST_SEED + options.days - 1}"],
     [*PYTHON, HERE / "system_bench.py"], [*PYTHON, HERE / "survey_speed.py"], [*PYTHON, HERE / "record_speed.py"],
-    [TOOLS / "timing_test", "times behind*"], [*PYTHON, TOP / "tests/system/kill_daemon.py"],
+    ["env", "A351_LONG=1", TOOLS / "timing_test", "times behind*"], [*PYTHON, TOP / "tests/system/kill_daemon.py"],
     [TOOLS / "daemon_test", "[power_cut]"], [*PYTHON, TOP / "tests/system/same_bytes.py"],
     *([*PYTHON, TOP / "tests/system" / f"{name}.py"] for name in ("obspy_reads", "ringserver", "msi", "gsadjust", "stranger_reads")),
 ]

@@ -8,6 +8,7 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/timing/hindsight.hpp"
+#include "tests/support/long_tests.hpp"
 #include "tests/unit/timing/transport_world.hpp"
 
 using namespace a351;
@@ -16,10 +17,10 @@ using namespace a351::timing;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t kSeeds = 3, kFewerSeeds = 3;
+const std::uint64_t kSeeds = 3, kFewerSeeds = 3;
 constexpr int kHours = 1;
 #else
-constexpr std::uint64_t kSeeds = 40, kFewerSeeds = 8;
+const std::uint64_t kSeeds = test::is_long() ? 40 : 14, kFewerSeeds = test::is_long() ? 8 : 4;
 constexpr int kHours = 4;
 #endif
 
