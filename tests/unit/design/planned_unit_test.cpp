@@ -32,7 +32,7 @@ std::string result_json(const std::string& model = "day", double covariance = 0.
         model, names, rows);
 }
 
-std::string refusal_of(const std::string& text) {
+std::string refusal_of_unit(const std::string& text) {
     const test::TemporaryDirectory folder;
     try {
         static_cast<void>(planned_unit(folder.write("result.json", text)));
@@ -70,12 +70,13 @@ TEST_CASE("an earlier day gives response, noise, temperature and levelling", "[d
 TEST_CASE("a file that is no result of the whole-day model is refused", "[design]") {
     const std::string allowed =
         "; allowed: the result.json of a survey corrected with the model day";
-    CHECK_THAT(refusal_of(result_json("t-rate")),
+    CHECK_THAT(refusal_of_unit(result_json("t-rate")),
                ContainsSubstring("result.json: model = t-rate") && EndsWith(allowed));
     for (const std::string& text :
          {std::string("{}"), std::string("[1]"), std::string("x"), result_json("day", -1.0)}) {
         CAPTURE(text);
-        CHECK_THAT(refusal_of(text), ContainsSubstring("not such a file (") && EndsWith(allowed));
+        CHECK_THAT(refusal_of_unit(text),
+                   ContainsSubstring("not such a file (") && EndsWith(allowed));
     }
 }
 

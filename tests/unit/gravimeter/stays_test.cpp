@@ -13,7 +13,7 @@ using namespace made_up;
 
 namespace {
 
-std::vector<GravimeterFile> read(const std::vector<std::string>& contents) {
+std::vector<GravimeterFile> read_files(const std::vector<std::string>& contents) {
     const test::TemporaryDirectory folder;
     std::vector<GravimeterFile> files;
     for (const std::string& content : contents)
@@ -33,10 +33,10 @@ TEST_CASE(
     "a stay ends with the station, a long pause or a new setting of the dial, and the dial begins "
     "a loop",
     "[gravimeter]") {
-    auto files =
-        read({burris_reading("a", "10:00:00") + burris_reading("a", "10:01:00") +
-              burris_reading("b", "10:10:00") + burris_reading("b", "11:10:01") +
-              burris_reading("b", "11:11:00", "2850") + burris_reading("a", "11:20:00", "2850")});
+    auto files = read_files({burris_reading("a", "10:00:00") + burris_reading("a", "10:01:00") +
+                             burris_reading("b", "10:10:00") + burris_reading("b", "11:10:01") +
+                             burris_reading("b", "11:11:00", "2850") +
+                             burris_reading("a", "11:20:00", "2850")});
     const auto stays = find_stays(files);
     std::string text;
     for (const Stay& stay : stays)
@@ -47,9 +47,9 @@ TEST_CASE(
 
 TEST_CASE("several instruments have stays of their own, numbered together at each site",
           "[gravimeter]") {
-    auto files = read({burris_reading("a", "10:00:00") + burris_reading("b", "10:20:00"),
-                       burris_reading("a", "10:10:00", "2750", ' ', "B108") +
-                           burris_reading("a", "10:11:00", "2750", ' ', "B108")});
+    auto files = read_files({burris_reading("a", "10:00:00") + burris_reading("b", "10:20:00"),
+                             burris_reading("a", "10:10:00", "2750", ' ', "B108") +
+                                 burris_reading("a", "10:11:00", "2750", ' ', "B108")});
     const auto stays = find_stays(files);
     REQUIRE(stays.size() == 3);
     CHECK(stays[1].instrument == "B108");
@@ -60,7 +60,7 @@ TEST_CASE("several instruments have stays of their own, numbered together at eac
 
 TEST_CASE("a reading that is given twice is refused once", "[gravimeter]") {
     const std::string line = burris_reading("a", "10:00:00");
-    auto files = read({line + burris_reading("a", "10:00:10"), line});
+    auto files = read_files({line + burris_reading("a", "10:00:10"), line});
     const auto stays = find_stays(files);
     CHECK(stays.front().readings.size() == 2);
     REQUIRE(files[1].refused.size() == 1);
@@ -76,7 +76,7 @@ TEST_CASE("the average of a stay is of its last readings, as median or mean", "[
                                       {"10:03:00", "2002.0"},
                                       {"10:04:00", "2004.0"}})
         content += cg5_reading("1", time, value);
-    auto files = read({content});
+    auto files = read_files({content});
     const auto stays = find_stays(files);
     CHECK(average_of(stays[0], {4, false}).value == MilliGal(2001.5));
     CHECK(average_of(stays[0], {4, true}).value == MilliGal(2001.75));
@@ -88,7 +88,7 @@ TEST_CASE("the average of a stay is of its last readings, as median or mean", "[
 
 TEST_CASE("the tide of the instrument is kept as its effect on gravity, or taken out",
           "[gravimeter]") {
-    auto files = read({burris_reading("a", "10:00:00")});
+    auto files = read_files({burris_reading("a", "10:00:00")});
     const auto stays = find_stays(files);
     const std::string kept = table(survey_tables(files, stays, {}), "observations.csv");
     CHECK_THAT(kept,
@@ -99,7 +99,7 @@ TEST_CASE("the tide of the instrument is kept as its effect on gravity, or taken
 }
 
 TEST_CASE("a tide that the instrument did not remove cannot be kept", "[gravimeter]") {
-    auto files = read({cg5_header("0.0", "NO") + cg5_reading("1", "10:00:00")});
+    auto files = read_files({cg5_header("0.0", "NO") + cg5_reading("1", "10:00:00")});
     const auto stays = find_stays(files);
     CHECK_THROWS_AS(survey_tables(files, stays, {}), InputError);
     CHECK_THAT(table(survey_tables(files, stays, {{}, false}), "observations.csv"),
@@ -109,7 +109,7 @@ TEST_CASE("a tide that the instrument did not remove cannot be kept", "[gravimet
 TEST_CASE("text of the operator cannot break the table of readings", "[gravimeter]") {
     std::string content = cg6_header() + cg6_reading("A", "10:00:00");
     content.replace(content.find("\t1\t0.0128"), 3, "\tx,\x01y\t");
-    auto files = read({content});
+    auto files = read_files({content});
     const auto stays = find_stays(files);
     CHECK_THAT(table(survey_tables(files, stays, {}), "readings.csv"), ContainsSubstring(",x;?y,"));
 }

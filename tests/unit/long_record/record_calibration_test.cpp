@@ -1,17 +1,17 @@
 /// The thermal part and the warm-up of a calibration from simulated records.
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include "tests/support/catch.hpp"
 
 #include "corrector/long_record/record_calibration.hpp"
+#include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "tests/support/two_path_truth.hpp"
 #include "tests/unit/long_record/simulated_record.hpp"
 
 using namespace a351;
 using namespace a351::corrector::long_record;
 using namespace a351::unit;
+using linear_algebra::Cholesky;
 
 namespace {
 
@@ -40,7 +40,7 @@ double best_variance(const ThermalResponse& response) {
         scaled.row(k) /= deviation;
         scaled.col(k) /= deviation;
     }
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 5, 5>>(scaled).eigenvalues()(0);
+    return linear_algebra::symmetric_eigen(scaled).values(0);
 }
 
 TwoPathFit shifted(TwoPathFit fit, TwoPathTerm term, double by) {
@@ -77,12 +77,14 @@ TEST_CASE("a night calibrates the fast path and leaves the rest undetermined",
     CHECK_FALSE(pooled.parameters[4].is_determined);
     CHECK_FALSE(pooled.parameters[4].needed.empty());
     const auto& [values, covariance] = *pooled.response;
-    CHECK(covariance.llt().info() == Eigen::Success);
+    const Cholesky factor(covariance);
+    CHECK(factor.is_positive_definite());
     // The slow lag's prior, a factor of 2, must not appear in the result.
     CHECK(std::sqrt(covariance(4, 4)) > 10.0 * std::log(2.0));
     const Eigen::VectorXd off = values - true_values(sim::two_path_truth(scenario, 702));
-    CAPTURE(values.transpose(), off.dot(covariance.llt().solve(off)));
-    CHECK(off.dot(covariance.llt().solve(off)) <
+    const double square = factor.half_solve(off).squaredNorm();
+    CAPTURE(values.transpose(), square);
+    CHECK(square <
           4.0 * 15.1);  // 99 % quantile of chi-square with 5 degrees of freedom, errors doubled
 }
 
@@ -99,7 +101,7 @@ TEST_CASE("the errors stated by calibrations cover the true unit in nine of ten 
         REQUIRE(pooled.response);
         const auto& [values, covariance] = *pooled.response;
         const Eigen::VectorXd off = values - true_values(sim::two_path_truth(scenario, seed));
-        const double square = off.dot(covariance.llt().solve(off));
+        const double square = Cholesky(covariance).half_solve(off).squaredNorm();
         UNSCOPED_INFO(seed << ": " << square << " of " << kMost);
         held += square < kMost ? 1 : 0;
     }
@@ -112,10 +114,10 @@ TEST_CASE("a calibration does not contain the priors of the fit", "[long_record]
     const TwoPathFit week = fitted("week", 703);
     const PooledThermal pooled = pool_thermal({week});
     REQUIRE(pooled.response);
-    Eigen::Matrix<double, 5, 5> information = pooled.response->covariance.inverse();
+    Eigen::Matrix<double, 5, 5> information = Cholesky(pooled.response->covariance).inverse();
     for (Eigen::Index k = 0; k < 5; ++k)
         information(k, k) += std::pow(record_prior(static_cast<ThermalTerm>(k)).deviation, -2.0);
-    const double error = std::sqrt(information.inverse()(2, 2));
+    const double error = std::sqrt(Cholesky(information).inverse()(2, 2));
     const double of_fit = week[TwoPathTerm::fast].standard_error;
     CHECK(error > 0.999 * of_fit);
     CHECK(error < 1.15 * of_fit);  // the calibration does not contain all directions

@@ -15,13 +15,13 @@ using namespace a351::corrector::reading;
 
 namespace {
 
-const UtcTime kStart = *parse_rfc3339("2026-03-01T00:00:00Z");
+const UtcTime kReadingStart = *parse_rfc3339("2026-03-01T00:00:00Z");
 const Progress kSilent = [](std::size_t, std::size_t) {};
 
 std::string rows(double step_s, int first, int behind) {
     std::string text;
     for (int i = first; i < behind; ++i)
-        text += to_rfc3339(kStart + from_seconds(step_s * i), 3) + "," +
+        text += to_rfc3339(kReadingStart + from_seconds(step_s * i), 3) + "," +
                 std::to_string(979763.0 + i % 7) + ",42.5\n";
     return text;
 }
@@ -41,7 +41,7 @@ TEST_CASE("the stretch does not depend on the size of the blocks in which sample
           "[long_record][reading]") {
     const auto build = [](std::size_t block) {
         StretchBuilder builder(2, 3);
-        builder.set_time(0, kStart);
+        builder.set_time(0, kReadingStart);
         for (std::size_t at = 0; at < 5000; at += block) {
             std::vector<std::vector<double>> channels(4);
             for (std::size_t i = at; i < std::min<std::size_t>(5000, at + block); ++i) {
@@ -60,7 +60,7 @@ TEST_CASE("the stretch does not depend on the size of the blocks in which sample
     REQUIRE(cut.size() == 50);
     REQUIRE(whole.axes_mgal.size() == 3);
     CHECK(whole.axes_mgal[2][25] == Approx(979763.0).epsilon(0.0).margin(1e-6));
-    CHECK(whole.times[3] == kStart + from_seconds(6.0));
+    CHECK(whole.times[3] == kReadingStart + from_seconds(6.0));
     for (std::size_t k = 0; k < 50; ++k) {
         CHECK(std::isnan(whole.acceleration_mgal[k]) == (k < 5 || k > 45));
         if (k < 5 || k > 45) continue;
@@ -81,7 +81,7 @@ TEST_CASE("a CSV at 2 s is decimated once, and missing rows are a gap", "[long_r
     REQUIRE(record.stretches.size() == 1);
     const RecordStretch& stretch = record.stretches[0];
     REQUIRE(stretch.size() == 300);
-    CHECK(stretch.times[200] == kStart + from_seconds(4000.0));
+    CHECK(stretch.times[200] == kReadingStart + from_seconds(4000.0));
     CHECK(std::isnan(stretch.acceleration_mgal[100]));
     CHECK(std::isfinite(stretch.acceleration_mgal[95]));
     CHECK(std::isfinite(stretch.acceleration_mgal[108]));
@@ -97,8 +97,8 @@ TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch"
     CHECK(record.stretches[0].acceleration_mgal[13] == 979769.0);
     CHECK(record.stretches[0].raw.empty());
     RecordWindow window;
-    window.from = kStart + from_seconds(200.0);
-    window.to = kStart + from_seconds(400.0);
+    window.from = kReadingStart + from_seconds(200.0);
+    window.to = kReadingStart + from_seconds(400.0);
     CHECK(read_csv_record(file, window, kSilent).stretches[0].size() == 10);
 }
 

@@ -9,14 +9,15 @@ using namespace a351::corrector::long_record;
 
 namespace {
 
-const UtcTime kStart = *parse_rfc3339("2026-03-01T00:00:00Z");
+const UtcTime kSegmentStart = *parse_rfc3339("2026-03-01T00:00:00Z");
 
 /// Returns a simulated night as one stretch.
 LongRecord night() {
     const RecordSegment segment = simulated_segment("indoor", 1);
     RecordStretch stretch;
     for (std::size_t i = 0; i < segment.size(); ++i)
-        stretch.times.push_back(kStart + from_seconds(kRecordStep_s * static_cast<double>(i)));
+        stretch.times.push_back(kSegmentStart +
+                                from_seconds(kRecordStep_s * static_cast<double>(i)));
     stretch.acceleration_mgal = segment.acceleration_mgal;
     stretch.temperature_degc = segment.temperature_degc;
     LongRecord record;

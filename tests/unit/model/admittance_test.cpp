@@ -13,7 +13,7 @@ using namespace a351::corrector::reading;
 
 namespace {
 
-double true_gravity_mgal(const std::string& site) { return 979800.0 + 7.0 * site.back(); }
+double gravity_at_mgal(const std::string& site) { return 979800.0 + 7.0 * site.back(); }
 
 /// Returns the made-up day without its rate term, with only B known, with pressures of weather, and
 /// with the effect of an admittance.
@@ -25,7 +25,7 @@ std::vector<SurveyRow> day_with_pressure(double admittance_mgal_per_hpa) {
                                                                rows[i].rate_degc_per_h);
         rows[i].excess_pressure_hpa = 12.0 * std::sin(1.7 * static_cast<double>(i));
         // A mountain line: the pressure follows the altitude, and so does gravity.
-        rows[i].pressure_hpa = 900.0 + 0.5 * (true_gravity_mgal(rows[i].site) - 980300.0) +
+        rows[i].pressure_hpa = 900.0 + 0.5 * (gravity_at_mgal(rows[i].site) - 980300.0) +
                                0.1 * *rows[i].excess_pressure_hpa;
         rows[i].pressure_correction = MilliGal(0.0);
         rows[i].acceleration =
@@ -54,7 +54,7 @@ TEST_CASE("a network finds a known admittance of the air pressure", "[survey][ne
         CHECK(row.row.pressure_correction->value() ==
               Approx(0.0004 * *row.row.excess_pressure_hpa).epsilon(0).margin(1e-8));
         CHECK(row.corrected.value() ==
-              Approx(true_gravity_mgal(row.row.site)).epsilon(0).margin(1e-6));
+              Approx(gravity_at_mgal(row.row.site)).epsilon(0).margin(1e-6));
     }
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("an admittance that the readings cannot distinguish from gravity is na
     auto rows = day_with_pressure(-0.0003);
     const std::string usual = remark_of(fit_admittance(rows, 0.01));
     for (SurveyRow& row : rows) {
-        row.reference = MilliGal(true_gravity_mgal(row.site));
+        row.reference = MilliGal(gravity_at_mgal(row.site));
         row.u_reference = MilliGal(0.001);
     }
     const std::string precise = remark_of(fit_admittance(rows, 0.001));

@@ -13,7 +13,7 @@ using namespace a351::corrector::whole_day;
 
 namespace {
 
-SurveyOptions with_model(const std::string& model) {
+SurveyOptions by_model(const std::string& model) {
     SurveyOptions options;
     options.model = model;
     return options;
@@ -26,18 +26,18 @@ const MadeUpDay kScattered{.placement_mgal = 1.2, .white_mgal = 0.2};
 TEST_CASE("auto chooses the whole-day model if the records allow it", "[survey][day]") {
     const DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
-    const auto result = correct_survey(rows, with_model("auto"), &day);
+    const auto result = correct_survey(rows, by_model("auto"), &day);
     CHECK(result.model == "day");
     CHECK(result.score.row_count == rows.size());
     CHECK(result.score.rms_mgal.value() < result.score.loso_mgal.value());
     CHECK(result.score.loso_mgal.value() < 2.0);
-    CHECK(correct_survey(rows, with_model("auto"), nullptr).model != "day");
+    CHECK(correct_survey(rows, by_model("auto"), nullptr).model != "day");
 }
 
 TEST_CASE("corrections of the whole-day model add up to the corrected value of each row",
           "[survey][day]") {
     const DayRecord day = kScattered.record();
-    const auto result = correct_survey(rows_of(day), with_model("day"), &day);
+    const auto result = correct_survey(rows_of(day), by_model("day"), &day);
     for (const CorrectedRow& row : result.rows) {
         double sum = (row.row.acceleration - row.row.tide + row.temperature_correction +
                       row.rate_correction + row.drift_correction)
@@ -53,12 +53,12 @@ TEST_CASE("the value predicted without a station is the value found when its ref
           "[survey][day]") {
     const DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
-    const auto all = correct_survey(rows, with_model("day"), &day);
+    const auto all = correct_survey(rows, by_model("day"), &day);
     for (const std::string site : {"S3", "S7"}) {
         auto hidden = rows;
         for (SurveyRow& row : hidden)
             if (row.site == site) row.reference.reset();
-        const auto result = correct_survey(hidden, with_model("day"), &day);
+        const auto result = correct_survey(hidden, by_model("day"), &day);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (rows[i].site != site) continue;
             CHECK(result.rows[i].corrected.value() ==
@@ -79,11 +79,11 @@ TEST_CASE("a flagged row has a value and no influence on the others", "[survey][
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     rows[6].is_flagged = true;
-    const auto result = correct_survey(rows, with_model("day"), &day);
+    const auto result = correct_survey(rows, by_model("day"), &day);
     CHECK_FALSE(result.rows[6].is_used);
     CHECK(result.score.row_count == rows.size() - 1);
     rows[6].reference = *rows[6].reference + MilliGal(1000.0);
-    const auto other = correct_survey(rows, with_model("day"), &day);
+    const auto other = correct_survey(rows, by_model("day"), &day);
     for (std::size_t i = 0; i < rows.size(); ++i)
         CHECK(other.rows[i].corrected.value() ==
               Approx(result.rows[i].corrected.value()).epsilon(1e-12));
@@ -94,7 +94,7 @@ TEST_CASE("a blunder is marked as doubtful, and a clean day has no doubtful rows
           "[survey][day]") {
     DayRecord day = kScattered.record();
     const auto doubted = [&] {
-        const auto result = correct_survey(rows_of(day), with_model("day"), &day);
+        const auto result = correct_survey(rows_of(day), by_model("day"), &day);
         std::vector<std::size_t> found;
         for (std::size_t i = 0; i < result.rows.size(); ++i)
             if (!result.rows[i].doubt_statistical.empty()) found.push_back(i);
@@ -111,7 +111,7 @@ TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     for (const std::size_t i : {1U, 12U}) rows[i].is_excluded = true;
-    const auto result = correct_survey(rows, with_model("day"), &day);
+    const auto result = correct_survey(rows, by_model("day"), &day);
     CHECK(result.score.row_count == rows.size() - 2);
     CHECK(result.rows[1].u_corrected);
     const auto station = [](const SurveyCorrection& survey, const std::string& site) {
@@ -121,7 +121,7 @@ TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
     CHECK(station(result, "S1").is_flagged_only);
     CHECK(station(result, "S1").row_count == 2);
     rows[12].is_excluded = false;
-    const auto one = correct_survey(rows, with_model("day"), &day);
+    const auto one = correct_survey(rows, by_model("day"), &day);
     CHECK_FALSE(station(one, "S1").is_flagged_only);
     CHECK(station(one, "S1").row_count == 1);
     CHECK(station(one, "S1").gravity == one.rows[12].corrected);
@@ -129,7 +129,7 @@ TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
     DayRecord other = day;
     for (DayBin& bin : other.bins)
         if (bin.set_up == 12) bin.reading = bin.reading + MilliGal(500.0);
-    const auto changed = correct_survey(rows, with_model("day"), &other);
+    const auto changed = correct_survey(rows, by_model("day"), &other);
     CHECK(changed.rows[1].corrected.value() ==
           Approx(result.rows[1].corrected.value()).epsilon(0.0).margin(0.01));
     CHECK(changed.rows[12].corrected.value() ==
@@ -143,7 +143,7 @@ TEST_CASE("if all rows are flagged, the whole-day model is scored only with the 
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     for (SurveyRow& row : rows) row.is_flagged = true;
-    SurveyOptions options = with_model("day");
+    SurveyOptions options = by_model("day");
     options.use_flags = false;
     const auto result = correct_survey(rows, options, &day);
     CHECK(result.row_sets.front().scores.back().model != "day");
@@ -152,7 +152,7 @@ TEST_CASE("if all rows are flagged, the whole-day model is scored only with the 
 
 TEST_CASE("a row of a station occupied twice is less certain than the station", "[survey][day]") {
     const DayRecord day = kScattered.record();
-    const auto result = correct_survey(rows_of(day), with_model("day"), &day);
+    const auto result = correct_survey(rows_of(day), by_model("day"), &day);
     for (const StationValue& station : result.stations)
         for (const CorrectedRow& row : result.rows) {
             if (row.row.site != station.site) continue;
@@ -169,7 +169,7 @@ TEST_CASE("a flagged blunder is marked as doubtful by the fit without it", "[sur
         if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(15.0);
     auto rows = rows_of(day);
     rows[5].is_flagged = true;
-    const auto result = correct_survey(rows, with_model("day"), &day);
+    const auto result = correct_survey(rows, by_model("day"), &day);
     CHECK(result.rows[5].studentised_residual.value() < -5.0);
     CHECK_FALSE(result.rows[5].doubt_statistical.empty());
 }
@@ -177,11 +177,11 @@ TEST_CASE("a flagged blunder is marked as doubtful by the fit without it", "[sur
 TEST_CASE("the reason why auto does not use the whole-day model is reported", "[survey][day]") {
     DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
-    SurveyOptions options = with_model("day");
+    SurveyOptions options = by_model("day");
     options.priors.values.front() = Prior{-30.0, 1.0};
     CHECK_THROWS_WITH(correct_survey(rows, options, &day), ContainsSubstring("its own priors"));
     day.temperature.gaps = {{1000, 13000}};
-    const auto result = correct_survey(rows, with_model("auto"), &day);
+    const auto result = correct_survey(rows, by_model("auto"), &day);
     CHECK(result.model != "day");
     REQUIRE_FALSE(result.remarks.empty());
     CHECK_THAT(result.remarks.front(),
@@ -192,13 +192,13 @@ TEST_CASE("auto says what the whole-day model was compared with, or that nothing
           "[survey][day]") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
-    const auto all = correct_survey(rows, with_model("auto"), &day);
+    const auto all = correct_survey(rows, by_model("auto"), &day);
     REQUIRE(all.model == "day");
     CHECK_THAT(all.remarks.at(0), ContainsSubstring("the whole-day model is used: it predicts "
                                                     "stations left out with an error of"));
     for (SurveyRow& row : rows)
         if (row.site != "S0") row.reference.reset();
-    const auto one = correct_survey(rows, with_model("auto"), &day);
+    const auto one = correct_survey(rows, by_model("auto"), &day);
     REQUIRE(one.model == "day");
     CHECK_THAT(one.remarks.at(0),
                ContainsSubstring("without a comparison with others, which needs enough readings at "
@@ -209,7 +209,7 @@ TEST_CASE("a day that the model does not fit is named, and its uncertainties are
           "[survey][day]") {
     DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
-    const auto fits = correct_survey(rows, with_model("day"), &day);
+    const auto fits = correct_survey(rows, by_model("day"), &day);
     const auto remark_of = [](const SurveyCorrection& result) {
         std::string text;
         for (const std::string& remark : result.remarks)
@@ -219,7 +219,7 @@ TEST_CASE("a day that the model does not fit is named, and its uncertainties are
     CHECK(remark_of(fits).empty());
     for (DayBin& bin : day.bins)
         if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(25.0);
-    const auto misfit = correct_survey(rows, with_model("day"), &day);
+    const auto misfit = correct_survey(rows, by_model("day"), &day);
     CHECK_THAT(remark_of(misfit), ContainsSubstring("a few set-ups are much further off"));
     double squares = 0.0;
     for (const CorrectedRow& row : misfit.rows) squares += std::pow(*row.studentised_residual, 2);
@@ -245,7 +245,7 @@ TEST_CASE("a bad reading is doubted although only four stations are known", "[su
     for (const double error_mgal : {0.0, 30.0}) {
         for (DayBin& bin : day.bins)
             if (bin.set_up == 6) bin.reading = bin.reading + MilliGal(error_mgal);
-        const auto result = correct_survey(rows, with_model("day"), &day);
+        const auto result = correct_survey(rows, by_model("day"), &day);
         CHECK(result.score.dof == 0);
         CHECK(result.rows[6].doubt_statistical.empty() == (error_mgal == 0.0));
     }
@@ -259,7 +259,7 @@ TEST_CASE("the residual of a reference counts in units of both uncertainties", "
             row.reference = *row.reference + MilliGal(12.0);
             row.u_reference = MilliGal(10.0);
         }
-    const auto result = correct_survey(rows, with_model("day"), &day);
+    const auto result = correct_survey(rows, by_model("day"), &day);
     const CorrectedRow& loose = result.rows[8];
     const double off = (*loose.row.reference - *loose.as<WholeDayRow>()->left_out).value();
     CHECK(off == Approx(12.0).margin(4.0));
@@ -273,7 +273,7 @@ TEST_CASE("one reading at a known station is enough for the whole-day model", "[
     auto rows = rows_of(day);
     for (std::size_t i = 1; i < rows.size(); ++i) rows[i].reference.reset();
     for (const char* const name : {"auto", "network"}) {
-        const auto result = correct_survey(rows, with_model(name), &day);
+        const auto result = correct_survey(rows, by_model(name), &day);
         CHECK(result.model == "day");
         CHECK(result.score.row_count == 1);
         CHECK_FALSE(result.score.loso_mgal);
@@ -285,7 +285,7 @@ TEST_CASE("one reading at a known station is enough for the whole-day model", "[
             CHECK(station.u_gravity->value() < 8.0);
         }
     }
-    CHECK(correct_survey(rows, with_model("network"), nullptr).model == "network");
+    CHECK(correct_survey(rows, by_model("network"), nullptr).model == "network");
 }
 
 TEST_CASE("after a gap of the temperature, estimating the state of the lags halves the error",
@@ -300,9 +300,9 @@ TEST_CASE("after a gap of the temperature, estimating the state of the lags halv
         if (bin.time > end)
             bin.reading =
                 bin.reading + MilliGal(1.0 * std::exp(-seconds_between(end, bin.time) / 2200.0));
-    const double believed = *correct_survey(rows, with_model("day"), &day).score.loso_mgal;
+    const double believed = *correct_survey(rows, by_model("day"), &day).score.loso_mgal;
     day.temperature.gaps = {gap};
-    const double estimated = *correct_survey(rows, with_model("day"), &day).score.loso_mgal;
+    const double estimated = *correct_survey(rows, by_model("day"), &day).score.loso_mgal;
     CAPTURE(believed, estimated);
     CHECK(estimated < 0.5 * believed);
 }
@@ -315,48 +315,47 @@ TEST_CASE("auto leaves the whole-day model if a simpler one predicts stations be
     for (SurveyRow& row : rows)
         row.acceleration =
             *row.reference + MilliGal(1838.0) - MilliGal(30.0 * (row.temperature.value() - 42.6));
-    CHECK(correct_survey(rows, with_model("auto"), &day).model != "day");
+    CHECK(correct_survey(rows, by_model("auto"), &day).model != "day");
     for (std::size_t i = 0; i < day.bins.size(); ++i)
         day.bins[i].reading =
             day.bins[i].reading + MilliGal(i / MadeUpDay::kBins == 5 ? 200.0 : 0.0);
-    const auto result = correct_survey(rows, with_model("auto"), &day);
+    const auto result = correct_survey(rows, by_model("auto"), &day);
     CHECK(result.model == "t");
     REQUIRE_FALSE(result.remarks.empty());
     CHECK_THAT(result.remarks.front(),
                ContainsSubstring("not the whole-day model: it predicts stations left out with"));
-    CHECK(correct_survey(rows, with_model("day"), &day).model == "day");
+    CHECK(correct_survey(rows, by_model("day"), &day).model == "day");
     rows = rows_of(kScattered.record());
     const DayRecord good = kScattered.record();
-    CHECK(correct_survey(rows, with_model("auto"), &good).model == "day");
+    CHECK(correct_survey(rows, by_model("auto"), &good).model == "day");
 }
 
 TEST_CASE("a day that does not determine the whole-day model is refused with its reason",
           "[survey][day]") {
     DayRecord day = kScattered.record();
     auto rows = rows_of(day);
-    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), nullptr),
+    CHECK_THROWS_WITH(correct_survey(rows, by_model("day"), nullptr),
                       ContainsSubstring("model = day: needs the record of the day's temperature"));
     for (SurveyRow& row : rows) row.reference.reset();
-    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
+    CHECK_THROWS_WITH(correct_survey(rows, by_model("day"), &day),
                       ContainsSubstring("needs a row with a reference, has none"));
     rows = rows_of(day);
     day.temperature.gaps = {{1000, 13000}};
-    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
+    CHECK_THROWS_WITH(correct_survey(rows, by_model("day"), &day),
                       ContainsSubstring("has a gap of 400 min, more than the allowed 360"));
     day.temperature.gaps.clear();
     std::erase_if(day.bins, [](const DayBin& bin) { return bin.set_up == 4; });
-    CHECK_THROWS_WITH(correct_survey(rows, with_model("day"), &day),
-                      ContainsSubstring("S4 (1) has"));
+    CHECK_THROWS_WITH(correct_survey(rows, by_model("day"), &day), ContainsSubstring("S4 (1) has"));
 }
 
 TEST_CASE("a temperature that begins late gives a remark", "[survey][day]") {
     DayRecord day = kScattered.record();
-    CHECK(correct_survey(rows_of(day), with_model("day"), &day).remarks.empty());
+    CHECK(correct_survey(rows_of(day), by_model("day"), &day).remarks.empty());
     const auto& whole = day.temperature.series;
     day.temperature.series = {
         whole.time_of(2000.0), whole.rate(),
         std::vector<double>(whole.values().begin() + 2000, whole.values().end())};
-    const auto remarks = correct_survey(rows_of(day), with_model("day"), &day).remarks;
+    const auto remarks = correct_survey(rows_of(day), by_model("day"), &day).remarks;
     REQUIRE(remarks.size() == 1);
     CHECK_THAT(remarks.front(), ContainsSubstring("begins 54 min before the first occupation"));
 }

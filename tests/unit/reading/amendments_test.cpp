@@ -11,7 +11,7 @@ using namespace a351::corrector::reading;
 
 namespace {
 
-const std::vector<text::Site> kSites{
+const std::vector<text::Site> kAmendedSites{
     {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)},
     {"B", Degrees(140.1), Degrees(36.1), Metres(20.0), std::nullopt}};
 
@@ -28,7 +28,7 @@ std::vector<OccupationWindow> list() {
 
 std::vector<Amendment> amended(std::vector<OccupationWindow>& windows, const std::string& toml) {
     const test::TemporaryDirectory folder;
-    std::vector<text::Site> sites = kSites;
+    std::vector<text::Site> sites = kAmendedSites;
     return amend(windows, folder.write("amendments.toml", toml), sites).list;
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("amendments refer to the original list, so that two names can be excha
 TEST_CASE("set-ups, steps and references are amended", "[survey][amendments]") {
     const test::TemporaryDirectory folder;
     auto windows = list();
-    auto sites = kSites;
+    auto sites = kAmendedSites;
     const Amendments amendments = amend(
         windows,
         folder.write(

@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr std::chrono::seconds kStay = Morning::kStay;
-const std::vector<std::string>& kSites = Morning::kSites;
+const std::vector<std::string>& kMorningSites = Morning::kSites;
 
 OccupationRows average(const Morning& morning,
                        const std::string& keys = "occupations='occupations.csv'\n") {
@@ -35,7 +35,7 @@ TEST_CASE("occupations read from the archive have the values that were written",
     for (std::size_t i = 0; i < 4; ++i) {
         CAPTURE(i);
         const SurveyRow& row = result.rows[i];
-        CHECK(row.site == kSites[i]);
+        CHECK(row.site == kMorningSites[i]);
         CHECK(row.occupation == (i == 3 ? 2 : 1));
         CHECK(row.is_flagged == (i == 2));
         CHECK(row.reference == MilliGal(Morning::kGravity_mgal[i]));
@@ -93,8 +93,8 @@ TEST_CASE("two runs over the same archive are bit-identical", "[survey][archive]
 
 TEST_CASE("occupations are read from the event log if no table is given", "[survey][archive]") {
     Morning morning;
-    for (std::size_t i = 0; i < kSites.size(); ++i) {
-        events::Event start{"start", Morning::start_of(i), {}, {}, {{"site", kSites[i]}}};
+    for (std::size_t i = 0; i < kMorningSites.size(); ++i) {
+        events::Event start{"start", Morning::start_of(i), {}, {}, {{"site", kMorningSites[i]}}};
         events::Event stop{"stop", Morning::start_of(i) + kStay, {}, {}, {}};
         events::append_event(files::posix_files(), morning.folder().path() / "data/events", start);
         events::append_event(files::posix_files(), morning.folder().path() / "data/events", stop);
@@ -112,23 +112,23 @@ TEST_CASE("the last stay of a log without a stop lasts until the end of the reco
           "[survey][archive]") {
     Morning morning;
     const auto events = morning.folder().path() / "data/events";
-    for (std::size_t i = 0; i < kSites.size(); ++i) {
+    for (std::size_t i = 0; i < kMorningSites.size(); ++i) {
         events::append_event(files::posix_files(), events,
-                             {"start", Morning::start_of(i), {}, {}, {{"site", kSites[i]}}});
-        if (i + 1 < kSites.size())
+                             {"start", Morning::start_of(i), {}, {}, {{"site", kMorningSites[i]}}});
+        if (i + 1 < kMorningSites.size())
             events::append_event(files::posix_files(), events,
                                  {"stop", Morning::start_of(i) + kStay, {}, {}, {}});
     }
     const auto result = average(morning, "");
-    REQUIRE(result.rows.size() == kSites.size());
-    const UtcTime end = Morning::kBegin + static_cast<int>(kSites.size()) * Morning::kCycle;
+    REQUIRE(result.rows.size() == kMorningSites.size());
+    const UtcTime end = Morning::kBegin + static_cast<int>(kMorningSites.size()) * Morning::kCycle;
     CHECK(std::chrono::abs(*result.rows.back().end - end) < 30s);
     CHECK(std::ranges::count(result.rows.back().notes, "gap") == 0);
     REQUIRE(result.findings.size() == 1);
     const Finding& finding = result.findings[0];
     CHECK(finding.kind == "no_stop");
     CHECK(finding.code == "no_stop_last");
-    CHECK(finding.site == kSites.back());
+    CHECK(finding.site == kMorningSites.back());
     CHECK(finding.key == "20200502T000220Z");
     CHECK_FALSE(finding.is_headline);
     CHECK(finding.text == "B (2) has no stop: it lasts until the end of the record, at " +

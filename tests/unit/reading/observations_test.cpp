@@ -10,7 +10,7 @@ using namespace a351::corrector::reading;
 
 namespace {
 
-const std::vector<text::Site> kSites{
+const std::vector<text::Site> kObservedSites{
     {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)},
     {"B", Degrees(140.1), Degrees(36.1), Metres(20.0), std::nullopt}};
 
@@ -20,20 +20,22 @@ public:
     explicit TableFile(const std::string& content)
         : path_(folder_.write("observations.csv", content)) {}
 
-    [[nodiscard]] std::vector<SurveyRow> read() const { return read_observations(path_, kSites); }
+    [[nodiscard]] std::vector<SurveyRow> read() const {
+        return read_observations(path_, kObservedSites);
+    }
 
 private:
     test::TemporaryDirectory folder_;
     std::filesystem::path path_;
 };
 
-const std::string kHeader =
+const std::string kTableHeader =
     "site,occupation,outlier,time_utc,earth_tide_mgal,acceleration_mgal,temperature_degc\n";
 
 }  // namespace
 
 TEST_CASE("rows are read with all their columns and sorted by time", "[survey][observations]") {
-    const auto rows = TableFile(kHeader +
+    const auto rows = TableFile(kTableHeader +
                                 "B,1,1,2020-01-01T02:00:00Z,-0.02,981700.5,42.7\n"
                                 "A,1,0,2020-01-01T00:00:00,0.01,981700.25,42.5\n")
                           .read();
@@ -72,16 +74,17 @@ TEST_CASE("a bad table of observations is refused with line, column and value",
           "[survey][observations]") {
     const std::string good = "A,1,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n";
     const auto [content, message] = GENERATE_COPY(table<std::string, std::string>({
-        {kHeader + "C,1,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n", ":2: site = C: unknown"},
-        {kHeader + "A,1.5,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n", "occupation = 1.5"},
-        {kHeader + "A,1,2,2020-01-01T00:00:00Z,0.01,981700,42.5\n", "outlier = 2"},
-        {kHeader + "A,1,0,yesterday,0.01,981700,42.5\n", "time_utc = yesterday"},
-        {kHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,nan,42.5\n", "acceleration_mgal = nan"},
-        {kHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,981700,inf\n", "temperature_degc = inf"},
-        {kHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,1.001,42.5\n", "acceleration_mgal = 1.001"},
-        {kHeader + "A,1,0,2020-01-01T00:00:00Z,70.0,981700,42.5\n", "earth_tide_mgal = 70.0"},
-        {kHeader + good + good, ":3: time_utc = 2020-01-01T00:00:00Z: appears twice"},
-        {kHeader, "no rows"},
+        {kTableHeader + "C,1,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n", ":2: site = C: unknown"},
+        {kTableHeader + "A,1.5,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n", "occupation = 1.5"},
+        {kTableHeader + "A,1,2,2020-01-01T00:00:00Z,0.01,981700,42.5\n", "outlier = 2"},
+        {kTableHeader + "A,1,0,yesterday,0.01,981700,42.5\n", "time_utc = yesterday"},
+        {kTableHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,nan,42.5\n", "acceleration_mgal = nan"},
+        {kTableHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,981700,inf\n", "temperature_degc = inf"},
+        {kTableHeader + "A,1,0,2020-01-01T00:00:00Z,0.01,1.001,42.5\n",
+         "acceleration_mgal = 1.001"},
+        {kTableHeader + "A,1,0,2020-01-01T00:00:00Z,70.0,981700,42.5\n", "earth_tide_mgal = 70.0"},
+        {kTableHeader + good + good, ":3: time_utc = 2020-01-01T00:00:00Z: appears twice"},
+        {kTableHeader, "no rows"},
         {"site,occupation,acceleration_mgal,temperature_degc\nA,1,981700,42.5\n",
          "no column of time"},
         {"site,occupation,time_utc,time_jst,acceleration_mgal,temperature_degc\n",

@@ -10,15 +10,15 @@ using namespace a351::corrector::reading;
 
 namespace {
 
-const std::vector<text::Site> kSites{
+const std::vector<text::Site> kListedSites{
     {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)},
     {"B", Degrees(140.1), Degrees(36.1), Metres(20.0), std::nullopt}};
-const std::string kHeader = "site,occupation,start_utc,end_utc,used,note\n";
+const std::string kListHeader = "site,occupation,start_utc,end_utc,used,note\n";
 
 OccupationList read(const std::string& rows) {
     const test::TemporaryDirectory folder;
-    const auto file = folder.write("occupations.csv", kHeader + rows);
-    return drop_invalid_occupations(read_occupation_table(file, kSites), kSites, file);
+    const auto file = folder.write("occupations.csv", kListHeader + rows);
+    return drop_invalid_occupations(read_occupation_table(file, kListedSites), kListedSites, file);
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ TEST_CASE("a mistake in the field excludes only its own occupation, which is rep
                      "{\"type\":\"stop\",\"utc\":\"2020-01-01T01:10:00Z\"}\n"
                      "{\"type\":\"start\",\"utc\":\"2020-01-01T02:00:00Z\",\"site\":\"B\"}\n");
     const auto list =
-        drop_invalid_occupations(read_logged_occupations(file.parent_path()), kSites, file);
+        drop_invalid_occupations(read_logged_occupations(file.parent_path()), kListedSites, file);
     REQUIRE(list.windows.size() == 2);
     CHECK(list.windows[0].site == "A");
     CHECK_FALSE(list.windows[0].is_last);

@@ -9,8 +9,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const UtcTime kStart = parse_rfc3339("2020-01-01T00:00:30Z").value();
-const station::ChannelScale kScale{"BK1", 0.5, 40.0, "degC"};  // gain, offset
+const UtcTime kCourseStart = parse_rfc3339("2020-01-01T00:00:30Z").value();
+const station::ChannelScale kCourseScale{"BK1", 0.5, 40.0, "degC"};  // gain, offset
 
 /// Returns two records of a sensor faster than its nominal 1 Hz, each with its own time stamp.
 archive::Segment segment(UtcTime start, std::int32_t first, std::int32_t second) {
@@ -26,8 +26,8 @@ archive::Segment segment(UtcTime start, std::int32_t first, std::int32_t second)
 
 TEST_CASE("the temperature course has means of whole minutes, without minutes that have no samples",
           "[survey][temperature]") {
-    const auto course =
-        temperature_course({segment(kStart, 2, 6), segment(kStart + 10min, 8, 8)}, kScale);
+    const auto course = temperature_course(
+        {segment(kCourseStart, 2, 6), segment(kCourseStart + 10min, 8, 8)}, kCourseScale);
     REQUIRE(course.size() == 4);
     CHECK(course[0].middle == parse_rfc3339("2020-01-01T00:00:30Z").value());
     CHECK(course[0].mean == DegC(41.0));  // 30 samples of 2
@@ -35,12 +35,12 @@ TEST_CASE("the temperature course has means of whole minutes, without minutes th
     CHECK(course[1].mean.value() == Approx(40.0 + 0.5 * (2 * 2 + 30 * 6) / 32.0));
     CHECK(course[2].middle == parse_rfc3339("2020-01-01T00:10:30Z").value());
     CHECK(course[3].mean == DegC(44.0));
-    CHECK(temperature_course({}, kScale).empty());
+    CHECK(temperature_course({}, kCourseScale).empty());
 }
 
 TEST_CASE("a verdict lasts until the next one, but not over a pause of the recorder",
           "[survey][temperature]") {
-    const auto minute = [](int k) { return kStart - 30s + k * 1min; };
+    const auto minute = [](int k) { return kCourseStart - 30s + k * 1min; };
     std::vector<MinuteTemperature> course;
     for (const int k : {0, 1, 2, 10, 11}) course.push_back({minute(k) + 30s, DegC(40.0)});
     const auto event = [&](int k, const char* state) {

@@ -11,7 +11,7 @@ using namespace a351::corrector::reading;
 
 namespace {
 
-const UtcTime kStart = *parse_rfc3339("2026-05-01T00:00:00Z");
+const UtcTime kDayStart = *parse_rfc3339("2026-05-01T00:00:00Z");
 
 /// A sensor whose axes BN1, BN2, BNZ sense these values, in g, on the way to a stay and during it.
 struct Mounted {
@@ -28,15 +28,15 @@ struct Mounted {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t axis = order[k];
             const double counts = sensed_g[axis] * 9.80665 * 1e5;
-            archive::Segment segment{50.0, {}, {{0, kStart}}};
+            archive::Segment segment{50.0, {}, {{0, kDayStart}}};
             segment.counts.assign(30'000, static_cast<std::int32_t>(counts));
             std::fill_n(segment.counts.begin(), 15'000, 980'665);  // on the way: not looked at
             samples.axes[k].segments = {segment};
             channels.axes[k] = {codes[axis], 1e-5, 0.0, "m/s**2", dip_deg[axis]};
         }
         OccupationWindow window;
-        window.start = kStart + from_seconds(300.0);
-        window.end = kStart + from_seconds(600.0);
+        window.start = kDayStart + from_seconds(300.0);
+        window.end = kDayStart + from_seconds(600.0);
         vertical = put_vertical_last(samples, channels, {window}, "station.xml");
     }
 };

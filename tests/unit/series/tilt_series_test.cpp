@@ -15,7 +15,7 @@ using namespace a351::unit;
 namespace {
 
 const Eigen::Vector3d kBiases_mgal(-1200.0, 700.0, 1838.0);
-constexpr double kGravity_mgal = 979763.0;
+constexpr double kTiltedGravity_mgal = 979763.0;
 constexpr std::size_t kBins = 10;
 
 /// Tilt angles of a set-up, degrees.
@@ -27,8 +27,8 @@ const std::vector<Tilt> kThereAndBack{{0, 0}, {2, 0},  {-2, 0}, {0, 2},  {0, -2}
                                       {0, 0}, {0, -2}, {0, 2},  {-2, 0}, {2, 0},  {0, 0}};
 
 /// Returns set-ups of ten minutes, one after another.
-OccupationRows series(const std::vector<Tilt>& tilts, double placement_mgal = 0.0,
-                      double degc_per_set_up = 0.0) {
+OccupationRows tilted_series(const std::vector<Tilt>& tilts, double placement_mgal = 0.0,
+                             double degc_per_set_up = 0.0) {
     const UtcTime start = *parse_rfc3339("2026-05-01T00:00:00Z");
     constexpr double kStay_s = 600.0;
     std::vector<double> degc(300 * (tilts.size() + 1));
@@ -42,7 +42,8 @@ OccupationRows series(const std::vector<Tilt>& tilts, double placement_mgal = 0.
         const double x = std::sin(tilts[s].x * std::numbers::pi / 180.0);
         const double y = std::sin(tilts[s].y * std::numbers::pi / 180.0);
         const Eigen::Vector3d vector =
-            kGravity_mgal * Eigen::Vector3d(x, y, std::sqrt(1.0 - x * x - y * y)) + kBiases_mgal;
+            kTiltedGravity_mgal * Eigen::Vector3d(x, y, std::sqrt(1.0 - x * x - y * y)) +
+            kBiases_mgal;
         const double placement = placement_mgal * normal(random);
         const UtcTime begin = start + from_seconds(kStay_s * static_cast<double>(s) + 60.0);
         for (std::size_t b = 0; b < kBins; ++b) {
@@ -60,14 +61,14 @@ OccupationRows series(const std::vector<Tilt>& tilts, double placement_mgal = 0.
         SurveyRow row;
         row.site = "laboratory";
         row.time = begin;
-        row.reference = MilliGal(kGravity_mgal);
+        row.reference = MilliGal(kTiltedGravity_mgal);
         row.temperature = DegC(42.45 + degc_per_set_up * static_cast<double>(s));
         read.rows.push_back(row);
     }
     return read;
 }
 
-std::string refusal_of(const OccupationRows& read) {
+std::string refusal_of_tilts(const OccupationRows& read) {
     try {
         static_cast<void>(measure_axis_bias(read, "tilt"));
     } catch (const InputError& error) {
@@ -79,7 +80,7 @@ std::string refusal_of(const OccupationRows& read) {
 }  // namespace
 
 TEST_CASE("a tilt series gives the biases it was made with", "[survey][tilt_series]") {
-    const TiltSeries found = measure_axis_bias(series(kThereAndBack), "tilt");
+    const TiltSeries found = measure_axis_bias(tilted_series(kThereAndBack), "tilt");
     CHECK(found.set_ups == 12);
     // The margin covers 0.01 mGal of noise and the small error of the bias of z.
     CHECK(found.bias.values(0) == Approx(kBiases_mgal(0)).margin(0.5));
@@ -88,7 +89,7 @@ TEST_CASE("a tilt series gives the biases it was made with", "[survey][tilt_seri
 }
 
 TEST_CASE("without the site's gravity the biases are the same", "[survey][tilt_series]") {
-    OccupationRows read = series(kThereAndBack);
+    OccupationRows read = tilted_series(kThereAndBack);
     for (SurveyRow& row : read.rows) row.reference.reset();
     const TiltSeries found = measure_axis_bias(read, "tilt");
     CHECK(found.bias.values(0) == Approx(kBiases_mgal(0)).margin(2.0));
@@ -96,7 +97,7 @@ TEST_CASE("without the site's gravity the biases are the same", "[survey][tilt_s
 }
 
 TEST_CASE("the scatter of set-ups becomes the error of the biases", "[survey][tilt_series]") {
-    const TiltSeries found = measure_axis_bias(series(kThereAndBack, 1.2), "tilt");
+    const TiltSeries found = measure_axis_bias(tilted_series(kThereAndBack, 1.2), "tilt");
     // 1.2 mGal over four set-ups at 2 degrees each: 1.2 / (0.0349 sqrt 4) = 17.
     CHECK(std::sqrt(found.bias.covariance(0, 0)) == Approx(17.0).epsilon(0.4));
     CHECK(std::abs(found.bias.values(0) - kBiases_mgal(0)) < 3.0 * 17.0);
@@ -109,7 +110,7 @@ TEST_CASE("the scatter of set-ups becomes the error of the biases", "[survey][ti
 }
 
 TEST_CASE("a flagged set-up is not used", "[survey][tilt_series]") {
-    OccupationRows read = series(kThereAndBack);
+    OccupationRows read = tilted_series(kThereAndBack);
     read.rows[3].is_flagged = true;
     for (DayBin& bin : read.day->bins)
         if (bin.set_up == 3) bin.reading = bin.reading + MilliGal(1e5);
@@ -120,20 +121,22 @@ TEST_CASE("a flagged set-up is not used", "[survey][tilt_series]") {
 
 TEST_CASE("a tilt series that does not determine the biases is refused with the reason",
           "[survey][tilt_series]") {
-    CHECK_THAT(refusal_of(series({{0, 0}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}})),
+    CHECK_THAT(refusal_of_tilts(tilted_series({{0, 0}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}})),
                ContainsSubstring("tilt: tilt series: 5 set-ups; allowed: 6 or more"));
-    CHECK_THAT(refusal_of(series({{0, 0}, {2, 0}, {-2, 0}, {2, 0}, {-2, 0}, {0, 0}})),
+    CHECK_THAT(refusal_of_tilts(tilted_series({{0, 0}, {2, 0}, {-2, 0}, {2, 0}, {-2, 0}, {0, 0}})),
                ContainsSubstring("y is tilted from 0.04 to 0.04 deg; allowed: both axes"));
-    CHECK_THAT(refusal_of(series({{0, 0}, {2, 0}, {0, 2}, {0, -2}, {2, 0}, {0, 0}})),
+    CHECK_THAT(refusal_of_tilts(tilted_series({{0, 0}, {2, 0}, {0, 2}, {0, -2}, {2, 0}, {0, 0}})),
                ContainsSubstring("x is tilted from -0.07 to 1.93 deg"));
-    CHECK_THAT(refusal_of(series({{0, 0}, {2, 2}, {-2, -2}, {2, 2}, {-2, -2}, {0, 0}})),
-               ContainsSubstring("x and y are tilted together"));
-    CHECK_THAT(refusal_of(series(kThereAndBack, 0.0, 0.05)),
+    CHECK_THAT(
+        refusal_of_tilts(tilted_series({{0, 0}, {2, 2}, {-2, -2}, {2, 2}, {-2, -2}, {0, 0}})),
+        ContainsSubstring("x and y are tilted together"));
+    CHECK_THAT(refusal_of_tilts(tilted_series(kThereAndBack, 0.0, 0.05)),
                ContainsSubstring("the temperature moved by 0.55 degC between set-ups"));
-    OccupationRows read = series(kThereAndBack);
+    OccupationRows read = tilted_series(kThereAndBack);
     read.rows[4].site = "roof";
-    CHECK_THAT(refusal_of(read), ContainsSubstring("set-ups at laboratory and roof"));
-    read = series(kThereAndBack);
+    CHECK_THAT(refusal_of_tilts(read), ContainsSubstring("set-ups at laboratory and roof"));
+    read = tilted_series(kThereAndBack);
     read.day.reset();
-    CHECK_THAT(refusal_of(read), ContainsSubstring("needs the record of the day's temperature"));
+    CHECK_THAT(refusal_of_tilts(read),
+               ContainsSubstring("needs the record of the day's temperature"));
 }

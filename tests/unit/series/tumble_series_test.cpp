@@ -15,7 +15,7 @@ using namespace a351::corrector::reading;
 
 namespace {
 
-constexpr double kGravity_mgal = 979763.0;
+constexpr double kTumbledGravity_mgal = 979763.0;
 
 /// A sensor: bias and quadratic term at 1 g in mGal, scale, angles as Tumble::angle_rad.
 struct Truth {
@@ -53,7 +53,7 @@ OccupationRows tumbled(const Truth& truth, const std::vector<Eigen::Vector3d>& p
     OccupationRows read;
     for (const Eigen::Vector3d& position : positions) {
         const Eigen::Vector3d askew(normal(random), normal(random), normal(random));
-        const Eigen::Vector3d a = kGravity_mgal * (position + 0.01 * askew).normalized();
+        const Eigen::Vector3d a = kTumbledGravity_mgal * (position + 0.01 * askew).normalized();
         const Eigen::Vector3d in_g = a / kMilliGalPerStandardGravity;
         Eigen::Matrix3d cross = truth.scale.asDiagonal();
         cross(0, 1) = cross(1, 0) = 0.5 * truth.angle(0);
@@ -68,7 +68,7 @@ OccupationRows tumbled(const Truth& truth, const std::vector<Eigen::Vector3d>& p
         record.z.mean = to_standard_gravity(MilliGal(mean(2)));
         SurveyRow row;
         row.site = "laboratory";
-        row.reference = MilliGal(kGravity_mgal);
+        row.reference = MilliGal(kTumbledGravity_mgal);
         row.temperature = DegC(42.5);
         row.record = record;
         read.rows.push_back(row);
@@ -81,8 +81,8 @@ bool is_within(const TumbleTerm& found, double truth) {
 }
 
 double slope_of(const Truth& truth) {
-    return truth.scale(2) + 2.0 * truth.quadratic(2) * kGravity_mgal / kMilliGalPerStandardGravity /
-                                kMilliGalPerStandardGravity;
+    return truth.scale(2) + 2.0 * truth.quadratic(2) * kTumbledGravity_mgal /
+                                kMilliGalPerStandardGravity / kMilliGalPerStandardGravity;
 }
 
 std::string refusal_of_tumble(const OccupationRows& read) {
@@ -112,7 +112,7 @@ TEST_CASE("without noise a tumble gives the sensor it was made with", "[survey][
     }
     REQUIRE(found.axis_bias);
     CHECK(found.axis_bias->values(0) ==
-          Approx(truth.bias(0) + truth.angle(1) * kGravity_mgal).margin(0.2));
+          Approx(truth.bias(0) + truth.angle(1) * kTumbledGravity_mgal).margin(0.2));
 }
 
 TEST_CASE("in twenty tumbles the limits contain the truth of each term in seventeen",
@@ -133,8 +133,9 @@ TEST_CASE("in twenty tumbles the limits contain the truth of each term in sevent
         }
         slopes += is_within(found.slope, slope_of(truth));
         const unit::AxisBias& bias = found.axis_bias.value();
-        biases += std::abs(bias.values(0) - truth.bias(0) - truth.angle(1) * kGravity_mgal) <=
-                  1.96 * std::sqrt(bias.covariance(0, 0));
+        biases +=
+            std::abs(bias.values(0) - truth.bias(0) - truth.angle(1) * kTumbledGravity_mgal) <=
+            1.96 * std::sqrt(bias.covariance(0, 0));
         CHECK(found.slope.standard_error < 3e-5);
     }
     for (const auto& axis : within)
@@ -182,11 +183,11 @@ TEST_CASE("a wrong gravity within its uncertainty is within that of the scale",
     const Truth truth = drawn(random);
     OccupationRows read = tumbled(truth, directions(true), random);
     for (SurveyRow& row : read.rows) {
-        row.reference = MilliGal(kGravity_mgal + 40.0);
+        row.reference = MilliGal(kTumbledGravity_mgal + 40.0);
         row.u_reference = MilliGal(40.0);
     }
     const Tumble found = measure_tumble(read, "tumble");
-    CHECK(found.axes[0].scale.standard_error == Approx(40.0 / kGravity_mgal).epsilon(0.1));
+    CHECK(found.axes[0].scale.standard_error == Approx(40.0 / kTumbledGravity_mgal).epsilon(0.1));
     CHECK(is_within(found.axes[0].scale, truth.scale(0)));
 }
 

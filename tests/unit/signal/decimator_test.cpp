@@ -14,7 +14,7 @@ using namespace a351::corrector::eemd;
 namespace a351::signal {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns the outputs one by one from the definition in decimation.hpp, with the terms added from
 /// the outside in.
@@ -23,7 +23,7 @@ std::vector<double> by_definition(const std::vector<double>& input,
     const std::size_t half = filter.half_width();
     std::vector<double> output;
     for (std::size_t centre = 0; centre < input.size(); centre += filter.factor) {
-        output.push_back(kNan);
+        output.push_back(kMissing);
         if (centre < half || centre + half >= input.size()) continue;
         double sum = 0.0;
         for (std::size_t j = half; j >= 1; --j) {
@@ -40,7 +40,7 @@ std::vector<double> noise_with_gaps(std::size_t n) {
     std::vector<double> values(n);
     fill_white_noise(7, n, values);
     for (double& value : values) {
-        if (std::abs(value) > 2.95) value = kNan;
+        if (std::abs(value) > 2.95) value = kMissing;
     }
     return values;
 }

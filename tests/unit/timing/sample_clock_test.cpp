@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const UtcTime kNoon = *parse_rfc3339("2026-03-01T12:00:00Z");
+const UtcTime kTrueNoon = *parse_rfc3339("2026-03-01T12:00:00Z");
 constexpr Nanoseconds kGroupDelay = 63'875us;
 
 /// A device and a host, both in true time: frames and readings in order, one second at a time.
@@ -27,14 +27,15 @@ struct World {
     SampleClock clock{{Hertz(50.0), kGroupDelay}};
 
     [[nodiscard]] UtcTime truth(std::int64_t k) const {
-        return kNoon + from_seconds(static_cast<double>(k) / rate_hz * (1.0 - device_ppm * 1e-6));
+        return kTrueNoon +
+               from_seconds(static_cast<double>(k) / rate_hz * (1.0 - device_ppm * 1e-6));
     }
     [[nodiscard]] RawTime raw(UtcTime utc) const {
         const Nanoseconds bent = utc > bend_at
                                      ? from_seconds(seconds_between(bend_at, utc) * bend_ppm * 1e-6)
                                      : Nanoseconds(0);
         return RawTime(1000s) - slept + bent +
-               from_seconds(seconds_between(kNoon, utc) * (1.0 + raw_ppm * 1e-6));
+               from_seconds(seconds_between(kTrueNoon, utc) * (1.0 + raw_ppm * 1e-6));
     }
     void read_clock(UtcTime utc) {
         const Nanoseconds boottime = raw(utc).time_since_epoch() + slept + slept_too_long;
@@ -147,7 +148,7 @@ TEST_CASE("a published time never changes and does not depend on when it is requ
 TEST_CASE("index_at is the inverse of time_of", "[timing][sample_clock]") {
     World world;
     Delays delays(3);
-    CHECK_FALSE(world.clock.index_at(kNoon));
+    CHECK_FALSE(world.clock.index_at(kTrueNoon));
     for (std::int64_t k = 0; k < 30'000; ++k) world.frame(k, delays(world.truth(k)));
     for (std::int64_t k = 0; k < 30'000; k += 11) {
         const UtcTime utc = world.clock.time_of(k)->utc;

@@ -9,10 +9,10 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const UtcTime kNoon = *parse_rfc3339("2026-03-01T12:00:00Z");
+const UtcTime kHostNoon = *parse_rfc3339("2026-03-01T12:00:00Z");
 
 /// A host whose clock can be set, with one clock reading a second.
-struct Host {
+struct DriftingHost {
     UtcMapping mapping;
     Nanoseconds now{0};     ///< True time since noon.
     double offset_s = 0.0;  ///< Error of the clock, positive if it is fast.
@@ -23,7 +23,7 @@ struct Host {
     std::optional<Nanoseconds> followed;
 
     [[nodiscard]] RawTime raw() const { return RawTime(500s + now); }
-    [[nodiscard]] UtcTime clock() const { return kNoon + now + from_seconds(offset_s); }
+    [[nodiscard]] UtcTime clock() const { return kHostNoon + now + from_seconds(offset_s); }
 
     void run(int seconds) {
         for (int i = 0; i < seconds; ++i) {
@@ -36,14 +36,14 @@ struct Host {
     }
     /// Returns the error of the mapping against true time, ms.
     [[nodiscard]] double error_ms() const {
-        return 1e3 * seconds_between(kNoon + now, mapping.at(raw()));
+        return 1e3 * seconds_between(kHostNoon + now, mapping.at(raw()));
     }
 };
 
 }  // namespace
 
 TEST_CASE("a slew of 500 ppm is followed to 1 ms", "[timing][utc_mapping]") {
-    Host host;
+    DriftingHost host;
     host.run(10);
     for (const double slew_ppm : {500.0, 0.0, -500.0, 0.0}) {
         host.slew_ppm = slew_ppm;
@@ -60,7 +60,7 @@ TEST_CASE("a slew of 500 ppm is followed to 1 ms", "[timing][utc_mapping]") {
 TEST_CASE("a step of a host that was synchronised is doubted, then followed",
           "[timing][utc_mapping]") {
     for (const double step_s : {3600.0, -3600.0, 0.06}) {
-        Host host;
+        DriftingHost host;
         host.run(100);
         host.offset_s = step_s;
         host.is_synchronised = false;  // as clock_settime leaves it
@@ -81,7 +81,7 @@ TEST_CASE("a step of a host that was synchronised is doubted, then followed",
 }
 
 TEST_CASE("a clock that is set and set back changes nothing", "[timing][utc_mapping]") {
-    Host host;
+    DriftingHost host;
     host.run(100);
     host.offset_s = 5.0;
     host.run(40);
@@ -95,7 +95,7 @@ TEST_CASE("a clock that is set and set back changes nothing", "[timing][utc_mapp
 TEST_CASE(
     "a step while the clock is slewed stays doubtful, and the stated error covers the true one",
     "[timing][utc_mapping]") {
-    Host host;
+    DriftingHost host;
     host.run(10);
     host.slew_ppm = 500.0;
     host.run(10);
@@ -114,7 +114,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a clock that keeps jumping is not followed", "[timing][utc_mapping]") {
-    Host host;
+    DriftingHost host;
     host.run(100);
     for (int i = 0; i < 10; ++i) {
         host.offset_s += 1.0;
@@ -125,7 +125,7 @@ TEST_CASE("a clock that keeps jumping is not followed", "[timing][utc_mapping]")
 }
 
 TEST_CASE("the first synchronisation is followed at once", "[timing][utc_mapping]") {
-    Host host;
+    DriftingHost host;
     host.is_synchronised = false;
     host.offset_s = -1.7e9;  // 1970
     host.run(30);
@@ -141,7 +141,7 @@ TEST_CASE("the first synchronisation is followed at once", "[timing][utc_mapping
 
 TEST_CASE("a step of a clock that is never synchronised is followed after a minute",
           "[timing][utc_mapping]") {
-    Host host;
+    DriftingHost host;
     host.is_synchronised = false;
     host.run(30);
     host.offset_s = 100.0;
@@ -152,7 +152,7 @@ TEST_CASE("a step of a clock that is never synchronised is followed after a minu
 }
 
 TEST_CASE("a step within a minute of waking up is doubted", "[timing][utc_mapping]") {
-    Host host;
+    DriftingHost host;
     host.is_synchronised = false;
     host.run(30);
     host.mapping.woke_up();
@@ -169,7 +169,7 @@ TEST_CASE("an announced leap second is followed at once, with a larger stated er
           "[timing][utc_mapping]") {
     for (const auto& [leap, step_s] :
          {std::pair(LeapSecond::inserted, -1.0), std::pair(LeapSecond::removed, 1.0)}) {
-        Host host;
+        DriftingHost host;
         host.leap = leap;
         host.run(12 * 3600 - 150);
         CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
@@ -192,7 +192,7 @@ TEST_CASE("a leap second is followed even if the reading after it still announce
           "[timing][utc_mapping]") {
     for (const auto& [leap, step_s] :
          {std::pair(LeapSecond::inserted, -1.0), std::pair(LeapSecond::removed, 1.0)}) {
-        Host host;
+        DriftingHost host;
         host.leap = leap;
         host.run(12 * 3600 - 1);
         host.offset_s += step_s;  // This reading still announces it.
@@ -208,7 +208,7 @@ TEST_CASE("a leap second is followed even if the reading after it still announce
 
 TEST_CASE("a step of one second at another time than the announced one is doubted",
           "[timing][utc_mapping]") {
-    Host host;
+    DriftingHost host;
     host.leap = LeapSecond::inserted;
     host.run(100);
     host.offset_s = -1.0;

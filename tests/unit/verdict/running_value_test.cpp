@@ -7,11 +7,11 @@
 namespace a351::daemon::verdict {
 namespace {
 
-const UtcTime kStart{std::chrono::hours(400000)};
+const UtcTime kRunStart{std::chrono::hours(400000)};
 
 LiveSample sample(double at_s, double mgal) {
     LiveSample sample;
-    sample.time = kStart + from_seconds(at_s);
+    sample.time = kRunStart + from_seconds(at_s);
     sample.seen_at = sample.time + from_seconds(10.0);
     sample.axes = {MilliGal(0.6 * mgal), MilliGal(0.0), MilliGal(0.8 * mgal)};
     sample.temperature = DegC(42.5);
@@ -21,7 +21,7 @@ LiveSample sample(double at_s, double mgal) {
 
 TEST_CASE("the running value is the mean of the norm", "[verdict][running]") {
     RunningValue running({});
-    running.begin_set_up(kStart);
+    running.begin_set_up(kRunStart);
     CHECK_FALSE(running.reading(MilliGal(1.0), State::stable).value);
     for (int i = 0; i < 405; ++i)
         running.take(sample(2.0 * i, 980000.0 + (i % 2 == 0 ? 1.0 : -1.0)));
@@ -37,7 +37,7 @@ TEST_CASE("the running value is the mean of the norm", "[verdict][running]") {
 
 TEST_CASE("the predicted time still needed is the time that it takes", "[verdict][running]") {
     RunningValue running({});
-    running.begin_set_up(kStart);
+    running.begin_set_up(kRunStart);
     const auto value_at = [](int i) { return 980000.0 + 0.8 * ((i / 30) % 2 == 0 ? 1.0 : -1.0); };
     int i = 5;
     for (; i < 155; ++i) running.take(sample(2.0 * i, value_at(i)));
@@ -57,8 +57,8 @@ TEST_CASE("set-ups of half the length give the error of one, and their own scatt
           "[verdict][running]") {
     // The box is put down 3 mGal higher the second time.
     RunningValue whole({}), halves({});
-    whole.begin_set_up(kStart);
-    halves.begin_set_up(kStart);
+    whole.begin_set_up(kRunStart);
+    halves.begin_set_up(kRunStart);
     for (int i = 5; i < 365; ++i) {
         const double mgal = 980000.0 + 0.3 * ((i / 30) % 2 == 0 ? 1.0 : -1.0);
         whole.take(sample(2.0 * i, mgal));
@@ -66,7 +66,7 @@ TEST_CASE("set-ups of half the length give the error of one, and their own scatt
             const RunningReading first = halves.reading(MilliGal(1.0), State::stable);
             CHECK(first.set_ups == 1);
             CHECK_FALSE(first.set_up_sd);
-            halves.begin_set_up(kStart + from_seconds(360.0));
+            halves.begin_set_up(kRunStart + from_seconds(360.0));
         }
         halves.take(sample(2.0 * i, i < 185 ? mgal : mgal + 3.0));
         if (i == 190) CHECK(halves.reading(MilliGal(1.0), State::stable).set_ups == 1);
@@ -88,11 +88,11 @@ TEST_CASE("set-ups of half the length give the error of one, and their own scatt
 
 TEST_CASE("the last of several set-ups needs the time that is predicted", "[verdict][running]") {
     RunningValue running({});
-    running.begin_set_up(kStart);
+    running.begin_set_up(kRunStart);
     int i = 5;
     for (; i < 185; ++i) running.take(sample(2.0 * i, 980000.0));
     CHECK(running.reading(MilliGal(1.0), State::stable).needed_s);
-    running.begin_set_up(kStart + from_seconds(360.0));
+    running.begin_set_up(kRunStart + from_seconds(360.0));
     // A lifted box needs no more time where it was.
     CHECK_FALSE(running.reading(MilliGal(1.0), State::stable).needed_s);
     for (; i < 230; ++i) running.take(sample(2.0 * i, 980001.0));
@@ -112,7 +112,7 @@ TEST_CASE("the last of several set-ups needs the time that is predicted", "[verd
 
 TEST_CASE("good enough requires a stable verdict and three minutes", "[verdict][running]") {
     RunningValue running({});
-    running.begin_set_up(kStart);
+    running.begin_set_up(kRunStart);
     int i = 5;
     for (; i < 94; ++i) running.take(sample(2.0 * i, 980000.0));
     CHECK_FALSE(running.reading(MilliGal(5.0), State::stable).standard_error);
@@ -127,7 +127,7 @@ TEST_CASE("good enough requires a stable verdict and three minutes", "[verdict][
 TEST_CASE("a knock and the samples it affects are left out of the running value",
           "[verdict][running]") {
     RunningValue running({});
-    running.begin_set_up(kStart);
+    running.begin_set_up(kRunStart);
     for (int i = 5; i < 300; ++i) {
         // Shaken from 400 to 402 s; the filters spread it to 9 s on either side.
         LiveSample one = sample(2.0 * i, std::abs(2.0 * i - 401.0) < 10.0 ? 985000.0 : 980000.0);
@@ -141,7 +141,7 @@ TEST_CASE("a knock and the samples it affects are left out of the running value"
 
 TEST_CASE("a missing sample is left out of the running value", "[verdict][running]") {
     RunningValue running({});
-    running.begin_set_up(kStart);
+    running.begin_set_up(kRunStart);
     for (int i = 5; i < 300; ++i) {
         running.take(
             sample(2.0 * i, i == 100 ? std::numeric_limits<double>::quiet_NaN() : 980000.0));

@@ -10,7 +10,7 @@ using namespace a351::corrector::reading;
 
 namespace {
 
-const UtcTime kStart = *parse_rfc3339("2026-05-01T00:00:00Z");
+const UtcTime kRecordStart = *parse_rfc3339("2026-05-01T00:00:00Z");
 const Hertz kRate(50.0);
 
 OccupationRecord still(double seconds) {
@@ -19,9 +19,9 @@ OccupationRecord still(double seconds) {
     const auto axis = [&](double value_g) {
         std::vector<double> samples(static_cast<std::size_t>(seconds * 50.0));
         for (double& sample : samples) sample = value_g + noise(random);
-        return TimeSeries<StandardGravity>(kStart, kRate, samples);
+        return TimeSeries<StandardGravity>(kRecordStart, kRate, samples);
     };
-    return {axis(0.001), axis(-0.002), axis(0.999), TimeSeries<DegC>(kStart, kRate, {})};
+    return {axis(0.001), axis(-0.002), axis(0.999), TimeSeries<DegC>(kRecordStart, kRate, {})};
 }
 
 }  // namespace
@@ -37,17 +37,17 @@ TEST_CASE("bins contain the mean norm and the mean horizontal axes", "[day]") {
         CHECK(bin.y.value() == Approx(-0.002).margin(2e-6));
     }
     CHECK(bins[2].times.size() == kBinSamples);
-    CHECK(seconds_between(kStart, bins[2].time) == Approx(124.0));
+    CHECK(seconds_between(kRecordStart, bins[2].time) == Approx(124.0));
 }
 
 TEST_CASE("samples near a disturbance are left out of the bins", "[day]") {
     OccupationRecord record = still(400.0);
     std::vector<double> z = record.z.values();
     for (std::size_t i = 7400; i < 7500; ++i) z[i] += 0.01;  // 148 to 150 s
-    record.z = {kStart, kRate, z};
+    record.z = {kRecordStart, kRate, z};
     for (const DayBin& bin : bin_set_up(0, decimate_axes(record), 8.0)) {
         for (const UtcTime time : bin.times)
-            CHECK(std::abs(seconds_between(kStart, time) - 149.0) > 10.0);
+            CHECK(std::abs(seconds_between(kRecordStart, time) - 149.0) > 10.0);
         CHECK(bin.reading.value() == Approx(979686.0).epsilon(0.0).margin(5.0));
     }
 }
@@ -56,10 +56,10 @@ TEST_CASE("a bin with few samples is left out", "[day]") {
     OccupationRecord record = still(100.0);
     std::vector<double> z = record.z.values();
     std::fill(z.begin() + 1000, z.begin() + 2600, std::numeric_limits<double>::quiet_NaN());
-    record.z = {kStart, kRate, z};
+    record.z = {kRecordStart, kRate, z};
     const auto bins = bin_set_up(0, decimate_axes(record), 8.0);
     REQUIRE(bins.size() == 1);
-    CHECK(seconds_between(kStart, bins[0].times.front()) > 60.0);
+    CHECK(seconds_between(kRecordStart, bins[0].times.front()) > 60.0);
 }
 
 TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") {
@@ -70,10 +70,10 @@ TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") 
         degc[i] = 42.0 + 1e-6 * static_cast<double>(i) + noise(random);
     std::fill(degc.begin() + 60000, degc.begin() + 75000,
               std::numeric_limits<double>::quiet_NaN());  // 300 s
-    const auto day = day_temperature({kStart, kRate, degc});
+    const auto day = day_temperature({kRecordStart, kRate, degc});
     REQUIRE(day);
     CHECK(day->longest_gap_s() == Approx(318.0).margin(4.0));
-    const double late_s = seconds_between(kStart, day->series.start());
+    const double late_s = seconds_between(kRecordStart, day->series.start());
     for (std::size_t i = 0; i < day->series.size(); ++i) {
         const double exact = 42.0 + 1e-6 * 50.0 * (late_s + 2.0 * static_cast<double>(i));
         REQUIRE(day->series.values()[i] == Approx(exact).margin(0.0015));
@@ -81,7 +81,8 @@ TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") 
 }
 
 TEST_CASE("a few minutes of temperature, or none, are too short for a day", "[day]") {
-    CHECK_FALSE(day_temperature({kStart, kRate, std::vector<double>(25000, 42.0)}));
-    CHECK_FALSE(day_temperature(
-        {kStart, kRate, std::vector<double>(90000, std::numeric_limits<double>::quiet_NaN())}));
+    CHECK_FALSE(day_temperature({kRecordStart, kRate, std::vector<double>(25000, 42.0)}));
+    CHECK_FALSE(
+        day_temperature({kRecordStart, kRate,
+                         std::vector<double>(90000, std::numeric_limits<double>::quiet_NaN())}));
 }

@@ -12,7 +12,7 @@ using namespace a351::corrector::whole_day;
 
 namespace {
 
-const UtcTime kStart = *parse_rfc3339("2026-05-01T00:00:00Z");
+const UtcTime kFirstMinute = *parse_rfc3339("2026-05-01T00:00:00Z");
 
 /// Returns a day at 2 s that follows its mean with a time constant of 20 min, as an oven does.
 std::vector<double> course_degc(std::uint64_t seed) {
@@ -27,7 +27,9 @@ std::vector<double> course_degc(std::uint64_t seed) {
     return degc;
 }
 
-TimeSeries<DegC> series(std::vector<double> degc) { return {kStart, Hertz(0.5), std::move(degc)}; }
+TimeSeries<DegC> series(std::vector<double> degc) {
+    return {kFirstMinute, Hertz(0.5), std::move(degc)};
+}
 
 }  // namespace
 
@@ -51,7 +53,7 @@ TEST_CASE("what a gap leaves unknown of the lags is as large as other stretches 
         const auto states =
             lag_states({series(bridged), {{kBefore, kAfter}}}, kFastLag_s, kSlowLag_s);
         REQUIRE(states.size() == 1);
-        CHECK(seconds_between(kStart, states[0].from) == 2.0 * kAfter);
+        CHECK(seconds_between(kFirstMinute, states[0].from) == 2.0 * kAfter);
         fast_said += std::pow(states[0].fast_sd_degc, 2);
         slow_said += std::pow(states[0].slow_sd_degc, 2);
     }
@@ -70,9 +72,9 @@ TEST_CASE("a day that is mostly a gap has the scatter of its temperature as uppe
 
 TEST_CASE("a state fades with its lag, and does not exist before its gap ends", "[day]") {
     DayBin bin;
-    for (int i = 0; i < 10; ++i) bin.times.push_back(kStart + from_seconds(2.0 * i));
-    CHECK(remaining(bin, kStart + from_seconds(60.0), 43.0) == 0.0);
-    CHECK(remaining(bin, kStart - from_seconds(2700.0), 2700.0) ==
+    for (int i = 0; i < 10; ++i) bin.times.push_back(kFirstMinute + from_seconds(2.0 * i));
+    CHECK(remaining(bin, kFirstMinute + from_seconds(60.0), 43.0) == 0.0);
+    CHECK(remaining(bin, kFirstMinute - from_seconds(2700.0), 2700.0) ==
           Approx(std::exp(-1.0)).epsilon(0.01));
-    CHECK(remaining(bin, kStart + from_seconds(9.0), 1e9) == Approx(0.5));
+    CHECK(remaining(bin, kFirstMinute + from_seconds(9.0), 1e9) == Approx(0.5));
 }

@@ -4,8 +4,7 @@
 #include <numeric>
 #include "tests/support/catch.hpp"
 
-#include <Eigen/Eigenvalues>
-
+#include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/unit/calibration.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
@@ -14,7 +13,7 @@ using namespace a351::corrector::whole_day;
 
 namespace {
 
-const MadeUpDay kScattered{.placement_mgal = 1.2, .white_mgal = 0.2};
+const MadeUpDay kScatteredDay{.placement_mgal = 1.2, .white_mgal = 0.2};
 
 /// Returns the stations of the made-up day without the references of some.
 std::vector<DayStation> stations_without(std::initializer_list<std::size_t> numbers) {
@@ -31,7 +30,7 @@ double squares(const std::array<double, kErrorSources>& parts_mgal) {
 }  // namespace
 
 TEST_CASE("a difference is that of a fit without both references", "[day]") {
-    const auto record = kScattered.record();
+    const auto record = kScatteredDay.record();
     const auto stations = MadeUpDay::stations();
     const DayPriors priors = usual_day_priors();
     const DayFit all = fit_day(record, stations).value();
@@ -57,7 +56,7 @@ TEST_CASE("a difference is that of a fit without both references", "[day]") {
 }
 
 TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
-    const auto record = kScattered.record();
+    const auto record = kScatteredDay.record();
     const auto stations = stations_without({3, 9});
     const DayFit fit = fit_day(record, stations).value();
     const StationSystem system(record, stations, fit, usual_day_priors());
@@ -65,7 +64,7 @@ TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
     REQUIRE(correlation.rows() == static_cast<Eigen::Index>(MadeUpDay::kSites));
     CHECK((correlation.diagonal().array() - 1.0).abs().maxCoeff() < 1e-9);
     CHECK(correlation.cwiseAbs().maxCoeff() < 1.0 + 1e-9);
-    CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation).eigenvalues()(0) > -1e-9);
+    CHECK(linear_algebra::symmetric_eigen(correlation).values(0) > -1e-9);
     // Both are unknown, so their difference has the variance of the joint posterior.
     const double a = fit.gravity_mgal[3].standard_error, b = fit.gravity_mgal[9].standard_error;
     CHECK(system.difference(3, 9).standard_error ==
@@ -73,7 +72,7 @@ TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
 }
 
 TEST_CASE("the only reference stays held, and differences do not need it", "[day]") {
-    const auto record = kScattered.record();
+    const auto record = kScatteredDay.record();
     auto stations = stations_without({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
     const DayFit fit = fit_day(record, stations).value();
     const StationSystem system(record, stations, fit, usual_day_priors());
@@ -95,7 +94,7 @@ TEST_CASE("the only reference stays held, and differences do not need it", "[day
 }
 
 TEST_CASE("the sources of an uncertainty add up to it", "[day]") {
-    const auto record = kScattered.record();
+    const auto record = kScatteredDay.record();
     const DayFit fit = fit_day(record, stations_without({3, 9})).value();
     for (const std::size_t number : {3U, 9U}) {
         const GravityEstimate& gravity = fit.gravity_mgal[number];
@@ -111,7 +110,7 @@ TEST_CASE("the sources of an uncertainty add up to it", "[day]") {
 }
 
 TEST_CASE("a reference with an uncertainty gives way to the readings", "[day]") {
-    const auto record = kScattered.record();
+    const auto record = kScatteredDay.record();
     auto stations = MadeUpDay::stations();
     constexpr double kWrong_mgal = 20.0;
     for (DayStation& station : stations)
@@ -164,7 +163,7 @@ TEST_CASE("the errors of the noise cover its scatter", "[day]") {
     double sum = 0.0;
     constexpr int kDays = 20;
     for (std::uint64_t seed = 1; seed <= kDays; ++seed) {
-        const DayFit fit = fit_day(kScattered.record(seed), MadeUpDay::stations()).value();
+        const DayFit fit = fit_day(kScatteredDay.record(seed), MadeUpDay::stations()).value();
         REQUIRE(fit.noise_log_errors);
         CHECK(fit.noise_log_errors->front() > 0.1);
         CHECK(fit.noise_log_errors->front() < 0.5);

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00Z");
+const UtcTime kJournalStart = *parse_rfc3339("2026-03-01T12:00:00Z");
 constexpr RawTime kRawStart{1000s};
 
 journal::Header header_of(std::uint8_t session, Nanoseconds since_start = 0s) {
@@ -29,7 +29,7 @@ journal::Header header_of(std::uint8_t session, Nanoseconds since_start = 0s) {
     header.burst_ctrl = 0xC703;
     header.baud = 460800;
     header.clock.raw = kRawStart + since_start;
-    header.clock.realtime = kStart + since_start;
+    header.clock.realtime = kJournalStart + since_start;
     return header;
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("a device that replays a journal has the identity of the recorded unit
     Recorded recorded;
     recorded.segment({header_of(1), read_of("a", 5s)});
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     const auto identity = host.configure({}, kProfile);
     CHECK(identity.product_id == "A352AD10");
     CHECK(identity.serial_number == "T0000007");
@@ -100,7 +100,7 @@ TEST_CASE("a device that replays a journal starts at the recorded baud rate", "[
     recorded.segment({header, read_of("a", 5s)});
     Device device = recorded.device();
     CHECK(device.baud() == 115200);
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
     CHECK(device.baud() == 115200);
 }
@@ -110,18 +110,18 @@ TEST_CASE("recorded bytes leave at their recorded times, and not before the host
     Recorded recorded;
     recorded.three_words();
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.wait(4s);
     host.configure({}, kProfile);
-    CHECK(device.next_due() == kStart + 5s);
-    host.wait_until(kStart + 5s - 1ns);
+    CHECK(device.next_due() == kJournalStart + 5s);
+    host.wait_until(kJournalStart + 5s - 1ns);
     CHECK(host.line.pieces.empty());
     host.listen();
     REQUIRE(host.line.pieces.size() == 3);
     CHECK(text_of(host.line) == "onetwothree");
-    CHECK(host.line.pieces[0].leaves == kStart + 5s);
-    CHECK(host.line.pieces[1].leaves == kStart + 6s);
-    CHECK(host.line.pieces[2].leaves == kStart + 9s);
+    CHECK(host.line.pieces[0].leaves == kJournalStart + 5s);
+    CHECK(host.line.pieces[1].leaves == kJournalStart + 6s);
+    CHECK(host.line.pieces[2].leaves == kJournalStart + 9s);
     CHECK_FALSE(device.next_due());
 }
 
@@ -132,14 +132,14 @@ TEST_CASE("reads of one chunk keep their own times", "[sim][replay]") {
     // Raw time goes back to 6 s, as no real clock does: the order of the reads is kept.
     recorded.segment({header_of(1), chunk, read_of("earlier", 6s)});
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
     host.listen();
     REQUIRE(host.line.pieces.size() == 4);
     CHECK(host.line.pieces[1].bytes.size() == 1);
-    CHECK(host.line.pieces[1].leaves == kStart + 5500ms);
-    CHECK(host.line.pieces[2].leaves == kStart + 7s);
-    CHECK(host.line.pieces[3].leaves == kStart + 7s);
+    CHECK(host.line.pieces[1].leaves == kJournalStart + 5500ms);
+    CHECK(host.line.pieces[2].leaves == kJournalStart + 7s);
+    CHECK(host.line.pieces[3].leaves == kJournalStart + 7s);
 }
 
 TEST_CASE("a host that starts late gets the missed bytes at once and the rest on time",
@@ -147,34 +147,34 @@ TEST_CASE("a host that starts late gets the missed bytes at once and the rest on
     Recorded recorded;
     recorded.three_words();
     Device device = recorded.device();
-    ReplayHost host(device, kStart + 7s);
+    ReplayHost host(device, kJournalStart + 7s);
     host.configure({}, kProfile);
     host.wait(0s);
     CHECK(text_of(host.line) == "onetwo");
-    CHECK(host.line.pieces.front().leaves == kStart + 7s);
+    CHECK(host.line.pieces.front().leaves == kJournalStart + 7s);
     host.listen();
     CHECK(text_of(host.line) == "onetwothree");
-    CHECK(host.line.pieces.back().leaves == kStart + 9s);
+    CHECK(host.line.pieces.back().leaves == kJournalStart + 9s);
 }
 
 TEST_CASE("without a shared clock the recording begins when the host begins", "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s)});
     Device device = recorded.device(Timing::from_host_start);
-    ReplayHost host(device, kStart + 24h);
+    ReplayHost host(device, kJournalStart + 24h);
     host.wait(1h);
     host.configure({}, kProfile);
     host.listen();
     REQUIRE(host.line.pieces.size() == 2);
-    CHECK(host.line.pieces[0].leaves == kStart + 25h);
-    CHECK(host.line.pieces[1].leaves == kStart + 25h + 1s);
+    CHECK(host.line.pieces[0].leaves == kJournalStart + 25h);
+    CHECK(host.line.pieces[1].leaves == kJournalStart + 25h + 1s);
 }
 
 TEST_CASE("a replay as fast as it is read sends whenever the line accepts more", "[sim][replay]") {
     Recorded recorded;
     recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 600s), read_of("3", 700s)});
     Device device = recorded.device(Timing::as_fast_as_read);
-    ReplayHost host(device, kStart - 1h);
+    ReplayHost host(device, kJournalStart - 1h);
     host.configure({}, kProfile);
     host.line.capacity = 2;
     host.wait(0s);
@@ -192,7 +192,7 @@ TEST_CASE("segments of a session follow each other without a break", "[sim][repl
     recorded.segment({header_of(1, 6s)});
     recorded.segment({header_of(1, 7s), read_of("two", 8s)});
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
     host.listen();
     CHECK(text_of(host.line) == "onetwo");
@@ -213,16 +213,16 @@ TEST_CASE("segments with one session id are two sessions if the boot differs or 
     const Nanoseconds read = other_day.clock.raw - kRawStart + 5s;
     recorded.segment({other_day, read_of("two", read)});
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
     host.listen();
     CHECK(text_of(host.line) == "one");
     host.line.pieces.clear();
     host.configure({}, kProfile);
-    host.wait_until(kStart + 24h);
+    host.wait_until(kJournalStart + 24h);
     host.listen();
     CHECK(text_of(host.line) == "two");
-    CHECK(host.line.pieces.back().leaves == kStart + 24h + 5s);
+    CHECK(host.line.pieces.back().leaves == kJournalStart + 24h + 5s);
     CHECK(device.report().sessions == 2);
 }
 
@@ -236,7 +236,7 @@ TEST_CASE("a session ends in configuration mode, and the next waits for a new st
     recorded.segment({third, read_of("three", 25s)});
     const auto timing = GENERATE(Timing::as_recorded, Timing::as_fast_as_read);
     Device device = recorded.device(timing);
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
     host.listen();
     CHECK(text_of(host.line) == "one");
@@ -256,9 +256,9 @@ TEST_CASE("a host that stops and starts again continues with the next recorded b
     Recorded recorded;
     recorded.three_words();
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
-    host.wait_until(kStart + 5s);
+    host.wait_until(kJournalStart + 5s);
     CHECK(text_of(host.line) == "one");
     host.stop();
     host.wait(30s);
@@ -274,9 +274,9 @@ TEST_CASE("bytes that a host has not seen when it stops are replayed when it sta
     Recorded recorded;
     recorded.three_words();
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
-    host.wait_until(kStart + 6s);
+    host.wait_until(kJournalStart + 6s);
     host.line.seen = 1;
     host.stop();
     CHECK(text_of(host.line) == "one");
@@ -289,17 +289,17 @@ TEST_CASE("a host that took a paused replay for a silent sensor misses no byte",
     Recorded recorded;
     recorded.three_words();
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
-    host.wait_until(kStart + 5s);
+    host.wait_until(kJournalStart + 5s);
     host.line.seen = 1;
-    host.wait_until(kStart + 8s);
+    host.wait_until(kJournalStart + 8s);
     for (const auto& command : wire::read_mode()) host.send(command);
     REQUIRE(host.line.pieces.size() == 2);
     const auto mode = wire::parse_answer(wire::kModeCtrl, host.line.pieces.back().bytes);
     REQUIRE(mode);
     CHECK(wire::ConfigMode::from_mode_ctrl(*mode));
-    host.wait_until(kStart + 10s);
+    host.wait_until(kJournalStart + 10s);
     CHECK(host.line.pieces.size() == 2);
     host.configure({}, kProfile);
     host.listen();
@@ -326,14 +326,15 @@ TEST_CASE("a clock step of the recording host is not replayed within a boot, a s
     set_back.clock.realtime -= 24h;
     recorded.segment({set_back, {journal::RxChunk{{std::byte{1}}, {{1, RawTime(9s)}}}}});
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     std::vector<UtcTime> left;
     for (int session = 0; session < 4; ++session) {
         host.configure({}, kProfile);
         host.listen();
         left.push_back(host.line.pieces.back().leaves);
     }
-    CHECK(left == std::vector<UtcTime>{kStart + 5s, kStart + 12s, kStart + 22s, kStart + 22s});
+    CHECK(left == std::vector<UtcTime>{kJournalStart + 5s, kJournalStart + 12s, kJournalStart + 22s,
+                                       kJournalStart + 22s});
 }
 
 TEST_CASE("settings other than the recorded ones are refused in one line", "[sim][replay]") {
@@ -342,7 +343,7 @@ TEST_CASE("settings other than the recorded ones are refused in one line", "[sim
     wire::SensorSettings settings;
     const auto refusal = [&] {
         Device device = recorded.device();
-        ReplayHost host(device, kStart);
+        ReplayHost host(device, kJournalStart);
         try {
             host.configure(settings, kProfile);
         } catch (const std::runtime_error& error) {
@@ -374,7 +375,7 @@ TEST_CASE("a damaged tail is left out and reported, and good data before and aft
     bytes[bytes.size() - 1] ^= std::byte{1};
     test::write_bytes(file, bytes);
     Device device = recorded.device();
-    ReplayHost host(device, kStart);
+    ReplayHost host(device, kJournalStart);
     host.configure({}, kProfile);
     host.listen();
     CHECK(text_of(host.line) == "onetwothree");
