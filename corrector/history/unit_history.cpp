@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "corrector/model/model.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/catalogue.hpp"
 #include "protocol/text/text_file.hpp"
@@ -33,17 +34,20 @@ UnitDay read_unit_day(const std::filesystem::path& given) {
     const auto file = std::filesystem::is_directory(given) ? given / "result.json" : given;
     const auto refuse = [&file](const std::string& trouble) {
         return InputError(
-            fmt::format("{}: {}; allowed: the result.json of a survey", file.string(), trouble));
+            fmt::format("{}: {}; allowed: the result.json of a survey corrected with the model day",
+                        file.string(), trouble));
     };
     const std::string content = text::read_text_file(file);
     try {
         const json result = json::parse(content);
         const json& settings = result.at("settings");
+        const std::string model = result.at("model").get<std::string>();
+        if (model != model::kWholeDay) throw refuse("model = " + model);
         UnitDay day;
         const json& serial = settings.at("serial_number");
-        if (!serial.is_null()) day.serial_number = serial.get<std::string>();
+        if (serial.is_null()) throw refuse("serial_number: not in the metadata of the record");
+        day.serial_number = serial.get<std::string>();
         day.name = settings.at("name").get<std::string>();
-        day.model = result.at("model").get<std::string>();
         day.start = UtcTime::max();
         for (const json& row : result.at("occupations"))
             day.start = std::min(day.start, instant_of(row.at("start_utc").get<std::string>()));
@@ -62,6 +66,8 @@ UnitDay read_unit_day(const std::filesystem::path& given) {
             day.terms.push_back(found == terms.end() ? std::nullopt : std::optional(found->second));
         }
         return day;
+    } catch (const InputError&) {
+        throw;
     } catch (const std::exception& error) {
         throw refuse(std::string("not such a file (") + error.what() + ")");
     }
@@ -99,11 +105,11 @@ const std::vector<TermKind>& term_kinds() {
     static const std::vector<TermKind> kinds{
         {"constant_mgal", "u_constant_mgal", text::marked("Constant mGal"), 2},
         {"temperature_mgal_per_degc", "u_temperature_mgal_per_degc",
-         text::marked("Fast slope mGal/degC"), 1},
+         text::marked("Static slope mGal/degC"), 1},
         {"slow_temperature_mgal_per_degc", "u_slow_temperature_mgal_per_degc",
          text::marked("Slow slope mGal/degC"), 1},
         {"rate_mgal_per_degc_per_h", "u_rate_mgal_per_degc_per_h",
-         text::marked("Rate mGal/(degC/h)"), 2},
+         text::marked("Fast term mGal/(degC/h)"), 2},
         {"fast_lag_s", "u_fast_lag_s", text::marked("Fast lag s"), 0},
         {"slow_lag_s", "u_slow_lag_s", text::marked("Slow lag s"), 0},
         {"time_mgal_per_h", "u_time_mgal_per_h", text::marked("Drift mGal/h"), 3},
@@ -124,8 +130,7 @@ std::vector<UnitDay> read_unit_days(const std::vector<std::filesystem::path>& re
         if (!is_new) {
             throw InputError(
                 fmt::format("{} and {}: the same day of unit {}; allowed: one result of each day",
-                            other->second.string(), result.string(),
-                            day.serial_number.empty() ? "-" : day.serial_number));
+                            other->second.string(), result.string(), day.serial_number));
         }
     }
     std::ranges::sort(days, {},
@@ -140,7 +145,6 @@ const std::vector<result::Column<UnitDay>>& unit_day_columns() {
             {"serial_number", of(&UnitDay::serial_number), {text::marked("Unit"), 0, 'n'}},
             {"start_utc", of(&UnitDay::start), {text::marked("First reading UTC"), 0, 'n'}},
             {"name", of(&UnitDay::name), {text::marked("Day"), 0, 'n'}},
-            {"model", of(&UnitDay::model), {text::marked("Model"), 0, 'n'}},
             {"loso_mgal", of(&UnitDay::loso_mgal), {text::marked("Left out mGal"), 2}},
             {"uncertainty_factor", of(&UnitDay::uncertainty_factor), {}}};
         for (std::size_t k = 0; k < term_kinds().size(); ++k) {

@@ -34,14 +34,13 @@ struct TermKind {
 };
 
 /// Returns the terms of the whole-day model that belong to the unit, not to the day's stations.
-/// Other models have some of them.
 [[nodiscard]] const std::vector<TermKind>& term_kinds();
 
-/// One corrected day of a unit.
+/// One day of a unit, corrected with the whole-day model.  Terms of other models have other meanings.
 struct UnitDay {
-    std::string serial_number;  ///< Serial number of the sensor; empty: not known.
-    UtcTime start;              ///< First sample of the first reading.
-    std::string name, model;
+    std::string serial_number;                 ///< Serial number of the sensor.
+    UtcTime start;                             ///< First sample of the first reading.
+    std::string name;                          ///< Name of the survey.
     std::optional<double> loso_mgal;           ///< Cross-validated error of the day.
     std::vector<std::optional<Term>> terms;    ///< In the order of term_kinds().
     std::optional<double> uncertainty_factor;  ///< 1 if the whole-day model fits; else above 1.
@@ -49,8 +48,8 @@ struct UnitDay {
 
 /// Reads days, and sorts them by unit and time.
 /// @param results  result.json of `survey`, or folders that contain one.
-/// @throws InputError  a file cannot be read or is no such file, or two files are of one day of a
-///                     unit.
+/// @throws InputError  a file cannot be read, is no such file, is of another model or without a
+///                     serial number, or two files have the same first reading of a unit.
 [[nodiscard]] std::vector<UnitDay> read_unit_days(
     const std::vector<std::filesystem::path>& results);
 

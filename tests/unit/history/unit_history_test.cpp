@@ -49,9 +49,9 @@ TEST_CASE("days of several units are listed by unit and time", "[history]") {
     CHECK(days[1].name == "2026-06-02");
     CHECK(days[2].serial_number == "B");
     const std::string csv = csv_table(unit_day_columns(), days);
-    CHECK_THAT(csv, StartsWith("serial_number,start_utc,name,model,loso_mgal,uncertainty_factor,"
+    CHECK_THAT(csv, StartsWith("serial_number,start_utc,name,loso_mgal,uncertainty_factor,"
                                "constant_mgal,u_constant_mgal,temperature_mgal_per_degc,"));
-    CHECK_THAT(csv, ContainsSubstring("A,2026-05-02T01:00:00.000Z,2026-05-02,day,1.500000,1.000000,"
+    CHECK_THAT(csv, ContainsSubstring("A,2026-05-02T01:00:00.000Z,2026-05-02,1.500000,1.000000,"
                                       "11.000000,2.000000,,,"));
 
     const std::vector<TermSummary> terms = summarise(days);
@@ -76,15 +76,22 @@ TEST_CASE("days of several units are listed by unit and time", "[history]") {
 
 TEST_CASE("a file that is no result, or of a day that was given, is refused by name", "[history]") {
     const test::TemporaryDirectory scratch;
-    const auto good = scratch.write("good.json", result_of("null", "2026-05-01", 10.0));
-    const auto same = scratch.write("same.json", result_of("null", "2026-05-01", 11.0));
-    CHECK_THAT(refusal_of({good, same}), ContainsSubstring("same.json: the same day of unit -"));
-    const std::string allowed = "allowed: the result.json of a survey";
+    const auto good = scratch.write("good.json", result_of("\"A\"", "2026-05-01", 10.0));
+    const auto same = scratch.write("same.json", result_of("\"A\"", "2026-05-01", 11.0));
+    CHECK_THAT(refusal_of({good, same}), ContainsSubstring("same.json: the same day of unit A"));
+    const std::string allowed = "allowed: the result.json of a survey corrected with the model day";
     for (const std::string& text :
          {std::string("{"), std::string("[]"), std::string(R"({"settings": {}})"),
-          result_of("null", "2026-13-01", 1.0), result_of("7", "2026-05-01", 1.0)})
+          result_of("\"A\"", "2026-13-01", 1.0), result_of("7", "2026-05-01", 1.0)})
         CHECK_THAT(refusal_of({scratch.write("bad.json", text)}),
                    ContainsSubstring("bad.json: not such a file (") && EndsWith(allowed));
+    CHECK_THAT(
+        refusal_of({scratch.write("bad.json", result_of("null", "2026-05-01", 1.0))}),
+        ContainsSubstring("bad.json: serial_number: not in the metadata") && EndsWith(allowed));
+    std::string other = result_of("\"A\"", "2026-05-01", 1.0);
+    other.replace(other.find("\"day\""), 5, "\"t-rate\"");
+    CHECK_THAT(refusal_of({scratch.write("bad.json", other)}),
+               ContainsSubstring("bad.json: model = t-rate"));
     CHECK_THAT(refusal_of({scratch.path() / "none.json"}), ContainsSubstring("none.json"));
     CHECK_THAT(refusal_of({scratch.path()}), ContainsSubstring("result.json"));
 }
