@@ -4,7 +4,7 @@ usage: design_bench.py [SEEDS [FOLDER [PLAN [NOISE]]]]    (A351_BIN, A351_TOOLS)
 SEEDS: default 12001-12040, which were not used while the command was developed.  FOLDER: keeps the results of each day; days
 with results are not computed again.  PLAN: the first letters of a plan, default all.  NOISE: usual (default), placement and flicker
 of 1.2 mGal; drawn, both from the prior of a day, 1.2 mGal within a factor 2, in even steps of its distribution, so that u is right
-if it is the rms error; told, usual with the placement known to the day, from a calibration.
+if it is the rms error; calibrated, usual with the placement known to the day, from a calibration.
 Each seed draws a unit within +-25 % and a day of tsukuba's weather for every plan.  Nothing is fitted to the days: the design
 knows the plan and a usual unit only.
 
@@ -111,7 +111,7 @@ def look_at(scratch, seed, plan):
     day = simulate(folder, "day", "tsukuba", seed, 0.25, drawn + scenario_of(visits, set_ups, minutes_each))
     survey, truth = hide_references(day, known, "known")
     (folder / "unit.toml").write_text(CALIBRATION)
-    out = correct(folder, survey, "result", *(["--calibration", folder / "unit.toml"] if noise == "told" else []))
+    out = correct(folder, survey, "result", *(["--calibration", folder / "unit.toml"] if noise == "calibrated" else []))
     found = [read_json(out / "result.json")["model"],
              [[float(row["gravity_mgal"]) - truth[row["site"]], float(row["u_gravity_mgal"])]
               for row in rows(out / "stations.csv") if row["site"] not in known]]
