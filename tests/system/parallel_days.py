@@ -1,6 +1,6 @@
 """Corrects many days as jobs of GNU parallel: the results must have the same bytes as when corrected one by one.
 
-A351_LONG=1: 50 simulated days; otherwise 4.
+A351_LONG=1: 50 simulated days; otherwise 2.
 """
 
 import pathlib
@@ -9,7 +9,7 @@ import time
 
 from programs import BIN, IS_LONG, Scratch, demand, run, skip
 
-DAYS = 50 if IS_LONG else 4
+DAYS = 50 if IS_LONG else 2
 JOBS = 2
 
 if shutil.which("parallel") is None:
