@@ -187,7 +187,7 @@ struct StationValue {
     /// without u_gravity; the degrees are absent for `network`, whose u is a priori.
     std::optional<double> dof, coverage_factor;
     std::optional<StationErrors> errors;  ///< `day` only.
-    /// Of left_out; of the reference, for a station that alone is held.  `day` only.
+    /// Errors of left_out; for the only station that is held, those of its reference.  `day` only.
     std::optional<SharedErrors> shared;
     /// Present if they are asked for, and latitude and altitude are known.
     std::optional<Anomalies> anomalies;

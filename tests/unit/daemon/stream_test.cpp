@@ -81,7 +81,7 @@ TEST_CASE("a record counts as sent by its number, or by its time after a power c
     CHECK(is_sent(mark(99, kNoon - seconds(10)), last, false));
 }
 
-TEST_CASE("sending continues behind the last record in any file", "[daemon][stream]") {
+TEST_CASE("sending continues after the last record, whichever file it is in", "[daemon][stream]") {
     Archive archive;
     const UtcTime midnight = floor<days>(kNoon) + days(1);
     for (int i = 0; i < 4; ++i) archive.append(i + 1, midnight + seconds(20 * (i - 2)));

@@ -123,6 +123,6 @@ TEST_CASE("a station that alone is held has its reference, and shares its error"
     CHECK(joint[0].u_gravity->value() == Approx(0.3));
     CHECK(joint[0].is_in_sample);
     CHECK(joint[1].u_gravity->value() == Approx(std::sqrt(0.17)));
-    // What is left are the two days' own errors, 0.4 each.
+    // The own errors of both days remain, 0.4 each.
     CHECK(joint_differences(days)[0].u.value() == Approx(0.4 / std::sqrt(2.0)));
 }

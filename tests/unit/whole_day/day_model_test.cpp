@@ -292,7 +292,7 @@ TEST_CASE("biases far above the usual size are not taken for placement", "[day]"
     // The data sheet allows 2 Gal, the day has 20.
     const MadeUpDay day{.x = -14000.0, .placement_mgal = 1.2, .white_mgal = 0.2};
     constexpr double kY_mgal_per_g = 15000.0;
-    // Of the first thirty seeds those on which a search from small biases ends at 26 to 28 mGal.
+    // A search from small biases ends at 26 to 28 mGal on these of the first thirty seeds.
     for (const std::uint64_t seed : {8U, 15U, 24U}) {
         auto record = day.record(seed);
         for (corrector::reading::DayBin& bin : record.bins) {
