@@ -1,12 +1,11 @@
-"""ObsPy reads the archive and the station metadata without conversion."""
+"""ObsPy (with_obspy.py) reads the archive and the station metadata without conversion."""
 
-from programs import BIN, Scratch, demand, run, skip
+from programs import BIN, Scratch, demand, run
+from with_obspy import require_obspy
 
-try:
-    import obspy
-    from obspy.clients.filesystem.sds import Client
-except ImportError:
-    skip("ObsPy is not installed")
+require_obspy()
+import obspy  # noqa: E402
+from obspy.clients.filesystem.sds import Client  # noqa: E402
 
 with Scratch() as scratch:
     root = scratch / "day"

@@ -1,19 +1,15 @@
 """ringserver serves an archive while a daemon writes it; slarchive must fetch it byte for byte.
 
-Both are searched in PATH or named by A351_RINGSERVER and A351_SLARCHIVE (https://github.com/EarthScope).  slarchive 3.2
-ends at a record whose first blockette is not 1000.
+Both are searched in PATH or named by A351_RINGSERVER and A351_SLARCHIVE.  slarchive 3.2 ends at a record whose first blockette is not 1000.
 """
 
-import os
-import pathlib
-import shutil
 import signal
-import socket
 import subprocess
 import time
 
 from emulated_session import Session, wait_for
-from programs import IS_SANITIZED, ONE_SITE, Scratch, demand, skip, unused_port
+from programs import IS_SANITIZED, ONE_SITE, Scratch, demand, unused_port
+from seedlink import day_files, is_listening, program
 
 # Starts ten minutes before midnight and ends at least ten minutes after it: two day files of each channel.
 SCENARIO = """base = "quiet"
@@ -26,27 +22,7 @@ START = "2017-07-15T23:50:00Z"
 SPEED = 40 if IS_SANITIZED else 100
 FRAMES = 20 * 60 * 50
 
-
-def program(name, variable):
-    found = shutil.which(os.environ.get(variable) or name)
-    if found is None:
-        skip(f"{name} is not in PATH; install it or set {variable}")
-    version = subprocess.run([found, "-V"], capture_output=True, text=True)
-    print((version.stdout + version.stderr).strip())
-    return found
-
-
-def day_files(root):
-    root = pathlib.Path(root)
-    return {str(file.relative_to(root)): file.read_bytes() for file in root.rglob("*.D.*")}
-
-
-def is_listening(port):
-    with socket.socket() as one:
-        return one.connect_ex(("127.0.0.1", port)) == 0
-
-
-ringserver, slarchive = program("ringserver", "A351_RINGSERVER"), program("slarchive", "A351_SLARCHIVE")
+ringserver, slarchive = program("ringserver"), program("slarchive")
 
 with Scratch() as scratch:
     archive, fetched, port = scratch / "data" / "archive", scratch / "fetched", unused_port()

@@ -3,14 +3,13 @@
 import pathlib
 
 from programs import BIN, TOOLS, Scratch, demand, run, skip
+from with_obspy import require_obspy
 
-try:
-    import numpy
-    import obspy
-    import obspy.io.stationxml
-    from lxml import etree
-except ImportError as error:
-    skip(error)
+require_obspy()
+import numpy  # noqa: E402
+import obspy  # noqa: E402
+import obspy.io.stationxml  # noqa: E402
+from lxml import etree  # noqa: E402
 
 SCHEMA = pathlib.Path(obspy.io.stationxml.__file__).parent / "data" / "fdsn-station-1.2.xsd"
 if not SCHEMA.exists():

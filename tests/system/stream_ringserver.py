@@ -1,52 +1,40 @@
 """A daemon's records reach slarchive through a351-stream and ringserver byte for byte, while all three are restarted.
 
-ringserver, slarchive and slinktool are searched in PATH or named by A351_RINGSERVER, A351_SLARCHIVE and A351_SLINKTOOL
-(https://github.com/EarthScope).  ObsPy reads the ring too, where it is installed.
+ringserver, slarchive and slinktool are searched in PATH or named by A351_RINGSERVER, A351_SLARCHIVE and A351_SLINKTOOL.
+slinktool and ObsPy (with_obspy.py) read the ring too, where they are installed.
 """
 
-import os
 import pathlib
 import random
-import shutil
 import signal
-import socket
 import subprocess
 import sys
 import time
 
 from emulated_session import Session, wait_for
-from programs import BIN, IS_LONG, IS_SANITIZED, ONE_SITE, Scratch, demand, run, skip, unused_port
+from programs import BIN, IS_LONG, IS_SANITIZED, ONE_SITE, Scratch, demand, unused_port
+from seedlink import day_files, is_listening, program
+from with_obspy import HINT, has_obspy
 
-# Each mode: speed, begin, simulated minutes, seconds between restarts, and what is restarted.
+if has_obspy():
+    import obspy
+    from obspy.clients.seedlink.basic_client import Client
+else:
+    obspy = None
+    print(f"{HINT}: it does not read the ring")
+
+CLIENTS = ("stream", "ring", "slarchive")
+# Each mode: speed, begin, simulated minutes, how often each is restarted, and what is restarted.  "hang" stops the ring for a while.
 MODES = {
-    "short": (40 if IS_SANITIZED else 60, "2017-07-15T23:50:00Z", 20, (0.5, 2.0), ("stream", "ring", "slarchive")),
-    "three-days": (1000, "2017-07-14T18:00:00Z", 66 * 60, (3.0, 15.0), ("stream", "ring", "slarchive")),
-    "two-hours": (20, "2017-07-15T23:00:00Z", 120, (5.0, 30.0), ("stream", "ring", "slarchive", "daemon")),
-    "one-hour": (1, "2017-07-15T23:30:00Z", 60, (60.0, 300.0), ("stream", "ring", "slarchive", "daemon")),
+    "short": (40 if IS_SANITIZED else 60, "2017-07-15T23:50:00Z", 20, 3, (*CLIENTS, "hang")),
+    "three-days": (1000, "2017-07-14T18:00:00Z", 72 * 60, 20, (*CLIENTS, "hang")),
+    "two-hours": (20, "2017-07-15T23:00:00Z", 120, 20, (*CLIENTS, "hang", "daemon")),
+    "one-hour": (1, "2017-07-15T23:30:00Z", 60, 20, (*CLIENTS, "hang", "daemon")),
 }
+LONGEST_HANG_S = 5.0  # a351-stream counts 10 s without an answer as an outage, after which records may come twice.
 MODE = sys.argv[1] if len(sys.argv) > 1 else "three-days" if IS_LONG else "short"
 SEED = int(sys.argv[2]) if len(sys.argv) > 2 else 1
-SPEED, START, MINUTES, PAUSE, RESTARTED = MODES[MODE]
-
-
-def program(name, variable, is_needed=True):
-    found = shutil.which(os.environ.get(variable) or name)
-    if found is None and is_needed:
-        skip(f"{name} is not in PATH; install it or set {variable}")
-    if found:
-        version = subprocess.run([found, "-V"], capture_output=True, text=True)
-        print((version.stdout + version.stderr).strip())
-    return found
-
-
-def day_files(root):
-    root = pathlib.Path(root)
-    return {str(file.relative_to(root)): file.read_bytes() for file in root.rglob("*.D.*")}
-
-
-def is_listening(port):
-    with socket.socket() as one:
-        return one.connect_ex(("127.0.0.1", port)) == 0
+SPEED, START, MINUTES, TIMES, RESTARTED = MODES[MODE]
 
 
 class Service:
@@ -67,7 +55,7 @@ class Service:
 
 
 def demand_dump(what, file, written):
-    """Compares what slinktool wrote, a mixture of all streams, with the day files."""
+    """Compares what a client wrote, a mixture of all streams, with the day files."""
     dump, came = file.read_bytes(), {}
     for at in range(0, len(dump), 512):
         record = dump[at:at + 512]
@@ -78,12 +66,7 @@ def demand_dump(what, file, written):
 
 
 def read_with_obspy(port, archive):
-    try:
-        import obspy
-        from obspy.clients.seedlink.basic_client import Client
-    except ImportError:
-        print("ObsPy is not installed; the ring is not read with it")
-        return
+    """Asks ObsPy for a part of the past, which the ring still has."""
     start = obspy.UTCDateTime(START) + 300
     came = Client("127.0.0.1", port).get_waveforms("XX", "A351", "00", "BNZ", start, start + 300)
     kept = obspy.Stream()
@@ -95,8 +78,36 @@ def read_with_obspy(port, archive):
            len(came) == 1 and len(came[0]) > 14000 and (came[0].data == kept[0].data).all())
 
 
-ringserver, slarchive = program("ringserver", "A351_RINGSERVER"), program("slarchive", "A351_SLARCHIVE")
-slinktool = program("slinktool", "A351_SLINKTOOL", is_needed=False)
+def plan(seconds):
+    """Returns what happens and when, in s from the begin: every kind equally often, in random order at random instants."""
+    names = [name for name in RESTARTED for _ in range(TIMES)]
+    chance.shuffle(names)
+    return zip(sorted(chance.uniform(0.0, 0.95 * seconds) for _ in names), names)
+
+
+def disturb(name):
+    """Restarts a program, or stops the ring for a while."""
+    if name == "hang":
+        services["ring"].process.send_signal(signal.SIGSTOP)
+        time.sleep(chance.uniform(0.0, min(LONGEST_HANG_S, MINUTES * 3 / SPEED)))
+        services["ring"].process.send_signal(signal.SIGCONT)
+    elif name == "daemon":
+        session.daemon.send_signal(chance.choice([signal.SIGTERM, signal.SIGKILL]))
+        session.daemon.wait(timeout=60)
+        session.daemon = session.start_daemon()
+    else:
+        ended = [one for one in services if one.startswith(name)]
+        for one in ended:
+            services[one].end(chance.choice([signal.SIGTERM, signal.SIGKILL]) if name == "stream" else signal.SIGTERM)
+        time.sleep(chance.uniform(0.0, 1.0))
+        for one in ended:
+            services[one].start()
+
+
+ringserver, slarchive = program("ringserver"), program("slarchive")
+slinktool = program("slinktool", is_needed=False)
+if slinktool:
+    RESTARTED = (*RESTARTED, "slinktool")
 chance = random.Random(SEED)
 scenario = f"""base = "quiet"
 name = "restarts"
@@ -117,41 +128,43 @@ with Scratch() as scratch:
     services["slarchive"] = Service("slarchive", [slarchive, "-v", "-SDS", "fetched", "-nd", "1", "-x", "slarchive.state", "-S",
                                                   "XX_A351", f"127.0.0.1:{port}"], scratch)
     wait_for("slarchive is connected", lambda: "accepted" in (scratch / "slarchive.log").read_text())
-    versions = (3, 4) if slinktool else ()
-    for version in versions:
+    dumps = {}  # What the other clients write, by its file.
+    for version in (3, 4) if slinktool else ():
         services[f"slinktool {version}"] = Service(f"slinktool {version}", [
-            slinktool, "-v", f"-{version}", "-nd", "1", "-x", f"{version}.state:1", "-o", f"{version}.mseed", "-S", "XX_A351",
+            slinktool, "-v", f"-{version}", "-nd", "1", "-x", f"{version}.state", "-o", f"{version}.mseed", "-S", "XX_A351",
             f"127.0.0.1:{port}"], scratch)
+        dumps[scratch / f"{version}.mseed"] = f"slinktool with SeedLink {version}"
+    if obspy:
+        services["obspy"] = Service("obspy", [sys.executable, pathlib.Path(__file__).with_name("obspy_client.py"), str(port),
+                                              "obspy.mseed"], scratch)
+        dumps[scratch / "obspy.mseed"] = f"ObsPy {obspy.__version__}"
+        wait_for("ObsPy has opened its file", (scratch / "obspy.mseed").exists)
     time.sleep(1.0)
     services["stream"] = Service("stream", [BIN / "a351-stream", "data", f"127.0.0.1:{port}", "--state", "positions"], scratch)
     (scratch / "restarts.toml").write_text(scenario)
     session = Session(scratch, speed=SPEED, scenario="restarts.toml", start=START)
     counts = dict.fromkeys(RESTARTED, 0)
     try:
-        end = time.monotonic() + MINUTES * 60 / SPEED
-        while time.monotonic() < end:
-            time.sleep(chance.uniform(*PAUSE))
-            name = chance.choice(RESTARTED)
-            if name == "slarchive" and not day_files(fetched):
-                continue  # Without a first record it has no position, and begins with the next one.
-            if name == "daemon":
-                session.daemon.send_signal(chance.choice([signal.SIGTERM, signal.SIGKILL]))
-                session.daemon.wait(timeout=60)
-                session.daemon = session.start_daemon()
-            else:
-                services[name].end(chance.choice([signal.SIGTERM, signal.SIGKILL]) if name == "stream" else signal.SIGTERM)
-                time.sleep(chance.uniform(0.0, 1.0))
-                services[name].start()
+        # Without a first record a client has no position: after a restart it would begin with the next one.
+        wait_for("every client has a record", lambda: day_files(fetched) and all(one.exists() and one.stat().st_size for one in dumps), 180)
+        begin, seconds = time.monotonic(), MINUTES * 60 / SPEED
+        for at, name in plan(seconds):
+            time.sleep(max(0.0, begin + at - time.monotonic()))
+            disturb(name)
             counts[name] += 1
+        time.sleep(max(0.0, begin + seconds - time.monotonic()))
         print(f"{MODE}, seed {SEED}: restarts {counts}")
         while_growing = sum(len(data) for data in day_files(fetched).values())
         wait_for("the daemon answers", lambda: session.status().get("counters"))
         session.end()
         written = day_files(archive)
-        wait_for("all written data are fetched", lambda: sum(map(len, day_files(fetched).values())) >= sum(map(len, written.values())), 180)
+        size = sum(map(len, written.values()))
+        wait_for("all written data are fetched", lambda: sum(map(len, day_files(fetched).values())) >= size, 180)
+        for file, what in dumps.items():
+            wait_for(f"{what} has fetched as many bytes", lambda: file.stat().st_size >= size, 300)
         time.sleep(2.0)  # Time in which data might arrive twice.
         demand("all are still running", all(one.process.poll() is None for one in services.values()))
-        came, size = day_files(fetched), sum(len(data) for data in written.values())
+        came = day_files(fetched)
         print(f"{len(written)} day files, {size // 512} records; {while_growing // 512} were fetched while the files grew")
         demand("data were fetched while the archive grew", while_growing > 0)
         if "daemon" not in RESTARTED:
@@ -160,9 +173,10 @@ with Scratch() as scratch:
             if came.get(name) != written[name]:
                 print(f"{name}: {len(written[name]) // 512} records, {len(came.get(name, b'')) // 512} came")
         demand("exactly the day files are fetched, byte for byte", came == written)
-        for version in versions:
-            demand_dump(f"slinktool with SeedLink {version}", scratch / f"{version}.mseed", written)
-        read_with_obspy(port, archive)
+        for file, what in dumps.items():
+            demand_dump(what, file, written)
+        if obspy:
+            read_with_obspy(port, archive)
     finally:
         for service in services.values():
             if service.process.poll() is None:

@@ -4,13 +4,14 @@ Readers must join the days to one trace, and the times must be as accurate as st
 """
 
 from programs import BIN, IS_SANITIZED, ONE_SITE, TOOLS, Scratch, demand, run
+from with_obspy import HINT, has_obspy
 
-try:
+if has_obspy():
     import numpy
     import obspy
-except ImportError:
+else:
     obspy = None
-    print("ObsPy is not installed: only libmseed joins the traces")
+    print(f"{HINT}: only libmseed joins the traces")
 
 SCENARIO = """base = "quiet"
 name = "three-days"
