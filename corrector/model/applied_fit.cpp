@@ -36,16 +36,12 @@ void set_unknown_gravity(AppliedFit& applied, const LinearModel& model,
     }
 }
 
-/// Makes the coefficient k the scale 1 + k, and reports it.  Its error is at most that of the prior,
-/// also if the readings scatter by more than reading_sd.  Limit: methods.md, "Scale factor".
-void set_scale(Fit& result, const LinearModel& model, const AppliedFit& applied,
-               const Priors& priors) {
+/// Makes the coefficient k the scale 1 + k, and reports it.
+void set_scale(Fit& result, const LinearModel& model, const Priors& priors) {
     const auto at = static_cast<std::size_t>(scale_column(model)) + 1;
     const Prior prior = priors.scale_of("");
     Coefficient& coefficient = result.coefficients.at(at);
     coefficient.value += 1.0;
-    if (applied.s_mgal)
-        coefficient.standard_error = std::min(coefficient.standard_error.value(), prior.sd);
     result.scales.push_back(
         {"", coefficient.value, coefficient.standard_error.value_or(prior.sd), prior});
 }
@@ -115,10 +111,12 @@ std::optional<residual::Residuals> linear_residuals(const LinearModel& model,
 
 void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t row,
                      std::optional<double> s_mgal) {
-    const double leverage = applied.fit.leverage_at(applied.regressors_of(row));
-    out.leverage = leverage;
-    // u = s sqrt(1 + h)
-    if (s_mgal) out.u_corrected = MilliGal(*s_mgal * std::sqrt(1.0 + leverage));
+    const Eigen::VectorXd x = applied.regressors_of(row);
+    out.leverage = applied.fit.leverage_at(x);
+    // u^2 = s^2 + var(fit(x))
+    if (s_mgal)
+        out.u_corrected =
+            MilliGal(std::sqrt(*s_mgal * *s_mgal + applied.fit.variance_at(x, *s_mgal)));
 }
 
 void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied,
@@ -151,14 +149,14 @@ void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& appli
                 studentised_residual(out.residual->value(), out.leverage.value(), out.is_used, fit);
     }
     const std::vector<std::string> names = coefficient_names(model, steps);
+    std::optional<Eigen::VectorXd> variances;
+    if (applied.s_mgal) variances = fit.covariance(*applied.s_mgal).diagonal();
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(k);
         result.coefficients.push_back({names[k], fit.coefficients(at), std::nullopt});
-        if (applied.s_mgal)
-            result.coefficients.back().standard_error =
-                *applied.s_mgal * std::sqrt(fit.cofactor(at, at));
+        if (variances) result.coefficients.back().standard_error = std::sqrt((*variances)(at));
     }
-    if (model.has_scale) set_scale(result, model, applied, priors);
+    if (model.has_scale) set_scale(result, model, priors);
 }
 
 std::vector<StationValue> average_stations(const Fit& result, const std::vector<bool>& accepted,
@@ -189,11 +187,11 @@ std::vector<StationValue> average_stations(const Fit& result, const std::vector<
         }
         const auto n = static_cast<double>(station.row_count);
         station.gravity = MilliGal(sum / n);
-        // u = s sqrt(1/n + h of the mean of its rows)
+        // u^2 = s^2 / n + var(fit(mean of its rows))
         if (s_mgal) {
             const auto dof = static_cast<double>(applied.fit.dof());
-            station.u_gravity =
-                MilliGal(*s_mgal * std::sqrt(1.0 / n + applied.fit.leverage_at(x / n)));
+            station.u_gravity = MilliGal(
+                std::sqrt(*s_mgal * *s_mgal / n + applied.fit.variance_at(x / n, *s_mgal)));
             if (dof > 0.0) {
                 station.dof = dof;
                 station.coverage_factor =

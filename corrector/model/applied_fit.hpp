@@ -61,7 +61,8 @@ struct AppliedFit {
                                                                   const ChosenSurvey& survey,
                                                                   const Noise& noise);
 
-/// Sets leverage and u_corrected = s sqrt(1 + leverage), that of a station that is not in the fit.
+/// Sets leverage and u_corrected = sqrt(s^2 + variance of the fit), that of a station that is not in
+/// the fit.  Without priors it is s sqrt(1 + leverage).
 ///
 /// Both are set for rows in the fit too.  For these u_corrected is larger than the error in sample.
 /// @param row     number of the row in SurveyProblem::rows, the one from which `out` was made.
@@ -82,8 +83,8 @@ void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& appli
                   const Priors& priors);
 
 /// Returns the values of the stations: means of their accepted rows, or of all their rows if none
-/// is accepted.  u = s sqrt(1/n + leverage of the mean of these rows); its factor for 95 % is
-/// Student's with the degrees of freedom of the fit.
+/// is accepted.  u = sqrt(s^2 / n + variance of the fit at the mean of these rows); its factor for
+/// 95 % is Student's with the degrees of freedom of the fit.
 ///
 /// Stations are in the order of their first row, which also gives the reference.  The redundancy is
 /// summed over the rows in the fit.  The part of the leverage remains with many rows, so u does not

@@ -106,8 +106,8 @@ struct CorrectedRow {
     /// Leverage; for a row outside the fit, LinearFit::leverage_at() of it.  Absent for `day`.
     /// It is at most 1 for a row in the fit, and has no limit for another row.
     std::optional<double> leverage;
-    /// Uncertainty as if the station were unknown: s sqrt(1 + leverage).  `network` and `day`: see
-    /// network_model() and whole_day_model().  Absent for the other models if dof is 0.
+    /// Uncertainty as if the station were unknown: sqrt(s^2 + variance of the fit).  `network` and
+    /// `day`: see network_model() and whole_day_model().  Absent for the other models if dof is 0.
     std::optional<MilliGal> u_corrected;
     /// Studentised residual: external, except `robust` (scale of the robust fit); absent for
     /// `paper`.
@@ -170,7 +170,7 @@ struct StationValue {
     std::size_t row_count = 0;     ///< Number of rows averaged; `network`: readings adjusted.
     bool is_flagged_only = false;  ///< True: no row is unflagged; the flagged are averaged.
     MilliGal gravity;              ///< Mean of its corrected values; `network`: adjusted value.
-    /// Uncertainty s sqrt(1/n + leverage of the mean row); `network`: a priori; `day`: as if the
+    /// Uncertainty sqrt(s^2 / n + variance of the fit); `network`: a priori; `day`: as if the
     /// reference of the station were unknown.
     std::optional<MilliGal> u_gravity;
     std::optional<MilliGal> u_a_posteriori;  ///< `network` only: s0 times u_gravity.

@@ -6,6 +6,22 @@
 #include "protocol/linear_algebra/pivoted_qr.hpp"
 
 namespace a351::corrector::model {
+namespace {
+
+/// Returns the covariance (p, p) of all coefficients from that of the slopes, with the constant
+/// b0 = mean(y) - mean(x) . b of a mean(y) without error.
+Eigen::MatrixXd with_constant(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& column_means) {
+    const Eigen::Index q = column_means.size();
+    const Eigen::VectorXd with_mean = slopes * column_means;
+    Eigen::MatrixXd all(q + 1, q + 1);
+    all(0, 0) = column_means.dot(with_mean);
+    all.block(1, 0, q, 1) = -with_mean;
+    all.block(0, 1, 1, q) = -with_mean.transpose();
+    all.bottomRightCorner(q, q) = slopes;
+    return all;
+}
+
+}  // namespace
 
 double LinearFit::at(const Eigen::Ref<const Eigen::VectorXd>& x) const {
     // Centred, because the constant b0 contains the rounding of large x.
@@ -18,6 +34,19 @@ double LinearFit::leverage_at(const Eigen::Ref<const Eigen::VectorXd>& x) const 
     // 1/n + (x - mean)^T C (x - mean)
     return 1.0 / static_cast<double>(row_count()) +
            centred.dot(cofactor.bottomRightCorner(q, q) * centred);
+}
+
+Eigen::MatrixXd LinearFit::covariance(double s) const {
+    // s^2 C (Xc^T Xc) C + row_sd^2 C W^2 C, with Xc^T Xc = C^-1 - W^2
+    return s * s * cofactor + (row_sd * row_sd - s * s) * prior_cofactor;
+}
+
+double LinearFit::variance_at(const Eigen::Ref<const Eigen::VectorXd>& x, double s) const {
+    const Eigen::Index q = column_means.size();
+    const Eigen::VectorXd centred = x - column_means;
+    return s * s * leverage_at(x) +
+           (row_sd * row_sd - s * s) *
+               centred.dot(prior_cofactor.bottomRightCorner(q, q) * centred);
 }
 
 std::optional<double> LinearFit::residual_scale() const {
@@ -41,7 +70,6 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
     const Eigen::VectorXd centred_y = y.array() - fit.mean;
 
     fit.coefficients.resize(q + 1);
-    fit.cofactor.resize(q + 1, q + 1);
     Eigen::VectorXd slopes = Eigen::VectorXd::Zero(q);
     Eigen::MatrixXd slope_cofactor = Eigen::MatrixXd::Zero(q, q);
     if (q > 0) {
@@ -66,14 +94,17 @@ std::optional<LinearFit> fit_linear(const Eigen::Ref<const Eigen::MatrixXd>& col
         const Eigen::MatrixXd root = qr.cofactor_root();
         slope_cofactor = root * root.transpose();
     }
-    // b0 = mean(y) - mean(x) . b, and its covariances with the slopes
-    const Eigen::VectorXd mean_cofactor = slope_cofactor * fit.column_means;
     fit.coefficients(0) = fit.mean - slopes.dot(fit.column_means);
     fit.coefficients.tail(q) = slopes;
-    fit.cofactor(0, 0) = 1.0 / static_cast<double>(n) + fit.column_means.dot(mean_cofactor);
-    fit.cofactor.block(1, 0, q, 1) = -mean_cofactor;
-    fit.cofactor.block(0, 1, 1, q) = -mean_cofactor.transpose();
-    fit.cofactor.bottomRightCorner(q, q) = slope_cofactor;
+    fit.cofactor = with_constant(slope_cofactor, fit.column_means);
+    fit.cofactor(0, 0) += 1.0 / static_cast<double>(n);
+    if (fit.prior_count > 0) {
+        const Eigen::MatrixXd weighted = priors.weights.asDiagonal() * slope_cofactor;
+        fit.prior_cofactor = with_constant(weighted.transpose() * weighted, fit.column_means);
+    } else {
+        fit.prior_cofactor = Eigen::MatrixXd::Zero(q + 1, q + 1);
+    }
+    fit.row_sd = priors.row_sd;
 
     fit.residuals = centred_y - x * slopes;
     fit.rss = fit.residuals.squaredNorm();

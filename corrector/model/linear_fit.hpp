@@ -9,7 +9,7 @@
 ///     if (!fit) return;                                // the rows do not determine the slopes
 ///     const double predicted = fit->at(x);             // also for x outside the rows
 ///     if (const auto s = fit->residual_scale())        // absent if nothing is left to estimate it
-///         *s * std::sqrt(fit->cofactor(1, 1));         // standard error of the first slope
+///         std::sqrt(fit->covariance(*s)(1, 1));        // standard error of the first slope
 ///
 /// All functions are pure, so several threads may call them.
 
@@ -23,11 +23,15 @@ namespace a351::corrector::model {
 /// The fit is made on y - mean(y) and X - mean(X), so that full values near 980000 mGal keep their
 /// last digits.
 ///
-/// The standard error of coefficient k is s sqrt(cofactor(k, k)).  A default-constructed fit is
+/// The standard error of coefficient k is sqrt(covariance(s)(k, k)).  A default-constructed fit is
 /// empty and has no meaning.
 struct LinearFit {
     Eigen::VectorXd coefficients;  ///< (p) Constant first, then one per column of X.
-    Eigen::MatrixXd cofactor;      ///< (p, p) Covariance of the coefficients, divided by s^2.
+    /// (p, p) C, and the constant; without priors it is the covariance of the coefficients / s^2.
+    Eigen::MatrixXd cofactor;
+    /// (p, p) C W^2 C, and the constant: the covariance from errors of the priors / row_sd^2.
+    Eigen::MatrixXd prior_cofactor;
+    double row_sd = 0.0;           ///< SlopePriors::row_sd.
     Eigen::VectorXd residuals;     ///< (n) y - fit, unit of y.
     Eigen::VectorXd leverages;     ///< (n) Diagonal of the hat matrix; sum p without priors.
     Eigen::VectorXd column_means;  ///< (p - 1) Means of the columns of X.
@@ -49,13 +53,27 @@ struct LinearFit {
     [[nodiscard]] double at(const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
     /// Returns 1/n + (x - column_means)^T C (x - column_means), where C is the cofactor without the
-    /// constant.  For a row of the fit this is its leverage.  s^2 times it
-    /// is the variance of at(x).
+    /// constant.  For a row of the fit this is its leverage.
     ///
     /// It is at least 1/n.  Far from the rows it increases with the square of the distance, without
-    /// a limit.  The error of a new row y at x is s sqrt(1 + leverage_at(x)).
+    /// a limit.
     /// @param x  (p - 1) values of the columns, also outside the rows of the fit.
     [[nodiscard]] double leverage_at(const Eigen::Ref<const Eigen::VectorXd>& x) const;
+
+    /// Returns the covariance (p, p) of the coefficients, if a row has the standard deviation s and
+    /// the priors have theirs:
+    ///
+    ///     s^2 C + (row_sd^2 - s^2) C W^2 C
+    ///
+    /// A slope that only its prior determines has the prior's standard deviation, whatever s is.
+    /// @param s  standard deviation of a row, as residual_scale() returns it; unit of y.
+    [[nodiscard]] Eigen::MatrixXd covariance(double s) const;
+
+    /// Returns the variance of at(x): s^2 leverage_at(x) without priors.  The error of a new row y
+    /// at x is sqrt(s^2 + variance_at(x, s)).
+    /// @param x  (p - 1) values of the columns, also outside the rows of the fit.
+    /// @param s  see covariance().
+    [[nodiscard]] double variance_at(const Eigen::Ref<const Eigen::VectorXd>& x, double s) const;
 
     /// Returns s = sqrt((rss + prior_rss) / dof), in the unit of y; absent if dof = 0.
     [[nodiscard]] std::optional<double> residual_scale() const;
@@ -70,6 +88,7 @@ struct SlopePriors {
     Eigen::VectorXd values;  ///< (p - 1) Means, in the unit of the slopes; empty: no priors.
     /// (p - 1) Standard deviation of a row of y, divided by that of the prior; 0: no prior.
     Eigen::VectorXd weights;
+    double row_sd = 0.0;  ///< This standard deviation of a row, unit of y.
 };
 
 /// Fits y = b0 + X b by least squares: minimises sum (y - b0 - X b)^2 + sum weight^2 (b - value)^2.

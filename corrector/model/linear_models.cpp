@@ -59,16 +59,17 @@ std::optional<LinearFit> fit_without(const LinearModel& terms, const SurveyProbl
     return fit_model(terms, rows, problem.origin(), problem.options.priors);
 }
 
-/// Returns (a' C b), C the cofactor of the slopes.
-double product(const LinearFit& fit, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-    const Eigen::Index p = a.size();
-    return a.dot(fit.cofactor.bottomRightCorner(p, p) * b);
+/// Returns the covariance V of the slopes b, mGal^2 over the units of two columns.
+Eigen::MatrixXd slope_covariance(const LinearFit& fit, double s_mgal) {
+    const Eigen::Index q = fit.column_means.size();
+    return fit.covariance(s_mgal).bottomRightCorner(q, q);
 }
 
 StationCovariance covariance_of(const std::vector<StationMean>& means, const LinearFit& fit,
                                 double s_mgal) {
     StationCovariance covariance;
     const auto count = std::ssize(means);
+    const Eigen::MatrixXd slopes = slope_covariance(fit, s_mgal);
     covariance.mgal2.resize(count, count);
     for (Eigen::Index a = 0; a < count; ++a) {
         const StationMean& mean = means[static_cast<std::size_t>(a)];
@@ -77,8 +78,9 @@ StationCovariance covariance_of(const std::vector<StationMean>& means, const Lin
             const StationMean& other = means[static_cast<std::size_t>(b)];
             covariance.mgal2(a, b) =
                 s_mgal * s_mgal *
-                ((a == b ? 1.0 / mean.count : 0.0) + 1.0 / static_cast<double>(fit.row_count()) +
-                 product(fit, mean.x - fit.column_means, other.x - fit.column_means));
+                    ((a == b ? 1.0 / mean.count : 0.0) +
+                     1.0 / static_cast<double>(fit.row_count())) +
+                (mean.x - fit.column_means).dot(slopes * (other.x - fit.column_means));
         }
     }
     return covariance;
@@ -88,8 +90,8 @@ StationCovariance covariance_of(const std::vector<StationMean>& means, const Lin
 ///
 /// A value is that of the fit to the rows of the other stations, a difference that of the fit
 /// without both stations: d = mean(D)_to - mean(D)_from - (x_to - x_from)' b, with
-/// u^2 = s^2 (1/n_from + 1/n_to + (x_to - x_from)' C (x_to - x_from)).  x are mean regressors, n
-/// numbers of rows, s is that of the fit to all rows, and C is the cofactor of the slopes b.  The
+/// u^2 = s^2 (1/n_from + 1/n_to) + (x_to - x_from)' V (x_to - x_from).  x are mean regressors, n
+/// numbers of rows, s is that of the fit to all rows, and V is the covariance of the slopes b.  The
 /// covariance is that of StationValue::gravity as if the stations were not in the fit.
 ///
 /// A pair without which the rows do not determine the model is left out.  Cost: one fit for each
@@ -107,18 +109,18 @@ void set_left_out_stations(Fit& result, const LinearModel& terms, const SurveyPr
         if (const auto fit = fit_without(terms, problem, choice, to.value->site, "")) {
             to.value->left_out = to.reading - MilliGal(fit->at(to.x));
             to.value->u_left_out =
-                MilliGal(s_mgal * std::sqrt(1.0 / to.count + fit->leverage_at(to.x)));
+                MilliGal(std::sqrt(s_mgal * s_mgal / to.count + fit->variance_at(to.x, s_mgal)));
         }
         for (std::size_t a = 0; a < b; ++a) {
             const StationMean& from = means[a];
             const auto fit = fit_without(terms, problem, choice, from.value->site, to.value->site);
             if (!fit) continue;
             const Eigen::VectorXd step = to.x - from.x;
-            result.differences.push_back(
-                difference_of(*from.value, *to.value,
-                              to.reading - from.reading - MilliGal(fit->at(to.x) - fit->at(from.x)),
-                              MilliGal(s_mgal * std::sqrt(1.0 / from.count + 1.0 / to.count +
-                                                          product(*fit, step, step)))));
+            result.differences.push_back(difference_of(
+                *from.value, *to.value,
+                to.reading - from.reading - MilliGal(fit->at(to.x) - fit->at(from.x)),
+                MilliGal(std::sqrt(s_mgal * s_mgal * (1.0 / from.count + 1.0 / to.count) +
+                                   step.dot(slope_covariance(*fit, s_mgal) * step)))));
         }
     }
     result.covariance = covariance_of(means, *all, s_mgal);

@@ -156,7 +156,8 @@ std::vector<std::string> coefficient_names(const LinearModel& model, std::size_t
 SlopePriors slope_priors(const LinearModel& model, const Priors& priors, std::size_t steps) {
     const std::vector<std::string> names = coefficient_names(model, steps);
     const auto slope_count = static_cast<Eigen::Index>(names.size()) - 1;
-    SlopePriors slopes{Eigen::VectorXd::Zero(slope_count), Eigen::VectorXd::Zero(slope_count)};
+    SlopePriors slopes{Eigen::VectorXd::Zero(slope_count), Eigen::VectorXd::Zero(slope_count),
+                       priors.reading_sd_mgal};
     for (Eigen::Index k = 0; k < slope_count; ++k) {
         const Prior* const prior = priors.find(names[static_cast<std::size_t>(k) + 1]);
         if (prior == nullptr) continue;

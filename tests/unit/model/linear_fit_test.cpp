@@ -106,3 +106,32 @@ TEST_CASE("a prior determines a coefficient that the rows do not determine",
     CHECK(fit.coefficients(1) == Approx(-30.0));
     CHECK(fit.at(constant.head(1)) == Approx(kY.mean()));
 }
+
+TEST_CASE("errors have the scatter of the rows and the stated standard deviation of a prior",
+          "[survey][linear_fit]") {
+    constexpr double kRowSd = 2.0, kPriorSd = 5.0;  // Weight 0.4.
+    const auto prior_of = [](double sd) {
+        return SlopePriors{Eigen::VectorXd::Constant(1, -30.0),
+                           Eigen::VectorXd::Constant(1, kRowSd / sd), kRowSd};
+    };
+    const Eigen::VectorXd constant = Eigen::VectorXd::Constant(6, 42.5);
+    const auto by_prior = fit_linear(constant, kY, prior_of(kPriorSd)).value();
+    const Eigen::VectorXd far = Eigen::VectorXd::Constant(1, 52.5);
+    for (const double s : {0.0, 0.1, 2.0, 30.0}) {
+        CHECK(std::sqrt(by_prior.covariance(s)(1, 1)) == Approx(kPriorSd));
+        CHECK(by_prior.variance_at(far, s) ==
+              Approx(s * s / 6.0 + 10.0 * 10.0 * kPriorSd * kPriorSd));
+    }
+    // A slope of two sources: b = (Sxy + w^2 m) / (Sxx + w^2), so
+    // var(b) = (Sxx s^2 + w^4 sd^2) / (Sxx + w^2)^2.
+    const auto by_both = fit_linear(kX, kY, prior_of(kPriorSd)).value();
+    const double sxx = (kX.array() - kX.mean()).square().sum(), w2 = 0.16, s = 0.7;
+    const double variance =
+        (sxx * s * s + w2 * w2 * kPriorSd * kPriorSd) / ((sxx + w2) * (sxx + w2));
+    CHECK(by_both.covariance(s)(1, 1) == Approx(variance));
+    CHECK(by_both.covariance(s)(0, 1) == Approx(-kX.mean() * variance));
+    CHECK(by_both.covariance(s)(0, 0) == Approx(s * s / 6.0 + kX.mean() * kX.mean() * variance));
+    CHECK(by_both.variance_at(kX.head(1), s) ==
+          Approx(s * s / 6.0 + std::pow(kX(0) - kX.mean(), 2) * variance));
+    CHECK(by_both.covariance(kRowSd)(1, 1) == Approx(kRowSd * kRowSd * by_both.cofactor(1, 1)));
+}
