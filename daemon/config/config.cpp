@@ -204,6 +204,9 @@ StorageConfig read_storage(TomlTable table, int output_rate_hz) {
         table.number("declared_rate_hz", 0.999 * output_rate_hz, 1.001 * output_rate_hz);
     storage.journal_keep_days =
         static_cast<int>(table.integer_or("journal_keep_days", 30, 0, 36500));
+    storage.record_age = std::chrono::seconds(
+        table.integer_or("record_age_s", journal::kLongestRecordAge.count(),
+                         journal::kShortestRecordAge.count(), journal::kLongestRecordAge.count()));
     table.require_all_read();
     return storage;
 }
@@ -308,6 +311,7 @@ journal::Header journal_header(const Config& config, const source::HostClock& cl
     header.burst_ctrl = config.sensor.settings.layout.burst_ctrl();
     header.baud = config.sensor.baud;
     header.declared_rate_hz = config.storage.declared_rate_hz;
+    header.record_age = config.storage.record_age;
     if (config.oven) header.oven_interval = source::archived_interval(*config.oven, clock);
     return header;
 }

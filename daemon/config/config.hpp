@@ -23,6 +23,8 @@ struct StorageConfig {
     std::filesystem::path root;
     std::optional<double> declared_rate_hz;  ///< Absent until it was measured and set.
     int journal_keep_days = 30;              ///< 0: always.
+    /// Age of its first sample at which a record of the archive is written, full or not.
+    std::chrono::seconds record_age = journal::kLongestRecordAge;
 };
 
 struct PageConfig {

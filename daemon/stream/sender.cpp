@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 /// Time between looks for new records: small against their age, and 0.2 % of a core.
-constexpr milliseconds kBetweenLooks{250};
+constexpr milliseconds kBetweenLooks{100};
 /// Records sent before their acknowledgements are read, so that a slow network carries a day of
 /// records in minutes.
 constexpr std::size_t kBatch = 64;

@@ -79,7 +79,8 @@ public:
           clock_(clock_options(header)),
           clip_counts_(std::ldexp(profile_of(header).rated_range.value(),
                                   profile_of(header).acceleration_fraction_bits)),
-          slow_(profile_of(header), {clock_, record_header_, errors_, sink_, counters_}) {
+          slow_(profile_of(header),
+                {clock_, record_header_, header_.record_age, errors_, sink_, counters_}) {
         begin_run();
         adopt(header);
     }
@@ -107,7 +108,8 @@ public:
     void observe_clock(const timing::ClockReading& reading) {
         clock_.observe_clock(reading);
         if (retiming_) retiming_->observe_clock(reading);
-        if (last_index_ && clock_.awake(reading.raw) - last_arrival_ > kMostRecordAge)
+        if (last_index_ && clock_.awake(reading.raw) - last_arrival_ > header_.record_age &&
+            clock_.is_fixed(*last_index_))
             close_channels(false, next_index());
         if (const auto last = last_index_ ? clock_.time_of(*last_index_) : std::nullopt)
             slow_.pass(last->utc + since_last_sample(reading.raw));
@@ -163,7 +165,7 @@ private:
     }
 
     [[nodiscard]] RecordContext context() {
-        return {clock_, record_header_, errors_, slow_, counters_};
+        return {clock_, record_header_, header_.record_age, errors_, slow_, counters_};
     }
 
     /// Returns the time from the instant of the newest sample to `raw`.

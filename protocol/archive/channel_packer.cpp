@@ -13,6 +13,7 @@ using std::chrono::floor;
 using std::chrono::seconds;
 
 constexpr Nanoseconds kQuestionable = std::chrono::milliseconds(10);
+constexpr std::int64_t kMostSeconds = 60;  // Samples of a record of a slow channel.
 
 }  // namespace
 
@@ -39,11 +40,15 @@ void ChannelPacker::add(const RecordContext& context, std::int64_t index, std::i
     if (samples_.empty()) first_ = index;
     samples_.push_back(counts);
     if (is_clipped) clipped_.add(index);
-    const auto age_samples = static_cast<double>(index - first_);
-    if (age_samples >= kMostRecordAge.count() * context.header.nominal_rate.value())
-        close(context, false);
-    else if (samples_.size() >= kMostSamplesPerRecord)
-        pack_one(context, false);
+    const double most_samples =
+        static_cast<double>(context.record_age.count()) * context.header.nominal_rate.value();
+    const auto is_old = [&] {
+        return !samples_.empty() && static_cast<double>(index - first_) >= most_samples &&
+               context.clock.is_fixed(index);
+    };
+    // A record that a shutdown ended early is followed by a younger one.
+    if (samples_.size() >= kMostSamplesPerRecord) pack_one(context, false);
+    while (is_old()) pack_one(context, false);
 }
 
 void ChannelPacker::close(const RecordContext& context, bool ends_series) {
@@ -101,7 +106,7 @@ void ChannelPacker::pack_one(const RecordContext& context, bool ends_series) {
 SecondPacker::SecondPacker(std::string_view code, seconds interval)
     : code_(code),
       interval_(interval),
-      most_age_(std::min<seconds>(kMostRecordAge.count() * interval, std::chrono::hours(1))) {
+      most_age_(std::min<seconds>(kMostSeconds * interval, std::chrono::hours(1))) {
     counts_.reserve(static_cast<std::size_t>(most_age_ / interval_) + 1);
 }
 

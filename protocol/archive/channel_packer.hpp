@@ -37,14 +37,12 @@ private:
     std::deque<std::int64_t> indices_;
 };
 
-/// Age of the oldest sample at which a record is closed, so that slow channels become visible.
-inline constexpr std::chrono::seconds kMostRecordAge{60};
-
 /// Data shared by the records of all channels of a session.  The objects belong to the caller and
 /// must outlive the context.
 struct RecordContext {
     const timing::SampleClock& clock;  ///< Clock that knows the times of the samples added.
     const RecordHeader& header;        ///< Codes and rates.
+    const std::chrono::seconds& record_age;  ///< journal::Header::record_age.
     const IndexMarks& errors;          ///< Samples that were due when bytes were discarded.
     Sink& sink;                        ///< Receiver of the records.
     Counters& counters;                ///< Counters of which a packer raises integer_records.
@@ -70,7 +68,8 @@ public:
 
     /// Adds a sample.  Precondition: the channel is empty or `index` is the next one.
     ///
-    /// A record is packed when 721 samples wait; all are packed when the first is 60 s old.
+    /// A record is packed when 721 samples wait, and when the first of them has the age of the
+    /// context and the times are fixed: those of a run's first 2 s are not.
     /// @param context     its clock must know the time of the sample.
     /// @param counts      raw value; any 32-bit integer.
     /// @param is_clipped  sets the flag of the record that has the sample.

@@ -72,6 +72,9 @@ struct RepeatedChunks {
 /// Limits of the sample interval of the oven's channels in the archive.
 inline constexpr std::chrono::seconds kShortestOvenInterval{1}, kLongestOvenInterval{3600};
 
+/// Limits of the age at which a record of the sampled channels ends.
+inline constexpr std::chrono::seconds kShortestRecordAge{1}, kLongestRecordAge{60};
+
 /// Header of every segment, so that a reader needs only the file.
 ///
 /// A default-constructed header can be encoded, but it has no profile, rate or layout.  Frames
@@ -100,6 +103,8 @@ struct Header {
     int baud = 0;
     std::optional<double> declared_rate_hz;  ///< Rate of blockette 100; absent until commissioned.
     std::chrono::seconds oven_interval{1};   ///< Sample interval of the oven's channels.
+    /// Age of its oldest sample at which a record of the sampled channels ends.
+    std::chrono::seconds record_age = kLongestRecordAge;
     /// Reading of the host's clocks for this segment: the first that a reader gets.  Its UTC is the
     /// time in the file name.
     timing::ClockReading clock;

@@ -122,13 +122,13 @@ void renumber_chunk(std::span<std::byte> chunk, std::uint32_t sequence);
 /// Returns the payload of a header: one line of JSON.  Bytes that are not UTF-8 become U+FFFD.
 ///
 /// The order of the keys is fixed.  Members with their default are left out if the format permits
-/// it: device_assumed, port, declared_rate_hz, oven_interval_s, leap and repeats.  A declared rate
+/// it: device_assumed, port, declared_rate_hz, oven_interval_s, record_age_s, leap and repeats.  A declared rate
 /// must be finite, because parse_header() refuses the `null` that JSON has instead.
 [[nodiscard]] std::string header_to_json(const Header& header);
 
 /// Reads the payload of a header.  Unknown fields are ignored.
 ///
-/// These are compared with their limits: session, station codes, clock, leap, oven_interval_s.
+/// These are compared with their limits: session, station codes, clock, leap, oven_interval_s, record_age_s.
 /// Profile, filter, rates and burst_ctrl are not: find them in the profile before use.  A number
 /// that does not fit the type of its member is converted, not refused.
 ///

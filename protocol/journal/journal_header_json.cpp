@@ -68,6 +68,9 @@ Header header_from_json(const Json& json) {
     header.oven_interval = std::chrono::seconds(json.value("oven_interval_s", 1));
     if (header.oven_interval < kShortestOvenInterval || header.oven_interval > kLongestOvenInterval)
         throw std::invalid_argument("oven_interval_s");
+    header.record_age = std::chrono::seconds(json.value("record_age_s", kLongestRecordAge.count()));
+    if (header.record_age < kShortestRecordAge || header.record_age > kLongestRecordAge)
+        throw std::invalid_argument("record_age_s");
     header.clock = clock_from_json(json.at("clock"));
     if (json.contains("repeats")) {
         const Json& repeats = json.at("repeats");
@@ -100,6 +103,7 @@ std::string header_to_json(const Header& header) {
     if (header.declared_rate_hz) json["declared_rate_hz"] = *header.declared_rate_hz;
     if (header.oven_interval != kShortestOvenInterval)
         json["oven_interval_s"] = header.oven_interval.count();
+    if (header.record_age != kLongestRecordAge) json["record_age_s"] = header.record_age.count();
     json["clock"] = clock_to_json(header.clock);
     if (header.repeats) {
         json["repeats"] = {{"segment", header.repeats->segment},

@@ -96,6 +96,7 @@ struct ClockParameters {
     double wander_ppm_per_sqrt_h = 0.0;     ///< Random walk.
     double temperature_ppm_per_degc = 0.0;  ///< Per degC above the temperature error's reference.
     double declared_rate_hz = 0.0;          ///< Written by `survey` into its records; 0: none.
+    int record_age_s = 60;                  ///< Longest time in a record that `survey` writes.
 };
 
 struct SlowNoiseParameters {

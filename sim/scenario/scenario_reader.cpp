@@ -166,6 +166,7 @@ void read_clock(Section& s, ClockParameters& p) {
     s.number("wander_ppm_per_sqrt_h", p.wander_ppm_per_sqrt_h, 0.0, 100.0);
     s.number("temperature_ppm_per_degc", p.temperature_ppm_per_degc, -100.0, 100.0);
     s.number("declared_rate_hz", p.declared_rate_hz, 0.0, 51.0);
+    s.integer("record_age_s", p.record_age_s, 1, 60);
 }
 
 void read_tide(Section& s, TideParameters& p) {

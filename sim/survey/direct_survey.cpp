@@ -72,6 +72,7 @@ journal::Header journal_header(const scenario::Scenario& scenario,
     header.baud = kBaud;
     if (scenario.clock.declared_rate_hz > 0.0)
         header.declared_rate_hz = scenario.clock.declared_rate_hz;
+    header.record_age = std::chrono::seconds(scenario.clock.record_age_s);
     header.clock = clock_at(scenario, scenario.start());
     return header;
 }

@@ -41,12 +41,13 @@ def wait_for(claim, is_true, seconds=60):
 class Session:
     """Emulator and daemon running together.  end() stops both and reads the emulator's report."""
 
-    def __init__(self, scratch, faults="", speed=20, scenario="tsukuba", start=None, config="", prepare_port=None,
+    def __init__(self, scratch, faults="", speed=20, scenario="tsukuba", start=None, config="", storage="", prepare_port=None,
                  on_host_clock=False, host="127.0.0.1", **options):
         """Starts both.
 
         @param start  begin of simulated time, RFC 3339; default: that of the scenario
         @param config  lines added to the daemon's [sensor]
+        @param storage  lines added to its [storage]
         @param prepare_port  function called with the emulator's terminal before the daemon starts
         @param on_host_clock  both run on the host's clock; speed must be 1, and `start` must not be in the future
         @param host  address on which the daemon listens
@@ -55,7 +56,7 @@ class Session:
         self.scratch = scratch
         self.port = unused_port()
         (scratch / "a351d.toml").write_text(
-            daemon_config(self.port, host).replace("[storage]", config + "\n[storage]"))
+            daemon_config(self.port, host).replace("[storage]\n", f"{config}\n[storage]\n{storage}"))
         (scratch / "faults.toml").write_text(faults)
         if start is None:
             plan = run(BIN / "a351-sim", "plan", "--scenario", scenario, "--out", ".", cwd=scratch)

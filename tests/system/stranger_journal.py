@@ -38,7 +38,8 @@ def is_head(payload):
         head = json.loads(payload.decode())
         return (all(re.fullmatch(form, head[key]) for key, form in STRINGS.items()) and all(isinstance(head[key], int) for key in INTEGERS)
                 and len(head["axes"]) == 3 and all(re.fullmatch("[A-Z0-9]", axis) for axis in head["axes"])
-                and 1 <= head.get("oven_interval_s", 1) <= 3600 and head["clock"].get("leap", 0) in (0, 1, 2)
+                and 1 <= head.get("oven_interval_s", 1) <= 3600 and 1 <= head.get("record_age_s", 60) <= 60
+                and head["clock"].get("leap", 0) in (0, 1, 2)
                 and isinstance(head["clock"]["synchronised"], bool)
                 and all(is_instant(head["clock"][key]) for key in ("raw_ns", "boottime_ns", "realtime_ns"))
                 and all(abs(head["clock"][key]) <= 2**47 for key in ("max_error_us", "estimated_error_us")))

@@ -66,8 +66,8 @@ def demand_dump(what, file, written):
 
 
 def read_with_obspy(port, archive):
-    """Asks ObsPy for a part of the past, which the ring still has."""
-    start = obspy.UTCDateTime(START) + 300
+    """Asks ObsPy for five minutes of the past."""
+    start = obspy.UTCDateTime(START) + 60 * MINUTES - 900
     came = Client("127.0.0.1", port).get_waveforms("XX", "A351", "00", "BNZ", start, start + 300)
     kept = obspy.Stream()
     for file in sorted(pathlib.Path(archive).rglob("*.BNZ.D.*")):

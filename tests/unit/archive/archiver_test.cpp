@@ -197,6 +197,47 @@ TEST_CASE("by the times of its header no record reaches over UTC midnight", "[re
     CHECK(checked > 100);
 }
 
+TEST_CASE("records end at the age that the header states, with the same samples and times",
+          "[record][archiver]") {
+    JournalStream stream;
+    std::mt19937_64 random(8);
+    for (std::int64_t k = 0; k < 20'000; ++k) {  // behind a timer of 16 ms
+        const auto late = Nanoseconds(static_cast<std::int64_t>(random() % 16'000'000));
+        stream.bytes(frame_of(values_of(k)), due(k) + late);
+        if (k % 50 == 49) stream.second(due(k) + 17ms);
+    }
+    stream.flush();
+    const auto usual = archived(stream.chunks);
+    const auto age = GENERATE(1s, 2s, 5s);
+    Collector sink;
+    Archiver archiver(sink);
+    std::map<std::string, std::size_t> seen;
+    for (const auto& chunk : with_record_age(stream.chunks, age)) {
+        archiver.take(chunk);
+        const auto newest = archiver.last_index();
+        if (!newest || *newest < 100) continue;  // times are fixed after 2 s
+        for (const char* channel : {"BN1", "BN2", "BNZ", "BK1"})
+            REQUIRE(*newest - sink.last[channel] <= 50 * age.count() + 1);
+    }
+    archiver.close_records();
+    for (const auto& [channel, records] : sink.decoded) {
+        CAPTURE(channel);
+        if (channel == "LCE") continue;  // it refers to the records
+        CHECK(sink.counts(channel) == usual.sink.counts(channel));
+        if (!channel.starts_with("B")) continue;
+        // The first record waits until the times of its samples are fixed.
+        CHECK(records.front().samples.size() == 50U * std::max<std::int64_t>(age.count(), 2) + 1);
+        CHECK(records[1].samples.size() == 50U * static_cast<unsigned>(age.count()) + 1);
+        std::int64_t index = 0;
+        for (const auto& record : records) {
+            const auto time = archiver.clock()->time_of(index)->utc;
+            CHECK(record.header.start == std::chrono::floor<std::chrono::microseconds>(time));
+            index += static_cast<std::int64_t>(record.samples.size());
+        }
+    }
+    CHECK(sink.packed.size() > usual.sink.packed.size());
+}
+
 TEST_CASE("samples are written to a record after 60 s even if no others follow",
           "[record][archiver]") {
     JournalStream stream;
@@ -208,6 +249,18 @@ TEST_CASE("samples are written to a record after 60 s even if no others follow",
     CHECK(sink.decoded.count("BNZ") == 0);
     archiver.take(clock_at(66s + 1ms));
     CHECK(sink.counts("BNZ") == expected(2, 0, 300));
+}
+
+TEST_CASE("with short records the last samples before a silence are written within their age",
+          "[record][archiver]") {
+    JournalStream stream;
+    stream.frames(0, 320);
+    Collector sink;
+    Archiver archiver(sink);
+    for (const auto& chunk : with_record_age(stream.chunks, 1s)) archiver.take(chunk);
+    CHECK(sink.counts("BNZ").size() < 320);
+    archiver.take(clock_at(due(319) + 1s + 1ms));
+    CHECK(sink.counts("BNZ") == expected(2, 0, 320));
 }
 
 TEST_CASE("samples that Steim-2 cannot hold are archived as plain integers", "[record][archiver]") {

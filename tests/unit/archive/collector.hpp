@@ -43,6 +43,14 @@ inline std::vector<std::int32_t> expected(unsigned axis, std::int64_t first, std
     return counts;
 }
 
+/// Returns the same chunks with another age at which records end.
+inline std::vector<journal::Chunk> with_record_age(std::vector<journal::Chunk> chunks,
+                                                   std::chrono::seconds age) {
+    for (auto& chunk : chunks)
+        if (auto* const header = std::get_if<journal::Header>(&chunk)) header->record_age = age;
+    return chunks;
+}
+
 struct Run {
     Collector sink;
     Counters counters;

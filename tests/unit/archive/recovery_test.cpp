@@ -117,7 +117,7 @@ TEST_CASE("a torn tail of the day before the newest is cut", "[record][recovery]
 
 TEST_CASE("an archive cut at any record, torn or not, is recovered to the same bytes",
           "[record][recovery]") {
-    const auto chunks = eventful_session();
+    const auto chunks = with_record_age(eventful_session(), GENERATE(60s, 1s));
     DataRoot whole;
     whole.write_journal(chunks);
     archive_all(whole, chunks);
@@ -146,7 +146,7 @@ TEST_CASE("an archive cut at any record, torn or not, is recovered to the same b
 TEST_CASE(
     "a journal torn at any byte is recovered to the archive of an undisturbed run that ended there",
     "[record][recovery]") {
-    const auto chunks = eventful_session();
+    const auto chunks = with_record_age(eventful_session(), GENERATE(60s, 1s));
     DataRoot whole;
     whole.write_journal(chunks);
     std::mt19937_64 random(2);
@@ -176,7 +176,7 @@ TEST_CASE(
 
 TEST_CASE("a recovery killed at any change to the disk, twice, ends with the same bytes",
           "[record][recovery]") {
-    const auto chunks = eventful_session();
+    const auto chunks = with_record_age(eventful_session(), GENERATE(60s, 1s));
     DataRoot whole;
     whole.write_journal(chunks);
     archive_all(whole, chunks);
@@ -218,6 +218,9 @@ TEST_CASE("a replay agrees with records that an earlier shutdown had ended early
     before.frames(0, 1'510);
     after.frames(1'510, 3'700);
     after.chunks.front() = header_at(due(1'509));
+    const auto age = GENERATE(60s, 1s);
+    before.chunks = with_record_age(before.chunks, age);
+    after.chunks = with_record_age(after.chunks, age);
     DataRoot root;
     auto chunks = before.chunks;
     chunks.insert(chunks.end(), after.chunks.begin(), after.chunks.end());
@@ -248,6 +251,9 @@ TEST_CASE("replays agree with the archive wherever a shutdown ended the slow rec
     before.frames(0, stopped);
     after.frames(back, 10'000);
     after.chunks.front() = header_at(due(back - 1));
+    const auto age = GENERATE(60s, 1s);
+    before.chunks = with_record_age(before.chunks, age);
+    after.chunks = with_record_age(after.chunks, age);
     DataRoot root;
     root.write_journal(before.chunks);
     archive_all(root, before.chunks);

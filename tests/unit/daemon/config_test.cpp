@@ -100,6 +100,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
         "[oven]\nenabled=true\nport=\"o\"\nbaud=19200\nparity=\"N\"\nunit=7\npoll_s=2.5\ndecimals="
         "2\n"
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
+        "record_age_s=2\n"
         "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\nassets=\"."
         "\"\n"
         "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\noccupation_min=15\nset_ups=3\n"
@@ -116,6 +117,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
     CHECK(config.oven->decimals == 2);
     CHECK(config.storage.declared_rate_hz == 100.0005);
     CHECK(config.storage.root == "/var/lib/a351");
+    CHECK(config.storage.record_age == std::chrono::seconds(2));
     CHECK(std::filesystem::equivalent(config.page.assets, directory.path()));
     REQUIRE(config.survey.sites.size() == 1);
     CHECK(config.survey.planned == std::chrono::minutes(15));

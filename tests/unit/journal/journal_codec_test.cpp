@@ -85,6 +85,14 @@ TEST_CASE("a decoded header has all fields that were encoded", "[record][journal
     uncommissioned.oven_interval = std::chrono::seconds(0);  // The archive needs more than 0.
     CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
     uncommissioned.oven_interval = std::chrono::seconds(1);
+    CHECK(parse_header(header_to_json(uncommissioned))->record_age == std::chrono::seconds(60));
+    uncommissioned.record_age = std::chrono::seconds(1);
+    CHECK(parse_header(header_to_json(uncommissioned))->record_age == std::chrono::seconds(1));
+    for (const int wrong_s : {0, 61}) {
+        uncommissioned.record_age = std::chrono::seconds(wrong_s);
+        CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
+    }
+    uncommissioned.record_age = std::chrono::seconds(60);
     CHECK_FALSE(parse_header(header_to_json(uncommissioned))->declared_rate_hz);
     uncommissioned.declared_rate_hz =
         1.2 * uncommissioned.output_rate_hz;  // No record can have it.
