@@ -278,7 +278,10 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     const auto note_change = [&] { gravity.note_change(occupations.running().has_value()); };
     if (occupations.running() || !occupations.list().empty()) note_change();
     page::Server page(
-        {.listen = config.page.listen, .hosts = config.page.hosts, .token = config.page.token},
+        {.listen = config.page.listen,
+         .hosts = config.page.hosts,
+         .token = config.page.token,
+         .boxes = config.page.boxes},
         {.status = [&] { return snapshot(config, clock, link, oven, store, live); },
          .occupations = occupations,
          .live = live,
@@ -288,6 +291,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
          .gravity_so_far = [&] { return gravity.document(); },
          .changed = note_change,
          .assets = config.page.assets,
+         .boxes = config.page.boxes,
          .stale_after = std::max<Nanoseconds>(kStale, clock.instrument_span(kShortestRealStale))});
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
     if (page.is_exposed())

@@ -211,6 +211,19 @@ StorageConfig read_storage(TomlTable table, int output_rate_hz) {
     return storage;
 }
 
+/// Returns true for SCHEME://HOST[:PORT].  Other characters would end a list in a header.
+bool is_origin(std::string_view text) {
+    const auto mark = text.find("://");
+    if (mark == std::string_view::npos) return false;
+    const auto scheme = text.substr(0, mark), host = text.substr(mark + 3);
+    const auto is_of_host = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               std::string_view(".-:[]").find(c) != std::string_view::npos;
+    };
+    return (scheme == "http" || scheme == "https") && !host.empty() &&
+           std::ranges::all_of(host, is_of_host);
+}
+
 PageConfig read_page(TomlTable table) {
     PageConfig page;
     const std::string listen = table.string_or("listen", to_string(page.listen));
@@ -229,6 +242,11 @@ PageConfig read_page(TomlTable table) {
                 "hosts", "not a host name or an origin",
                 "names without a path, as \"laptop.local\" or \"https://gravity.example.org\"");
     }
+    page.boxes = table.strings("boxes");
+    for (const std::string& box : page.boxes)
+        if (!is_origin(box))
+            table.refuse("boxes", "not the address of a daemon: " + box,
+                         "http://HOST:PORT without a path, as \"http://192.0.2.7:8351\"");
     page.token = table.string_or("token", "");
     if (!page.token.empty() && !is_token(page.token))
         table.refuse("token", "too weak", "16 or more visible ASCII characters, or \"\"");

@@ -30,6 +30,7 @@ struct StorageConfig {
 struct PageConfig {
     ListenAddress listen;
     std::vector<std::string> hosts;
+    std::vector<std::string> boxes;  ///< Origins of the pages of all daemons of the group.
     std::string token;             ///< Not empty if other hosts can connect.
     std::filesystem::path assets;  ///< Directory of the page's files; empty: the compiled ones.
 };

@@ -59,6 +59,11 @@ int change(const Client& client, const Arguments& arguments, const std::string& 
     return kDone;
 }
 
+/// Returns the path of start, stop, setup or note.
+std::string path_of(const std::string& command) {
+    return command == "note" ? "/api/note" : "/api/occupation/" + command;
+}
+
 /// Makes the body of a request from the texts that were given.
 json order(const Client& client, const Arguments& arguments) {
     json body = json::object();
@@ -87,35 +92,57 @@ json order(const Client& client, const Arguments& arguments) {
 /// is a second late at most; the instant of one that does not would lie in the drive before.
 constexpr double kMostApart_s = 10.0;
 
-/// Sends start, stop or setup to several daemons, at one instant that all of them have recorded.
-/// Without a given instant nothing is sent if a daemon gets no samples.
+/// Sends start, stop, setup or note to several daemons, the first three at one instant that all of
+/// them have recorded.  A daemon that does not answer or refuses does not hinder the others; one that
+/// gets no samples refuses by itself, because the instant is later than its last sample.
 int change_all(const Arguments& arguments, const std::string& command) {
-    std::vector<Client> clients;
-    for (const std::string& url : arguments.urls) clients.emplace_back(parse_url(url));
-    std::vector<std::pair<UtcTime, std::string>> last;  // Last sample and address of each.
-    for (std::size_t i = 0; i < clients.size(); ++i) {
-        const auto status = answer_of(clients[i].get("/api/status")).body;
-        const json sample = status.value("sample", json());
-        const auto utc = parse_rfc3339(sample.is_object() ? sample.value("utc", "") : "");
-        if (utc) last.emplace_back(*utc, printable(arguments.urls[i]));
-    }
-    json body = order(clients.front(), arguments);
-    if (!body.contains("at") && !last.empty()) {
-        const auto [first, newest] = std::ranges::minmax_element(last);
-        const double apart_s = seconds_between(first->first, newest->first);
-        if (apart_s > kMostApart_s) {
-            complain(text::tr(
-                "{}: its last sample is {:.0f} s older than that of {}; nothing was changed; "
-                "allowed: {:.0f} s, or an instant by --at",
-                first->second, apart_s, newest->second, kMostApart_s));
-            return kRefused;
-        }
-        body["at"] = to_rfc3339(first->first, 9);
-    }
+    struct Box {
+        Client client;
+        std::string name;
+        std::optional<UtcTime> last_sample = {};
+        bool is_there = false;
+    };
+    std::vector<Box> boxes;
+    for (const std::string& url : arguments.urls)
+        boxes.push_back({Client(parse_url(url)), printable(url) + ": "});
+    const Box* any = nullptr;
+    UtcTime newest = UtcTime::min();
     int worst = kDone;
-    for (std::size_t i = 0; i < clients.size(); ++i)
-        worst = std::max(worst, change(clients[i], arguments, "/api/occupation/" + command, body,
-                                       printable(arguments.urls[i]) + ": "));
+    for (Box& box : boxes) {
+        try {
+            const json sample =
+                answer_of(box.client.get("/api/status")).body.value("sample", json());
+            box.last_sample = parse_rfc3339(sample.is_object() ? sample.value("utc", "") : "");
+            newest = std::max(newest, box.last_sample.value_or(newest));
+            box.is_there = true;
+            any = &box;
+        } catch (const NoDaemon& error) {
+            complain(box.name + error.what());
+            worst = kRefused;
+        }
+    }
+    if (any == nullptr) return kNoDaemon;
+    json body = order(any->client, arguments);
+    if (command != "note" && !body.contains("at")) {
+        UtcTime common = newest;
+        for (const Box& box : boxes)
+            if (box.last_sample && seconds_between(*box.last_sample, newest) <= kMostApart_s)
+                common = std::min(common, *box.last_sample);
+        if (common != UtcTime::min()) body["at"] = to_rfc3339(common, 9);
+    }
+    for (const Box& box : boxes) {
+        if (!box.is_there) continue;
+        try {
+            worst =
+                std::max(worst, change(box.client, arguments, path_of(command), body, box.name));
+        } catch (const NoDaemon& error) {
+            complain(box.name + error.what());
+            worst = kRefused;
+        }
+    }
+    if (worst != kDone && body.contains("at"))
+        complain(text::tr("repeat it with --at {}; boxes that did it before change nothing",
+                          body.at("at").get<std::string>()));
     return worst;
 }
 
@@ -221,9 +248,11 @@ int show(const Client& client, const Arguments& arguments, const std::string& pa
 }  // namespace
 
 int run_command(const std::string& command, const Arguments& arguments) {
-    const bool is_start = command == "start" || command == "stop" || command == "setup";
-    if (arguments.urls.size() > 1 && !is_start)
-        throw InputError("--url: given more than once; allowed for start, stop and setup only");
+    const bool is_for_all =
+        command == "start" || command == "stop" || command == "setup" || command == "note";
+    if (arguments.urls.size() > 1 && !is_for_all)
+        throw InputError(
+            "--url: given more than once; allowed for start, stop, setup and note only");
     if (arguments.urls.size() > 1) return change_all(arguments, command);
     const Client client(parse_url(arguments.urls.front()));
     if (command == "site") return add_site(client, arguments);
@@ -239,9 +268,7 @@ int run_command(const std::string& command, const Arguments& arguments) {
     if (command == "target")
         return change(client, arguments, "/api/target",
                       json{{"target_mgal", arguments.target_mgal}});
-    if (command == "note") return change(client, arguments, "/api/note", order(client, arguments));
-    if (is_start)
-        return change(client, arguments, "/api/occupation/" + command, order(client, arguments));
+    if (is_for_all) return change(client, arguments, path_of(command), order(client, arguments));
     return change_stay(client, arguments, command == "not-moved" ? "not_moved" : command);
 }
 

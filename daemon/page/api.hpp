@@ -42,6 +42,7 @@ struct ApiSources {
     std::function<std::string()> gravity_so_far = {};    ///< Body of GET /api/survey.
     std::function<void()> changed = {};  ///< Called after each change that is on disk.
     std::filesystem::path assets = {};   ///< The page's files; empty: the compiled ones.
+    std::vector<std::string> boxes = {};  ///< Origins of the daemons that /boxes shows.
 
     /// Instrument time without a sample after which the verdict is "no data".  On scaled time it
     /// must be at least 0.5 s of real time.

@@ -5,15 +5,18 @@
 #include <fstream>
 #include <iterator>
 
+#include "daemon/page/guard.hpp"
+
 namespace a351::daemon::page {
 namespace {
 
 constexpr std::string_view kIndex = "index.html";
-constexpr std::string_view kTokenMark = "@TOKEN@";
+constexpr std::string_view kBoxesPage = "boxes.html";
+constexpr std::string_view kTokenMark = "@TOKEN@", kBoxesMark = "@BOXES@";
 
 const Asset* find(std::string_view path) noexcept {
     if (!path.starts_with('/')) return nullptr;
-    const auto name = path == "/" ? kIndex : path.substr(1);
+    const auto name = path == "/" ? kIndex : path == "/boxes" ? kBoxesPage : path.substr(1);
     const auto assets = compiled_assets();
     const auto found = std::ranges::find(assets, name, &Asset::name);
     return found == assets.end() ? nullptr : &*found;
@@ -25,6 +28,11 @@ std::string content_type(std::string_view name) {
     if (name.ends_with(".css")) return "text/css; charset=utf-8";
     if (name.ends_with(".svg")) return "image/svg+xml";
     return "application/octet-stream";
+}
+
+void replace(std::string& page, std::string_view mark, std::string_view text) {
+    if (const auto at = page.find(mark); at != std::string::npos)
+        page.replace(at, mark.size(), text);
 }
 
 /// Escapes a text for HTML: a configured token may contain any visible character.
@@ -41,8 +49,11 @@ std::string as_html(std::string_view text) {
 
 }  // namespace
 
-Assets::Assets(std::filesystem::path directory, std::string_view token)
-    : directory_(std::move(directory)), token_(as_html(token)) {}
+Assets::Assets(std::filesystem::path directory, std::string_view token,
+               const std::vector<std::string>& boxes)
+    : directory_(std::move(directory)), token_(as_html(token)) {
+    for (const std::string& box : boxes) boxes_ += (boxes_.empty() ? "" : " ") + box;
+}
 
 bool Assets::contains(std::string_view path) const noexcept { return find(path) != nullptr; }
 
@@ -56,9 +67,14 @@ Response Assets::answer(std::string_view path, bool is_local) const {
         if (std::ifstream file(directory_ / asset->name, std::ios::binary); file)
             response.body.assign(std::istreambuf_iterator<char>(file), {});
     }
-    if (const auto at = response.body.find(kTokenMark);
-        asset->name == kIndex && at != std::string::npos)
-        response.body.replace(at, kTokenMark.size(), is_local ? token_ : std::string());
+    const bool is_overview = asset->name == kBoxesPage;
+    if (asset->name == kIndex || is_overview)
+        replace(response.body, kTokenMark, is_local ? token_ : std::string());
+    if (!is_overview) return response;
+    replace(response.body, kBoxesMark, boxes_);
+    for (const auto& [name, value] : security_headers())
+        if (name == "Content-Security-Policy")
+            response.headers.emplace_back(name, value + "; connect-src 'self' " + boxes_);
     return response;
 }
 

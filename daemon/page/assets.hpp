@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "daemon/page/message.hpp"
 
@@ -16,13 +17,15 @@ struct Asset {
 };
 [[nodiscard]] std::span<const Asset> compiled_assets() noexcept;
 
-/// The files of the page: index.html at /, the others at /NAME.
+/// The files of the page: index.html at /, boxes.html at /boxes, the others at /NAME.
 class Assets {
 public:
     /// @param directory  the files are read from here for each request; if empty, or if a file does
     ///                   not exist, the compiled one is served.  Other names are not served.
-    /// @param token      replaces @TOKEN@ in index.html for clients on this host.
-    Assets(std::filesystem::path directory, std::string_view token);
+    /// @param token      replaces @TOKEN@ in both pages for clients on this host.
+    /// @param boxes      origins, which replace @BOXES@ in boxes.html, and to which it may connect.
+    Assets(std::filesystem::path directory, std::string_view token,
+           const std::vector<std::string>& boxes = {});
 
     [[nodiscard]] bool contains(std::string_view path) const noexcept;
     /// Answers a path that contains() has confirmed.
@@ -31,6 +34,7 @@ public:
 private:
     std::filesystem::path directory_;
     std::string token_;  ///< Token, escaped for HTML.
+    std::string boxes_;  ///< Origins, separated by spaces.
 };
 
 }  // namespace a351::daemon::page

@@ -56,8 +56,14 @@ bool is_same_secret(std::string_view given, std::string_view expected) noexcept 
 
 }  // namespace
 
-Guard::Guard(std::uint16_t port, const std::vector<std::string>& hosts, std::string token)
+Guard::Guard(std::uint16_t port, const std::vector<std::string>& hosts, std::string token,
+             const std::vector<std::string>& boxes)
     : token_(std::move(token)) {
+    for (const std::string& box : boxes) {
+        const auto host = box.find("://") + 3;
+        const std::string scheme = lower(box.substr(0, host));
+        boxes_.push_back(scheme + without_usual_port(scheme, lower(box.substr(host))));
+    }
     const std::string suffix = fmt::format(":{}", port);
     for (const char* name : {"127.0.0.1", "localhost", "[::1]"}) add(kHttp, name + suffix);
     for (const auto& given : hosts) {
@@ -89,12 +95,13 @@ std::optional<Response> Guard::refuse(const Request& request) const {
     };
     const auto is_own_origin = [&](std::string_view given) {
         const std::string origin = lower(given);
-        return std::ranges::count(origins_, origin) > 0 ||
+        return std::ranges::count(origins_, origin) > 0 || std::ranges::count(boxes_, origin) > 0 ||
                (origin.starts_with(kHttp) && is_own_address(origin.substr(kHttp.size())));
     };
     const auto host = request.values("Host");
     if (host.size() != 1 || !is_listed(host.front()))
         return refusal(421, "Host is not a name of this daemon; add it to [page] hosts");
+    if (auto response = allow_box(request)) return response;
     const bool is_read = request.method == "GET" || request.method == "HEAD";
     const bool is_stream = asks_for_stream(request);
     if (is_read && !is_stream) return std::nullopt;
@@ -111,6 +118,28 @@ std::optional<Response> Guard::refuse(const Request& request) const {
     if (token.size() != 1 || !is_same_secret(token.front(), token_))
         return refusal(403, "the token (header X-A351-Token) is missing or wrong");
     return std::nullopt;
+}
+
+std::optional<std::string> Guard::box_of(const Request& request) const {
+    const auto origins = request.values("Origin");
+    if (origins.size() != 1 || std::ranges::count(boxes_, lower(origins.front())) == 0)
+        return std::nullopt;
+    return origins.front();
+}
+
+std::optional<Response> Guard::allow_box(const Request& request) const {
+    const auto box = box_of(request);
+    if (request.method != "OPTIONS" || !box) return std::nullopt;
+    return Response{.body = "",
+                    .headers = {{"Access-Control-Allow-Methods", "GET, POST"},
+                                {"Access-Control-Allow-Headers", "content-type, x-a351-token"}}};
+}
+
+void Guard::show_box(const Request& request, Response& response) const {
+    if (boxes_.empty()) return;
+    response.headers.emplace_back("Vary", "Origin");
+    if (const auto box = box_of(request))
+        response.headers.emplace_back("Access-Control-Allow-Origin", *box);
 }
 
 std::string random_token() {

@@ -77,7 +77,7 @@ public:
         : options_(options), listen_(options.listen) {
         bind();
         const std::string token = options.token.empty() ? random_token() : options.token;
-        guard_.emplace(port_, options.hosts, token);
+        guard_.emplace(port_, options.hosts, token, options.boxes);
         const live::Record& live = sources.live;
         api_.emplace(std::move(sources), token,
                      config::to_string({.ip = listen_.ip, .port = port_, .is_v6 = listen_.is_v6}));
@@ -221,6 +221,7 @@ private:
                 }
             }
             if (!response) response = api_->answer(request);
+            guard_->show_box(request, *response);
             const auto reply = packed(*std::move(response), message.version(), message.keep_alive(),
                                       request.method == "HEAD");
             stream.expires_after(options_.request_limit);

@@ -28,6 +28,7 @@ struct ServerOptions {
     config::ListenAddress listen = {};
     std::vector<std::string> hosts = {};  ///< Further accepted names (name or name:port).
     std::string token = {};               ///< Token; empty: a random one per start.
+    std::vector<std::string> boxes = {};  ///< Origins of other daemons' pages, see Guard.
     std::chrono::milliseconds request_limit{10'000};  ///< Real time to complete a request.
     /// Real time after which a live viewer that accepts or answers nothing is disconnected.
     std::chrono::milliseconds stream_patience{10'000};

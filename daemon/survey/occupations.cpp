@@ -22,6 +22,8 @@ std::string detail(const events::Event& event, const std::string& key) {
     return event.details.contains(key) ? event.details.at(key) : "";
 }
 
+Outcome unchanged(text::Message message) { return {Outcome::Kind::done, std::move(message)}; }
+
 constexpr const char* kTargetKey = "target_mgal";
 
 bool is_target(MilliGal target) { return target.value() >= 0.01 && target.value() <= 1000.0; }
@@ -52,6 +54,13 @@ Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
     return {
         std::nullopt,
         text::message("{} is earlier than the data that the daemon keeps in memory", shown(*at))};
+}
+
+/// Returns true if a change that was asked for at `at` was made at `utc`.
+bool Occupations::is_at(std::optional<UtcTime> at, UtcTime utc) {
+    if (!at) return false;
+    const auto placed = place(at);
+    return placed.instant && placed.instant->utc == utc;
 }
 
 /// Places the stop or a set-up of the running occupation.
@@ -92,6 +101,10 @@ int Occupations::planned_set_ups() const noexcept {
 Outcome Occupations::start(std::string_view site, const Remark& remark, std::optional<UtcTime> at,
                            std::optional<int> set_ups) {
     if (running()) {
+        // An order to several boxes is repeated for those that did not answer.
+        if (running()->site == site && is_at(at, running()->start))
+            return unchanged(text::message("{} is running since {}, as ordered before",
+                                           named(*running()), shown(running()->start)));
         return refused(text::message("{} has been running since {}: stop or discard it first",
                                      named(*running()), shown(running()->start)));
     }
@@ -123,6 +136,10 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
 }
 
 Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
+    if (const auto all = list();
+        !running() && !all.empty() && is_at(at, all.back().set_ups.back().end))
+        return unchanged(text::message("{} was stopped at {}, as ordered before", named(all.back()),
+                                       shown(all.back().set_ups.back().end)));
     const auto placed = place_in_running(at);
     if (!placed.instant) return refused(placed.trouble);
     const UtcTime utc = placed.instant->utc;
@@ -149,6 +166,9 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
 }
 
 Outcome Occupations::setup(std::optional<UtcTime> at) {
+    if (running() && running()->set_ups.size() > 1 && is_at(at, running()->set_ups.back()))
+        return unchanged(text::message("further set-up at {} from {}, as ordered before",
+                                       named(*running()), shown(running()->set_ups.back())));
     const auto placed = place_in_running(at);
     if (!placed.instant) return refused(placed.trouble);
     auto event = event_at("setup", *placed.instant);

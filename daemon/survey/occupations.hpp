@@ -67,6 +67,7 @@ struct OccupationOptions {
 /// - an overlap with a finished occupation;
 /// - a site that is not in the list (any name is allowed if the list is empty);
 /// - a change of a stay whose key names none, or whose site is another than the operator saw.
+/// A start, stop or set-up that was made already, at the same instant, is done and changes nothing.
 /// The answer points out a possible mistake (a repeated site, a short stay).
 class Occupations {
 public:
@@ -149,6 +150,7 @@ private:
     [[nodiscard]] events::Event change_of(std::string type, const Named& stay,
                                           const Remark& remark);
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
+    [[nodiscard]] bool is_at(std::optional<UtcTime> at, UtcTime utc);
     [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);
     [[nodiscard]] std::optional<text::Message> trouble_with_site(std::string_view site) const;
     [[nodiscard]] events::Event about_now(std::string type);

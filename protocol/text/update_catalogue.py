@@ -18,7 +18,7 @@ import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 CATALOGUE = TOP / "protocol" / "text" / "ja.po"
-PAGE = TOP / "daemon" / "page" / "assets" / "index.html"
+PAGES = [TOP / "daemon" / "page" / "assets" / name for name in ("index.html", "boxes.html")]
 KEYWORDS = ["--keyword", "--keyword=tr:1", "--keyword=message:1", "--keyword=marked:1"]
 ATTRIBUTES = ("title", "aria-label", "placeholder")
 SILENT = {"script", "style", "title"}
@@ -77,9 +77,12 @@ def is_language(text):
 
 
 def page_texts():
-    parser = PageTexts()
-    parser.feed(PAGE.read_text())
-    return sorted({text for text in parser.texts if is_language(text)})
+    found = set()
+    for page in PAGES:
+        parser = PageTexts()
+        parser.feed(page.read_text())
+        found |= {text for text in parser.texts if is_language(text)}
+    return sorted(found)
 
 
 def extracted(folder):

@@ -1,4 +1,4 @@
-// Requests to the daemon.
+// Requests to the daemon, or to several of them by their addresses.
 
 import { by_id, show } from "./dom.js";
 import * as fragment from "./fragment.js";
@@ -8,10 +8,12 @@ import { recalled, remember } from "./memory.js";
 // On another device the page does not contain the token; it is in the address, or the operator types it in.
 let token = document.querySelector('meta[name="a351-token"]').content || fragment.token || recalled("token");
 if (fragment.token) remember("token", fragment.token);
+const fresh_tokens = new Map(); // Tokens that daemons gave out, by their origins.
 
 by_id("token-form").addEventListener("submit", (event) => {
     event.preventDefault();
     token = by_id("token").value;
+    fresh_tokens.clear();
     remember("token", token);
     show("token-form", false);
 });
@@ -29,28 +31,30 @@ async function asked(path, options) {
     return { is_forbidden: reply.status === 403, trouble, body };
 }
 
-/** Reads from the daemon.  @throws Error with a line for the operator. */
-export async function get(path, query = {}) {
+/** Reads from the daemon.  @param options  of fetch.  @throws Error with a line for the operator. */
+export async function get(path, query = {}, options = {}) {
     const tail = new URLSearchParams(query).toString();
-    const { trouble, body } = await asked(tail ? `${path}?${tail}` : path);
+    const { trouble, body } = await asked(tail ? `${path}?${tail}` : path, options);
     if (trouble) throw new Error(trouble);
     return body;
 }
 
-/** Sends an order.  @throws Error with a line for the operator. */
-export async function post(path, order) {
+/** Sends an order.  @param options  of fetch.  @throws Error with a line for the operator. */
+export async function post(path, order, options = {}) {
+    const { origin } = new URL(path, location.href);
     const send = () => asked(path, {
         method: "POST",
-        headers: { "Content-Type": "application/json", "X-A351-Token": token },
+        headers: { "Content-Type": "application/json", "X-A351-Token": fresh_tokens.get(origin) ?? token },
         body: JSON.stringify(order),
+        ...options,
     });
     let answer = await send();
     if (answer.is_forbidden) {
         // A daemon that was restarted has another token.
-        const fresh = await asked("/api/token");
+        const fresh = await asked(`${origin}/api/token`, options);
         show("token-form", fresh.trouble !== null);
         if (!fresh.trouble) {
-            token = fresh.body.token;
+            fresh_tokens.set(origin, fresh.body.token);
             answer = await send();
         }
     }

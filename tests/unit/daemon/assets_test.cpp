@@ -58,6 +58,23 @@ TEST_CASE("a compiled-in file is identical to its source, byte for byte", "[daem
     CHECK((body_of(assets, "/dygraph.min.js") == bytes));
 }
 
+TEST_CASE("the overview of boxes may connect to them, and no other page may", "[daemon][page]") {
+    const std::vector<std::string> boxes{"http://192.0.2.7:8351", "http://192.0.2.8:8351"};
+    const Assets assets({}, "sesame", boxes);
+    const auto overview = assets.answer("/boxes", true);
+    CHECK(has(overview.body, R"(<meta name="a351-token" content="sesame">)"));
+    CHECK(has(overview.body, R"(content="http://192.0.2.7:8351 http://192.0.2.8:8351")"));
+    REQUIRE(overview.headers.size() == 1);
+    CHECK(overview.headers[0].first == "Content-Security-Policy");
+    CHECK(has(overview.headers[0].second,
+              "; connect-src 'self' http://192.0.2.7:8351 http://192.0.2.8:8351"));
+    CHECK(has(overview.headers[0].second, "default-src 'self'; script-src 'self';"));
+    CHECK_FALSE(has(assets.answer("/boxes", false).body, "sesame"));
+    CHECK(assets.answer("/", true).headers.empty());
+    for (const char* inline_code : {"<script>", " style=", " onclick="})
+        CHECK_FALSE(has(overview.body, inline_code));
+}
+
 TEST_CASE("special characters in a token are escaped in its HTML attribute", "[daemon][page]") {
     const Assets assets({}, R"("><script>&)");
     CHECK(has(body_of(assets, "/"), R"(content="&quot;>&lt;script>&amp;")"));

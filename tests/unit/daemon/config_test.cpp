@@ -102,7 +102,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
         "record_age_s=2\n"
         "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\nassets=\"."
-        "\"\n"
+        "\"\nboxes=[\"http://192.0.2.7:8351\", \"https://box2\"]\n"
         "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\noccupation_min=15\nset_ups=3\n"
         "[verdict]\nslope_degc_per_h=0.4\nknock_gal=3\n");
     CHECK(config.station.codes == journal::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
@@ -119,6 +119,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
     CHECK(config.storage.root == "/var/lib/a351");
     CHECK(config.storage.record_age == std::chrono::seconds(2));
     CHECK(std::filesystem::equivalent(config.page.assets, directory.path()));
+    CHECK(config.page.boxes == std::vector<std::string>{"http://192.0.2.7:8351", "https://box2"});
     REQUIRE(config.survey.sites.size() == 1);
     CHECK(config.survey.planned == std::chrono::minutes(15));
     CHECK(config.survey.set_ups == 3);
@@ -175,6 +176,9 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
     CHECK(refusal(before_oven + "unit = 0\n") ==
           "a351d.toml:10: oven.unit = 0: out of range; allowed: a whole number from 1 to 99");
     CHECK_THAT(refusal(before_oven + "poll_s = 0\n"), ContainsSubstring("oven.poll_s = 0"));
+    for (const std::string box : {"192.0.2.7:8351", "http://", "http://box/", "http://box; x"})
+        CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nboxes = [\"" + box + "\"]\n"),
+                   ContainsSubstring("not the address of a daemon: " + box + "; allowed: http://"));
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nassets = \"none\"\n"),
                ContainsSubstring("page.assets = 'none': no such directory: none; allowed: "));
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==

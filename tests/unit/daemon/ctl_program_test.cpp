@@ -168,14 +168,23 @@ TEST_CASE("several daemons start, set up and stop at one common instant", "[daem
     CHECK(has(stopped, "a351ctl: " + address(one) + ": no occupation is running"));
     CHECK(has(stopped, address(other) + ": stopped No.0 (stay 1) at 2026-03-14T08:59:56.0Z"));
     CHECK(run(both + "list").exit == 2);
-    CHECK(run("--url " + address(one) + " --url http://127.0.0.1:1 start No.0").exit == 3);
+    // One that is dead or gets no samples does not hinder the others; the rest is repeated.
     const FakeDaemon unplugged(Status::Level::good, minute(50));
-    const auto refused = run(both + "--url " + address(unplugged) + " start No.0");
-    CHECK(refused.exit == 1);
-    CHECK(has(refused, address(unplugged) + ": its last sample is 600 s older than that of"));
+    const auto partly = run(both + "--url http://127.0.0.1:1 --url " + address(unplugged) +
+                            " start No.1 --at 2026-03-14T09:00:00Z");
+    CHECK(partly.exit == 1);
+    CHECK(has(partly, "a351ctl: http://127.0.0.1:1: no daemon answers at"));
+    CHECK(has(partly, "a351ctl: " + address(unplugged) + ": "));
+    CHECK(has(partly, "is later than the last sample"));
+    CHECK(has(partly, address(one) + ": started No.1 at"));
+    CHECK(has(partly, "a351ctl: repeat it with --at 2026-03-14T09:00:00.000000000Z; boxes that"));
+    CHECK(run("--url http://127.0.0.1:1 --url http://127.0.0.1:2 start No.0").exit == 3);
+    const auto noted = run(both + "note 'wind from the west'");
+    CHECK(noted.exit == 0);
+    CHECK(has(noted, address(other) + ": "));
     one.server.stop();
     other.server.stop();
-    CHECK(one.recorder.log.size() == 3);  // Nothing is sent if one of them does not answer.
+    CHECK(one.recorder.log.size() == 5);
     CHECK(other.recorder.log[2].utc ==
           minute(60) - std::chrono::seconds(4));  // The last sample that both have.
 }

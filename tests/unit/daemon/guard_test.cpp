@@ -117,6 +117,42 @@ TEST_CASE("a change must be application/json, because a form can be sent across 
     CHECK(refused_with(guard, without(post("/api/note"), "Content-Type")) == 403);
 }
 
+TEST_CASE("pages of the boxes that are configured may read and change, with the token",
+          "[daemon][page]") {
+    const Guard guard(8351, {}, kToken, {"http://192.0.2.7:8351", "http://Box2:80"});
+    const auto shown_to = [&](const char* origin) {
+        page::Response response;
+        guard.show_box(with(get("/api/status"), "Origin", origin), response);
+        for (const auto& [name, value] : response.headers)
+            if (name == "Access-Control-Allow-Origin") return value;
+        return std::string();
+    };
+    for (const std::string origin : {"http://192.0.2.7:8351", "http://box2"}) {
+        CHECK(refused_with(guard, with(post("/api/note"), "Origin", origin)) == 200);
+        CHECK(refused_with(guard, without(with(post("/api/note"), "Origin", origin),
+                                          "X-A351-Token")) == 403);
+        CHECK(shown_to(origin.c_str()) == origin);
+        auto question = with(get("/api/note"), "Origin", origin);
+        question.method = "OPTIONS";
+        const auto answer = guard.refuse(question);
+        REQUIRE(answer);
+        CHECK(answer->status == 200);
+        CHECK(answer->headers.size() == 2);
+        CHECK(refused_with(guard, with(question, "Host", "evil.example:8351")) == 421);
+    }
+    for (const char* origin : {"http://192.0.2.7:8352", "https://192.0.2.7:8351", "null", "",
+                               "http://192.0.2.7:8351.evil.example", "http://evil.example"}) {
+        CAPTURE(origin);
+        CHECK(refused_with(guard, with(post("/api/note"), "Origin", origin)) == 403);
+        CHECK(shown_to(origin).empty());
+        auto question = with(get("/api/note"), "Origin", origin);
+        question.method = "OPTIONS";
+        CHECK(refused_with(guard, question) == 403);
+    }
+    // The name of another box is not a name of this one.
+    CHECK(refused_with(guard, with(get("/"), "Host", "192.0.2.7:8351")) == 421);
+}
+
 TEST_CASE("random tokens have 256 bits and differ", "[daemon][page]") {
     const auto token = random_token();
     CHECK(token.size() == 64);

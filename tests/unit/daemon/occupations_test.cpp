@@ -44,6 +44,29 @@ TEST_CASE("a change is committed with its sample before it is answered", "[daemo
     CHECK(recorder.log.back().utc == *recorder.last);
 }
 
+TEST_CASE("an order that was carried out already changes nothing", "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    const auto order = [&](auto&& twice) {
+        REQUIRE(twice().kind == Kind::done);
+        const auto events = recorder.log.size();
+        const auto again = twice();
+        CHECK(again.kind == Kind::done);
+        CHECK(mentions(again, "as ordered before"));
+        CHECK(recorder.log.size() == events);
+    };
+    order([&] { return occupations.start("No.1", {}, minute(10)); });
+    CHECK(occupations.start("No.1", {}, minute(11)).kind == Kind::refused);
+    CHECK(occupations.start("No.0", {}, minute(10)).kind == Kind::refused);
+    CHECK(occupations.start("No.1", {}, std::nullopt).kind == Kind::refused);
+    order([&] { return occupations.setup(minute(15)); });
+    CHECK(occupations.setup(minute(14)).kind == Kind::refused);
+    order([&] { return occupations.stop({}, minute(20)); });
+    CHECK(occupations.stop({}, minute(21)).kind == Kind::refused);
+    CHECK(occupations.stop({}, std::nullopt).kind == Kind::refused);
+    CHECK(occupations.list().size() == 1);
+}
+
 TEST_CASE("a change that cannot be written to disk has no effect", "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});

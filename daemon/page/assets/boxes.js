@@ -1,0 +1,157 @@
+// The overview of several daemons: what each says of itself, and one order to all of them at one instant.  The page asks each
+// daemon itself; they allow it because each names the others in [page] boxes.
+
+import { get, post } from "./api.js";
+import { by_id, make, set_text, show } from "./dom.js";
+import { number, visible } from "./format.js";
+import { sentence, sentences, tr } from "./language.js";
+import { recalled, remember } from "./memory.js";
+import { time_with_utc } from "./time.js";
+
+const kEvery_ms = 1000;
+const kPatience_ms = 3000;
+const kStale_s = 3;
+const kMostApart_ms = 10_000; // A box that records is a second late at most; one that does not must not delay the others.
+
+/** One daemon, and its panel. */
+class Box {
+    constructor(origin) {
+        this.origin = origin;
+        this.status = null;
+        this.trouble = tr("no answer yet");
+        this.answered_at_ms = performance.now();
+        this.is_asked = false;
+        const link = make("a", new URL(origin).host);
+        link.href = origin;
+        this.parts = { head: make("h2", ""), word: make("p", "", "word"), stay: make("p", "", "foreign"),
+            value: make("p", "", "value"), age: make("p", ""), answer: make("p", "", "answer foreign"),
+            trouble: make("p", "", "trouble foreign") };
+        this.parts.head.append(link);
+        this.panel = make("section", "", "box");
+        this.panel.append(...Object.values(this.parts));
+    }
+
+    /** Asks for the status; one request at a time. */
+    async ask() {
+        if (this.is_asked) return;
+        this.is_asked = true;
+        try {
+            this.status = await get(`${this.origin}/api/status`, {}, { signal: AbortSignal.timeout(kPatience_ms) });
+            this.trouble = "";
+            this.answered_at_ms = performance.now();
+        } catch (error) {
+            this.trouble = error.message;
+        }
+        this.is_asked = false;
+        this.refresh();
+    }
+
+    /** Age of its newest sample in s; null if it is not known. */
+    age_s() {
+        if (!this.status?.sample) return null;
+        return this.status.sample.age_s + (performance.now() - this.answered_at_ms) / 1000;
+    }
+
+    is_fresh() {
+        return !this.trouble && this.age_s() !== null && this.age_s() <= kStale_s;
+    }
+
+    refresh() {
+        const set = (part, text) => { if (this.parts[part].textContent !== text) this.parts[part].textContent = text; };
+        const verdict = this.status?.verdict.state ?? "no data";
+        this.parts.word.dataset.state = this.is_fresh() ? verdict : "no data";
+        set("word", (this.is_fresh() || !this.status ? tr(verdict) : tr("NO FRESH DATA")).toUpperCase());
+        const stay = this.status?.occupation;
+        set("stay", stay ? tr("{}, stay {}, since {}", visible(stay.site), stay.number, time_with_utc(stay.start))
+            : tr("no stay is running"));
+        const value = stay?.whole;
+        set("value", Number.isFinite(value?.value_mgal)
+            ? `${number(value.value_mgal)} ± ${number(value.set_up_error_mgal ?? value.standard_error_mgal)} mGal` : "");
+        const age_s = this.age_s();
+        set("age", age_s === null ? tr("no data") : tr("data {} s old", number(age_s, 1)));
+        const is_good = !this.status || this.status.level === "good";
+        const reasons = is_good ? [] : sentences(this.status.reason_parts, this.status.reasons);
+        set("trouble", this.trouble || visible(reasons.join("; ")));
+    }
+
+    /** Sends an order and shows the answer; returns true if the daemon carried it out. */
+    async order(path, body) {
+        const said = (text, is_error) => {
+            this.parts.answer.textContent = visible(text);
+            this.parts.answer.classList.toggle("error", is_error);
+        };
+        said("…", false);
+        try {
+            const options = { signal: AbortSignal.timeout(kPatience_ms) };
+            const { message, message_parts } = await post(`${this.origin}${path}`, body, options);
+            said(sentence(message_parts, message), false);
+            return true;
+        } catch (error) {
+            said(error.message, true);
+            return false;
+        }
+    }
+}
+
+const origins = document.querySelector('meta[name="a351-boxes"]').content.split(" ").filter((origin) => origin);
+const boxes = origins.map((origin) => new Box(origin));
+let left = null; // The last order, if some boxes did not carry it out.
+
+/** Returns the newest instant that all boxes with data have recorded; null without data. */
+function common_instant() {
+    const last = boxes.filter((box) => !box.trouble && box.status?.sample).map((box) => Date.parse(box.status.sample.utc));
+    const newest = Math.max(...last);
+    const common = Math.min(...last.filter((instant) => newest - instant <= kMostApart_ms));
+    return Number.isFinite(common) ? new Date(common).toISOString() : null;
+}
+
+async function send({ path, body, to }) {
+    show("repeat", false);
+    set_text("order-answer", "…");
+    const done = await Promise.all(to.map((box) => box.order(path, body)));
+    const failed = to.filter((_, i) => !done[i]);
+    left = failed.length > 0 ? { path, body, to: failed } : null;
+    const count = to.length - failed.length;
+    set_text("order-answer", body.at ? tr("{} of {} boxes did it, at {}.", count, to.length, time_with_utc(body.at))
+        : tr("{} of {} boxes did it.", count, to.length));
+    show("repeat", left !== null);
+    await Promise.all(boxes.map((box) => box.ask()));
+}
+
+async function order(command, texts) {
+    if (command === "note") return send({ path: "/api/note", body: texts, to: boxes });
+    await Promise.all(boxes.map((box) => box.ask()));
+    return send({ path: `/api/occupation/${command}`, body: { ...texts, at: common_instant() }, to: boxes });
+}
+
+function refresh() {
+    for (const box of boxes) box.refresh();
+    const fresh = boxes.filter((box) => box.is_fresh());
+    const stable = fresh.filter((box) => box.status.verdict.state === "stable").length;
+    set_text("summary", boxes.length > 0 ? tr("{} of {} boxes have data, {} stable", fresh.length, boxes.length, stable)
+        : tr("No boxes are configured: list their addresses as boxes in [page]."));
+}
+
+by_id("boxes").append(...boxes.map((box) => box.panel));
+by_id("operator").value = recalled("operator");
+by_id("start-form").addEventListener("submit", (event) => {
+    event.preventDefault();
+    remember("operator", by_id("operator").value);
+    order("start", { site: by_id("site").value, operator: by_id("operator").value });
+});
+by_id("note-form").addEventListener("submit", (event) => {
+    event.preventDefault();
+    order("note", { note: by_id("note").value });
+});
+for (const command of ["setup", "stop"]) by_id(command).addEventListener("click", () => order(command, {}));
+by_id("repeat").addEventListener("click", () => send(left));
+get("/api/sites").then(({ sites }) => by_id("sites").append(...sites.map(({ site }) => {
+    const option = document.createElement("option");
+    option.value = site;
+    return option;
+})), () => {}); // The operator types the name.
+
+const ask_all = () => boxes.forEach((box) => box.ask());
+ask_all();
+setInterval(ask_all, kEvery_ms);
+setInterval(refresh, 200);

@@ -1,0 +1,43 @@
+"""The overview of four boxes, one of them dead: one click starts the others at the same instant, and a second one the rest."""
+
+from browser import LAPTOP, PHONE, By, Browser
+
+from box_group import SAMPLE_S, Boxes, spread_s
+from programs import Scratch, demand
+
+COUNT = 4
+
+
+def texts(browser, part):
+    """Returns the text of this part of each panel."""
+    return browser.run("return [...document.querySelectorAll(`.box .${arguments[0]}`)].map((one) => one.textContent)", part)
+
+
+# Refused at first: the dead box, and the token of the first box at another one, which then gives out its own.
+with Scratch() as scratch, Browser(allowed_errors=("ERR_CONNECTION_REFUSED", "403 (Forbidden)")) as page:
+    boxes = Boxes(scratch, COUNT)
+    dead = boxes.sessions[-1]
+    boxes.kill(dead)
+    page.driver.get(f"{boxes.urls[0]}/boxes")
+    page.wait_for_text("summary", "3 of 4 boxes have data")
+    troubles = texts(page, "trouble")
+    demand(f"the dead box says that it does not answer: {troubles}", "does not answer" in troubles[-1])
+    page.driver.find_element(By.ID, "site").send_keys("No.1")
+    page.driver.find_element(By.ID, "start").click()
+    page.wait_for_text("order-answer", "3 of 4 boxes did it, at ")
+    starts = [session.status()["occupation"]["start"] for session in boxes.sessions[:-1]]
+    demand(f"one click started three boxes at the same instant, within {spread_s(starts)} s", spread_s(starts) <= SAMPLE_S)
+    for size in (LAPTOP, PHONE):
+        page.resize(size)
+        page.demand_readable(f"overview at {size[0]} px")
+        page.shot(f"boxes-{size[0]}")
+    boxes.revive(dead)
+    page.driver.find_element(By.ID, "repeat").click()
+    page.wait_for_text("order-answer", "of 1 boxes did it")
+    print(texts(page, "answer"))
+    demand("the stays of the three others are as before",
+           starts == [session.status()["occupation"]["start"] for session in boxes.sessions[:-1]])
+    page.driver.find_element(By.ID, "stop").click()
+    page.wait_for_text("order-answer", " of 4 boxes did it, at ")
+    demand("no stay runs any more", all(session.status()["occupation"] is None for session in boxes.sessions))
+    boxes.end()

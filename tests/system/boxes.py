@@ -1,0 +1,100 @@
+"""One order starts, sets up and stops the stays of two and of four boxes at the same instant, also if one of them is dead.
+
+The dead box is named, the others carry the order out, and repeating the order does what is missing and nothing twice.
+"""
+
+import json
+import re
+import time
+import urllib.error
+import urllib.request
+
+from box_group import SAMPLE_S, Boxes, spread_s
+from programs import Scratch, demand
+
+
+STRANGER = "http://evil.example"
+
+
+def asked(url, method="GET", origin=None, body=None, token=None):
+    """Returns status, headers and body of an answer."""
+    headers = {"Content-Type": "application/json"} if body is not None else {}
+    headers |= {"Origin": origin} if origin else {}
+    headers |= {"X-A351-Token": token} if token else {}
+    data = None if body is None else json.dumps(body).encode()
+    request = urllib.request.Request(url, method=method, headers=headers, data=data)
+    try:
+        with urllib.request.urlopen(request, timeout=10) as reply:
+            return reply.status, reply.headers, reply.read().decode()
+    except urllib.error.HTTPError as reply:
+        return reply.code, reply.headers, reply.read().decode()
+
+
+def running(session):
+    return session.status()["occupation"]
+
+
+def stays(session):
+    return json.loads(session.ctl("list", "--json"))["occupations"]
+
+
+def orders(boxes):
+    """All stays by the terminal, with one box dead at the start."""
+    count, dead = len(boxes.sessions), boxes.sessions[-1]
+    boxes.kill(dead)
+    said = boxes.ctl("start", "No.1", "--operator", "Ito")
+    again = re.search(r"repeat it with --at (\S+);", said.stderr)
+    demand(f"{count} boxes, one dead: the order names it: {said.stderr.strip()}",
+           said.returncode == 1 and f"{boxes.urls[-1]}: no daemon answers" in said.stderr and again)
+    starts = [running(session)["start"] for session in boxes.sessions[:-1]]
+    demand(f"{count} boxes: the {len(starts)} others began at the same instant, within {spread_s(starts)} s, limit {SAMPLE_S}",
+           spread_s(starts) <= SAMPLE_S)
+    boxes.revive(dead)
+    said = boxes.ctl("start", "No.1", "--operator", "Ito", "--at", again[1])
+    print(said.stdout, said.stderr)
+    demand(f"{count} boxes: repeated, the {len(starts)} that did it say so and change nothing",
+           said.stdout.count("as ordered before") == len(starts)
+           and [running(session)["start"] for session in boxes.sessions[:-1]] == starts)
+    if said.returncode:
+        # After a longer pause it began a new session, which does not have that instant.
+        demand(f"the box that was dead says why it does not begin there: {said.stderr.strip()}", boxes.urls[-1] in said.stderr)
+        demand("it is started by itself", dead.ctl("start", "No.1"))
+    else:
+        starts.append(running(dead)["start"])
+        demand(f"{count} boxes: the box that was dead began at the same instant, within {spread_s(starts)} s",
+               spread_s(starts) <= SAMPLE_S)
+    for command in (("setup",), ("note", "wind"), ("stop",)):
+        time.sleep(1.0)
+        said = boxes.ctl(*command)
+        demand(f"{count} boxes: {command[0]} is carried out by all: {said.stderr.strip()}",
+               said.returncode == 0 and len(said.stdout.splitlines()) == count)
+    made = [stays(session) for session in boxes.sessions]
+    demand(f"{count} boxes: each has one stay of two set-ups", all(len(one) == 1 and len(one[0]["set_ups"]) == 2 for one in made))
+    for what, instants in (("the set-up began", [one[0]["set_ups"][1]["start"] for one in made]),
+                           ("the stay ended", [one[0]["set_ups"][1]["end"] for one in made])):
+        demand(f"{count} boxes: {what} at the same instant, within {spread_s(instants)} s", spread_s(instants) <= SAMPLE_S)
+
+
+def origins(boxes):
+    """The overview page, and who may ask and change what."""
+    one, other = boxes.urls[:2]
+    status, headers, page = asked(f"{one}/boxes")
+    demand("the overview names all boxes", status == 200 and all(url in page for url in boxes.urls))
+    demand("it may connect to them and to nothing else",
+           f"connect-src 'self' {' '.join(boxes.urls)}" in headers["Content-Security-Policy"])
+    allowed = [asked(f"{other}/api/status", origin=origin)[1]["Access-Control-Allow-Origin"] for origin in (one, STRANGER)]
+    demand("a box may read another one, and a stranger may not", allowed == [one, None])
+    demand("a browser learns before a change that a box may send it, and a stranger may not",
+           [asked(f"{other}/api/note", "OPTIONS", origin)[0] for origin in (one, STRANGER)] == [200, 403])
+    token = json.loads(asked(f"{other}/api/token")[2])["token"]
+    note = {"note": "from the overview"}
+    sent = [asked(f"{other}/api/note", "POST", *who)[0] for who in ((one, note, None), (one, note, token), (STRANGER, note, token))]
+    demand("a change by a box needs the token, and a stranger's is refused also with it", sent == [403, 200, 403])
+
+
+for number in (2, 4):
+    with Scratch() as scratch:
+        group = Boxes(scratch, number)
+        orders(group)
+        origins(group)
+        group.end()
