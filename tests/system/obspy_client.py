@@ -1,5 +1,6 @@
 """Appends the records that ObsPy's SeedLink client receives to a file, until it is ended: obspy_client.py PORT FILE."""
 
+import logging
 import sys
 import time
 
@@ -7,9 +8,11 @@ from obspy.clients.seedlink.seedlinkexception import SeedLinkException
 from obspy.clients.seedlink.slclient import SLClient
 from obspy.clients.seedlink.slpacket import SLPacket
 
+logging.basicConfig(level=logging.INFO)
 client = SLClient()
 client.slconn.set_net_delay(1)
-client.slconn.set_net_timeout(10)  # It does not see the end of a connection, so it learns of a restart by silence only.
+# It does not see the end of a connection, so it learns of a restart by silence only.  At factor 1 the first record takes 10 s.
+client.slconn.set_net_timeout(30)
 client.slconn.set_sl_address(f"127.0.0.1:{sys.argv[1]}")
 client.multiselect = "XX_A351:?????"  # It gives up a station without a selector.
 client.initialize()

@@ -138,7 +138,7 @@ with Scratch() as scratch:
         services["obspy"] = Service("obspy", [sys.executable, pathlib.Path(__file__).with_name("obspy_client.py"), str(port),
                                               "obspy.mseed"], scratch)
         dumps[scratch / "obspy.mseed"] = f"ObsPy {obspy.__version__}"
-        wait_for("ObsPy has opened its file", (scratch / "obspy.mseed").exists)
+        wait_for("ObsPy is connected", lambda: "connected to" in (scratch / "obspy.log").read_text())
     time.sleep(1.0)
     services["stream"] = Service("stream", [BIN / "a351-stream", "data", f"127.0.0.1:{port}", "--state", "positions"], scratch)
     (scratch / "restarts.toml").write_text(scenario)
