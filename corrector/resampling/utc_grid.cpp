@@ -20,10 +20,11 @@ constexpr double kBeta = 10.0;           // b; stop band below -95 dB
 constexpr int kSteps = 2048;
 
 double kernel(double zero_crossings) {
+    static const double at_0 = std::cyl_bessel_i(0.0, kBeta);
     const double x = std::numbers::pi * zero_crossings;
     const double sinc = x == 0.0 ? 1.0 : std::sin(x) / x;
     const double inside = std::max(0.0, 1.0 - std::pow(zero_crossings / kZeroCrossings, 2));
-    return sinc * std::cyl_bessel_i(0.0, kBeta * std::sqrt(inside)) / std::cyl_bessel_i(0.0, kBeta);
+    return sinc * std::cyl_bessel_i(0.0, kBeta * std::sqrt(inside)) / at_0;
 }
 
 /// Computes u(t) for increasing t.

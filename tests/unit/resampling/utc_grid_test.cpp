@@ -40,9 +40,8 @@ double error(const GridRun& run, int rate_hz, double frequency_hz) {
     return largest / kAmplitude;
 }
 
-GridRun resampled(const archive::Segment& segment, int rate_hz) {
-    return UtcGrid(segment.rate_hz, rate_hz)
-        .resample(segment, kStart - std::chrono::hours(1), kStart + std::chrono::hours(1));
+GridRun resampled(const archive::Segment& segment, const UtcGrid& grid) {
+    return grid.resample(segment, kStart - std::chrono::hours(1), kStart + std::chrono::hours(1));
 }
 
 }  // namespace
@@ -62,9 +61,10 @@ TEST_CASE("grid times are whole multiples of the period, also before 1970", "[ex
 TEST_CASE("sines up to 0.4 of the grid rate are reproduced within 1e-5 from a clock 100 ppm off",
           "[export]") {
     for (const int rate_hz : {50, 10, 1}) {
+        const UtcGrid grid(50.0, rate_hz);
         for (const double share : {0.001, 0.1, 0.2, 0.3, 0.4}) {
             const double frequency_hz = share * rate_hz;
-            const GridRun run = resampled(sine(frequency_hz, 100.0), rate_hz);
+            const GridRun run = resampled(sine(frequency_hz, 100.0), grid);
             const double found = error(run, rate_hz, frequency_hz);
             WARN(rate_hz << " Hz, sine of " << frequency_hz << " Hz: largest error " << found);
             CHECK(found < 1e-5);
@@ -74,9 +74,10 @@ TEST_CASE("sines up to 0.4 of the grid rate are reproduced within 1e-5 from a cl
 }
 
 TEST_CASE("frequencies that the lower rate cannot represent are reduced to 1e-4", "[export]") {
+    const UtcGrid grid(50.0, 10);
     for (const double frequency_hz : {6.0, 8.0, 14.0}) {
         double largest = 0.0;
-        for (const double value : resampled(sine(frequency_hz, 20.0), 10).values)
+        for (const double value : resampled(sine(frequency_hz, 20.0), grid).values)
             largest = std::max(largest, std::abs(value));
         WARN("10 Hz, sine of " << frequency_hz << " Hz: " << largest / kAmplitude << " is left");
         CHECK(largest / kAmplitude < 1e-4);
@@ -86,7 +87,7 @@ TEST_CASE("frequencies that the lower rate cannot represent are reduced to 1e-4"
 TEST_CASE("a constant is unchanged on the grid", "[export]") {
     archive::Segment segment = sine(1.0, 20.0);
     for (auto& count : segment.counts) count = 16'777'215;
-    for (const double value : resampled(segment, 50).values)
+    for (const double value : resampled(segment, UtcGrid(50.0, 50)).values)
         CHECK(std::abs(value - 16'777'215.0) < 1e-9);
 }
 
@@ -95,17 +96,18 @@ TEST_CASE(
     "range",
     "[export]") {
     const archive::Segment segment = sine(1.0, 0.0);
-    const GridRun all = resampled(segment, 50);
+    const UtcGrid grid(50.0, 50);
+    const GridRun all = resampled(segment, grid);
     CHECK(all.values.size() == 5999 - 64);  // The grid lies between the samples.
     CHECK(seconds_between(kStart, grid_time(all.first, 50)) == Approx(0.64).margin(0.02));
     const UtcTime from = kStart + std::chrono::seconds(10);
-    const GridRun part = UtcGrid(50.0, 50).resample(segment, from, from + std::chrono::seconds(2));
+    const GridRun part = grid.resample(segment, from, from + std::chrono::seconds(2));
     CHECK(part.values.size() == 100);
     CHECK(grid_time(part.first, 50) >= from);
     archive::Segment shortest = segment;
     shortest.counts.resize(64);
     shortest.anchors.resize(1);
-    CHECK(resampled(shortest, 50).values.empty());
+    CHECK(resampled(shortest, grid).values.empty());
 }
 
 TEST_CASE("a rate above that of the samples is refused", "[export]") {
