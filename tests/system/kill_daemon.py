@@ -43,10 +43,10 @@ Gap = collections.namedtuple("Gap", "kills is_adopted before_kill whole")  # Mis
 class Killed(Session):
     """Session whose daemon is killed repeatedly."""
 
-    def __init__(self, scratch, speed):
+    def __init__(self, scratch, speed, storage):
         self.speed, self.lives, self.published = speed, [], set()
         # A stay runs from the start, so that most lives have a corrector beside the recording.
-        super().__init__(scratch, speed=speed, prepare_port=lambda _: self.log_start(),
+        super().__init__(scratch, storage=storage, speed=speed, prepare_port=lambda _: self.log_start(),
                          config='[survey]\nsites = "sites.csv"\ngravity_every_min = 0.01\n')
 
     def log_start(self):
@@ -200,7 +200,8 @@ def session_of_kills(number, kills, speed):
     generator = random.Random(number)
     aims = {kills // 2: "start", kills - 1: "recovery"}
     with Scratch(in_memory=True) as scratch:
-        session = Killed(scratch, speed)
+        # Every second session has records of a second.
+        session = Killed(scratch, speed, "record_age_s = 1\n" if number % 2 else "")
         for kill in range(kills):
             session.kill_in(aims.get(kill, "early" if generator.random() < 1 / 3 else "recording"), generator)
             session.start_again()
