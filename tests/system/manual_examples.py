@@ -16,26 +16,15 @@ import subprocess
 import sys
 import time
 
-from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_status, demand, os, rows, run, unused_port
+from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_status, demand, os, rows, run, short_day, unused_port
 
 # Subcommands whose results the examples of other pages read.
 FIRST = ("calibrate", "record", "export", "survey", "import")
-SITES = ("No.0", "No.12", "No.1", "No.2", "No.4", "No.0")
 LONGEST_START_S = 60
 USUAL_ADDRESS = "http://127.0.0.1:8351"
 KEY = r"\b\d{8}T\d{6}Z\b"
 SPEED = 60 if IS_SANITIZED else 120
 BEGIN, RECORDED = "2017-07-15T20:42:12Z", "2017-07-15T21:00:00Z"  # The examples of a351ctl go back 12 min.
-
-
-def short_day():
-    """Returns a scenario with six occupations of the tsukuba day, 40 minutes apart: enough for the whole-day model."""
-    text = 'base = "tsukuba"\nname = "short"\n[schedule]\nlead_in_h = 2.5\n'
-    for k, site in enumerate(SITES):
-        minutes = 23 * 60 + 40 + 40 * k
-        text += (f'[[occupation]]\nsite = "{site}"\nnumber = {SITES[:k + 1].count(site)}\nambient_degc = {27.0 + 0.3 * k}\n'
-                 f'centre_utc = "2017-07-{15 + minutes // 1440}T{minutes // 60 % 24:02}:{minutes % 60:02}:00Z"\n')
-    return text
 
 
 def prepare_correct(scratch):

@@ -96,6 +96,17 @@ def together(*parts):
             one.result()
 
 
+def short_day():
+    """Returns a scenario with six occupations of the tsukuba day, 40 minutes apart: enough for the whole-day model."""
+    sites = ("No.0", "No.12", "No.1", "No.2", "No.4", "No.0")
+    text = 'base = "tsukuba"\nname = "short"\n[schedule]\nlead_in_h = 2.5\n'
+    for k, site in enumerate(sites):
+        minutes = 23 * 60 + 40 + 40 * k
+        text += (f'[[occupation]]\nsite = "{site}"\nnumber = {sites[:k + 1].count(site)}\nambient_degc = {27.0 + 0.3 * k}\n'
+                 f'centre_utc = "2017-07-{15 + minutes // 1440}T{minutes // 60 % 24:02}:{minutes % 60:02}:00Z"\n')
+    return text
+
+
 def rows(file):
     with open(file, newline="") as text:
         return list(csv.DictReader(text))

@@ -1,17 +1,22 @@
-"""The results depend on the input alone, not on threads, locale, time zone, truth files or the order of rows."""
+"""The results depend on the input alone, not on threads, locale, time zone, truth files or the order of rows.
+
+Threads: one core and seven threads; A351_LONG=1: also one and two threads on all cores.
+"""
 
 import random
 import re
 import shutil
 import time
 
-from programs import BIN, IS_SANITIZED, TOOLS, TOP, Scratch, demand, read_json, run
+from programs import BIN, IS_LONG, IS_SANITIZED, TOOLS, TOP, Scratch, demand, read_json, run
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 FILES = {"occupations.csv", "stations.csv", "models.csv", "result.json", "stations.geojson", "gsadjust.csv",
          "report.html"}
 RECORD_FILES = {"unit.toml", "result/record.csv", "result/response.csv", "result/result.json", "result/record.html",
                 "result/figures/response.svg", "result/figures/modes.svg"}
+# Not under sanitizers, because a sanitizer must be the first preloaded library.
+THREADS = () if IS_SANITIZED else (1, 2, 7) if IS_LONG else (7,)
 
 
 def foreign(scratch):
@@ -79,8 +84,7 @@ with Scratch() as scratch:
     model = read_json(scratch / "first" / "result.json")["model"]
     demand(f"{len(first)} files including figures, corrected by the model {model}",
            model == "day" and "figures/map.svg" in first)
-    # Not under sanitizers, because a sanitizer must be the first preloaded library.
-    for cores in () if IS_SANITIZED else (1, 2, 7):
+    for cores in THREADS:
         out = scratch / f"threads-{cores}"
         run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", out,
             env={"LD_PRELOAD": str(TOOLS / "libcore-count.so"), "A351_CORES": str(cores)})
@@ -137,6 +141,6 @@ with Scratch() as scratch:
     here = measured("here")
     demand_equal("record and calibrate: other locale and time zone", here, measured("there", env=abroad))
     demand_equal("record and calibrate: one core", here, measured("one core", "taskset", "1"))
-    for cores in () if IS_SANITIZED else (1, 2, 7):
+    for cores in THREADS:
         demand_equal(f"record and calibrate: {cores} threads", here, measured(
             f"{cores} cores", env={"LD_PRELOAD": str(TOOLS / "libcore-count.so"), "A351_CORES": str(cores)}))

@@ -1,6 +1,6 @@
 """The daemon in a simulated world, see tests/simulation: no run may break an invariant, and a seed gives the same run again.
 
-Runs 72 seeds; with A351_LONG 10 000, in as many processes as there are cores.  --mutations builds the daemon with each mistake
+Runs 36 seeds; with A351_LONG 10 000, in as many processes as there are cores.  --mutations builds the daemon with each mistake
 of tests/simulation/mutations in turn, in a copy of the sources, and searches for a seed that finds it.
 """
 import os
@@ -69,7 +69,7 @@ def main():
         return 77
     for patch in sorted((ROOT / "tests/simulation/mutations").glob("*.patch")):
         subprocess.run(["patch", "--dry-run", "-s", "-p1", "-i", patch], cwd=ROOT, check=True)
-    return 0 if run_seeds(program, 10_000 if os.environ.get("A351_LONG") else 72) else 1
+    return 0 if run_seeds(program, 10_000 if os.environ.get("A351_LONG") else 36) else 1
 
 
 if __name__ == "__main__":
