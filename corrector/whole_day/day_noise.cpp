@@ -42,15 +42,29 @@ BinMean mean_over(const reading::DayBin& bin) {
 }
 
 /// Returns the variance of the white noise of a bin.
-double white_variance(const reading::DayBin& bin, const DayNoise& noise) {
+double white_variance(const DayNoise& noise, double samples) {
     return noise.white_mgal * noise.white_mgal * static_cast<double>(reading::kBinSamples) /
-           static_cast<double>(bin.times.size());
+           samples;
 }
 
 }  // namespace
 
 double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
               Eigen::MatrixXd& columns) {
+    return Whitening(bins).whiten(noise, columns);
+}
+
+Whitening::Whitening(const std::vector<reading::DayBin>& bins) {
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+        const BinMean mean = mean_over(bins[i]);
+        bins_.push_back({i == 0 || bins[i].set_up != bins[i - 1].set_up,
+                         decrease(i == 0 ? 0.0 : seconds_between(bins[i - 1].time, bins[i].time)),
+                         mean.factor, (mean.variance - mean.factor.square()).sum(),
+                         static_cast<double>(bins[i].times.size())});
+    }
+}
+
+double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const {
     constexpr Index kStates = kProcesses + 1;  // the last state is placement
     using State = Eigen::Matrix<double, kStates, 1>;
     const double flicker_part =
@@ -62,29 +76,24 @@ double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
     covariance.diagonal().setConstant(flicker_part);
     Eigen::MatrixXd state = Eigen::MatrixXd::Zero(kStates, columns.cols());
     double log_determinant = 0.0;
-    for (std::size_t i = 0; i < bins.size(); ++i) {
-        State keep = State::Ones();
-        if (i > 0) {
-            keep.head<kProcesses>() = decrease(seconds_between(bins[i - 1].time, bins[i].time));
-        }
-        if (i == 0 || bins[i].set_up != bins[i - 1].set_up) keep(kProcesses) = 0.0;
+    for (Index row = 0; row < std::ssize(bins_); ++row) {
+        const Bin& bin = bins_[static_cast<std::size_t>(row)];
+        State keep;
+        keep << bin.keep, bin.is_new_set_up ? 0.0 : 1.0;
         // Prediction: x = K x, P = K P K + Q.  A new set-up has a new placement.
         state = keep.asDiagonal() * state;
         covariance = keep.asDiagonal() * covariance * keep.asDiagonal();
         for (Index k = 0; k < kProcesses; ++k)
             covariance(k, k) += flicker_part * (1.0 - keep(k) * keep(k));
-        if (keep(kProcesses) == 0.0) covariance(kProcesses, kProcesses) = placement;
+        if (bin.is_new_set_up) covariance(kProcesses, kProcesses) = placement;
 
         // Measurement: h times the states, and noise.  A mean varies less than h^2, so the noise may
         // have a negative variance; that of the reading is positive.
-        const BinMean mean = mean_over(bins[i]);
-        State h = State::Ones();
-        h.head<kProcesses>() = mean.factor;
+        State h;
+        h << bin.factor, 1.0;
         const State gain = covariance * h;
-        const double variance = gain.dot(h) +
-                                flicker_part * (mean.variance - mean.factor.square()).sum() +
-                                white_variance(bins[i], noise);
-        const auto row = static_cast<Index>(i);
+        const double variance =
+            gain.dot(h) + flicker_part * bin.within + white_variance(noise, bin.samples);
         const Eigen::RowVectorXd innovation = columns.row(row) - h.transpose() * state;
         state += gain / variance * innovation;
         covariance -= gain * gain.transpose() / variance;
@@ -104,7 +113,8 @@ Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const
     for (std::size_t i = 0; i < bins.size(); ++i)
         for (std::size_t k = 0; k <= i; ++k) {
             double sum =
-                i == k ? flicker_part * means[i].variance.sum() + white_variance(bins[i], noise)
+                i == k ? flicker_part * means[i].variance.sum() +
+                             white_variance(noise, static_cast<double>(bins[i].times.size()))
                        : flicker_part * (means[i].factor * means[k].factor *
                                          decrease(seconds_between(bins[k].time, bins[i].time)))
                                             .sum();

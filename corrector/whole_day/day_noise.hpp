@@ -90,6 +90,28 @@ inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,
 double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
               Eigen::MatrixXd& columns);
 
+/// whiten() for many noises of the same bins: what depends on the bins alone is computed once,
+/// 21 exponentials per bin.
+class Whitening {
+public:
+    /// @param bins  as whiten().
+    explicit Whitening(const std::vector<reading::DayBin>& bins);
+
+    /// The same as whiten().
+    double whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const;
+
+private:
+    using Processes = Eigen::Array<double, kFlickerPeriods_s.size(), 1>;
+    struct Bin {
+        bool is_new_set_up;
+        Processes keep;    ///< Decrease of correlation since the bin before.
+        Processes factor;  ///< Covariance with an instant outside the bin, before the decrease.
+        double within;     ///< Sum of what the variances of means exceed factor^2 by; negative.
+        double samples;
+    };
+    std::vector<Bin> bins_;
+};
+
 /// Returns the covariance (n, n) of the bins that whiten() removes, mGal^2.  Cost: 7 n^2 / 2
 /// exponentials.
 /// @param bins, noise  as whiten(); the order of the bins is free.

@@ -41,6 +41,7 @@ DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DaySt
       stations_(stations),
       priors_(priors),
       means_(record.temperature.series, record.bins),
+      whitening_(record.bins),
       white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {
     set_states();
     set_gravities();
@@ -218,10 +219,18 @@ double DayProblem::lag_s(const Point& u, DayHyper lag) const {
                     priors_.factor(place, kSlowLag) * u[kSlowLag]);
 }
 
-Eigen::MatrixXd DayProblem::design(const Point& u) const {
+Eigen::MatrixXd DayProblem::design(const Point& u, LagColumns& lagged) const {
+    if (const double fast_s = lag_s(u, kFastLag); fast_s != lagged.fast_s) {
+        lagged.fast_s = fast_s;
+        lagged.fast = fast_column(fast_s);
+    }
+    if (const double slow_s = lag_s(u, kSlowLag); slow_s != lagged.slow_s) {
+        lagged.slow_s = slow_s;
+        lagged.slow = slow_column(slow_s);
+    }
     Eigen::MatrixXd columns = fixed_;
-    columns.col(static_cast<Index>(DayTerm::fast)) = fast_column(lag_s(u, kFastLag));
-    columns.col(static_cast<Index>(DayTerm::slow)) = slow_column(lag_s(u, kSlowLag));
+    columns.col(static_cast<Index>(DayTerm::fast)) = lagged.fast;
+    columns.col(static_cast<Index>(DayTerm::slow)) = lagged.slow;
     for (std::size_t k = 0; k < states_.size(); ++k)
         for (const DayHyper lag : {kFastLag, kSlowLag}) {
             auto column =
@@ -233,8 +242,18 @@ Eigen::MatrixXd DayProblem::design(const Point& u) const {
     return columns;
 }
 
+Eigen::MatrixXd DayProblem::design(const Point& u) const {
+    LagColumns lagged;
+    return design(u, lagged);
+}
+
 Eigen::MatrixXd DayProblem::scaled(const Point& u) const {
-    const Eigen::MatrixXd x = design(u);
+    LagColumns lagged;
+    return scaled(u, lagged);
+}
+
+Eigen::MatrixXd DayProblem::scaled(const Point& u, LagColumns& lagged) const {
+    const Eigen::MatrixXd x = design(u, lagged);
     Eigen::MatrixXd columns(x.rows(), x.cols() + 1);
     columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
     columns.middleCols(1, kTerms) =
@@ -266,7 +285,7 @@ Eigen::MatrixXd DayProblem::lag_columns(const Point& u, const Eigen::VectorXd& v
 Eigen::MatrixXd DayProblem::linearised(const Point& expected, const Eigen::VectorXd& values) const {
     Eigen::MatrixXd columns(readings_mgal_.size(), estimated() + kLags);
     columns << scaled(expected).rightCols(estimated()), lag_columns(expected, values);
-    whiten(record_.bins, noise(expected), columns);
+    whitening_.whiten(noise(expected), columns);
     return columns;
 }
 
@@ -301,7 +320,7 @@ std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u
 }
 
 double DayProblem::cost(const Point& u, Eigen::MatrixXd columns) const {
-    const double log_determinant = whiten(record_.bins, noise(u), columns);
+    const double log_determinant = whitening_.whiten(noise(u), columns);
     const auto y = columns.col(0);
     const auto x = columns.rightCols(estimated());
     const linear_algebra::Cholesky factor(linear_algebra::normal_matrix(x));
@@ -322,8 +341,9 @@ DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) co
         other[kBiasSize] = bias_size;
         if (!nearby && cost(other) < cost(start)) start = other;
     }
+    LagColumns lagged;
     return least_cost_point(
-        [this](const Point& u) { return cost(u); }, start, nearby.has_value(),
+        [&](const Point& u) { return cost(u, scaled(u, lagged)); }, start, nearby.has_value(),
         {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000});
 }
 

@@ -162,12 +162,22 @@ public:
                                              const Eigen::VectorXd& values) const;
 
 private:
+    /// The columns of two lags, kept from point to point of a search: many points differ in one of
+    /// them or in neither.
+    struct LagColumns {
+        double fast_s = 0.0, slow_s = 0.0;  ///< Their lags; 0: none yet.
+        Eigen::VectorXd fast, slow;
+    };
+
     void set_gravities();
     void set_readings();
     void set_fixed_columns();
     void set_states();
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
     [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
+    /// design() and scaled(); columns of other lags are computed and kept in `lagged`.
+    [[nodiscard]] Eigen::MatrixXd design(const Point& u, LagColumns& lagged) const;
+    [[nodiscard]] Eigen::MatrixXd scaled(const Point& u, LagColumns& lagged) const;
     /// Returns cost(u) from the scaled() columns of a point that differs from `u` in its noise only.
     [[nodiscard]] double cost(const Point& u, Eigen::MatrixXd columns) const;
     /// Returns the priors' factor of lags and terms, with the size of the axis biases at a point.
@@ -184,6 +194,7 @@ private:
     std::vector<LagStates> states_;   ///< One per gap whose effect matters.
     Eigen::VectorXd states_sd_mgal_;  ///< Prior deviations of the effects, fast and slow per gap.
     BinMeans means_;
+    Whitening whitening_;
     LogNormalPrior white_mgal_;
     std::vector<double> base_mgal_;
     Eigen::VectorXd readings_mgal_;
