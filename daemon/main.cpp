@@ -87,9 +87,23 @@ void recall_past(const config::Config& config, UtcTime now, spdlog::logger& log,
     }
 }
 
+/// The ovens' links that are enabled.
+struct Ovens {
+    std::optional<source::OvenLink> inner, outer;
+
+    void start() {
+        if (inner) inner->start();
+        if (outer) outer->start();
+    }
+    void stop() {
+        if (inner) inner->stop();
+        if (outer) outer->stop();
+    }
+};
+
 status::Status snapshot(const config::Config& config, const source::HostClock& clock,
-                        const source::SensorLink& link, const std::optional<source::OvenLink>& oven,
-                        store::Store& store, live::Record& live) {
+                        const source::SensorLink& link, const Ovens& ovens, store::Store& store,
+                        live::Record& live) {
     status::Status status;
     status.version = A351_VERSION;
     const timing::ClockReading reading = clock.read();
@@ -106,7 +120,8 @@ status::Status snapshot(const config::Config& config, const source::HostClock& c
     if (const auto& unit = config.survey.calibration)
         status.calibrated_serial_number = unit->serial_number;
     status::fill(status, link.status());
-    if (oven) status.oven = oven->status();
+    if (ovens.inner) status.oven = ovens.inner->status();
+    if (ovens.outer) status.outer_oven = ovens.outer->status();
     store.fill(status);
     status::assess(status);
     return status;
@@ -264,13 +279,13 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     sensor.header = config::journal_header(config, clock);
     sensor.known = store.known_stream();
     source::SensorLink link(std::move(sensor), clock, reads);
-    std::optional<source::OvenLink> oven;
-    if (config.oven) {
-        oven.emplace(*config.oven, clock, [&](journal::OvenChunk poll) {
-            if (const auto point = live::oven_point(poll, clock.read().realtime)) live.take(*point);
-            store.post(std::move(poll));
-        });
-    }
+    const auto take_poll = [&](journal::OvenChunk poll) {
+        if (const auto point = live::oven_point(poll, clock.read().realtime)) live.take(*point);
+        store.post(std::move(poll));
+    };
+    Ovens ovens;
+    if (config.oven) ovens.inner.emplace(*config.oven, clock, take_poll);
+    if (config.outer_oven) ovens.outer.emplace(*config.outer_oven, clock, take_poll);
     const std::filesystem::path events = config.storage.root / "events";
     survey::Occupations occupations(store, config.survey.sites, events::read_events(events).events,
                                     occupation_options(config));
@@ -282,7 +297,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
          .hosts = config.page.hosts,
          .token = config.page.token,
          .boxes = config.page.boxes},
-        {.status = [&] { return snapshot(config, clock, link, oven, store, live); },
+        {.status = [&] { return snapshot(config, clock, link, ovens, store, live); },
          .occupations = occupations,
          .live = live,
          .latitude = config.station.latitude,
@@ -303,7 +318,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
 
     store.start();
     link.start();
-    if (oven) oven->start();
+    ovens.start();
     page.start();
     gravity.start();
     notice.ready();
@@ -312,7 +327,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     verdict::LastingVerdict lasting_verdict;
     while (true) {
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
-        const status::Status status = snapshot(config, clock, link, oven, store, live);
+        const status::Status status = snapshot(config, clock, link, ovens, store, live);
         status_log.note(status, std::chrono::steady_clock::now());
         log_verdict(store, status, lasting_verdict);
         notice.beat(store.is_alive(), brief(status));
@@ -322,7 +337,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     log.info("stopping");
     notice.stopping();
     page.stop();
-    if (oven) oven->stop();
+    ovens.stop();
     link.stop();
     const bool is_on_disk = store.stop();
     gravity.stop();  // It waits for its child, which a failing disk may hold.

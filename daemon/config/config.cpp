@@ -169,13 +169,16 @@ bool is_same_port(const std::filesystem::path& one, const std::filesystem::path&
     return resolved(one) == resolved(other);
 }
 
-/// Reads [oven].  The table is also checked if it is not enabled.
-std::optional<source::OvenLinkOptions> read_oven(TomlTable table,
-                                                 const source::PortAddress& sensor) {
+/// Reads [oven] or [oven.outer].  The table is also checked if it is not enabled.
+/// @param inner  for the outer oven, the inner one.
+std::optional<source::OvenLinkOptions> read_oven(
+    TomlTable& table, journal::OvenPlace place, const source::PortAddress& sensor,
+    const std::optional<source::OvenLinkOptions>& inner) {
     // Rates that libmodbus can set and a line of 500 m can carry; controllers support some of them.
     constexpr std::array kBauds{1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200};
     const bool is_enabled = table.boolean_or("enabled", false);
     source::OvenLinkOptions oven;
+    oven.place = place;
     oven.line.port = table.path_or_empty("port");
     oven.line.baud = static_cast<int>(table.integer_or("baud", 9600, 1200, 115200));
     if (std::ranges::count(kBauds, oven.line.baud) == 0)
@@ -190,7 +193,8 @@ std::optional<source::OvenLinkOptions> read_oven(TomlTable table,
         table.refuse("port", "missing", "the controller's serial port");
     if (is_enabled && !sensor.path.empty() && is_same_port(oven.line.port, sensor.path))
         table.refuse("port", "the sensor's port", "a port other than sensor.port");
-    table.require_all_read();
+    if (is_enabled && inner && is_same_port(oven.line.port, inner->line.port))
+        table.refuse("port", "the inner oven's port", "a port other than oven.port");
     return is_enabled ? std::optional(oven) : std::nullopt;
 }
 
@@ -306,8 +310,15 @@ Config read_config(const std::filesystem::path& file) {
     config.file = file;
     config.station = read_station(root.table("station"));
     config.sensor = read_sensor(root.table("sensor"), config.station);
-    config.oven = read_oven(root.table("oven"), config.sensor.address);
+    TomlTable oven = root.table("oven");
+    config.oven = read_oven(oven, journal::OvenPlace::inner, config.sensor.address, std::nullopt);
+    TomlTable outer = oven.table("outer");
+    config.outer_oven =
+        read_oven(outer, journal::OvenPlace::outer, config.sensor.address, config.oven);
+    outer.require_all_read();
+    oven.require_all_read();
     config.station.has_oven = config.oven.has_value();
+    config.station.has_outer_oven = config.outer_oven.has_value();
     config.storage = read_storage(root.table("storage"), config.sensor.settings.output_rate_hz);
     config.page = read_page(root.table("page"));
     config.survey = read_survey(root.table("survey"));
@@ -331,6 +342,8 @@ journal::Header journal_header(const Config& config, const source::HostClock& cl
     header.declared_rate_hz = config.storage.declared_rate_hz;
     header.record_age = config.storage.record_age;
     if (config.oven) header.oven_interval = source::archived_interval(*config.oven, clock);
+    if (config.outer_oven)
+        header.outer_oven_interval = source::archived_interval(*config.outer_oven, clock);
     return header;
 }
 

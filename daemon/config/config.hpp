@@ -49,7 +49,8 @@ struct Config {
     std::filesystem::path file;    ///< Path of the file.
     station::Description station;  ///< Device and times are added for each session.
     source::LinkOptions sensor;    ///< Header and known stream are added at the start.
-    std::optional<source::OvenLinkOptions> oven;  ///< Absent if not enabled.
+    std::optional<source::OvenLinkOptions> oven;        ///< Absent if not enabled.
+    std::optional<source::OvenLinkOptions> outer_oven;  ///< [oven.outer]; absent if not enabled.
     StorageConfig storage;
     PageConfig page;
     SurveyConfig survey;

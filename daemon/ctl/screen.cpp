@@ -180,20 +180,27 @@ std::string device(const json& status) {
                     text_of(status, "device/port"), trouble == "-" ? "" : ": " + trouble);
 }
 
-std::string oven(const json& status) {
-    const std::string state = word_of(status, "oven/state");
-    if (!at(status, "oven/age_s").is_number()) {
-        const auto trouble = text_of(status, "oven/trouble");
+std::string oven(const json& oven) {
+    const std::string state = word_of(oven, "state");
+    if (!at(oven, "age_s").is_number()) {
+        const auto trouble = text_of(oven, "trouble");
         return trouble == "-" ? state : state + ": " + trouble;
     }
-    const bool is_stale = at(status, "oven/is_stale") == true;
-    return text::tr(
-        "{}, set point {}, heating {}{}, {}{}",
-        number_of(status, "oven/process_value_degc", "{:.1f} degC"),
-        number_of(status, "oven/set_point_degc", "{:.1f} degC"),
-        number_of(status, "oven/heating_percent", "{:.1f} %"),
-        at(status, "oven/has_input_error") == true ? text::tr(", input error") : "", state,
-        is_stale ? text::tr(", {:.0f} s old", at(status, "oven/age_s").get<double>()) : "");
+    const bool is_stale = at(oven, "is_stale") == true;
+    return text::tr("{}, set point {}, heating {}{}, {}{}",
+                    number_of(oven, "process_value_degc", "{:.1f} degC"),
+                    number_of(oven, "set_point_degc", "{:.1f} degC"),
+                    number_of(oven, "heating_percent", "{:.1f} %"),
+                    at(oven, "has_input_error") == true ? text::tr(", input error") : "", state,
+                    is_stale ? text::tr(", {:.0f} s old", at(oven, "age_s").get<double>()) : "");
+}
+
+/// Returns the lines of the ovens; a single oven has one.
+std::string ovens(const json& status) {
+    std::string lines = line(text::tr("oven"), oven(at(status, "oven")));
+    if (at(status, "outer_oven").is_object())
+        lines += line(text::tr("outer oven"), oven(at(status, "outer_oven")));
+    return lines;
 }
 
 std::string timing(const json& status) {
@@ -264,7 +271,7 @@ std::string status_screen(const json& status, bool is_coloured) {
     screen += line(text::tr("axes"), axes(status));
     screen +=
         line(text::tr("temperature"), number_of(status, "sample/temperature_degc", "{:.3f} degC"));
-    screen += line(text::tr("oven"), oven(status));
+    screen += ovens(status);
     screen +=
         line(text::tr("last sample"),
              text::tr("{} at {}, {}", text_of(status, "received"), text_of(status, "sample/utc"),
@@ -307,7 +314,7 @@ std::string watch_screen(const json& status, const std::string& gravity, bool is
     screen += line(text::tr("signal"),
                    axes(status) + number_of(status, "sample/temperature_degc", "   {:.3f} degC") +
                        "   " + text::tr("{} ago", number_of(status, "sample/age_s", "{:.1f} s")));
-    screen += line(text::tr("oven"), oven(status));
+    screen += ovens(status);
     screen += line(text::tr("journal"), lag(status, "journaled"));
     screen += line(text::tr("archive"), lag(status, "archived"));
     screen += line(text::tr("timing"), timing(status));

@@ -15,7 +15,7 @@ namespace {
 constexpr Nanoseconds kPast = std::chrono::hours(24);  ///< Time loaded at 50 Hz and below.
 constexpr int kRateOfPast_hz = 50;       ///< Above this rate the same number of samples is loaded.
 constexpr int kPieces = 4;               ///< Number of pieces, 17 MB each.
-constexpr double kDegcPerCount = 0.001;  ///< Scale of the oven's channels.
+constexpr double kDegcPerCount = 0.001;  ///< Scale of the ovens' channels.
 
 /// Goes through a channel sample by sample.
 class Cursor {
@@ -76,13 +76,16 @@ void take_samples(const std::filesystem::path& archive, const journal::StationCo
 }
 
 void take_oven(const std::filesystem::path& archive, const journal::StationCodes& codes,
-               UtcTime from, UtcTime to, Record& record) {
+               journal::OvenPlace place, UtcTime from, UtcTime to, Record& record) {
     const auto cursor = [&](std::string_view channel) {
         return Cursor(archive::read_channel(archive, codes, std::string(channel), from, to));
     };
-    Cursor value = cursor(archive::kOvenTemperature), set_point = cursor(archive::kOvenSetPoint);
+    const bool is_inner = place == journal::OvenPlace::inner;
+    Cursor value = cursor(is_inner ? archive::kOvenTemperature : archive::kOuterTemperature),
+           set_point = cursor(is_inner ? archive::kOvenSetPoint : archive::kOuterSetPoint);
     for (; !set_point.is_at_end(); set_point.next()) {
-        OvenPoint point{set_point.time(), std::nullopt, DegC(kDegcPerCount * set_point.counts())};
+        OvenPoint point{set_point.time(), std::nullopt, DegC(kDegcPerCount * set_point.counts()),
+                        place};
         if (value.find(point.time, std::chrono::milliseconds(500)))
             point.process_value = DegC(kDegcPerCount * value.counts());
         record.take(point);
@@ -98,7 +101,8 @@ void take_archived_past(const std::filesystem::path& archive, const journal::Sta
     for (int left = kPieces; left > 0; --left)
         take_samples(archive, codes, now - left * piece, now - (left - 1) * piece, record);
     record.end_of_history();
-    take_oven(archive, codes, now - kPast, now, record);
+    for (const auto place : {journal::OvenPlace::inner, journal::OvenPlace::outer})
+        take_oven(archive, codes, place, now - kPast, now, record);
 }
 
 }  // namespace a351::daemon::live

@@ -38,7 +38,7 @@ void keep_a_day(std::deque<Point>& points) {
 std::optional<OvenPoint> oven_point(const journal::OvenChunk& poll, UtcTime time) {
     const auto values = oven::controller_values(poll.registers, poll.decimals);
     if (!values) return std::nullopt;
-    return OvenPoint{time, values->process_value, values->set_point};
+    return OvenPoint{time, values->process_value, values->set_point, poll.place};
 }
 
 Record::Record(const wire::DeviceProfile& profile, int rate_hz, const verdict::Options& options)
@@ -99,10 +99,11 @@ void Record::judge_again() {
 
 void Record::take(const OvenPoint& point) {
     const std::lock_guard lock(mutex_);
-    while (!oven_.empty() && oven_.back().time > point.time) oven_.pop_back();
-    if (!oven_.empty() && point.time - oven_.back().time < kOvenStep) return;
-    oven_.push_back(point);
-    keep_a_day(oven_);
+    std::deque<OvenPoint>& points = ovens_.at(static_cast<std::size_t>(point.place));
+    while (!points.empty() && points.back().time > point.time) points.pop_back();
+    if (!points.empty() && point.time - points.back().time < kOvenStep) return;
+    points.push_back(point);
+    keep_a_day(points);
 }
 
 std::uint64_t Record::end() const {
@@ -121,10 +122,11 @@ std::vector<Envelope> Record::history(Channel channel, UtcTime from, UtcTime to,
     return history_.envelopes(channel, from, to, points);
 }
 
-std::vector<OvenPoint> Record::oven_history(UtcTime from, UtcTime to, std::size_t points) const {
+std::vector<OvenPoint> Record::oven_history(journal::OvenPlace place, UtcTime from, UtcTime to,
+                                            std::size_t points) const {
     const std::lock_guard lock(mutex_);
     std::vector<OvenPoint> found;
-    for (const OvenPoint& point : oven_)
+    for (const OvenPoint& point : ovens_.at(static_cast<std::size_t>(place)))
         if (point.time >= from && point.time < to) found.push_back(point);
     const std::size_t step = found.size() / std::max<std::size_t>(points, 1) + 1;
     for (std::size_t i = 0; i * step < found.size(); ++i) found[i] = found[i * step];

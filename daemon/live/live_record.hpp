@@ -26,14 +26,15 @@
 
 namespace a351::daemon::live {
 
-/// One answer of the oven's controller.
+/// One answer of an oven's controller.
 struct OvenPoint {
     UtcTime time;
     std::optional<DegC> process_value;
     DegC set_point;
+    journal::OvenPlace place = journal::OvenPlace::inner;
 };
 
-/// Converts a poll of the oven; std::nullopt unless it was answered.
+/// Converts a poll of an oven; std::nullopt unless it was answered.
 [[nodiscard]] std::optional<OvenPoint> oven_point(const journal::OvenChunk& poll, UtcTime time);
 
 /// The tilt of the box relative to the day's first set-up.  If the horizontal axes read the same at
@@ -79,9 +80,9 @@ public:
     [[nodiscard]] std::vector<Envelope> history(Channel channel, UtcTime from, UtcTime to,
                                                 std::size_t points) const;
     /// @}
-    /// Returns every n-th oven value in [from, to), so that at most `points` (>= 1) remain.
-    [[nodiscard]] std::vector<OvenPoint> oven_history(UtcTime from, UtcTime to,
-                                                      std::size_t points) const;
+    /// Returns every n-th value of an oven in [from, to), so that at most `points` (>= 1) remain.
+    [[nodiscard]] std::vector<OvenPoint> oven_history(journal::OvenPlace place, UtcTime from,
+                                                      UtcTime to, std::size_t points) const;
 
     /// Uses these thresholds from now on, and judges the stored series again.
     void judge_by(const verdict::Options& options);
@@ -122,7 +123,7 @@ private:
     verdict::Judge judge_;
     std::vector<verdict::LiveSample> fresh_;  ///< Kept for reuse.
     std::deque<verdict::LiveSample> thinned_;
-    std::deque<OvenPoint> oven_;
+    std::array<std::deque<OvenPoint>, 2> ovens_;  ///< In the order of OvenPlace.
     struct Gap {
         UtcTime from, time;  ///< When a sample was missing first, and the next one that came.
     };

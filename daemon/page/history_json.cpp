@@ -10,6 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "daemon/page/message.hpp"
 #include "protocol/core/input_error.hpp"
@@ -22,6 +23,9 @@ constexpr std::size_t kUsualPoints = 1000;
 constexpr Nanoseconds kUsualSpan = std::chrono::hours(24);
 constexpr std::array<std::string_view, live::kLiveChannelCount> kNames{"x", "y", "z",
                                                                        "temperature"};
+
+constexpr std::array<std::pair<std::string_view, journal::OvenPlace>, 2> kOvens{
+    {{"oven", journal::OvenPlace::inner}, {"outer_oven", journal::OvenPlace::outer}}};
 
 using Keys = std::map<std::string, std::string>;
 
@@ -67,7 +71,7 @@ std::string body(std::string_view channel, std::string_view unit, double interva
     return text + ",\"points\":" + points + "]}\n";
 }
 
-std::string oven_body(const std::vector<live::OvenPoint>& found) {
+std::string oven_body(std::string_view channel, const std::vector<live::OvenPoint>& found) {
     std::string points = "[";
     double interval_s = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -80,7 +84,7 @@ std::string oven_body(const std::vector<live::OvenPoint>& found) {
         const double step_s = seconds_between(found[i - 1].time, found[i].time);
         interval_s = i == 1 ? step_s : std::min(interval_s, step_s);
     }
-    return body("oven", "degC", interval_s, points);
+    return body(channel, "degC", interval_s, points);
 }
 
 /// Returns the norm of the 2 s series.  Its points are doubles, because floats are 0.06 mGal apart at
@@ -126,12 +130,15 @@ std::string history_json(const live::Record& live, std::string_view query, UtcTi
 
     const auto wanted = keys.find("channel");
     if (wanted == keys.end()) throw InputError("query: key channel is missing");
-    if (wanted->second == "oven") return oven_body(live.oven_history(from, to, most));
+    for (const auto& [channel, place] : kOvens)
+        if (wanted->second == channel)
+            return oven_body(channel, live.oven_history(place, from, to, most));
     if (wanted->second == "norm") return norm_body(live, from, to, most);
     const auto name = std::ranges::find(kNames, wanted->second);
     if (name == kNames.end()) {
         throw InputError(fmt::format(
-            "query: key channel = {}; allowed: x, y, z, norm, temperature, oven", wanted->second));
+            "query: key channel = {}; allowed: x, y, z, norm, temperature, oven, outer_oven",
+            wanted->second));
     }
     const auto channel = static_cast<live::Channel>(name - kNames.begin());
     const auto found = live.history(channel, from, to, most);

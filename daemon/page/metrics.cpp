@@ -104,17 +104,31 @@ void tell_record(Text& text, const json& status) {
                status.at("counters").value(kWaiting, json()));
 }
 
+/// @param oven  "oven" or "outer_oven", key of the status and part of the names.
+void tell_oven(Text& text, const json& status, const std::string& oven, std::string_view whose) {
+    const json values = status.value(oven, json::object());
+    text.gauge(fmt::format("a351_{}_heating_ratio", oven),
+               "Heating power, as a part of full power.", values.value("heating_percent", json()),
+               1e-2);
+    text.metric(fmt::format("a351_{}_polls_total", oven), "counter",
+                fmt::format("Polls of the {} controller, by outcome.", whose));
+    const json polls = values.value("polls", json());
+    for (const auto& [outcome, count] : polls.items()) text.sample(count, {{"outcome", outcome}});
+}
+
 void tell_surroundings(Text& text, const json& status) {
     text.metric("a351_temperature_celsius", "gauge",
                 "Temperature of sensor and oven, and the oven's set point.");
     text.sample(at(status, "/sample/temperature_degc"), {{"at", "sensor"}});
     text.sample(at(status, "/oven/process_value_degc"), {{"at", "oven"}});
     text.sample(at(status, "/oven/set_point_degc"), {{"at", "set_point"}});
-    text.gauge("a351_oven_heating_ratio", "Heating power, as a part of full power.",
-               at(status, "/oven/heating_percent"), 1e-2);
-    text.metric("a351_oven_polls_total", "counter", "Polls of the oven's controller, by outcome.");
-    const auto polls = at(status, "/oven/polls");
-    for (const auto& [outcome, count] : polls.items()) text.sample(count, {{"outcome", outcome}});
+    const bool has_outer = status.contains("outer_oven");
+    if (has_outer) {
+        text.sample(at(status, "/outer_oven/process_value_degc"), {{"at", "outer_oven"}});
+        text.sample(at(status, "/outer_oven/set_point_degc"), {{"at", "outer_set_point"}});
+    }
+    tell_oven(text, status, "oven", "oven's");
+    if (has_outer) tell_oven(text, status, "outer_oven", "outer oven's");
     text.gauge("a351_disk_free_bytes", "Free disk space for the recorded data.",
                at(status, "/disk/free_bytes"));
     text.gauge("a351_longest_sync_seconds", "Longest time the journal waited for the disk.",

@@ -125,6 +125,7 @@ bool OvenLink::poll() {
     const bool is_answered = answer.outcome == OvenOutcome::answered;
     if (is_answered && !stop_) ask_decimals();
     poll.decimals = static_cast<std::uint8_t>(decimals_);
+    poll.place = options_.place;
     note(poll, answer.trouble);
     hook_(std::move(poll));
     return is_answered;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The oven's thread: polls the temperature controller at regular intervals, passes each poll to a
+/// An oven's thread: polls its temperature controller at regular intervals, passes each poll to a
 /// hook, and opens the port again after a poll that fails.  It only reads, and shares nothing with
 /// the sensor's reader.
 
@@ -26,6 +26,7 @@
 namespace a351::daemon::source {
 
 struct OvenLinkOptions {
+    journal::OvenPlace place = journal::OvenPlace::inner;
     ModbusLine::Settings line = {};
     /// Instrument time from poll to poll; at least 100 ms of real time.
     Nanoseconds poll_interval = std::chrono::seconds(1);

@@ -19,21 +19,24 @@ std::string printable(std::string text) {
     return text;
 }
 
-/// Adds the oven's reasons.  They contain nothing that varies from poll to poll, because the log
+/// Adds an oven's reasons.  They contain nothing that varies from poll to poll, because the log
 /// distinguishes reasons by their text.
-void assess_oven(Status& status, const source::OvenLinkStatus& oven) {
+/// @param name  of the oven, a text of the catalogue.
+void assess_oven(Status& status, const char* name, const source::OvenLinkStatus& oven) {
     using State = source::OvenLinkStatus::State;
+    const text::Message which = text::marked_message(name);
     if (oven.state == State::searching) {
-        status.warn(text::message("oven: searching: {}", oven.trouble));
+        status.warn(text::message("{}: searching: {}", which, oven.trouble));
     } else if (oven.is_stale) {
         status.warn(text::message(
-            "oven: {}; check the controller's cable (sensor data are not affected)",
+            "{}: {}; check the controller's cable (sensor data are not affected)", which,
             oven.state == State::answering ? text::message("the last answer is old")
                                            : text::marked_message(source::to_text(oven.state))));
     } else if (oven.values && oven::has_input_error(oven.values->status)) {
         status.warn(text::message(
-            "oven: input error, its temperature is not valid; check the controller's probe (sensor "
-            "data are not affected)"));
+            "{}: input error, its temperature is not valid; check the controller's probe (sensor "
+            "data are not affected)",
+            which));
     }
 }
 
@@ -144,7 +147,8 @@ void fill(Status& status, const source::LinkStatus& link) {
 
 void assess(Status& status) {
     assess_rate(status);
-    if (status.oven) assess_oven(status, *status.oven);
+    if (status.oven) assess_oven(status, text::marked("oven"), *status.oven);
+    if (status.outer_oven) assess_oven(status, text::marked("outer oven"), *status.outer_oven);
     const std::string& calibrated = status.calibrated_serial_number;
     if (!calibrated.empty() && !status.serial_number.empty() &&
         calibrated != status.serial_number) {

@@ -72,7 +72,8 @@ struct Status {
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;
     verdict::Verdict verdict;
-    std::optional<source::OvenLinkStatus> oven;  ///< Absent if not enabled.
+    std::optional<source::OvenLinkStatus> oven;        ///< Absent if not enabled.
+    std::optional<source::OvenLinkStatus> outer_oven;  ///< Absent if not enabled.
 
     archive::Counters counters;
     std::map<std::string, std::uint64_t> more_counters;  ///< Counters of link and store, by name.

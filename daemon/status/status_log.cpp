@@ -31,10 +31,8 @@ void StatusLog::note(const Status& status, Instant now) {
     if (is_new(session_, status.session))
         log_->info("session {}: {} serial {}, {} Hz, {}", status.session, status.product_id,
                    status.serial_number, status.output_rate_hz, status.filter);
-    const auto& oven = status.oven;
-    if (oven && is_new(oven_state_, source::to_text(oven->state)))
-        log_->info("oven: {} ({})", oven_state_,
-                   oven->trouble.empty() ? oven->port : oven->trouble);
+    note_oven("oven", status.oven, now);
+    note_oven("outer oven", status.outer_oven, now);
     if (is_new(reserve_, status.disk_reserve))
         log_->info("reserve for a full disk: {}{}{}", status.disk_reserve,
                    status.disk_reserve_trouble.empty() ? "" : ": ", status.disk_reserve_trouble);
@@ -57,9 +55,16 @@ void StatusLog::note(const Status& status, Instant now) {
         const auto found = status.more_counters.find(name);
         if (found != status.more_counters.end()) note_counter(name, found->second, now);
     }
+}
+
+void StatusLog::note_oven(const std::string& name,
+                          const std::optional<source::OvenLinkStatus>& oven, Instant now) {
     if (!oven) return;
+    const std::string state = source::to_text(oven->state);
+    if (std::exchange(oven_states_[name], state) != state)
+        log_->info("{}: {} ({})", name, state, oven->trouble.empty() ? oven->port : oven->trouble);
     for (const auto& [outcome, count] : source::polls_by_outcome(*oven))
-        if (outcome != "answered") note_counter("oven polls " + outcome, count, now);
+        if (outcome != "answered") note_counter(name + " polls " + outcome, count, now);
 }
 
 void StatusLog::note_reasons(const Status& status, Instant now) {

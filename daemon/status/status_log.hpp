@@ -32,6 +32,8 @@ private:
     };
     void note_reasons(const Status& status, Instant now);
     void note_counter(const std::string& name, std::uint64_t value, Instant now);
+    void note_oven(const std::string& name, const std::optional<source::OvenLinkStatus>& oven,
+                   Instant now);
 
     struct Counter {
         std::uint64_t said_value = 0;
@@ -41,7 +43,7 @@ private:
     std::shared_ptr<spdlog::logger> log_;
     std::string session_;
     std::string link_state_;
-    std::string oven_state_;
+    std::map<std::string, std::string> oven_states_;
     std::string reserve_;
     std::string rate_advice_;
     timing::LeapSecond leap_ = timing::LeapSecond::none;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Makes the chunks of the journal from the reader's queue, the host's clock and the oven's polls.
+/// Makes the chunks of the journal from the reader's queue, the host's clock and the ovens' polls.
 /// Each chunk goes to the journal thread and to the archive thread at the same time.  This thread
 /// never accesses the disk, so the live view continues while the disk hangs or refuses data.
 
@@ -40,7 +40,7 @@ public:
     /// Makes chunks of everything left, closes the archive's queue, and ends the thread.
     void drain();
 
-    /// Queues a poll of the oven.  It is dropped before the first session.
+    /// Queues a poll of an oven.  It is dropped before the first session.
     void post(journal::OvenChunk poll);
 
     [[nodiscard]] Status status() const;

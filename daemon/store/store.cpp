@@ -95,6 +95,7 @@ void Store::describe(const journal::Header& header) {
     description.firmware = header.firmware;
     description.declared_rate_hz = header.declared_rate_hz;
     description.oven_interval = header.oven_interval;
+    description.outer_oven_interval = header.outer_oven_interval;
     std::optional<std::string> trouble;
     try {
         trouble = describe_station(files_, options_.root, description);

@@ -147,7 +147,8 @@ private:
         record_header_.location = header.codes.location;
         record_header_.nominal_rate = Hertz(header.output_rate_hz);
         record_header_.declared_rate_hz = header.declared_rate_hz;
-        slow_.use_oven_interval(header.oven_interval);
+        slow_.use_oven_interval(journal::OvenPlace::inner, header.oven_interval);
+        slow_.use_oven_interval(journal::OvenPlace::outer, header.outer_oven_interval);
         observe_clock(header.clock);
     }
 

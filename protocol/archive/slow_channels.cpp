@@ -36,6 +36,14 @@ std::int32_t thousandths(DegC value) {
 
 }  // namespace
 
+OvenChannels::OvenChannels(journal::OvenPlace place, seconds interval)
+    : place_(place),
+      interval_(interval),
+      temperature_(place == journal::OvenPlace::inner ? kOvenTemperature : kOuterTemperature,
+                   interval),
+      set_point_(place == journal::OvenPlace::inner ? kOvenSetPoint : kOuterSetPoint, interval),
+      heating_(place == journal::OvenPlace::inner ? kOvenHeating : kOuterHeating, interval) {}
+
 void OvenChannels::add(const RecordContext& context, const OvenSample& sample) {
     auto second = std::chrono::round<seconds>(sample.utc);
     if (newest_) {
@@ -78,13 +86,14 @@ void SlowChannels::begin_run(std::string reference, bool has_temperature) {
     sensor_temperature_ = SecondPacker(kSensorTemperature);
     timing_quality_ = SecondPacker(kTimingQuality);
     clock_error_ = SecondPacker(kClockError);
-    oven_ = OvenChannels(oven_.interval());
+    for (OvenChannels& oven : ovens_) oven.restart(oven.interval());
 }
 
-void SlowChannels::use_oven_interval(seconds interval) {
-    if (interval == oven_.interval()) return;
-    oven_.close(context_, true);
-    oven_ = OvenChannels(interval);
+void SlowChannels::use_oven_interval(journal::OvenPlace place, seconds interval) {
+    OvenChannels& oven = of(place);
+    if (interval == oven.interval()) return;
+    oven.close(context_, true);
+    oven.restart(interval);
 }
 
 void SlowChannels::add(std::int64_t index, std::int32_t temperature_counts) {
@@ -101,14 +110,14 @@ void SlowChannels::add(std::int64_t index, Nanoseconds after, const journal::Ove
     const auto values = oven::controller_values(poll.registers, poll.decimals);
     if (!values) return;
     if (context_.clock.is_fixed(index))
-        take({index, after, *values});
+        take({index, after, *values, poll.place});
     else
-        waiting_polls_.push_back({index, after, *values});
+        waiting_polls_.push_back({index, after, *values, poll.place});
 }
 
 void SlowChannels::take(const WaitingPoll& poll) {
     const UtcTime utc = context_.clock.time_of(poll.index)->utc + poll.after;
-    oven_.add(context_, {utc, poll.values, poll.index});
+    of(poll.place).add(context_, {utc, poll.values, poll.index});
 }
 
 void SlowChannels::take(const Waiting& sample) {
@@ -155,13 +164,13 @@ void SlowChannels::finish(const Second& second) {
 void SlowChannels::pass(UtcTime now) {
     for (SecondPacker* packer : {&sensor_temperature_, &timing_quality_, &clock_error_})
         packer->pass(context_, now);
-    oven_.pass(context_, now);
+    for (OvenChannels& oven : ovens_) oven.pass(context_, now);
 }
 
 void SlowChannels::close(bool ends_series) {
     for (SecondPacker* packer : {&sensor_temperature_, &timing_quality_, &clock_error_})
         packer->close(context_, ends_series);
-    oven_.close(context_, ends_series);
+    for (OvenChannels& oven : ovens_) oven.close(context_, ends_series);
 }
 
 void SlowChannels::record(const std::string& channel, const PackedRecord& record,

@@ -6,6 +6,7 @@
 /// Archiver uses it between its packers and the sink.  The values do not depend on where records
 /// end (slow_channels_test.cpp); protocol/archive/archive-format.md describes them for readers.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -27,8 +28,8 @@ struct OvenSample {
     std::int64_t index = 0;         ///< Newest sample of the sensor at that time.
 };
 
-/// Makes the channels of the oven: LK2 process value, LK3 set point, both in 0.001 degC, and LYH
-/// heating in 0.01 %.  Samples are `interval` apart.  An answer is taken for a place if it comes
+/// Makes the channels of an oven: process value and set point in 0.001 degC, heating in 0.01 %; LK2,
+/// LK3, LYH for the inner oven, LK4, LK5, LYO for the outer one.  Samples are `interval` apart.  An answer is taken for a place if it comes
 /// less than 1 s before or after it (0.6 s at an interval of 1 s); of several answers the first one
 /// counts.  After a pause the next answer begins a new row, on the nearest second.  A process value
 /// is missing if the status reports an input error.
@@ -36,11 +37,7 @@ class OvenChannels {
 public:
     /// Begins the three channels without samples.
     /// @param interval  time from sample to sample, 1 s to 1 h; not checked.
-    explicit OvenChannels(std::chrono::seconds interval)
-        : interval_(interval),
-          temperature_(kOvenTemperature, interval),
-          set_point_(kOvenSetPoint, interval),
-          heating_(kOvenHeating, interval) {}
+    OvenChannels(journal::OvenPlace place, std::chrono::seconds interval);
 
     /// Returns the time from sample to sample.
     [[nodiscard]] std::chrono::seconds interval() const noexcept { return interval_; }
@@ -49,12 +46,16 @@ public:
     /// older than the newest sample begins a new row, because the host's clock was set back.
     void add(const RecordContext& context, const OvenSample& sample);
 
+    /// Drops all samples and begins again with this interval.
+    void restart(std::chrono::seconds interval) { *this = OvenChannels(place_, interval); }
+
     /// Closes records that are old at `now`: 60 samples, but at most an hour.
     void pass(const RecordContext& context, UtcTime now);
     /// Packs all samples.  @param ends_series  marks the last records as the end of the run.
     void close(const RecordContext& context, bool ends_series);
 
 private:
+    journal::OvenPlace place_;
     std::chrono::seconds interval_;
     std::optional<std::chrono::sys_seconds> newest_;
     SecondPacker temperature_, set_point_, heating_;
@@ -68,6 +69,7 @@ private:
 ///     LCE  time of a sample minus its time by start and rate of its record, in us; for the last
 ///          sample at or before s and the records of the first channel of the layout
 ///     LK2, LK3, LYH  the oven's answers, at the oven's interval: OvenChannels
+///     LK4, LK5, LYO  those of the outer oven, at its interval
 ///
 /// LK1 and LCQ have a value for a second if samples of the seconds before and after it were seen,
 /// by the clock's fixed times.  The first and the last second of a run and one in which the times
@@ -90,16 +92,16 @@ public:
     /// Samples that were not packed are dropped; close() must be called before.
     void begin_run(std::string reference, bool has_temperature);
 
-    /// Sets the sample interval of the oven's channels from now on.  Another interval ends their
+    /// Sets the sample interval of an oven's channels from now on.  Another interval ends their
     /// records; the same one changes nothing.
-    void use_oven_interval(std::chrono::seconds interval);
+    void use_oven_interval(journal::OvenPlace place, std::chrono::seconds interval);
 
     /// Adds a sample of the sensor.  The context's clock must have observed it.
     /// @param index               rises from call to call; missing samples are left out.
     /// @param temperature_counts  raw counts; not used if the layout has no temperature.
     void add(std::int64_t index, std::int32_t temperature_counts);
 
-    /// Adds a poll of the oven.  A poll without an answer, or with another number of registers
+    /// Adds a poll of an oven.  A poll without an answer, or with another number of registers
     /// than expected, is ignored.
     /// @param after  time from the instant of sample `index`, the newest, to the poll.
     void add(std::int64_t index, Nanoseconds after, const journal::OvenChunk& poll);
@@ -128,6 +130,7 @@ private:
         std::int64_t index = 0;
         Nanoseconds after{0};
         oven::ControllerValues values;
+        journal::OvenPlace place = journal::OvenPlace::inner;
     };
     /// The second in progress.
     struct Second {
@@ -143,6 +146,9 @@ private:
     void take(const WaitingPoll& poll);
     void look(std::int64_t index, bool is_entered);
     void finish(const Second& second);
+    [[nodiscard]] OvenChannels& of(journal::OvenPlace place) {
+        return ovens_.at(static_cast<std::size_t>(place));
+    }
 
     const wire::DeviceProfile& profile_;
     RecordContext context_;
@@ -153,7 +159,10 @@ private:
     std::vector<WaitingPoll> waiting_polls_;
     std::optional<Second> second_;
     SecondPacker sensor_temperature_, timing_quality_, clock_error_;
-    OvenChannels oven_{journal::kShortestOvenInterval};
+    /// In the order of OvenPlace.
+    std::array<OvenChannels, 2> ovens_{
+        OvenChannels(journal::OvenPlace::inner, journal::kShortestOvenInterval),
+        OvenChannels(journal::OvenPlace::outer, journal::kShortestOvenInterval)};
 };
 
 }  // namespace a351::archive

@@ -105,6 +105,7 @@ struct Header {
     std::chrono::seconds oven_interval{1};   ///< Sample interval of the oven's channels.
     /// Age of its oldest sample at which a record of the sampled channels ends.
     std::chrono::seconds record_age = kLongestRecordAge;
+    std::chrono::seconds outer_oven_interval{1};  ///< The same of the outer oven's channels.
     /// Reading of the host's clocks for this segment: the first that a reader gets.  Its UTC is the
     /// time in the file name.
     timing::ClockReading clock;
@@ -210,7 +211,10 @@ enum class OvenOutcome : std::uint8_t {
 /// Number of outcomes: the size of an array indexed by OvenOutcome.
 inline constexpr std::size_t kOvenOutcomeCount = 7;
 
-/// One poll of the oven's controller.
+/// Ovens of a double oven, from the inside.  A single oven is the inner one.
+enum class OvenPlace : std::uint8_t { inner, outer };
+
+/// One poll of an oven's controller.
 struct OvenChunk {
     RawTime time;  ///< Right after the answer, or when the poll was given up.
     OvenOutcome outcome = OvenOutcome::answered;
@@ -218,6 +222,7 @@ struct OvenChunk {
     /// Registers in the order of oven::Monitor; empty unless answered; at most 255.
     /// oven::controller_values() converts them, with `decimals`.
     std::vector<std::uint16_t> registers;
+    OvenPlace place = OvenPlace::inner;  ///< On disk it is the type of the chunk.
 };
 
 /// Any chunk of a segment.  The order of the alternatives is part of the format, see ChunkType.

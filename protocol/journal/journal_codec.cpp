@@ -233,8 +233,9 @@ std::optional<Chunk> decode_mark(Fields fields) {
     return mark;
 }
 
-std::optional<Chunk> decode_oven(Fields fields) {
+std::optional<Chunk> decode_oven(Fields fields, OvenPlace place) {
     OvenChunk poll;
+    poll.place = place;
     poll.time = fields.take_raw_time();
     const auto outcome = fields.take<std::uint8_t>();
     poll.outcome = static_cast<OvenOutcome>(outcome);
@@ -244,6 +245,12 @@ std::optional<Chunk> decode_oven(Fields fields) {
     if (!fields.is_used_up() || !has_registers_by_outcome(poll)) return std::nullopt;
     if (outcome >= kOvenOutcomeCount) return std::nullopt;
     return poll;
+}
+
+ChunkType type_of(const Chunk& chunk) {
+    const auto* const poll = std::get_if<OvenChunk>(&chunk);
+    if (poll != nullptr && poll->place == OvenPlace::outer) return ChunkType::outer_oven;
+    return static_cast<ChunkType>(chunk.index() + 1);
 }
 
 template <class Int>
@@ -297,7 +304,7 @@ void append_chunk(std::vector<std::byte>& out, const Chunk& chunk, std::uint32_t
         }
         const auto encoded = std::span(out).subspan(before);
         put_at<std::uint32_t>(encoded, static_cast<std::uint32_t>(size));
-        encoded[kSequenceAt - 1] = static_cast<std::byte>(chunk.index() + 1);
+        encoded[kSequenceAt - 1] = static_cast<std::byte>(type_of(chunk));
         renumber_chunk(encoded, sequence);
     } catch (...) {
         out.resize(before);
@@ -334,7 +341,7 @@ std::uint32_t chunk_crc(const ChunkHeader& header, std::span<const std::byte> pa
 
 bool is_known(std::uint8_t type) noexcept {
     return type >= static_cast<std::uint8_t>(ChunkType::head) &&
-           type <= static_cast<std::uint8_t>(ChunkType::oven);
+           type <= static_cast<std::uint8_t>(ChunkType::outer_oven);
 }
 
 std::optional<Chunk> decode_payload(ChunkType type, std::span<const std::byte> payload) {
@@ -357,7 +364,9 @@ std::optional<Chunk> decode_payload(ChunkType type, std::span<const std::byte> p
         case ChunkType::mark:
             return decode_mark(Fields(payload));
         case ChunkType::oven:
-            return decode_oven(Fields(payload));
+            return decode_oven(Fields(payload), OvenPlace::inner);
+        case ChunkType::outer_oven:
+            return decode_oven(Fields(payload), OvenPlace::outer);
     }
     return std::nullopt;
 }

@@ -40,7 +40,8 @@ inline constexpr std::uint32_t kVersion = 1;
 inline constexpr std::size_t kPreambleSize = 12;     ///< Magic and version.
 inline constexpr std::size_t kChunkHeaderSize = 13;  ///< length, type, sequence, CRC-32C.
 
-/// Code of a chunk on disk: its place among the alternatives of Chunk, counted from 1.
+/// Code of a chunk on disk: its place among the alternatives of Chunk, counted from 1.  A poll of the
+/// outer oven has a code of its own, so that readers of earlier versions skip it.
 /// The codes are part of the format: never change one, add new ones at the end.
 enum class ChunkType : std::uint8_t {
     head = 1,
@@ -51,6 +52,7 @@ enum class ChunkType : std::uint8_t {
     event = 6,
     mark = 7,
     oven = 8,
+    outer_oven = 9,
 };
 
 /// True if `Kind` is the alternative of Chunk with this code.
@@ -122,13 +124,15 @@ void renumber_chunk(std::span<std::byte> chunk, std::uint32_t sequence);
 /// Returns the payload of a header: one line of JSON.  Bytes that are not UTF-8 become U+FFFD.
 ///
 /// The order of the keys is fixed.  Members with their default are left out if the format permits
-/// it: device_assumed, port, declared_rate_hz, oven_interval_s, record_age_s, leap and repeats.  A declared rate
+/// it: device_assumed, port, declared_rate_hz, oven_interval_s, outer_oven_interval_s, record_age_s, leap
+/// and repeats.  A declared rate
 /// must be finite, because parse_header() refuses the `null` that JSON has instead.
 [[nodiscard]] std::string header_to_json(const Header& header);
 
 /// Reads the payload of a header.  Unknown fields are ignored.
 ///
-/// These are compared with their limits: session, station codes, clock, leap, oven_interval_s, record_age_s.
+/// These are compared with their limits: session, station codes, clock, leap, both oven intervals,
+/// record_age_s.
 /// Profile, filter, rates and burst_ctrl are not: find them in the profile before use.  A number
 /// that does not fit the type of its member is converted, not refused.
 ///

@@ -38,6 +38,13 @@ timing::ClockReading clock_from_json(const Json& json) {
     return clock;
 }
 
+std::chrono::seconds oven_interval(const Json& json, const char* key) {
+    const std::chrono::seconds interval(json.value(key, 1));
+    if (interval < kShortestOvenInterval || interval > kLongestOvenInterval)
+        throw std::invalid_argument(key);
+    return interval;
+}
+
 Header header_from_json(const Json& json) {
     Header header;
     const auto session = SessionId::from_hex(json.at("session").get<std::string>());
@@ -65,9 +72,8 @@ Header header_from_json(const Json& json) {
         if (!(std::abs(*header.declared_rate_hz / header.output_rate_hz - 1.0) <= kFarthestRate))
             throw std::invalid_argument("declared_rate_hz");
     }
-    header.oven_interval = std::chrono::seconds(json.value("oven_interval_s", 1));
-    if (header.oven_interval < kShortestOvenInterval || header.oven_interval > kLongestOvenInterval)
-        throw std::invalid_argument("oven_interval_s");
+    header.oven_interval = oven_interval(json, "oven_interval_s");
+    header.outer_oven_interval = oven_interval(json, "outer_oven_interval_s");
     header.record_age = std::chrono::seconds(json.value("record_age_s", kLongestRecordAge.count()));
     if (header.record_age < kShortestRecordAge || header.record_age > kLongestRecordAge)
         throw std::invalid_argument("record_age_s");
@@ -104,6 +110,8 @@ std::string header_to_json(const Header& header) {
     if (header.oven_interval != kShortestOvenInterval)
         json["oven_interval_s"] = header.oven_interval.count();
     if (header.record_age != kLongestRecordAge) json["record_age_s"] = header.record_age.count();
+    if (header.outer_oven_interval != kShortestOvenInterval)
+        json["outer_oven_interval_s"] = header.outer_oven_interval.count();
     json["clock"] = clock_to_json(header.clock);
     if (header.repeats) {
         json["repeats"] = {{"segment", header.repeats->segment},

@@ -163,35 +163,50 @@ pugi::xml_node add_sampled_channel(pugi::xml_node station, const Description& de
     return channel;
 }
 
+/// Origin of a derived channel.
+enum class Source { sensor, oven, outer_oven, clock };
+
 /// Properties of a derived channel.
 struct SlowChannel {
     std::string_view code;
     const char* content;
     const char* unit;
     double counts_per_unit;
-    bool is_of_sensor;
-    bool is_of_oven;
+    Source source;
 };
 
 constexpr SlowChannel kSlowChannels[] = {
     {archive::kSensorTemperature, "sensor temperature, mean over the second", kTemperature, 1000.0,
-     true, false},
-    {archive::kOvenTemperature, "oven, process value", kTemperature, 1000.0, false, true},
-    {archive::kOvenSetPoint, "oven, set point", kTemperature, 1000.0, false, true},
-    {archive::kOvenHeating, "oven, heating", "%", 100.0, false, true},
-    {archive::kClockError, "sample times less those by start and rate of a record", "s", 1e6, false,
-     false},
-    {archive::kTimingQuality, "timing quality", "%", 1.0, false, false},
+     Source::sensor},
+    {archive::kOvenTemperature, "oven, process value", kTemperature, 1000.0, Source::oven},
+    {archive::kOvenSetPoint, "oven, set point", kTemperature, 1000.0, Source::oven},
+    {archive::kOvenHeating, "oven, heating", "%", 100.0, Source::oven},
+    {archive::kOuterTemperature, "outer oven, process value", kTemperature, 1000.0,
+     Source::outer_oven},
+    {archive::kOuterSetPoint, "outer oven, set point", kTemperature, 1000.0, Source::outer_oven},
+    {archive::kOuterHeating, "outer oven, heating", "%", 100.0, Source::outer_oven},
+    {archive::kClockError, "sample times less those by start and rate of a record", "s", 1e6,
+     Source::clock},
+    {archive::kTimingQuality, "timing quality", "%", 1.0, Source::clock},
 };
 
+/// Returns the interval of a source's channels; std::nullopt if the box has no such source.
+std::optional<std::chrono::seconds> interval_of(Source source, const Description& description) {
+    if (source == Source::oven)
+        return description.has_oven ? std::optional(description.oven_interval) : std::nullopt;
+    if (source == Source::outer_oven)
+        return description.has_outer_oven ? std::optional(description.outer_oven_interval)
+                                          : std::nullopt;
+    return std::chrono::seconds(1);
+}
+
 void add_slow_channel(pugi::xml_node station, const Description& description,
-                      const SlowChannel& slow) {
+                      const SlowChannel& slow, std::chrono::seconds interval) {
     auto channel = add_channel(station, description, slow.code);
     add_comment(channel, slow.content);
-    const double rate_hz =
-        slow.is_of_oven ? 1.0 / static_cast<double>(description.oven_interval.count()) : 1.0;
+    const double rate_hz = 1.0 / static_cast<double>(interval.count());
     add_place(channel, description, Orientation{}, rate_hz);
-    if (slow.is_of_sensor) add_sensor(channel, description);
+    if (slow.source == Source::sensor) add_sensor(channel, description);
     add_gain_response(channel, slow.counts_per_unit, slow.unit,
                       rate_hz / kSlowRatePerReferenceFrequency);
 }
@@ -247,9 +262,9 @@ std::string to_station_xml(const Description& description) {
     stage.append_attribute("number").set_value(1);
     add_polynomial(stage.append_child("Polynomial"), offset_degc, slope_degc,
                    description.output_rate_hz);
-    for (const SlowChannel& slow : kSlowChannels) {
-        if (description.has_oven || !slow.is_of_oven) add_slow_channel(station, description, slow);
-    }
+    for (const SlowChannel& slow : kSlowChannels)
+        if (const auto interval = interval_of(slow.source, description))
+            add_slow_channel(station, description, slow, *interval);
     return xml_text(document);
 }
 

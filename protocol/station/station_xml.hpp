@@ -49,6 +49,8 @@ struct Description {
     std::optional<double> declared_rate_hz;
     bool has_oven = false;                  ///< True if the archive has the oven's channels.
     std::chrono::seconds oven_interval{1};  ///< Sample interval of the oven's channels, >= 1 s.
+    bool has_outer_oven = false;            ///< True if the archive has the outer oven's channels.
+    std::chrono::seconds outer_oven_interval{1};  ///< The same of the outer oven's channels.
 };
 
 /// Returns the StationXML of a new station: all channels begin their first epoch at `start`.

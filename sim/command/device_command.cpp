@@ -1,9 +1,12 @@
+#include <fmt/core.h>
+
 #include <exception>
 #include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <system_error>
 
+#include "protocol/core/input_error.hpp"
 #include "sim/command/commands.hpp"
 #include "sim/command/exit_report.hpp"
 #include "sim/command/options.hpp"
@@ -25,7 +28,7 @@ struct DeviceCommand {
     std::uint16_t firmware = 1;
     bool lacks_id_register = false;
     std::string state;  ///< File of the flash memory.  Here and below, an empty path means none.
-    std::string link, oven_link;
+    std::string link, oven_link, outer_oven_link;
     std::string clock;
     double speed = 1.0;
     std::string truth, report, faults, control;
@@ -47,7 +50,8 @@ device::RegisterMachine::FlashStore store_in(const std::string& file) {
 /// Checks every path before any file, socket or terminal is made.
 void check_paths(const DeviceCommand& command) {
     line::Pty::require_place(command.link);
-    if (!command.oven_link.empty()) line::Pty::require_place(command.oven_link);
+    for (const std::string& link : {command.oven_link, command.outer_oven_link})
+        if (!link.empty()) line::Pty::require_place(link);
     if (!command.control.empty()) line::ControlSocket::require_place(command.control);
     for (const std::string& file : {command.truth, command.report, command.state}) {
         if (!file.empty()) line::require_file_place(file);
@@ -73,6 +77,12 @@ void say(const std::string& trouble) { std::cerr << "a351-sim: " << trouble << s
 void run(const DeviceCommand& command, const std::function<bool()>& should_stop) {
     check_paths(command);
     const scenario::Scenario scenario = scenario::load_scenario(command.day.scenario);
+    if (!command.outer_oven_link.empty() && !scenario.outer_oven) {
+        throw InputError(
+            fmt::format("--outer-oven-link {}: the scenario {} has no outer oven; "
+                        "allowed: a scenario with [outer_oven]",
+                        command.outer_oven_link, scenario.name));
+    }
     const wire::DeviceProfile& profile = profile_of(command.unit.profile);
     const device::MachineIdentity identity{product_of(command.unit), command.unit.serial,
                                            command.firmware, !command.lacks_id_register};
@@ -96,8 +106,10 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
                     [&truth](const truth::Record& record) {
                         if (truth) truth->append(record);
                     });
-    std::optional<oven::Port> oven;
+    std::optional<oven::Port> oven, outer_oven;
     if (!command.oven_link.empty()) oven.emplace(command.oven_link, source.oven());
+    if (!command.outer_oven_link.empty())
+        outer_oven.emplace(command.outer_oven_link, *source.outer_oven());
     line::FaultInjector faults(script, scenario.start(), line, machine, profile, identity,
                                [&oven](std::string_view kind, int count) {
                                    return oven && oven->apply_fault(kind, count);
@@ -114,7 +126,8 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
                           port.bytes_unread(),
                           line.report(),
                           faults.report(),
-                          oven ? std::optional(oven->report()) : std::nullopt};
+                          oven ? std::optional(oven->report()) : std::nullopt,
+                          outer_oven ? std::optional(outer_oven->report()) : std::nullopt};
     };
     bool is_asked_to_quit = false;
     const line::ControlActions actions{
@@ -133,6 +146,7 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
 
     std::vector<line::Service*> services{&port};
     if (oven) services.push_back(&*oven);
+    if (outer_oven) services.push_back(&*outer_oven);
     if (control) services.push_back(&*control);
     const auto should_end = [&] { return is_asked_to_quit || should_stop() || port.is_finished(); };
     const auto write_report = [&] {
@@ -174,6 +188,11 @@ void add_device_command(CLI::App& app, UntilStopped until_stopped) {
             "--oven-link", command->oven_link,
             "Symbolic link to make to the pseudo-terminal of the oven's controller; default: "
             "none")
+        ->type_name("PATH");
+    device
+        ->add_option("--outer-oven-link", command->outer_oven_link,
+                     "The same for the controller of the outer oven, if the scenario has one; "
+                     "default: none")
         ->type_name("PATH");
     CLI::Option* clock = add_clock(*device, command->clock);
     device

@@ -109,6 +109,7 @@ std::string to_json(const ExitReport& report, int indent) {
         {"faults_refused_in_all", report.faults.refused_in_all},
     };
     if (report.oven) json["oven"] = to_json(*report.oven);
+    if (report.outer_oven) json["outer_oven"] = to_json(*report.outer_oven);
     // The scenario may be a file whose name is not UTF-8: JSON cannot hold such bytes.
     return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
 }

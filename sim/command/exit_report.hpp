@@ -22,6 +22,7 @@ struct ExitReport {
     line::Report line;
     line::FaultReport faults;
     std::optional<oven::Report> oven;  ///< Empty: the oven was not served.
+    std::optional<oven::Report> outer_oven;
 };
 
 /// Returns the report as one JSON object; keys: a351-sim-device(1), REPORT.

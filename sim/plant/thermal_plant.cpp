@@ -50,7 +50,12 @@ double ThermalPlant::next_drive() {
     return std::clamp(integral_ + p_.proportional_per_degc * error, 0.0, 1.0);
 }
 
-void ThermalPlant::step(DegC ambient) {
+double ThermalPlant::loss_w(DegC ambient) const noexcept {
+    return (heater_degc_ - ambient.value()) / p_.heater_ambient_k_per_w +
+           (body_degc_ - ambient.value()) / p_.body_ambient_k_per_w;
+}
+
+void ThermalPlant::step(DegC ambient, double heat_w) {
     constexpr double dt = kStepSeconds;
     const double delayed_degc = std::exchange(delay_line_degc_[oldest_], thermocouple_degc_);
     oldest_ = (oldest_ + 1) % delay_line_degc_.size();
@@ -62,7 +67,7 @@ void ThermalPlant::step(DegC ambient) {
     const double heater_w =
         p_.heater_power_w * drive_ - to_body_w - (heater_degc_ - a) / p_.heater_ambient_k_per_w;
     const double body_w =
-        to_body_w - (body_degc_ - a) / p_.body_ambient_k_per_w + p_.self_heating_w;
+        to_body_w - (body_degc_ - a) / p_.body_ambient_k_per_w + p_.self_heating_w + heat_w;
     thermocouple_degc_ += dt * (heater_degc_ - thermocouple_degc_) / p_.thermocouple_tau_s;
     heater_degc_ += dt * heater_w / p_.heater_capacity_j_per_k;
     body_degc_ += dt * body_w / p_.body_capacity_j_per_k;

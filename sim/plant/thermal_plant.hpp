@@ -46,8 +46,13 @@ public:
     /// resolution: in exact equilibrium the controller would see no error and never begin to cycle.
     ThermalPlant(const OvenParameters& parameters, DegC ambient);
 
-    /// Advances by one step; `ambient` is the air around the oven.
-    void step(DegC ambient);
+    /// Advances by one step.
+    /// @param ambient  air around the oven.
+    /// @param heat_w   heat from what is inside, added to that of the sensor.
+    void step(DegC ambient, double heat_w = 0.0);
+
+    /// Returns the heat that heater and body lose to this air, W.
+    [[nodiscard]] double loss_w(DegC ambient) const noexcept;
 
     [[nodiscard]] DegC body() const noexcept { return DegC(body_degc_); }
     [[nodiscard]] DegC heater() const noexcept { return DegC(heater_degc_); }

@@ -159,6 +159,17 @@ struct LineParameters {
     bool is_paced = false;           ///< Bytes are delayed by their time on the wire (baud rate).
 };
 
+/// An oven around the oven, and what its temperature does to the reading:
+///
+///     err = slope (lag(Th, tau) - set point)
+///
+/// Th is the temperature of its wall, which its heater warms; lag is first order (plant::Lag).
+struct OuterOvenParameters {
+    plant::OvenParameters oven;
+    double reading_mgal_per_degc = 0.0;
+    double reading_tau_s = 0.0;
+};
+
 struct Scenario {
     std::string name;
     std::vector<text::Site> sites;
@@ -169,6 +180,7 @@ struct Scenario {
     ScheduleParameters schedule;
     CoolBoxParameters cool_box;
     plant::OvenParameters oven;
+    std::optional<OuterOvenParameters> outer_oven;
     plant::TemperatureErrorParameters error;
     double unit_scatter = 0.0;  ///< `error` is drawn per unit within +- this share.
     SensorParameters sensor;
@@ -192,7 +204,7 @@ struct Scenario {
 /// Returns a compiled-in scenario by name, or reads a TOML file.
 /// @throws InputError  neither exists, or the file is not a scenario: it has an unknown key or,
 ///                     without `base`, lacks a key.  Only [clock], [line] and their keys may always
-///                     be missing; they default to no effect.
+///                     be missing, and [outer_oven] as a whole; they default to no effect.
 [[nodiscard]] Scenario load_scenario(const std::string& name_or_file);
 
 /// Reads a scenario from text, as load_scenario() does.  Messages use `origin` as the file name.

@@ -131,6 +131,13 @@ void read_oven(Section& s, plant::OvenParameters& p) {
                    body_w_per_k + 1.0 / p.body_ambient_k_per_w);
 }
 
+/// Reads [outer_oven]; if it is new, it must have all keys.
+void read_outer_oven(Section& s, OuterOvenParameters& p) {
+    read_oven(s, p.oven);
+    s.number("reading_mgal_per_degc", p.reading_mgal_per_degc, -1e4, 1e4);
+    s.number("reading_tau_s", p.reading_tau_s, 1.0, 1e6);
+}
+
 void read_error(Section& s, plant::TemperatureErrorParameters& p, double& unit_scatter) {
     s.number("reference_degc", p.reference_degc, 0.0, 80.0);
     s.number("crystal_static_mgal_per_degc", p.crystal_static_mgal_per_degc, -1e5, 1e5);
@@ -274,6 +281,12 @@ Scenario parse_scenario(std::string_view toml, const std::filesystem::path& orig
     }
     read("cool_box", read_cool_box, scenario.cool_box);
     read("oven", read_oven, scenario.oven);
+    Section outer(document, "outer_oven", scenario.outer_oven.has_value());
+    if (document.has("outer_oven")) {
+        if (!scenario.outer_oven) scenario.outer_oven.emplace();
+        read_outer_oven(outer, *scenario.outer_oven);
+        outer.done();
+    }
     read("temperature_error", read_error, scenario.error, scenario.unit_scatter);
     read("sensor", read_sensor, scenario.sensor, scenario.oven.run_in_h);
     read("clock", read_clock, scenario.clock);

@@ -64,6 +64,8 @@ public:
     /// Returns the plant that makes the temperature; it is up to two seconds ahead of the samples.
     /// A setting made there changes the samples from then on; reading it changes nothing.
     [[nodiscard]] plant::OvenPlant& oven() noexcept { return slow_.oven(); }
+    /// Returns that of the outer oven; null if the scenario has none.
+    [[nodiscard]] plant::OvenPlant* outer_oven() noexcept { return slow_.outer_oven(); }
 
     [[nodiscard]] const std::vector<scenario::PlannedSetUp>& plan() const noexcept { return plan_; }
 

@@ -13,11 +13,8 @@ namespace {
 /// record.
 constexpr double kWhiteMeanSeconds = 20.0;
 
-plant::ThermalPlant running_plant(const plant::OvenParameters& oven, DegC ambient) {
-    plant::ThermalPlant plant(oven, ambient);
-    const auto steps = std::llround(3600.0 * oven.run_in_h / plant::ThermalPlant::kStepSeconds);
-    for (long long i = 0; i < steps; ++i) plant.step(ambient);
-    return plant;
+std::optional<plant::OvenParameters> outer_oven_of(const scenario::Scenario& scenario) {
+    return scenario.outer_oven ? std::optional(scenario.outer_oven->oven) : std::nullopt;
 }
 
 std::array<plant::Lag, 3> equal_links(double tau_s, DegC body) {
@@ -33,8 +30,8 @@ SlowSignal::SlowSignal(const scenario::Scenario& scenario,
       plan_(plan),
       cool_box_(scenario, plan, seed),
       ambient_(cool_box_.next()),
-      plant_(running_plant(scenario.oven, ambient_)),
-      error_(scenario::drawn_unit(scenario, seed), plant_.body(), kStepSeconds),
+      ovens_(scenario.oven, outer_oven_of(scenario), ambient_),
+      error_(scenario::drawn_unit(scenario, seed), ovens_.inner().body(), kStepSeconds),
       flicker_(noise::RandomStream(seed, "flicker"), scenario.slow_noise.flicker_mgal,
                scenario.slow_noise.flicker_shortest_s, scenario.slow_noise.flicker_longest_s,
                kStepSeconds),
@@ -45,11 +42,23 @@ SlowSignal::SlowSignal(const scenario::Scenario& scenario,
       walk_(seed, "random walk"),
       wander_(seed, "ripple wander"),
       temperature_(seed, "slow temperature"),
-      links_(equal_links(scenario.slow_noise.drift_link_tau_s, plant_.body())),
-      body_degc_(plant_.body().value()) {}
+      links_(equal_links(scenario.slow_noise.drift_link_tau_s, ovens_.inner().body())),
+      body_degc_(ovens_.inner().body().value()) {
+    if (const plant::ThermalPlant* outer = ovens_.outer()) {
+        wall_degc_ = outer->heater().value();
+        wall_.emplace(scenario.outer_oven->reading_tau_s, kStepSeconds, wall_degc_);
+    }
+}
+
+double SlowSignal::outer_oven_mgal() {
+    if (!wall_) return 0.0;
+    const double from_degc = std::exchange(wall_degc_, ovens_.outer()->heater().value());
+    const scenario::OuterOvenParameters& p = *scenario_.outer_oven;
+    return p.reading_mgal_per_degc * (wall_->next(from_degc, wall_degc_) - p.oven.set_point_degc);
+}
 
 double SlowSignal::links_rate_mgal_per_h() {
-    double before_degc = body_degc_, degc = body_degc_ = plant_.body().value();
+    double before_degc = body_degc_, degc = body_degc_ = ovens_.inner().body().value();
     for (plant::Lag& link : links_) {
         const double from_degc = std::exchange(before_degc, link.degc());
         degc = link.next(from_degc, degc);
@@ -83,7 +92,7 @@ SlowValue SlowSignal::next() {
     const double since_power_on_s = elapsed_s + 3600.0 * scenario_.sensor.power_on_before_start_h;
     if (step_ > 0) {
         ambient_ = cool_box_.next();
-        plant_.step(ambient_);
+        ovens_.step(ambient_);
     }
     ++step_;
 
@@ -96,7 +105,7 @@ SlowValue SlowSignal::next() {
     const text::Site& site = set_up.site;
     const MilliGal tide = earth_tide(site.latitude, site.longitude, site.altitude, now,
                                      scenario_.tide.gravimetric_factor);
-    const MilliGal temperature_error = error_.next(plant_.body(), since_power_on_s);
+    const MilliGal temperature_error = error_.next(ovens_.inner().body(), since_power_on_s);
     const double white_gain = std::sqrt(kWhiteMeanSeconds / kStepSeconds);
     term(Term::tide) = tide.value();
     term(Term::bias) = scenario_.sensor.bias_mgal;
@@ -110,17 +119,19 @@ SlowValue SlowSignal::next() {
     term(Term::white) = scenario_.slow_noise.white_mgal * white_gain * white_.normal();
     term(Term::drift) = drift_mgal(elapsed_s / 3600.0) + set_up.step_mgal;
     term(Term::ripple) = ripple_mgal();
+    term(Term::outer_oven) = outer_oven_mgal();
     term(Term::scale) = (scenario_.sensor.scale - 1.0) *
                         (site.gravity->value() + tide.value() - kMilliGalPerStandardGravity);
     value.along_z = MilliGal(scenario_.sensor.bias_mgal) + temperature_error +
                     MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +
-                             term(Term::white) + term(Term::drift));
+                             term(Term::white) + term(Term::drift) + term(Term::outer_oven));
     value.vertical = *site.gravity + tide + MilliGal(scenario_.sensor.bias_mgal) +
                      temperature_error +
                      MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +
-                              term(Term::white) + term(Term::drift) + term(Term::ripple) + term(Term::scale));
+                              term(Term::white) + term(Term::drift) + term(Term::ripple) +
+                              term(Term::scale) + term(Term::outer_oven));
     value.temperature =
-        plant_.body() +
+        ovens_.inner().body() +
         DegC(scenario_.sensor.temperature_warm_up_degc *
              std::exp(-since_power_on_s / (3600.0 * scenario_.sensor.temperature_warm_up_tau_h)));
     if (scenario_.slow_noise.temperature_degc > 0.0) {

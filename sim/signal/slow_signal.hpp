@@ -2,13 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "protocol/core/units.hpp"
 #include "sim/noise/noise.hpp"
 #include "sim/plant/lag.hpp"
+#include "sim/plant/ovens.hpp"
 #include "sim/plant/temperature_error.hpp"
-#include "sim/plant/thermal_plant.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/cool_box.hpp"
@@ -29,9 +30,10 @@ enum class Term : std::size_t {
     white,
     drift,
     ripple,
-    scale
+    scale,
+    outer_oven
 };
-inline constexpr std::size_t kTermCount = 13;
+inline constexpr std::size_t kTermCount = 14;
 
 /// The slow signals at one instant.
 struct SlowValue {
@@ -55,18 +57,21 @@ public:
     [[nodiscard]] SlowValue next();
 
     /// Returns the plant; a setting made there changes the values from the next one on.
-    [[nodiscard]] plant::OvenPlant& oven() noexcept { return plant_; }
+    [[nodiscard]] plant::OvenPlant& oven() noexcept { return ovens_.inner(); }
+    /// Returns that of the outer oven; null if there is none.
+    [[nodiscard]] plant::OvenPlant* outer_oven() noexcept { return ovens_.outer(); }
 
 private:
     [[nodiscard]] double drift_mgal(double elapsed_h);
     [[nodiscard]] double links_rate_mgal_per_h();
     [[nodiscard]] double ripple_mgal();
+    [[nodiscard]] double outer_oven_mgal();
 
     const scenario::Scenario& scenario_;
     const std::vector<scenario::PlannedSetUp>& plan_;
     CoolBox cool_box_;
     DegC ambient_;
-    plant::ThermalPlant plant_;
+    plant::Ovens ovens_;
     plant::TemperatureError error_;
     noise::FlickerNoise flicker_;
     noise::ResonantNoise resonant_;
@@ -76,6 +81,8 @@ private:
     double walk_mgal_ = 0.0;
     std::array<plant::Lag, 3> links_;  ///< One behind the other, the first behind the body.
     double body_degc_;                 ///< Body at the last step.
+    double wall_degc_ = 0.0;           ///< Wall of the outer oven at the last step.
+    std::optional<plant::Lag> wall_;   ///< Behind this wall.
     double links_mgal_ = 0.0;          ///< Drift by the temperature behind the links.
     double wander_value_ = 0.0;
     double ripple_phase_rad_ = 0.0;

@@ -3,20 +3,24 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "protocol/archive/archive_writer.hpp"
 #include "protocol/archive/archiver.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/events/event_log.hpp"
 #include "protocol/journal/journal_writer.hpp"
+#include "protocol/oven/registers.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/wire/commands.hpp"
 #include "sim/device/device_stream.hpp"
 #include "sim/line/transport.hpp"
 #include "sim/noise/random.hpp"
+#include "sim/oven/oven_controller.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/set_up_truth.hpp"
 #include "sim/signal/signal_source.hpp"
@@ -109,9 +113,19 @@ void write_station_xml(const scenario::Scenario& scenario, const wire::DevicePro
     station.filter = header.filter;
     station.group_delay = profile.group_delay(*profile.filter_named(kFilterName));
     station.declared_rate_hz = header.declared_rate_hz;
+    station.has_oven = station.has_outer_oven = scenario.outer_oven.has_value();
     station.start = header.clock.realtime - station.group_delay;  // The daemon does the same.
     fs::create_directories(root / "metadata");
     scenario::write_text_file(root / "metadata" / "station.xml", station::to_station_xml(station));
+}
+
+/// One answered poll of an oven's controller, which shows tenths of a degree.
+journal::OvenChunk poll_of(const oven::Controller& controller, journal::OvenPlace place,
+                           RawTime time) {
+    const auto answer =
+        controller.read(a351::oven::kFirstMonitor.two_byte, a351::oven::kMonitorCount);
+    return {time, journal::OvenOutcome::answered, 1, std::get<std::vector<std::uint16_t>>(answer),
+            place};
 }
 
 /// Returns the events of every occupation: start, further set-ups and stop.
@@ -270,10 +284,18 @@ DirectSurvey write_day(const scenario::Scenario& scenario, const wire::DevicePro
         archiver.take(chunk);
     };
 
+    // A day with a single oven has the sensor only, as the published one.
+    std::optional<std::pair<oven::Controller, oven::Controller>> controllers;
+    if (source.outer_oven() != nullptr)
+        controllers.emplace(oven::Controller(source.oven()),
+                            oven::Controller(*source.outer_oven()));
     for (UtcTime now = scenario.start() + 1s; stream.next_due(); now += 1s) {
         take(clock_at(scenario, now - 1s), now - 1s);
         stream.advance_to({now, device::RegisterMachine::kPowerOnTime}, collected);
         if (!collected.is_empty()) take(collected.take(), now);
+        if (!controllers) continue;
+        take(poll_of(controllers->first, journal::OvenPlace::inner, raw_at(scenario, now)), now);
+        take(poll_of(controllers->second, journal::OvenPlace::outer, raw_at(scenario, now)), now);
     }
     archiver.close_records();
     journal.sync();

@@ -38,7 +38,8 @@ def is_head(payload):
         head = json.loads(payload.decode())
         return (all(re.fullmatch(form, head[key]) for key, form in STRINGS.items()) and all(isinstance(head[key], int) for key in INTEGERS)
                 and len(head["axes"]) == 3 and all(re.fullmatch("[A-Z0-9]", axis) for axis in head["axes"])
-                and 1 <= head.get("oven_interval_s", 1) <= 3600 and 1 <= head.get("record_age_s", 60) <= 60
+                and all(1 <= head.get(key, 1) <= 3600 for key in ("oven_interval_s", "outer_oven_interval_s"))
+                and 1 <= head.get("record_age_s", 60) <= 60
                 and head["clock"].get("leap", 0) in (0, 1, 2)
                 and isinstance(head["clock"]["synchronised"], bool)
                 and all(is_instant(head["clock"][key]) for key in ("raw_ns", "boottime_ns", "realtime_ns"))
@@ -94,7 +95,7 @@ def is_oven(payload):
 
 
 VALID = {1: is_head, 2: is_rx, 3: lambda payload: len(payload) >= 8 and is_instant(*struct.unpack_from("<q", payload)), 4: is_clock,
-         5: is_model, 6: lambda payload: True, 7: is_mark, 8: is_oven}
+         5: is_model, 6: lambda payload: True, 7: is_mark, 8: is_oven, 9: is_oven}
 
 
 def chunk(data, at):

@@ -8,7 +8,8 @@ import { kMgalPerMg, kMinute_ms } from "./samples.js";
 import { time_of_day } from "./time.js";
 
 const kHour_s = 3600;
-const kNames = { x: "x", y: "y", z: "z", norm: tr("norm"), temperature: tr("sensor"), oven: tr("oven") };
+const kNames = { x: "x", y: "y", z: "z", norm: tr("norm"), temperature: tr("sensor"), oven: tr("oven"),
+    outer_oven: tr("outer oven") };
 const kLeftOut = 0.2; // Share of bins that do not affect the frame: cars pass a tenth of the time.
 const kLabel_px = 18; // With 110 px and steps of 1, 2 or 5 each axis then has two labels or more.
 const kRoom = 0.6; // Space added to the frame on either side, relative to its height.
@@ -128,7 +129,7 @@ export class Charts {
     }
 
     names(group) {
-        return group === "signal" ? ["x", "y", "z", "norm"] : ["temperature", "oven"];
+        return group === "signal" ? ["x", "y", "z", "norm"] : ["temperature", "oven", ...(by_id("figure-outer_oven").hidden ? [] : ["outer_oven"])];
     }
 
     clear(name) {
@@ -186,7 +187,7 @@ export class Charts {
             }
             if (span_s !== this.spans_s[group]) return;
             if (history.points.length === 0) set_text(`caption-${name}`, tr("{}: no data in this span", kNames[name]));
-            else if (name === "oven") this.draw_oven(history, from_ms, now_ms);
+            else if (name.endsWith("oven")) this.draw_oven(name, history, from_ms, now_ms);
             else this.draw_envelope(name, history, from_ms, now_ms);
         }
     }
@@ -212,11 +213,11 @@ export class Charts {
             range_text(low_mgal, high_mgal)) + (is_cut ? tr(", peaks cut") : ""));
     }
 
-    draw_oven(history, from_ms, to_ms) {
+    draw_oven(name, history, from_ms, to_ms) {
         const rows = oven_rows(history.points, 1000 * history.interval_s);
-        this.update("oven", ["UTC", "oven", "set point"], false, rows, from_ms, to_ms);
+        this.update(name, ["UTC", "oven", "set point"], false, rows, from_ms, to_ms);
         const [, value, set_point] = history.points.at(-1);
-        set_text("caption-oven", tr("oven: {} °C (blue), set point {} °C (brown, dashed)", number(value, 1), number(set_point, 1)));
+        set_text(`caption-${name}`, tr("{}: {} °C (blue), set point {} °C (brown, dashed)", kNames[name], number(value, 1), number(set_point, 1)));
     }
 
     /** Shades the stays in a chart of hours, with their sites where there is room. */

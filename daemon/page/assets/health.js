@@ -58,6 +58,7 @@ export function show_health(status, page) {
         [tr("Errors"), trouble_counts(counters)],
         [tr("Time"), timing_text(status.timing)],
         [tr("Oven"), oven_text(status.oven)],
+        ...(status.outer_oven ? [[tr("Outer oven"), oven_text(status.outer_oven)]] : []),
         [tr("Disk"), tr("{} free, reserve {}, longest sync {} ms", volume(disk.free_bytes),
             kReserve[disk.reserve] ?? disk.reserve, disk.longest_sync_ms)],
         [tr("Page"), tr("drawn in {} ms, at most {} ms; connected for {}, connections lost: {}", number(page.redraw_ms, 1),
@@ -65,7 +66,8 @@ export function show_health(status, page) {
         [tr("Version"), tr("a351d {}, interface {}", status.version, status.api)],
     ];
     const list = by_id("health-rows");
-    if (list.childElementCount === 0) {
+    if (list.childElementCount !== rows.length) {
+        list.replaceChildren();
         for (const [name] of rows) {
             const group = document.createElement("div");
             group.append(make("dt", name), make("dd", ""));

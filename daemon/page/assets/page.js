@@ -61,6 +61,7 @@ const stream = {
         refresh_gravity();
         page.connected_s = (performance.now() - connected_at_ms) / 1000;
         show_health(status, page);
+        show("figure-outer_oven", Boolean(status.outer_oven));
         refresh();
     },
     block(block) {

@@ -229,6 +229,29 @@ TEST_CASE("each value of the oven is stored at the nearest second", "[record][sl
     CHECK(seconds_of(run.sink, "LYH") == heating);
 }
 
+TEST_CASE("the outer oven has channels and an interval of its own", "[record][slow_channels]") {
+    JournalStream stream;
+    std::get<journal::Header>(stream.chunks.front()).outer_oven_interval = 5s;
+    stream.frames(0, 500);
+    for (int n = 11; n <= 60; ++n) {
+        stream.oven(n * 1s, 425);
+        if (n % 5 == 0) {
+            stream.oven(n * 1s + 100ms, static_cast<std::uint16_t>(380 + n));
+            std::get<OvenChunk>(stream.chunks.back()).place = journal::OvenPlace::outer;
+        }
+        stream.second(n * 1s + 200ms);
+    }
+    const auto run = archived(stream.chunks);
+    Seconds process;
+    for (int n = 15; n <= 60; n += 5) process.emplace_back(kStart + n * 1s, 38'000 + 100 * n);
+    CHECK(seconds_of(run.sink, "LK4", 5s) == process);
+    CHECK(seconds_of(run.sink, "LK5", 5s).size() == process.size());
+    CHECK(seconds_of(run.sink, "LYO", 5s).size() == process.size());
+    const auto inner = seconds_of(run.sink, "LK2");
+    REQUIRE(inner.size() == 50);
+    for (const auto& [second, counts] : inner) REQUIRE(counts == 42'500);
+}
+
 TEST_CASE("the oven is archived while the sensor is silent", "[record][slow_channels]") {
     JournalStream stream;
     stream.frames(0, 500);

@@ -99,6 +99,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
         "output_rate_hz=100\nfilter=\"k512_fc16\"\nserial_number=\"00000042\"\naxes=\"Z,1,2\"\n"
         "[oven]\nenabled=true\nport=\"o\"\nbaud=19200\nparity=\"N\"\nunit=7\npoll_s=2.5\ndecimals="
         "2\n"
+        "[oven.outer]\nenabled=true\nport=\"w\"\nunit=2\npoll_s=10\n"
         "[storage]\nroot=\"/var/lib/a351\"\ndeclared_rate_hz=100.0005\njournal_keep_days=0\n"
         "record_age_s=2\n"
         "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\nassets=\"."
@@ -115,6 +116,16 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
     CHECK(config.oven->line.unit == 7);
     CHECK(config.oven->poll_interval == std::chrono::milliseconds(2500));
     CHECK(config.oven->decimals == 2);
+    CHECK(config.oven->place == journal::OvenPlace::inner);
+    REQUIRE(config.outer_oven);
+    CHECK(config.outer_oven->place == journal::OvenPlace::outer);
+    CHECK(config.outer_oven->line.port == directory.path() / "w");
+    CHECK(config.outer_oven->line.baud == 9600);
+    CHECK(config.outer_oven->line.unit == 2);
+    CHECK(config.station.has_outer_oven);
+    const journal::Header header = journal_header(config, source::HostClock(std::nullopt));
+    CHECK(header.oven_interval == std::chrono::seconds(3));
+    CHECK(header.outer_oven_interval == std::chrono::seconds(10));
     CHECK(config.storage.declared_rate_hz == 100.0005);
     CHECK(config.storage.root == "/var/lib/a351");
     CHECK(config.storage.record_age == std::chrono::seconds(2));
@@ -179,6 +190,11 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
     for (const std::string box : {"192.0.2.7:8351", "http://", "http://box/", "http://box; x"})
         CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nboxes = [\"" + box + "\"]\n"),
                    ContainsSubstring("not the address of a daemon: " + box + "; allowed: http://"));
+    const std::string both = before_oven + "enabled = true\nport = \"o\"\n[oven.outer]\n";
+    CHECK(refusal(both + "enabled = true\nport = \"o\"\n") ==
+          "a351d.toml:14: oven.outer.port = 'o': the inner oven's port; allowed: a port other than "
+          "oven.port");
+    CHECK_THAT(refusal(both + "lid = 1\n"), ContainsSubstring("oven.outer.lid = 1: unknown key"));
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nassets = \"none\"\n"),
                ContainsSubstring("page.assets = 'none': no such directory: none; allowed: "));
     CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==

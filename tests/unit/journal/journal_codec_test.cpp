@@ -93,6 +93,12 @@ TEST_CASE("a decoded header has all fields that were encoded", "[record][journal
         CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
     }
     uncommissioned.record_age = std::chrono::seconds(60);
+    CHECK(header_to_json(uncommissioned).find("oven_interval") == std::string::npos);
+    uncommissioned.outer_oven_interval = std::chrono::seconds(5);
+    CHECK(parse_header(header_to_json(uncommissioned))->outer_oven_interval ==
+          std::chrono::seconds(5));
+    CHECK(parse_header(header_to_json(uncommissioned))->oven_interval == std::chrono::seconds(1));
+    uncommissioned.outer_oven_interval = std::chrono::seconds(1);
     CHECK_FALSE(parse_header(header_to_json(uncommissioned))->declared_rate_hz);
     uncommissioned.declared_rate_hz =
         1.2 * uncommissioned.output_rate_hz;  // No record can have it.
@@ -227,7 +233,22 @@ TEST_CASE("a decoded poll of the oven has all fields that were encoded", "[recor
         CHECK(read.outcome == outcome);
         CHECK(read.decimals == 2);
         CHECK(read.registers == poll.registers);
+        CHECK(read.place == OvenPlace::inner);
     }
+}
+
+TEST_CASE("a poll of the outer oven differs from one of the inner by its type only",
+          "[record][journal]") {
+    OvenChunk poll{RawTime(Nanoseconds(5)), OvenOutcome::answered, 1, {380}};
+    const auto inner = encode_chunk(poll, 1);
+    poll.place = OvenPlace::outer;
+    const auto outer = encode_chunk(poll, 1);
+    CHECK(inner[4] == std::byte{8});
+    CHECK(outer[4] == std::byte{9});
+    CHECK(std::ranges::equal(payload_of(inner), payload_of(outer)));
+    const auto decoded = decode_payload(ChunkType::outer_oven, payload_of(outer));
+    REQUIRE(decoded);
+    CHECK(std::get<OvenChunk>(*decoded).place == OvenPlace::outer);
 }
 
 TEST_CASE("a poll of unknown outcome, or with registers that do not fit its outcome, is refused",

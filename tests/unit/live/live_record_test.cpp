@@ -271,11 +271,16 @@ TEST_CASE("nothing from before or after a set-up enters its reading", "[live]") 
 TEST_CASE("oven values are kept for a day, at most one every 2 s", "[live]") {
     Record record(kProfile, 50, {});
     for (int i = 0; i < 100; ++i) record.take(OvenPoint{after(i), DegC(42.0 + i), DegC(42.5)});
-    CHECK(record.oven_history(kZero, after(1000.0), 1000).size() == 50);
-    const auto few = record.oven_history(kZero, after(1000.0), 7);
+    CHECK(record.oven_history(journal::OvenPlace::inner, kZero, after(1000.0), 1000).size() == 50);
+    const auto few = record.oven_history(journal::OvenPlace::inner, kZero, after(1000.0), 7);
     REQUIRE(few.size() == 7);
     CHECK(few[0].process_value == DegC(42.0));
     CHECK(few[1].time == after(16.0));
+    record.take(OvenPoint{after(3.0), DegC(38.0), DegC(38.5), journal::OvenPlace::outer});
+    const auto outer = record.oven_history(journal::OvenPlace::outer, kZero, after(1000.0), 1000);
+    REQUIRE(outer.size() == 1);
+    CHECK(outer[0].process_value == DegC(38.0));
+    CHECK(record.oven_history(journal::OvenPlace::inner, kZero, after(1000.0), 1000).size() == 50);
     journal::OvenChunk lost;
     lost.outcome = journal::OvenOutcome::timed_out;
     CHECK_FALSE(oven_point(lost, kZero));

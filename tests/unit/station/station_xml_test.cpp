@@ -64,6 +64,22 @@ TEST_CASE("an oven adds its channels to the metadata", "[record][station_xml]") 
     CHECK(metadata.channels[7].unit == "%");
 }
 
+TEST_CASE("an outer oven adds its channels behind those of the inner one",
+          "[record][station_xml]") {
+    auto station = description();
+    station.has_oven = station.has_outer_oven = true;
+    station.outer_oven_interval = std::chrono::seconds(10);
+    const auto text = to_station_xml(station);
+    const auto metadata = File(text).read();
+    REQUIRE(metadata.channels.size() == 13);
+    CHECK(metadata.channels[8].code == "LK4");
+    CHECK(metadata.channels[8].gain == 0.001);
+    CHECK(metadata.channels[9].code == "LK5");
+    CHECK(metadata.channels[10].code == "LYO");
+    CHECK(metadata.channels[10].unit == "%");
+    CHECK_THAT(text, ContainsSubstring("<SampleRate>0.1<"));
+}
+
 TEST_CASE("the channels of the oven have the rate of their samples", "[record][station_xml]") {
     auto station = description();
     station.has_oven = true;

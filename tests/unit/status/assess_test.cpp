@@ -172,6 +172,13 @@ TEST_CASE("an oven that is not enabled is no trouble, an oven that does not answ
                                "affected)"});
 }
 
+TEST_CASE("the reasons of an outer oven name it", "[daemon][assess]") {
+    Status status = healthy();
+    status.outer_oven = OvenLinkStatus{};
+    assess(status);
+    CHECK(status.reasons == std::vector<text::Message>{"outer oven: searching: not asked yet"});
+}
+
 TEST_CASE("the polls of the oven are counted by their outcome", "[daemon][assess]") {
     OvenLinkStatus link;
     for (std::size_t i = 0; i < link.polls.size(); ++i) link.polls.at(i) = 10 + i;

@@ -8,6 +8,7 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
+#include "sim/plant/ovens.hpp"
 #include "sim/plant/temperature_error.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "sim/signal/signal_source.hpp"
@@ -109,6 +110,58 @@ TEST_CASE("a coarse resolution makes a limit cycle with the published period and
         CHECK(cycle.swing_degc > 0.010);
         CHECK(cycle.swing_degc < 0.025);
     }
+}
+
+TEST_CASE("without an outer oven the pair is the single plant", "[sim][thermal_plant]") {
+    OvenParameters oven = load_scenario("tsukuba").oven;
+    oven.run_in_h = 0.0;
+    ThermalPlant plant(oven, DegC(26.0));
+    Ovens ovens(oven, std::nullopt, DegC(26.0));
+    CHECK(ovens.outer() == nullptr);
+    for (int i = 0; i < 3600; ++i) {
+        plant.step(DegC(26.0));
+        ovens.step(DegC(26.0));
+        REQUIRE(ovens.inner().body() == plant.body());
+    }
+}
+
+TEST_CASE("an outer oven has its own cycle, shields the inner one, and is warmed by it",
+          "[sim][thermal_plant]") {
+    const Scenario scenario = load_scenario("double-oven");
+    const OvenParameters outer = scenario.outer_oven->oven;
+    std::vector<double> bodies_degc;
+    for (const double ambient_degc : {24.0, 34.0}) {
+        Ovens ovens(scenario.oven, outer, DegC(ambient_degc));
+        std::vector<double> wall_degc, body_degc;
+        for (int i = 0; i < 8 * 3600; ++i) {
+            ovens.step(DegC(ambient_degc));
+            wall_degc.push_back(ovens.outer()->heater().value());
+            body_degc.push_back(ovens.inner().body().value());
+        }
+        CAPTURE(ambient_degc);
+        CHECK(mean(wall_degc) == Approx(outer.set_point_degc).margin(0.4));
+        const Cycle cycle = cycle_of(wall_degc);
+        CHECK(cycle.period_s > 500.0);
+        CHECK(cycle.period_s < 1500.0);
+        CHECK(cycle.swing_degc > 0.5);
+        CHECK(cycle.swing_degc < 1.5);
+        bodies_degc.push_back(mean(body_degc));
+    }
+    // A single oven's body rises by 5/83 of the ambient's 10 degC; behind the outer one by a tenth.
+    CHECK(bodies_degc[1] - bodies_degc[0] > 0.0);
+    CHECK(bodies_degc[1] - bodies_degc[0] < 0.1 * 10.0 * 5.0 / 83.0);
+
+    // The heat of the inner oven, 0.46 W, warms what is around it.
+    ThermalPlant alone(outer, DegC(24.0));
+    Ovens ovens(scenario.oven, outer, DegC(24.0));
+    std::vector<double> empty_degc, full_degc;
+    for (int i = 0; i < 8 * 3600; ++i) {
+        alone.step(DegC(24.0));
+        ovens.step(DegC(24.0));
+        empty_degc.push_back(alone.body().value());
+        full_degc.push_back(ovens.outer()->body().value());
+    }
+    CHECK(mean(full_degc) - mean(empty_degc) > 0.2);
 }
 
 TEST_CASE("an on/off controller cycles faster and with a larger swing", "[sim][thermal_plant]") {

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <set>
@@ -207,6 +208,37 @@ TEST_CASE("further set-ups are in the event log and in the tables", "[sim][direc
     }
     CHECK(text::read_csv(directory.path() / "schedule.csv").row_count() == 2);
     CHECK(text::read_csv(directory.path() / "truth.csv").row_count() == 2);
+}
+
+TEST_CASE("a day with two ovens has the channels of both, and a term of its truth",
+          "[sim][direct_survey]") {
+    const Root root;
+    const std::string outer =
+        "[outer_oven]\nheater_capacity_j_per_k = 1500\nbody_capacity_j_per_k = 400\n"
+        "heater_body_k_per_w = 1\nheater_ambient_k_per_w = 3\nbody_ambient_k_per_w = 20\n"
+        "self_heating_w = 0\nheater_power_w = 15\nthermocouple_tau_s = 120\ndead_time_s = 60\n"
+        "set_point_degc = 38\nresolution_degc = 0.1\nproportional_per_degc = 0\n"
+        "integral_per_degc_s = 0\ncontroller = \"onoff\"\nrun_in_h = 2\n"
+        "reading_mgal_per_degc = 10\nreading_tau_s = 600\n";
+    const Scenario day = brief_day("two-ovens", "2017-07-16", outer);
+    write_survey(day, *wire::find_profile("A351"), 1, root.path());
+    const auto metadata = station::read_station_xml(root.path() / "metadata" / "station.xml");
+    for (const char* code : {"LK2", "LK3", "LYH", "LK4", "LK5", "LYO"}) {
+        CAPTURE(code);
+        CHECK(std::ranges::count(metadata.channels, code, &station::ChannelScale::code) == 1);
+        const auto data = archive::read_channel(root.path() / "archive", metadata.codes, code,
+                                                day.start(), day.end());
+        std::size_t samples = 0;
+        for (const auto& segment : data.segments) {
+            samples += segment.counts.size();
+            for (const std::int32_t counts : segment.counts) {
+                if (code == std::string("LK2")) REQUIRE(std::abs(counts - 42'500) <= 200);
+                if (code == std::string("LK4")) REQUIRE(std::abs(counts - 38'000) <= 1'500);
+            }
+        }
+        CHECK(static_cast<double>(samples) > seconds_between(day.start(), day.end()) - 5.0);
+    }
+    CHECK(text::read_csv(root.path() / "truth.csv").has_column("outer_oven_mgal"));
 }
 
 TEST_CASE("a record at one point has an archive, one site and no survey", "[sim][direct_survey]") {
