@@ -34,6 +34,13 @@ void add_profile(CLI::App& command, std::string& profile, const std::string& res
         ->capture_default_str();
 }
 
+void add_serial(CLI::App& command, std::string& serial, const std::string& restriction) {
+    command.add_option("--serial", serial, "Serial number" + restriction)
+        ->type_name("ID")
+        ->check(eight_characters())
+        ->capture_default_str();
+}
+
 void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restriction) {
     add_profile(command, unit.profile, restriction);
     command
@@ -41,10 +48,7 @@ void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restricti
                     "Product identifier; default: that of the profile" + restriction)
         ->type_name("ID")
         ->check(eight_characters());
-    command.add_option("--serial", unit.serial, "Serial number" + restriction)
-        ->type_name("ID")
-        ->check(eight_characters())
-        ->capture_default_str();
+    add_serial(command, unit.serial, restriction);
 }
 
 const wire::DeviceProfile& profile_of(const std::string& name) { return *wire::find_profile(name); }

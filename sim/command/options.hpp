@@ -30,6 +30,8 @@ struct UnitOptions {
 /// Adds --profile.
 /// @param restriction  ends the description: the inputs to which the option applies.
 void add_profile(CLI::App& command, std::string& profile, const std::string& restriction = {});
+/// Adds --serial.
+void add_serial(CLI::App& command, std::string& serial, const std::string& restriction = {});
 /// Adds --profile, --product and --serial.
 void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restriction = {});
 

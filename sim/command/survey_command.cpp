@@ -10,7 +10,7 @@ namespace {
 
 struct SurveyCommand {
     DayOptions day;
-    std::string profile = "A351";
+    UnitOptions unit;
     std::string out;
 };
 
@@ -21,15 +21,16 @@ void add_survey_command(CLI::App& app) {
     CLI::App* survey =
         app.add_subcommand("survey", "Writes a simulated day directly to a data root.");
     add_day(*survey, command->day);
-    add_profile(*survey, command->profile);
+    add_profile(*survey, command->unit.profile);
+    add_serial(*survey, command->unit.serial);
     survey
         ->add_option("--out", command->out, "Data root to write: new, or without any file of a day")
         ->type_name("DIR")
         ->required();
     survey->callback([command] {
-        const auto written =
-            survey::write_survey(scenario::load_scenario(command->day.scenario),
-                                 profile_of(command->profile), command->day.seed, command->out);
+        const auto written = survey::write_survey(
+            scenario::load_scenario(command->day.scenario), profile_of(command->unit.profile),
+            command->day.seed, command->out, command->unit.serial);
         std::cerr << written.frames << " frames, " << written.records << " records\n";
     });
 }

@@ -3,6 +3,7 @@
 /// All parameters of a simulated day, read from TOML (config/scenarios/*.toml).  The comments there
 /// say which values are published, fitted or assumed.  Named scenarios are compiled in.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -170,6 +171,13 @@ struct OuterOvenParameters {
     double reading_tau_s = 0.0;
 };
 
+/// The box in which a sensor is with others, or the sled.  Sensors of one box have its seed and
+/// different seeds of their own.
+struct BoxParameters {
+    int seed = 0;  ///< Of what they have in common: times, levelling, air, vibration, and
+    double placement_share = 0.0;  ///< this share of the placement's variance.
+};
+
 struct Scenario {
     std::string name;
     std::vector<text::Site> sites;
@@ -189,7 +197,13 @@ struct Scenario {
     SlowNoiseParameters slow_noise;
     VibrationParameters vibration;
     LineParameters line;
+    std::optional<BoxParameters> box;  ///< Absent: the sensor is alone.
 
+    /// Returns the seed of what the sensors of a box have in common.
+    /// @param seed  of the sensor, which a sensor alone has for all.
+    [[nodiscard]] std::uint64_t box_seed(std::uint64_t seed) const {
+        return box ? static_cast<std::uint64_t>(box->seed) : seed;
+    }
     /// Return the limits of the record; the sample grid starts at start().
     [[nodiscard]] UtcTime start() const;
     [[nodiscard]] UtcTime end() const;

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -241,6 +242,11 @@ void read_line(Section& s, LineParameters& p) {
     s.boolean("is_paced", p.is_paced);
 }
 
+void read_box(Section& s, BoxParameters& p) {
+    s.integer("seed", p.seed, 0, std::numeric_limits<int>::max());
+    s.number("placement_share", p.placement_share, 0.0, 1.0);
+}
+
 const EmbeddedScenario* find_embedded(std::string_view name) {
     const auto all = embedded_scenarios();
     const auto found = std::ranges::find(all, name, &EmbeddedScenario::name);
@@ -265,7 +271,9 @@ Scenario parse_scenario(std::string_view toml, const std::filesystem::path& orig
     }
     scenario.name = required_name(document);
     const auto read = [&](std::string_view name, auto reader, auto&... values) {
-        Section section(document, name, !base.empty() || name == "clock" || name == "line");
+        const bool may_lack = name == "box" ? scenario.box.has_value()
+                                            : !base.empty() || name == "clock" || name == "line";
+        Section section(document, name, may_lack);
         reader(section, values...);
         section.done();
     };
@@ -294,6 +302,11 @@ Scenario parse_scenario(std::string_view toml, const std::filesystem::path& orig
     read("slow_noise", read_slow_noise, scenario.slow_noise);
     read("vibration", read_vibration, scenario.vibration);
     read("line", read_line, scenario.line);
+    if (document.has("box")) {
+        BoxParameters box = scenario.box.value_or(BoxParameters{});
+        read("box", read_box, box);
+        scenario.box = box;
+    }
     read_places(document, scenario);
     document.require_all_read();
     return scenario;

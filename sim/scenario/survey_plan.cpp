@@ -37,7 +37,7 @@ struct Interval {
 
 /// Draws the times of each occupation, and from when on its site's gravity acts.
 std::vector<Interval> draw_intervals(const Scenario& scenario, std::uint64_t seed) {
-    noise::RandomStream stream(seed, "schedule");
+    noise::RandomStream stream(scenario.box_seed(seed), "schedule");
     const ScheduleParameters& p = scenario.schedule;
     std::vector<Interval> intervals;
     for (const ListedOccupation& listed : scenario.occupations) {
@@ -82,22 +82,28 @@ public:
     SetUpDraws(const Scenario& scenario, std::uint64_t seed)
         : sigma_rad_(scenario.sensor.levelling_sigma_deg * kRadPerDeg),
           noise_(scenario.slow_noise),
-          levelling_(seed, "levelling"),
+          levelling_(scenario.box_seed(seed), "levelling"),
           placement_(seed, "placement"),
-          gross_(seed, "gross") {}
+          box_placement_(scenario.box_seed(seed), "placement of the box"),
+          gross_(seed, "gross") {
+        if (scenario.box) box_share_ = scenario.box->placement_share;
+    }
 
     void draw(PlannedSetUp& set_up) {
         set_up.about_y_rad = sigma_rad_ * levelling_.normal();
         set_up.about_x_rad = sigma_rad_ * levelling_.normal();
-        set_up.placement_mgal = noise_.placement_mgal * placement_.normal();
+        set_up.placement_mgal =
+            noise_.placement_mgal * (std::sqrt(1.0 - box_share_) * placement_.normal() +
+                                     std::sqrt(box_share_) * box_placement_.normal());
         if (gross_.uniform() < noise_.placement_gross_share)
             set_up.placement_mgal *= noise_.placement_gross_factor;
     }
 
 private:
     double sigma_rad_;
+    double box_share_ = 0.0;  ///< Of the placement's variance.
     const SlowNoiseParameters& noise_;
-    noise::RandomStream levelling_, placement_, gross_;
+    noise::RandomStream levelling_, placement_, box_placement_, gross_;
 };
 
 }  // namespace

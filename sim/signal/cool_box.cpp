@@ -9,7 +9,7 @@ CoolBox::CoolBox(const scenario::Scenario& scenario,
                  const std::vector<scenario::PlannedSetUp>& plan, std::uint64_t seed)
     : time_(scenario.start()),
       course_(scenario.ambient_knots()),
-      walk_(seed, "ambient"),
+      walk_(scenario.box_seed(seed), "ambient"),
       kick_degc_(scenario.cool_box.walk_degc_per_sqrt_h * std::sqrt(kStepSeconds / 3600.0)),
       open_gain_(1.0 - std::exp(-kStepSeconds / scenario.cool_box.open_tau_s)),
       closed_keep_(std::exp(-kStepSeconds / scenario.cool_box.closed_tau_s)) {

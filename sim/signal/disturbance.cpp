@@ -53,7 +53,8 @@ std::vector<Burst> draw_bursts(const scenario::Scenario& scenario,
     const double record_s = seconds_between(scenario.start(), scenario.end());
     std::vector<Burst> bursts;
 
-    noise::RandomStream vehicles(seed, "vehicles");
+    const std::uint64_t box_seed = scenario.box_seed(seed);
+    noise::RandomStream vehicles(box_seed, "vehicles");
     if (p.vehicles_per_h > 0.0) {
         const double mean_wait_s = 3600.0 / p.vehicles_per_h;
         double t = mean_wait_s * vehicles.exponential();
@@ -65,8 +66,8 @@ std::vector<Burst> draw_bursts(const scenario::Scenario& scenario,
         }
     }
 
-    noise::RandomStream handling(seed, "handling");
-    noise::RandomStream knocks(seed, "knocks");
+    noise::RandomStream handling(box_seed, "handling");
+    noise::RandomStream knocks(box_seed, "knocks");
     for (const scenario::PlannedSetUp& set_up : plan) {
         if (!set_up.is_occupied) continue;
         const double start_s = seconds_between(scenario.start(), set_up.start);

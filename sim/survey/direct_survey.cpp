@@ -259,8 +259,10 @@ void write_survey_file(const scenario::Scenario& scenario, std::uint64_t seed,
 }
 
 DirectSurvey write_day(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
-                       std::uint64_t seed, signal::Source& source, const fs::path& root) {
+                       std::uint64_t seed, signal::Source& source, const fs::path& root,
+                       const std::string& serial_number) {
     device::MachineIdentity identity;
+    identity.serial_number = serial_number;
     identity.product_id = device::product_id_of(profile);
     device::RegisterMachine machine(profile, identity, Nanoseconds(0));
     start_logging(machine, device::RegisterMachine::kPowerOnTime);
@@ -323,11 +325,13 @@ void write_plan(const scenario::Scenario& scenario, std::uint64_t seed, const fs
 }
 
 DirectSurvey write_survey(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
-                          std::uint64_t seed, const fs::path& root) {
+                          std::uint64_t seed, const fs::path& root,
+                          const std::string& serial_number) {
     require_no_day(root);
     signal::Source source(scenario, profile, seed);
     PartialRoot partial(root);
-    const DirectSurvey survey = write_day(scenario, profile, seed, source, partial.path());
+    const DirectSurvey survey =
+        write_day(scenario, profile, seed, source, partial.path(), serial_number);
     partial.publish();
     return survey;
 }

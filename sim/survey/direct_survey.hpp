@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "protocol/wire/device_profile.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -24,7 +25,8 @@ struct DirectSurvey {
 ///                            killed run; the occupations do not fit into the record.
 /// @throws std::system_error  a file cannot be written.
 DirectSurvey write_survey(const scenario::Scenario& scenario, const wire::DeviceProfile& profile,
-                          std::uint64_t seed, const std::filesystem::path& root);
+                          std::uint64_t seed, const std::filesystem::path& root,
+                          const std::string& serial_number = "00000001");
 
 /// Writes sites.csv, schedule.csv and truth.csv of a simulated day into `directory`, which is made
 /// if it does not exist.  Without occupations, schedule and truth have no rows.
