@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/gravity_so_far.hpp"
@@ -16,12 +17,14 @@
 #include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_file.hpp"
 #include "corrector/job/survey_readings.hpp"
+#include "corrector/model/joint_adjustment.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/trend_comparison.hpp"
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/result/anomalies.hpp"
 #include "corrector/result/columns.hpp"
+#include "corrector/result/joint_report.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
@@ -119,6 +122,8 @@ struct Day {
     model::SurveyCorrection result;
     std::string amendments;
     std::vector<text::NamedText> files;
+    std::optional<reading::DayRecord> record;
+    std::string serial_number;
 };
 
 /// Returns the name as one part of a path.
@@ -136,6 +141,8 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
     day.result = job::correct_survey_day(survey, read);
     if (survey.bouguer_density_kg_per_m3)
         result::add_anomalies(day.result.stations, read.sites, *survey.bouguer_density_kg_per_m3);
+    day.record = read.day;
+    day.serial_number = read.serial_number;
     day.amendments = reading::amendments_text(read.amendments.list);
     const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
     day.files = result::result_files(day.result, settings, read.inputs, read.sites);
@@ -148,6 +155,45 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
     for (const std::string& warning : read.warnings)
         std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
     return day;
+}
+
+/// Writes and prints what the corrected days have together.
+/// @param pages  of all days, also of those that are not corrected.
+void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
+                 const std::filesystem::path& out) {
+    // The order of the arguments has no effect.
+    std::ranges::sort(days, {}, [](const Day& day) {
+        return std::tuple(day.result.rows.front().row.time, day.serial_number, day.name);
+    });
+    std::vector<model::SurveyCorrection> results;
+    std::vector<model::RecordedSurvey> surveys;
+    for (const Day& day : days) {
+        results.push_back(day.result);
+        surveys.push_back(
+            {day.name, day.serial_number, &day.result, day.record ? &*day.record : nullptr});
+    }
+    const bool are_all = days.size() == pages.size();
+    std::ranges::sort(pages, {}, [&](const report::JointDay& page) {
+        const auto day = std::ranges::find(days, page.name, &Day::name);
+        return std::pair(day - days.begin(), page.name);
+    });
+    for (report::JointDay& page : pages)
+        if (const auto day = std::ranges::find(days, page.name, &Day::name); day != days.end())
+            page.result = &day->result;
+    const result::JointResult joint = model::adjust_jointly(surveys);
+    const result::JointTables tables =
+        result::joint_tables(results, std::get_if<model::JointAdjustment>(&joint));
+    text::write_together(
+        out, {{"joint.csv", result::csv_table(result::joint_columns(), tables.stations)},
+              {"joint-differences.csv",
+               result::csv_table(result::difference_columns(), tables.differences)},
+              {"joint.json", result::joint_json(joint, tables)},
+              {"joint.html", report::joint_html(pages, joint)}});
+    std::cout << (are_all ? "all days\n" : "all corrected days\n");
+    for (const std::string& sentence : result::joint_sentences(joint))
+        std::cout << sentence << '\n';
+    std::cout << result::aligned_text(result::table_of(result::joint_columns(), tables.stations))
+              << '\n';
 }
 
 void correct_days(const SurveyCommandOptions& options) {
@@ -186,33 +232,20 @@ void correct_days(const SurveyCommandOptions& options) {
         }
     }
     if (days.empty()) throw InputError(is_joint ? troubles : joint_days.front().trouble);
+    const std::size_t corrected = days.size();
 
-    std::vector<model::SurveyCorrection> results;
     for (const Day& day : days) {
         text::write_together(is_joint ? out / folder_name(day.name) : out, day.files);
         std::cout << "survey " << day.name << '\n'
                   << reading::findings_text(day.result.findings) << result::survey_text(day.result)
                   << day.amendments << model::trend_comparison_text(day.result) << '\n';
-        results.push_back(day.result);
     }
-    if (is_joint) {
-        const std::vector<result::JointStation> joint = result::join_days(results);
-        auto result = days.begin();
-        for (report::JointDay& day : joint_days)
-            if (day.trouble.empty()) day.result = &(result++)->result;
-        text::write_together(
-            out, {{"joint.csv", result::csv_table(result::joint_columns(), joint)},
-                  {"joint-differences.csv", result::csv_table(result::difference_columns(),
-                                                              result::joint_differences(results))},
-                  {"joint.html", report::joint_html(joint_days)}});
-        std::cout << (troubles.empty() ? "all days\n" : "all corrected days\n")
-                  << result::aligned_text(result::table_of(result::joint_columns(), joint)) << '\n';
-    }
+    if (is_joint) write_joint(std::move(days), std::move(joint_days), out);
     std::cout << "written to " << out.string() << '\n';
     if (!troubles.empty())
         throw std::runtime_error(
             fmt::format("{} of {} days are not corrected, the others are written: {}",
-                        surveys.size() - days.size(), surveys.size(), troubles));
+                        surveys.size() - corrected, surveys.size(), troubles));
 }
 
 }  // namespace

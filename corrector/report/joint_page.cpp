@@ -81,8 +81,8 @@ void add_links(pugi::xml_node parent, const std::vector<JointDay>& days) {
 }
 
 void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days,
-                        const std::vector<model::SurveyCorrection>& results) {
-    const std::vector<result::JointStation> stations = result::join_days(results);
+                        const std::vector<model::SurveyCorrection>& results,
+                        const std::vector<result::JointStation>& stations, bool is_adjusted) {
     result::Table table = result::table_of(result::joint_columns(), stations);
     for (const JointDay& day : days) {
         if (day.result == nullptr) continue;
@@ -100,17 +100,23 @@ void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days
                           (value->is_flagged_only ? " *" : ""));
         }
     }
-    add_table(
-        parent,
-        text::tr(
-            "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no u), "
-            "with its standard uncertainty u. The value of a day does not use the station's own "
-            "reference (left out); in sample: a day gives only a value that does. u contains what "
-            "the days share of the uncertainties of instrument and references. Differences of "
-            "stations are in joint-differences.csv. NAME - joint: the day's value minus the mean. "
-            "*: only readings that were left out of "
-            "the day's fit."),
-        table);
+    const std::string caption =
+        is_adjusted
+            ? text::tr(
+                  "Gravity from the adjustment of all surveys, with its standard uncertainty u. It "
+                  "does not use the station's own reference (left out); in sample: this reference "
+                  "alone is held. Differences of stations are in joint-differences.csv. NAME - "
+                  "joint: the day's own value minus that of the adjustment. *: only readings that "
+                  "were left out of the day's fit.")
+            : text::tr(
+                  "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no "
+                  "u), with its standard uncertainty u. The value of a day does not use the "
+                  "station's own reference (left out); in sample: a day gives only a value that "
+                  "does. u contains what the days share of the uncertainties of instrument and "
+                  "references. Differences of stations are in joint-differences.csv. NAME - joint: "
+                  "the day's value minus the mean. *: only readings that were left out of the "
+                  "day's fit.");
+    add_table(parent, caption, table);
 }
 
 /// A grade of a station over all days, with its reasons.
@@ -162,7 +168,7 @@ Advice advice_on(const std::string& site, const std::vector<JointDay>& days) {
 /// Adds the mistakes found with certainty, and the stations to trust and to repeat.
 /// @param days  those with a result.
 void add_joint_actions(pugi::xml_node parent, const std::vector<JointDay>& days,
-                       const std::vector<model::SurveyCorrection>& results) {
+                       const std::vector<result::JointStation>& stations) {
     std::vector<std::string> items;
     for (const JointDay& day : days)
         for (const reading::Finding& finding : day.result->findings)
@@ -170,7 +176,7 @@ void add_joint_actions(pugi::xml_node parent, const std::vector<JointDay>& days,
                 items.push_back(fmt::format("{}: {}", day.name, text::in_words(finding.text)));
     std::array<std::vector<std::string>, 3> sites;  // by grade
     std::array<std::vector<HtmlCells>, 3> reasons;
-    for (const result::JointStation& station : result::join_days(results)) {
+    for (const result::JointStation& station : stations) {
         const Advice advice = advice_on(station.site, days);
         const auto grade = static_cast<std::size_t>(advice.grade);
         sites.at(grade).push_back(station.site);
@@ -250,7 +256,7 @@ std::optional<DayScatter> scatter_of_days(const std::vector<model::SurveyCorrect
     return scatter;
 }
 
-std::string joint_html(const std::vector<JointDay>& days) {
+std::string joint_html(const std::vector<JointDay>& days, const result::JointResult& joint) {
     std::vector<JointDay> corrected;
     std::vector<model::SurveyCorrection> results;
     std::vector<std::string> troubles;
@@ -267,9 +273,12 @@ std::string joint_html(const std::vector<JointDay>& days) {
     if (!troubles.empty())
         add(page.body(), "p", text::tr("Not corrected, and not included below:"));
     add_list(page.body(), troubles);
-    add_joint_actions(page.add_section(text::tr("What to do")), corrected, results);
+    const auto* const adjustment = std::get_if<model::JointAdjustment>(&joint);
+    const auto joined = result::joint_tables(results, adjustment).stations;
+    add_joint_actions(page.add_section(text::tr("What to do")), corrected, joined);
     const pugi::xml_node stations = page.add_section(text::tr("Stations"));
-    add_joint_stations(stations, days, results);
+    for (const std::string& sentence : result::joint_sentences(joint)) add(stations, "p", sentence);
+    add_joint_stations(stations, days, results, joined, adjustment != nullptr);
     add(stations, "p", scatter_sentence(results));
     const pugi::xml_node section = page.add_section(text::tr("The days"));
     add_days(section, days);

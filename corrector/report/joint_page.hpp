@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// joint.html: several survey days side by side.
+/// joint.html: several surveys side by side.
 ///
 /// The page shows whether the days agree: by the difference of each day from the joint value, and
 /// by the scatter of these differences against the uncertainties.  Use it for two days or more.
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
+#include "corrector/result/joint_report.hpp"
 
 namespace a351::corrector::report {
 
@@ -54,7 +55,9 @@ struct DayScatter {
 /// Days without a result are listed first, with their reasons, and are in no mean.  The links lead
 /// to FOLDER/report.html.  All texts are escaped, and the page is well-formed XML
 /// (joint_page_test.cpp).
-/// @param days  in the order of the page.
-[[nodiscard]] std::string joint_html(const std::vector<JointDay>& days);
+/// @param days   in the order of the page.
+/// @param joint  adjustment of the days with a result, or why there is none.
+[[nodiscard]] std::string joint_html(const std::vector<JointDay>& days,
+                                     const result::JointResult& joint);
 
 }  // namespace a351::corrector::report

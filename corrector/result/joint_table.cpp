@@ -152,6 +152,26 @@ std::vector<model::StationDifference> joint_differences(
     return differences;
 }
 
+JointTables joint_tables(const std::vector<model::SurveyCorrection>& days,
+                         const model::JointAdjustment* adjustment) {
+    JointTables tables{join_days(days), {}};
+    if (adjustment == nullptr) {
+        tables.differences = joint_differences(days);
+        return tables;
+    }
+    for (JointStation& station : tables.stations) {
+        const auto found =
+            std::ranges::find(adjustment->stations, station.site, &model::JointGravity::site);
+        if (found == adjustment->stations.end()) continue;
+        station.gravity = found->gravity;
+        station.u_gravity = found->u;
+        station.is_in_sample = found->is_in_sample;
+        if (station.reference) station.residual = *station.reference - station.gravity;
+    }
+    tables.differences = adjustment->differences;
+    return tables;
+}
+
 const std::vector<Column<JointStation>>& joint_columns() {
     static const std::vector<Column<JointStation>> columns{
         {"site", of(&JointStation::site), {text::marked("Station"), 0, 'n'}},

@@ -1,18 +1,18 @@
 #pragma once
 /// @file
-/// Stations of several survey days.
+/// Stations of several surveys: of their adjustment, or if there is none means of the surveys' values.
 ///
-///     const std::vector<JointStation> joint = join_days(days);
-///     const std::string csv = csv_table(joint_columns(), joint);
-///     joint_differences(days);   // of all pairs, each with its uncertainty
+///     const JointTables tables = joint_tables(days, adjustment);
+///     const std::string csv = csv_table(joint_columns(), tables.stations);
 ///
-/// The days are corrected one by one before, and nothing is fitted here.  Values are those in which
+/// The surveys are corrected one by one before, and nothing is fitted here.  Values are those in which
 /// the station's own reference had no part, where the model gives them.
 
 #include <string>
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
+#include "corrector/model/joint_adjustment.hpp"
 #include "corrector/result/column.hpp"
 
 namespace a351::corrector::result {
@@ -73,6 +73,18 @@ struct DayValue {
 /// or absent (`paper`, `robust`).
 [[nodiscard]] std::vector<model::StationDifference> joint_differences(
     const std::vector<model::SurveyCorrection>& days);
+
+/// Stations and differences of several surveys.
+struct JointTables {
+    std::vector<JointStation> stations;
+    std::vector<model::StationDifference> differences;
+};
+
+/// Returns join_days() and joint_differences(); with an adjustment its values and uncertainties.  A
+/// station of which all readings are marked is not in the adjustment and keeps its mean.
+/// @param adjustment  of the same days; null: there is none.
+[[nodiscard]] JointTables joint_tables(const std::vector<model::SurveyCorrection>& days,
+                                       const model::JointAdjustment* adjustment);
 
 /// Returns the columns of joint.csv.  The list is made once and lives as long as the program.
 [[nodiscard]] const std::vector<Column<JointStation>>& joint_columns();

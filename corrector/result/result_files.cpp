@@ -32,11 +32,6 @@ Json matrix_json(const Eigen::MatrixXd& matrix) {
     return rows;
 }
 
-Json covariance_json(const std::optional<model::StationCovariance>& covariance) {
-    if (!covariance) return nullptr;
-    return {{"sites", covariance->sites}, {"mgal2", matrix_json(covariance->mgal2)}};
-}
-
 /// Returns what a test's place means: temperature or time, or a reading.
 std::string place_of(const model::SurveyCorrection& result, const whole_day::FitTest& test) {
     if (test.misfit == whole_day::Misfit::curvature)
@@ -82,6 +77,11 @@ Json priors_json(const model::SurveyCorrection& result) {
 }
 
 }  // namespace
+
+Json covariance_json(const std::optional<model::StationCovariance>& covariance) {
+    if (!covariance) return nullptr;
+    return {{"sites", covariance->sites}, {"mgal2", matrix_json(covariance->mgal2)}};
+}
 
 std::string occupations_csv(const model::SurveyCorrection& result) {
     const auto columns = occupation_columns(result);

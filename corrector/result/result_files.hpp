@@ -10,6 +10,7 @@
 /// computations.  The functions return texts and write no file.
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,10 @@ namespace a351::corrector::result {
 [[nodiscard]] std::string result_json(const model::SurveyCorrection& result,
                                       const nlohmann::ordered_json& settings,
                                       const std::vector<text::InputFile>& inputs);
+
+/// Returns `station_covariance` of result.json; null without one.
+[[nodiscard]] nlohmann::ordered_json covariance_json(
+    const std::optional<model::StationCovariance>& covariance);
 
 /// Returns these five files of a survey, stations.geojson and gsadjust.csv (export_files.hpp).
 /// @param result    as occupations_csv().

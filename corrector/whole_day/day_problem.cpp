@@ -36,7 +36,7 @@ double bin_scatter_mgal(const std::vector<reading::DayBin>& bins) {
 }  // namespace
 
 DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
-                       const DayPriors& priors)
+                       const DayPriors& priors, const std::vector<double>& rough_mgal)
     : record_(record),
       stations_(stations),
       priors_(priors),
@@ -45,7 +45,7 @@ DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DaySt
       white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {
     set_states();
     set_gravities();
-    set_readings();
+    set_readings(rough_mgal);
     set_fixed_columns();
 }
 
@@ -93,7 +93,7 @@ void DayProblem::set_gravities() {
     gravity_sd_mgal_ = Eigen::Map<const Eigen::VectorXd>(estimated.data(), std::ssize(estimated));
 }
 
-void DayProblem::set_readings() {
+void DayProblem::set_readings(const std::vector<double>& rough_mgal) {
     const auto count = static_cast<Index>(record_.bins.size());
     readings_mgal_.resize(count);
     double held_sum = 0.0, held_count = 0.0;
@@ -111,7 +111,10 @@ void DayProblem::set_readings() {
         }
     }
     for (std::size_t k = 0; k < sums.size(); ++k)
-        if (counts[k] > 0.0) base_mgal_[k] = sums[k] / counts[k] - held_sum / held_count;
+        if (!rough_mgal.empty() && !is_held_[k])
+            base_mgal_[k] = rough_mgal[k];
+        else if (counts[k] > 0.0)
+            base_mgal_[k] = sums[k] / counts[k] - held_sum / held_count;
     for (Index i = 0; i < count; ++i)
         readings_mgal_(i) -=
             base_mgal_[stations_[record_.bins[static_cast<std::size_t>(i)].set_up].number];
@@ -130,7 +133,9 @@ void DayProblem::set_fixed_columns() {
     const auto first_held = std::ranges::find_if(record_.bins, [this](const reading::DayBin& bin) {
         return is_held_[stations_[bin.set_up].number];
     });
-    const double zero_mgal = base_mgal_[stations_[first_held->set_up].number];
+    const reading::DayBin& zero =
+        first_held == record_.bins.end() ? record_.bins.front() : *first_held;
+    const double zero_mgal = base_mgal_[stations_[zero.set_up].number];
     for (Index i = 0; i < count; ++i) {
         const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
         column(DayTerm::scale)(i) = base_mgal_[stations_[bin.set_up].number] - zero_mgal;
@@ -198,19 +203,30 @@ DayProblem::Point DayProblem::expected(const Point& u) const {
     constexpr double kStep = 0.25;
     const double least = cost(u);
     Point expected = u;
-    const auto grow = [&](DayHyper place, double factor) {
+    const auto grow = [&](DayHyper place) {
         Point more = u, less = u;
         more.at(place) += kStep;
         less.at(place) -= kStep;
         const double curvature = (cost(more) - 2.0 * least + cost(less)) / (kStep * kStep);
         // x = median factor^u.  If ln x is normal with the mean m and the variance v, the root of
         // the mean square of x is exp(m + v), with v = (ln factor)^2 / curvature.
-        expected.at(place) += std::log(factor) / std::max(curvature, 1.0);
+        expected.at(place) += log_factor(place) / std::max(curvature, 1.0);
     };
-    grow(kPlacement, priors_.placement_mgal.factor);
-    grow(kFlicker, kFlickerPrior_mgal.factor);
-    grow(kBiasSize, priors_.bias_factor);
+    grow(kPlacement);
+    grow(kFlicker);
+    grow(kBiasSize);
     return expected;
+}
+
+double DayProblem::log_factor(DayHyper part) const {
+    switch (part) {
+        case kPlacement:
+            return std::log(priors_.placement_mgal.factor);
+        case kFlicker:
+            return std::log(kFlickerPrior_mgal.factor);
+        default:
+            return std::log(priors_.bias_factor);
+    }
 }
 
 double DayProblem::lag_s(const Point& u, DayHyper lag) const {

@@ -63,8 +63,10 @@ public:
 
     /// All arguments are kept by reference and must exist as long as this object.
     /// @param record, stations, priors  as fit_day(); at least one set-up that is held has a bin.
+    /// @param rough_mgal  gravities from which the unknown ones count, by number; empty: from the
+    ///                    readings.  Then no set-up need be held.
     DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
-               const DayPriors& priors);
+               const DayPriors& priors, const std::vector<double>& rough_mgal = {});
 
     /// Returns the number of terms, gravities and states.
     [[nodiscard]] Eigen::Index estimated() const { return states_begin() + states_sd_mgal_.size(); }
@@ -108,6 +110,9 @@ public:
     /// log-normal, with the variance from the curvature of the cost.
     /// @param u  most likely point.  Elsewhere the curvature means nothing.
     [[nodiscard]] Point expected(const Point& u) const;
+    /// Returns ln of the factor of one deviation.
+    /// @param part  placement, flicker or size of the axis biases.
+    [[nodiscard]] double log_factor(DayHyper part) const;
     /// Returns the standard errors of the logarithms of placement, flicker and white noise, from the
     /// curvature of the cost with the other three numbers held; absent if it has no minimum there.
     /// @param u  most likely point.
@@ -170,7 +175,7 @@ private:
     };
 
     void set_gravities();
-    void set_readings();
+    void set_readings(const std::vector<double>& rough_mgal);
     void set_fixed_columns();
     void set_states();
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;

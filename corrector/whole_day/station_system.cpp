@@ -1,6 +1,8 @@
 #include "corrector/whole_day/station_system.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "corrector/whole_day/day_problem.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
@@ -11,11 +13,27 @@ namespace {
 
 using Index = Eigen::Index;
 
-}  // namespace
+/// Returns the gravities of a fit, in order of their numbers; `own` of one that is held is not set.
+std::vector<StationGravity> gravities_of(const DayProblem& problem,
+                                         const std::vector<DayStation>& stations,
+                                         const DayFit& fit) {
+    std::vector<StationGravity> gravities;
+    for (const GravityEstimate& gravity : fit.gravity_mgal) {
+        const Index place = problem.place_of(gravities.size());
+        gravities.push_back({gravity.value, false, 0.0, place, place});
+    }
+    for (const DayStation& station : stations)
+        if (station.gravity) {
+            gravities[station.number].is_held = true;
+            gravities[station.number].u_mgal = station.u_gravity.value();
+        }
+    return gravities;
+}
 
-StationSystem::StationSystem(const reading::DayRecord& record,
-                             const std::vector<DayStation>& stations, const DayFit& fit,
-                             const DayPriors& priors) {
+/// Returns the system of a day.
+StationSystem system_of_day(const reading::DayRecord& record,
+                            const std::vector<DayStation>& stations, const DayFit& fit,
+                            const DayPriors& priors) {
     const DayProblem problem(record, stations, priors);
     const DayNoise noise = problem.noise(fit.expected);
     const Index estimated = problem.estimated();
@@ -29,56 +47,60 @@ StationSystem::StationSystem(const reading::DayRecord& record,
     const Eigen::VectorXd values = problem.unscaled(fit.expected, solution);
     const Eigen::MatrixXd fitted = problem.linearised(fit.expected, values);
 
-    for (Index k = 0; k < fitted.cols(); ++k) common_.push_back(k);
+    std::vector<StationGravity> gravities = gravities_of(problem, stations, fit);
     Index count = fitted.cols();
-    for (const GravityEstimate& gravity : fit.gravity_mgal) {
-        const Index place = problem.place_of(gravities_.size());
-        gravities_.push_back({gravity.value, false, 0.0, place, place});
+    for (StationGravity& gravity : gravities)
+        if (gravity.is_held) gravity.own = count++;
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(fitted.rows(), count);
+    for (Index i = 0; i < columns.rows(); ++i) {
+        const std::size_t set_up = record.bins[static_cast<std::size_t>(i)].set_up;
+        const StationGravity& gravity = gravities[stations[set_up].number];
+        if (gravity.is_held) columns(i, gravity.own) = kFreeGravity_mgal;
     }
-    for (const DayStation& station : stations)
-        if (station.gravity) {
-            gravities_[station.number].is_held = true;
-            gravities_[station.number].u_mgal = station.u_gravity.value();
-        }
-    for (Gravity& gravity : gravities_) {
+    whiten(record.bins, noise, columns);
+    columns.leftCols(fitted.cols()) = fitted;
+    Eigen::VectorXd gradient = columns.transpose() * left;
+    // The fit is a minimum: only a column that it lacks can improve it.
+    gradient.head(fitted.cols()).setZero();
+    return {std::move(gravities), columns.transpose() * columns, std::move(gradient)};
+}
+
+}  // namespace
+
+StationSystem::StationSystem(const reading::DayRecord& record,
+                             const std::vector<DayStation>& stations, const DayFit& fit,
+                             const DayPriors& priors)
+    : StationSystem(system_of_day(record, stations, fit, priors)) {}
+
+StationSystem::StationSystem(std::vector<StationGravity> gravities, Eigen::MatrixXd products,
+                             Eigen::VectorXd gradient)
+    : gravities_(std::move(gravities)),
+      information_(std::move(products)),
+      gradient_(std::move(gradient)) {
+    information_.diagonal().array() += 1.0;
+    for (Index k = 0; k < gradient_.size(); ++k) common_.push_back(k);
+    for (const StationGravity& gravity : gravities_) {
         if (!gravity.is_held) continue;
-        gravity.own = count++;
+        std::erase(common_, gravity.own);
         std::erase(common_, gravity.held);
     }
-    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(fitted.rows(), count - fitted.cols());
-    for (Index i = 0; i < own.rows(); ++i) {
-        const std::size_t set_up = record.bins[static_cast<std::size_t>(i)].set_up;
-        const Index place = gravities_[stations[set_up].number].own - fitted.cols();
-        if (place >= 0) own(i, place) = kFreeGravity_mgal;
-    }
-    whiten(record.bins, noise, own);
-    columns_.resize(fitted.rows(), count);
-    columns_ << fitted, own;
-    gradient_ = columns_.transpose() * left;
-    // The fit is a minimum: only a column that it lacks can improve it.
-    gradient_.head(fitted.cols()).setZero();
 }
 
 StationSystem::Combination StationSystem::solved(const std::vector<Index>& columns,
                                                  const Eigen::VectorXd& wanted) const {
-    const Eigen::MatrixXd x = columns_(Eigen::all, columns);
-    // The error of s'X'y is s'(X'e + p), with s = (X'X + 1)^-1 wanted.
     const Eigen::VectorXd s =
-        linear_algebra::Cholesky(linear_algebra::normal_matrix(x)).solve(wanted(columns));
-    Combination result{s.dot(gradient_(columns)),
-                       Eigen::VectorXd::Zero(columns_.rows() + columns_.cols())};
-    result.errors_mgal.head(columns_.rows()) = x * s;
-    for (std::size_t k = 0; k < columns.size(); ++k)
-        result.errors_mgal(columns_.rows() + columns[k]) = s(static_cast<Index>(k));
+        linear_algebra::Cholesky(information_(columns, columns)).solve(wanted(columns));
+    Combination result{s.dot(gradient_(columns)), Eigen::VectorXd::Zero(gradient_.size())};
+    result.parts(columns) = s;
     return result;
 }
 
 Estimate StationSystem::difference(std::size_t from, std::size_t to) const {
     std::vector<Index> columns = common_;
-    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(columns_.cols());
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(gradient_.size());
     bool has_datum = false;
     for (std::size_t number = 0; number < gravities_.size(); ++number) {
-        const Gravity& gravity = gravities_[number];
+        const StationGravity& gravity = gravities_[number];
         const bool is_hidden = number == from || number == to;
         if (is_hidden || !gravity.is_held) continue;
         has_datum = true;
@@ -88,7 +110,7 @@ Estimate StationSystem::difference(std::size_t from, std::size_t to) const {
     const bool is_from_datum = !has_datum && gravities_[from].is_held;
     const bool is_to_datum = !has_datum && !is_from_datum;
     const auto add = [&](std::size_t number, bool is_datum, double factor) {
-        const Gravity& gravity = gravities_[number];
+        const StationGravity& gravity = gravities_[number];
         if (is_datum) return;
         if (gravity.is_held) columns.push_back(gravity.own);
         wanted(gravity.own) = factor * kFreeGravity_mgal;
@@ -97,27 +119,40 @@ Estimate StationSystem::difference(std::size_t from, std::size_t to) const {
     add(to, is_to_datum, 1.0);
     const Combination both = solved(columns, wanted);
     return {gravities_[to].fitted_mgal - gravities_[from].fitted_mgal + both.value_mgal,
-            both.errors_mgal.norm()};
+            std::sqrt(variance_mgal2(both))};
+}
+
+StationSystem::Combination StationSystem::left_out_combination(std::size_t number) const {
+    // Without its only reference the system has no datum.
+    const bool is_hidden = gravities_[number].is_held &&
+                           std::ranges::count(gravities_, true, &StationGravity::is_held) > 1;
+    std::vector<Index> columns = common_;
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(gradient_.size());
+    for (std::size_t other = 0; other < gravities_.size(); ++other) {
+        const StationGravity& gravity = gravities_[other];
+        const bool is_own = is_hidden && other == number;
+        const Index column = is_own ? gravity.own : gravity.held;
+        if (gravity.is_held && column >= 0) columns.push_back(column);
+        if (other == number && column >= 0)
+            wanted(column) = gravity.is_held && !is_own ? gravity.u_mgal : kFreeGravity_mgal;
+    }
+    return solved(columns, wanted);
+}
+
+Estimate StationSystem::left_out(std::size_t number) const {
+    const Combination combination = left_out_combination(number);
+    return {gravities_[number].fitted_mgal + combination.value_mgal,
+            std::sqrt(variance_mgal2(combination))};
 }
 
 Eigen::MatrixXd StationSystem::correlation() const {
-    // Without its only reference the system has no datum.
-    const bool are_hidden = std::ranges::count(gravities_, true, &Gravity::is_held) > 1;
-    Eigen::MatrixXd errors(columns_.rows() + columns_.cols(), std::ssize(gravities_));
+    Eigen::MatrixXd parts(gradient_.size(), std::ssize(gravities_));
     for (std::size_t number = 0; number < gravities_.size(); ++number) {
-        std::vector<Index> columns = common_;
-        Eigen::VectorXd wanted = Eigen::VectorXd::Zero(columns_.cols());
-        for (std::size_t other = 0; other < gravities_.size(); ++other) {
-            const Gravity& gravity = gravities_[other];
-            const bool is_own = gravity.is_held && are_hidden && other == number;
-            const Index column = is_own ? gravity.own : gravity.held;
-            if (gravity.is_held && column >= 0) columns.push_back(column);
-            if (other == number && column >= 0)
-                wanted(column) = gravity.is_held && !is_own ? gravity.u_mgal : kFreeGravity_mgal;
-        }
-        errors.col(static_cast<Index>(number)) = solved(columns, wanted).errors_mgal.normalized();
+        const Combination combination = left_out_combination(number);
+        const double u_mgal = std::sqrt(variance_mgal2(combination));
+        parts.col(static_cast<Index>(number)) = combination.parts / (u_mgal > 0.0 ? u_mgal : 1.0);
     }
-    return errors.transpose() * errors;
+    return parts.transpose() * information_ * parts;
 }
 
 }  // namespace a351::corrector::whole_day

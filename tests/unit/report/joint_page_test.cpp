@@ -61,7 +61,8 @@ TEST_CASE("the joint page lists every day, the differences, and the reason for a
     const SurveyCorrection second = day_with("S4", 4.0);
     const std::string html = joint_html({{"mon <1>/a", "mon <1>-a", &first},
                                          {"tue", "tue", nullptr, "day.toml: no <occupation>"},
-                                         {"wed", "wed", &second}});
+                                         {"wed", "wed", &second}},
+                                        std::string("they have no records"));
     pugi::xml_document document;
     const pugi::xml_parse_result parsed = document.load_string(html.c_str());
     INFO(parsed.description());
@@ -72,6 +73,7 @@ TEST_CASE("the joint page lists every day, the differences, and the reason for a
     CHECK_THAT(html, ContainsSubstring("<li>tue: day.toml: no &lt;occupation&gt;</li>") &&
                          ContainsSubstring("<td class=\"n\">not corrected</td>") &&
                          ContainsSubstring("mon &lt;1&gt;/a - joint") &&
+                         ContainsSubstring("because they have no records.") &&
                          ContainsSubstring("differ by 1.00 mGal rms from day to day (8 degrees"));
     bool is_found = false;
     for (const auto& row : document.select_nodes("//tr")) {
@@ -105,7 +107,8 @@ TEST_CASE("the joint page says which stations to trust and to repeat over the da
     finding.text = "The box was moved.";
     finding.is_headline = true;
     first.findings = {finding};
-    const std::string html = joint_html({{"mon", "mon", &first}, {"tue", "tue", &second}});
+    const std::string html =
+        joint_html({{"mon", "mon", &first}, {"tue", "tue", &second}}, std::string("of a test"));
     CHECK_THAT(
         html,
         ContainsSubstring("<li>mon: The box was moved.</li>") &&

@@ -126,3 +126,22 @@ TEST_CASE("a station that alone is held has its reference, and shares its error"
     // The own errors of both days remain, 0.4 each.
     CHECK(joint_differences(days)[0].u.value() == Approx(0.4 / std::sqrt(2.0)));
 }
+
+TEST_CASE("an adjustment replaces the means, except of stations with marked readings only",
+          "[survey][joint]") {
+    SurveyCorrection day = day_with(979901.0, 1.0);
+    StationValue other = day.stations.front();
+    other.site = "B";
+    day.stations.push_back(other);
+    JointAdjustment adjustment;
+    adjustment.stations.push_back({"A", MilliGal(979900.5), MilliGal(0.4), false});
+    const JointTables tables = joint_tables({day, day}, &adjustment);
+    REQUIRE(tables.stations.size() == 2);
+    CHECK(tables.stations[0].gravity.value() == 979900.5);
+    CHECK(tables.stations[0].u_gravity->value() == 0.4);
+    CHECK(tables.stations[0].residual->value() == -0.5);
+    CHECK_FALSE(tables.stations[0].is_in_sample);
+    CHECK(tables.stations[0].day_count == 2);
+    CHECK(tables.stations[1].gravity.value() == 979901.0);
+    CHECK(tables.differences.empty());
+}

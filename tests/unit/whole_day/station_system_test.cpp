@@ -128,7 +128,7 @@ TEST_CASE("a reference with an uncertainty gives way to the readings", "[day]") 
 
 TEST_CASE("a gravity follows the references and the scale's prior as its shared errors say",
           "[day]") {
-    const auto record = kScattered.record();
+    const auto record = kScatteredDay.record();
     auto stations = stations_without({2, 3, 4, 5, 6, 7, 8, 9, 10});
     for (DayStation& station : stations) station.u_gravity = MilliGal(2.0);
     DayPriors priors = usual_day_priors();

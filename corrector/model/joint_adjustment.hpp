@@ -1,0 +1,70 @@
+#pragma once
+/// @file
+/// One adjustment of several corrected surveys by the whole-day model (whole_day/joint_model.hpp).
+///
+///     const auto joint = adjust_jointly(surveys);
+///     if (const auto* const reason = std::get_if<std::string>(&joint)) return *reason;
+///     std::get<JointAdjustment>(joint).stations;
+///
+/// The surveys are corrected one by one before; that decides about flags, steps and references.
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "corrector/model/corrected_survey.hpp"
+#include "corrector/reading/day_record.hpp"
+#include "corrector/whole_day/joint_model.hpp"
+
+namespace a351::corrector::model {
+
+/// A corrected survey, its record and its unit.  Nothing is owned.
+struct RecordedSurvey {
+    std::string name;
+    std::string serial_number;  ///< Empty: not known.
+    const SurveyCorrection* result = nullptr;
+    const reading::DayRecord* day = nullptr;  ///< Null: there is none.
+};
+
+/// A station of the adjustment.
+struct JointGravity {
+    std::string site;
+    MilliGal gravity;           ///< With its own reference hidden on all days, all others held.
+    MilliGal u;                 ///< Standard uncertainty.
+    bool is_in_sample = false;  ///< It alone is held: gravity is its reference.
+};
+
+/// A unit or a survey of the adjustment, with what belongs to it.
+struct JointTerms {
+    std::string name;           ///< Of the survey; empty for a unit.
+    std::string serial_number;  ///< Of the unit.
+    std::vector<Coefficient> coefficients;
+};
+
+struct JointAdjustment {
+    std::vector<JointGravity> stations;          ///< In the order of their first accepted reading.
+    std::vector<StationDifference> differences;  ///< Of all pairs, the references of both hidden.
+    StationCovariance covariance;                ///< Of JointGravity::gravity.
+    std::vector<JointTerms> units;               ///< Lags, slopes, axis biases, scale.
+    std::vector<JointTerms> surveys;             ///< Constant, drift, warm-up, steps, noise.
+    /// Share of the placement that the sensors of a box have in common; absent without a box.
+    std::optional<whole_day::PlacementShare> share;
+    /// Factor by which all uncertainties are multiplied: the rms of reference minus gravity divided by
+    /// its uncertainty, if that is above 1 and the model does not fit one of the surveys; else 1.
+    double uncertainty_factor = 1.0;
+};
+
+/// Adjusts the surveys together, or says in words why they cannot be.
+///
+/// Held are the references that a survey holds, in all surveys.  Surveys with one serial number and one
+/// calibration are of one unit.  It refuses surveys of which
+///
+/// - one was not corrected by the whole-day model,
+/// - two have different references of one station,
+/// - two of one unit are at the same time.
+/// @param surveys  at least one.  Their order changes the result in the last bits only.
+[[nodiscard]] std::variant<JointAdjustment, std::string> adjust_jointly(
+    const std::vector<RecordedSurvey>& surveys);
+
+}  // namespace a351::corrector::model

@@ -1,0 +1,87 @@
+#include "corrector/result/joint_report.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "corrector/result/columns.hpp"
+#include "corrector/result/result_files.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
+
+namespace a351::corrector::result {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json terms_json(const std::vector<model::JointTerms>& all, bool are_surveys) {
+    Json list = Json::array();
+    for (const model::JointTerms& terms : all) {
+        Json one;
+        if (are_surveys) one["name"] = terms.name;
+        one["serial_number"] =
+            terms.serial_number.empty() ? Json(nullptr) : Json(terms.serial_number);
+        one["coefficients"] = Json::array();
+        for (const model::Coefficient& c : terms.coefficients)
+            one["coefficients"].push_back(
+                {{"name", c.name},
+                 {"value", c.value},
+                 {"standard_error", c.standard_error ? Json(*c.standard_error) : Json(nullptr)}});
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+Json share_json(const std::optional<whole_day::PlacementShare>& share) {
+    if (!share) return nullptr;
+    return {{"most_likely", share->most_likely},
+            {"expected", share->expected},
+            {"limits_95", {share->lowest, share->highest}}};
+}
+
+long percent(double share) { return std::lround(100.0 * share); }
+
+}  // namespace
+
+std::string joint_json(const JointResult& joint, const JointTables& tables) {
+    const auto* const adjustment = std::get_if<model::JointAdjustment>(&joint);
+    Json json;
+    json["program"] = "a351-correct";
+    json["version"] = A351_VERSION;
+    json["method"] = adjustment != nullptr ? "adjustment" : "means";
+    json["reason"] = adjustment != nullptr ? Json(nullptr) : Json(std::get<std::string>(joint));
+    json["units"] = adjustment != nullptr ? terms_json(adjustment->units, false) : Json(nullptr);
+    json["surveys"] = adjustment != nullptr ? terms_json(adjustment->surveys, true) : Json(nullptr);
+    json["placement_share"] = adjustment != nullptr ? share_json(adjustment->share) : Json(nullptr);
+    json["uncertainty_factor"] =
+        adjustment != nullptr ? Json(adjustment->uncertainty_factor) : Json(nullptr);
+    json["stations"] = json_array(joint_columns(), tables.stations);
+    json["differences"] = json_array(difference_columns(), tables.differences);
+    json["station_covariance"] =
+        covariance_json(adjustment != nullptr ? std::optional(adjustment->covariance)
+                                              : std::optional<model::StationCovariance>());
+    // Names of sites may be in any encoding, but JSON is UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::vector<std::string> joint_sentences(const JointResult& joint) {
+    const auto* const adjustment = std::get_if<model::JointAdjustment>(&joint);
+    if (adjustment == nullptr)
+        return {text::tr("The values are means of the surveys, because {}.",
+                         std::get<std::string>(joint))};
+    std::vector<std::string> sentences{
+        text::tr("The values are from one adjustment of {} surveys of {} units.",
+                 adjustment->surveys.size(), adjustment->units.size())};
+    if (adjustment->share)
+        sentences.push_back(text::tr(
+            "The sensors of a box have {} % of the variance of the placement in common (95 % "
+            "limits: {} and {} %).",
+            percent(adjustment->share->most_likely), percent(adjustment->share->lowest),
+            percent(adjustment->share->highest)));
+    if (adjustment->uncertainty_factor > 1.0)
+        sentences.push_back(text::tr(
+            "The model does not fit one of the surveys: all uncertainties are enlarged by {}.",
+            text::fixed(adjustment->uncertainty_factor, 2)));
+    return sentences;
+}
+
+}  // namespace a351::corrector::result

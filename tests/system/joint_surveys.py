@@ -1,0 +1,58 @@
+"""Adjusts a box of two sensors and another day of one of them together: the order of the surveys has no effect on the bytes, the joint
+values agree with the truth, and surveys that cannot be adjusted have means with the reason."""
+
+import json
+
+from programs import BIN, TOP, Scratch, demand, rows, run
+
+KNOWN = {"No.0", "No.7", "No.12"}
+
+
+def simulate(folder, name, seed, serial, more="", text=None):
+    scenario = folder / f"{name}.toml"
+    scenario.write_text(text or f'base = "tsukuba"\nname = "{name}"\n{more}')
+    run(BIN / "a351-sim", "survey", "--scenario", scenario, "--seed", seed, "--serial", serial, "--out", folder / name)
+    sites = (folder / name / "sites.csv").read_text().splitlines()
+    lines = [line if index == 0 or line.split(",")[0] in KNOWN else line.rsplit(",", 1)[0] + "," for index, line in enumerate(sites)]
+    (folder / name / "known.csv").write_text("\n".join(lines) + "\n")
+    survey = folder / name / "survey.toml"
+    survey.write_text(survey.read_text().replace('"sites.csv"', '"known.csv"'))
+    return survey
+
+
+def joined(folder, name, *surveys):
+    run(BIN / "a351-correct", "survey", *surveys, "--model", "day", "--out", folder / name, env={"PATH": str(folder)})
+    return {file: (folder / name / file).read_bytes()
+            for file in ("joint.csv", "joint-differences.csv", "joint.json", "joint.html")}
+
+
+with Scratch() as scratch:
+    box = "[box]\nseed = 4001\nplacement_share = 1.0\n"
+    first = simulate(scratch, "first", 4002, "00000011", box)
+    second = simulate(scratch, "second", 4003, "00000012", box)
+    starts = [[row["start_utc"] for row in rows(survey.parent / "schedule.csv")] for survey in (first, second)]
+    demand("the sensors of a box have the same stays", starts[0] == starts[1])
+    # The same course a month later, of the first sensor alone.
+    text = (TOP / "config" / "scenarios" / "tsukuba.toml").read_text()
+    third = simulate(scratch, "third", 4005, "00000011", text=text.replace('name = "tsukuba"', 'name = "third"').replace("2017-07-", "2017-08-"))
+
+    one = joined(scratch, "one", first, second, third)
+    other = joined(scratch, "other", third, second, first)
+    demand("the order of three surveys has no effect on the joint files", one == other)
+    joint = json.loads(one["joint.json"])
+    demand(f"method {joint['method']}, {len(joint['units'])} units, {len(joint['surveys'])} surveys",
+           joint["method"] == "adjustment" and len(joint["units"]) == 2 and len(joint["surveys"]) == 3)
+    low, high = joint["placement_share"]["limits_95"]
+    demand(f"the common share of the placement, 1, is within {low:.2f} to {high:.2f}", low > 0.3 and high == 1.0)
+    truth = {row["site"]: float(row["gravity_mgal"]) for row in rows(first.parent / "sites.csv")}
+    ratios = [abs(row["gravity_mgal"] - truth[row["site"]]) / row["u_gravity_mgal"] for row in joint["stations"]]
+    demand(f"errors are up to {max(ratios):.1f} times u", max(ratios) < 4.0)
+    alone = {row["site"]: float(row["u_gravity_mgal"]) for row in rows(scratch / "one" / "first-4002" / "stations.csv")}
+    worse = [row["site"] for row in joint["stations"] if row["site"] not in KNOWN and row["u_gravity_mgal"] > alone[row["site"]]]
+    demand(f"stations with a larger u than on one day: {worse or 'none'}", not worse)
+
+    again = scratch / "first" / "again.toml"
+    again.write_text(first.read_text().replace('name = "first', 'name = "again'))
+    refused = json.loads(joined(scratch, "refused", first, again)["joint.json"])
+    demand(f"one unit twice at one time: {refused['reason']}",
+           refused["method"] == "means" and "at the same time" in refused["reason"])
