@@ -215,17 +215,29 @@ StorageConfig read_storage(TomlTable table, int output_rate_hz) {
     return storage;
 }
 
-/// Returns true for SCHEME://HOST[:PORT].  Other characters would end a list in a header.
+/// Returns true for SCHEME://HOST[:PORT] with a name or an IPv4 address: a Content-Security-Policy,
+/// which lists the boxes, takes no IPv6 address.  Other characters would end a list in a header.
 bool is_origin(std::string_view text) {
     const auto mark = text.find("://");
     if (mark == std::string_view::npos) return false;
-    const auto scheme = text.substr(0, mark), host = text.substr(mark + 3);
+    const auto scheme = text.substr(0, mark), rest = text.substr(mark + 3);
+    const auto colon = rest.find(':');
+    const auto host = rest.substr(0, colon);
+    if (colon != std::string_view::npos) {
+        const auto port = rest.substr(colon + 1);
+        std::uint16_t number = 0;
+        const auto read = std::from_chars(port.data(), port.data() + port.size(), number);
+        // A browser writes a port without a leading zero.
+        if (read.ec != std::errc{} || read.ptr != port.data() + port.size() || port.front() == '0')
+            return false;
+    }
     const auto is_of_host = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               std::string_view(".-:[]").find(c) != std::string_view::npos;
+               c == '.' || c == '-';
     };
-    return (scheme == "http" || scheme == "https") && !host.empty() &&
-           std::ranges::all_of(host, is_of_host);
+    const auto is_edge = [](char c) { return c == '.' || c == '-'; };
+    return (scheme == "http" || scheme == "https") && !host.empty() && !is_edge(host.front()) &&
+           !is_edge(host.back()) && std::ranges::all_of(host, is_of_host);
 }
 
 PageConfig read_page(TomlTable table) {
@@ -249,8 +261,10 @@ PageConfig read_page(TomlTable table) {
     page.boxes = table.strings("boxes");
     for (const std::string& box : page.boxes)
         if (!is_origin(box))
-            table.refuse("boxes", "not the address of a daemon: " + box,
-                         "http://HOST:PORT without a path, as \"http://192.0.2.7:8351\"");
+            table.refuse(
+                "boxes", "not the address of a daemon: " + box,
+                "http://HOST:PORT, HOST a name or an IPv4 address, PORT 1 to 65535, without "
+                "a path, as \"http://192.0.2.7:8351\"");
     page.token = table.string_or("token", "");
     if (!page.token.empty() && !is_token(page.token))
         table.refuse("token", "too weak", "16 or more visible ASCII characters, or \"\"");

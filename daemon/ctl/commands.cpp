@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/meant_stay.hpp"
@@ -92,58 +94,99 @@ json order(const Client& client, const Arguments& arguments) {
 /// is a second late at most; the instant of one that does not would lie in the drive before.
 constexpr double kMostApart_s = 10.0;
 
-/// Sends start, stop, setup or note to several daemons, the first three at one instant that all of
-/// them have recorded.  A daemon that does not answer or refuses does not hinder the others; one that
-/// gets no samples refuses by itself, because the instant is later than its last sample.
+/// One of several daemons that get the same order.
+struct Box {
+    Client client;
+    std::string name;
+    std::optional<UtcTime> last_sample = {};
+    bool is_recording = false;  ///< By its own clock its last sample is at most kMostApart_s old.
+    bool is_there = false;
+    bool is_left_out = false;
+};
+
+/// Asks for the last sample.  @throws NoDaemon
+void ask(Box& box) {
+    const Answer answer = answer_of(box.client.get("/api/status"));
+    box.is_there = true;
+    const auto sample = answer.body.find("sample");
+    if (sample == answer.body.end() || !sample->is_object()) return;
+    const auto utc = sample->find("utc"), age_s = sample->find("age_s");
+    if (utc == sample->end() || !utc->is_string()) return;
+    box.last_sample = parse_rfc3339(utc->get<std::string>());
+    box.is_recording =
+        age_s != sample->end() && age_s->is_number() && age_s->get<double>() <= kMostApart_s;
+}
+
+/// Returns the newest instant that most boxes have recorded, std::nullopt without data.  A box whose
+/// last sample is far from the median's, as by a wrong clock, is named and gets no order.
+std::optional<UtcTime> common_instant(std::vector<Box>& boxes) {
+    const bool is_any_recording = std::ranges::any_of(boxes, &Box::is_recording);
+    std::vector<UtcTime> last;
+    for (const Box& box : boxes)
+        if (box.last_sample && box.is_recording == is_any_recording)
+            last.push_back(*box.last_sample);
+    if (last.empty()) return std::nullopt;
+    std::ranges::sort(last);
+    const UtcTime median = last[(last.size() - 1) / 2];
+    UtcTime common = median;
+    for (Box& box : boxes) {
+        if (!box.last_sample) continue;
+        const double ahead_s = seconds_between(median, *box.last_sample);
+        if (std::abs(ahead_s) <= kMostApart_s) {
+            common = std::min(common, *box.last_sample);
+            continue;
+        }
+        box.is_left_out = true;
+        const std::string apart = fmt::format("{:.0f}", std::abs(ahead_s));
+        complain(
+            box.name +
+            (ahead_s > 0
+                 ? text::tr(
+                       "left out: its last sample is {} s ahead of the others; check its clock, "
+                       "then order it by itself",
+                       apart)
+                 : text::tr(
+                       "left out: its last sample is {} s behind the others; check its cable and "
+                       "clock, then order it by itself",
+                       apart)));
+    }
+    return common;
+}
+
+/// Sends start, stop, setup or note to several daemons, the first three at one instant that most of
+/// them have recorded.  A daemon that does not answer or refuses does not hinder the others.
 int change_all(const Arguments& arguments, const std::string& command) {
-    struct Box {
-        Client client;
-        std::string name;
-        std::optional<UtcTime> last_sample = {};
-        bool is_there = false;
-    };
     std::vector<Box> boxes;
     for (const std::string& url : arguments.urls)
         boxes.push_back({Client(parse_url(url)), printable(url) + ": "});
-    const Box* any = nullptr;
-    UtcTime newest = UtcTime::min();
-    int worst = kDone;
+    std::optional<json> body;
     for (Box& box : boxes) {
         try {
-            const json sample =
-                answer_of(box.client.get("/api/status")).body.value("sample", json());
-            box.last_sample = parse_rfc3339(sample.is_object() ? sample.value("utc", "") : "");
-            newest = std::max(newest, box.last_sample.value_or(newest));
-            box.is_there = true;
-            any = &box;
+            ask(box);
+            if (!body) body = order(box.client, arguments);
         } catch (const NoDaemon& error) {
+            box.is_there = false;
             complain(box.name + error.what());
-            worst = kRefused;
         }
     }
-    if (any == nullptr) return kNoDaemon;
-    json body = order(any->client, arguments);
-    if (command != "note" && !body.contains("at")) {
-        UtcTime common = newest;
-        for (const Box& box : boxes)
-            if (box.last_sample && seconds_between(*box.last_sample, newest) <= kMostApart_s)
-                common = std::min(common, *box.last_sample);
-        if (common != UtcTime::min()) body["at"] = to_rfc3339(common, 9);
-    }
+    if (!body) return kNoDaemon;
+    if (command != "note" && !body->contains("at"))
+        if (const auto common = common_instant(boxes)) (*body)["at"] = to_rfc3339(*common, 9);
+    std::ptrdiff_t done = 0;
     for (const Box& box : boxes) {
-        if (!box.is_there) continue;
+        if (!box.is_there || box.is_left_out) continue;
         try {
-            worst =
-                std::max(worst, change(box.client, arguments, path_of(command), body, box.name));
+            if (change(box.client, arguments, path_of(command), *body, box.name) == kDone) ++done;
         } catch (const NoDaemon& error) {
             complain(box.name + error.what());
-            worst = kRefused;
         }
     }
-    if (worst != kDone && body.contains("at"))
+    const auto left_out = std::ranges::count(boxes, true, &Box::is_left_out);
+    const auto failed = std::ssize(boxes) - left_out - done;
+    if (done > 0 && failed > 0 && body->contains("at"))
         complain(text::tr("repeat it with --at {}; boxes that did it before change nothing",
-                          body.at("at").get<std::string>()));
-    return worst;
+                          body->at("at").get<std::string>()));
+    return failed + left_out > 0 ? kRefused : kDone;
 }
 
 int add_site(const Client& client, const Arguments& arguments) {

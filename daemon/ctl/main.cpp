@@ -55,8 +55,9 @@ int main(int argc, char** argv) {
     Arguments a;
     CLI::App app("Shows the state of the daemon a351d and controls occupations.", "a351ctl");
     app.set_version_flag("--version", std::string("a351ctl ") + A351_VERSION);
-    app.add_option("--url", a.urls,
-                   "Address of the daemon; several for start, stop, setup and note, at one instant")
+    app.add_option(
+           "--url", a.urls,
+           "Address of the daemon; several for start, stop and setup, at one instant, and for note")
         ->type_name("URL")
         ->envname("A351_URL")
         ->allow_extra_args(false)

@@ -79,7 +79,7 @@ Api::Api(ApiSources sources, std::string token, std::string listen)
     : sources_(std::move(sources)),
       token_(std::move(token)),
       listen_(std::move(listen)),
-      assets_(sources_.assets, token_, sources_.boxes) {}
+      assets_(sources_.assets, token_, sources_.boxes, sources_.is_token_configured) {}
 
 Response Api::answer(const Request& request) noexcept {
     try {

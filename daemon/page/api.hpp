@@ -43,6 +43,7 @@ struct ApiSources {
     std::function<void()> changed = {};  ///< Called after each change that is on disk.
     std::filesystem::path assets = {};   ///< The page's files; empty: the compiled ones.
     std::vector<std::string> boxes = {};  ///< Origins of the daemons that /boxes shows.
+    bool is_token_configured = false;     ///< The server sets it.
 
     /// Instrument time without a sample after which the verdict is "no data".  On scaled time it
     /// must be at least 0.5 s of real time.

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view kIndex = "index.html";
 constexpr std::string_view kBoxesPage = "boxes.html";
-constexpr std::string_view kTokenMark = "@TOKEN@", kBoxesMark = "@BOXES@";
+constexpr std::string_view kTokenMark = "@TOKEN@", kBoxesMark = "@BOXES@",
+                           kConfiguredMark = "@CONFIGURED@";
 
 const Asset* find(std::string_view path) noexcept {
     if (!path.starts_with('/')) return nullptr;
@@ -50,8 +51,10 @@ std::string as_html(std::string_view text) {
 }  // namespace
 
 Assets::Assets(std::filesystem::path directory, std::string_view token,
-               const std::vector<std::string>& boxes)
-    : directory_(std::move(directory)), token_(as_html(token)) {
+               const std::vector<std::string>& boxes, bool is_token_configured)
+    : directory_(std::move(directory)),
+      token_(as_html(token)),
+      is_token_configured_(is_token_configured) {
     for (const std::string& box : boxes) boxes_ += (boxes_.empty() ? "" : " ") + box;
 }
 
@@ -68,10 +71,12 @@ Response Assets::answer(std::string_view path, bool is_local) const {
             response.body.assign(std::istreambuf_iterator<char>(file), {});
     }
     const bool is_overview = asset->name == kBoxesPage;
-    if (asset->name == kIndex || is_overview)
+    if (is_overview) replace(response.body, kConfiguredMark, is_token_configured_ ? "yes" : "");
+    if (asset->name == kIndex || is_overview) {
+        replace(response.body, kBoxesMark, boxes_);
         replace(response.body, kTokenMark, is_local ? token_ : std::string());
+    }
     if (!is_overview) return response;
-    replace(response.body, kBoxesMark, boxes_);
     for (const auto& [name, value] : security_headers())
         if (name == "Content-Security-Policy")
             response.headers.emplace_back(name, value + "; connect-src 'self' " + boxes_);

@@ -45,6 +45,15 @@ bool asks_for_stream(const Request& request) {
     });
 }
 
+/// Returns true for an origin on the browser's own computer.
+bool is_loopback(std::string_view origin) {
+    const auto mark = origin.find("://");
+    if (mark == std::string_view::npos) return false;
+    const auto host = origin.substr(mark + 3);
+    const auto name = host.substr(0, has_port(host) ? host.rfind(':') : host.size());
+    return name == "127.0.0.1" || name == "localhost" || name == "[::1]";
+}
+
 /// Compares two texts in a time that does not depend on where they differ.
 bool is_same_secret(std::string_view given, std::string_view expected) noexcept {
     if (given.size() != expected.size() || expected.empty()) return false;
@@ -52,6 +61,12 @@ bool is_same_secret(std::string_view given, std::string_view expected) noexcept 
     for (std::size_t i = 0; i < expected.size(); ++i)
         difference = static_cast<unsigned char>(difference | (given[i] ^ expected[i]));
     return difference == 0;
+}
+
+/// Returns true for /api/token and the pages, which have the token in them for a local client.
+bool shows_token(std::string_view target) {
+    const auto path = target.substr(0, target.find('?'));
+    return !path.starts_with("/api/") || path == "/api/token";
 }
 
 }  // namespace
@@ -95,20 +110,24 @@ std::optional<Response> Guard::refuse(const Request& request) const {
     };
     const auto is_own_origin = [&](std::string_view given) {
         const std::string origin = lower(given);
-        return std::ranges::count(origins_, origin) > 0 || std::ranges::count(boxes_, origin) > 0 ||
+        return std::ranges::count(origins_, origin) > 0 ||
                (origin.starts_with(kHttp) && is_own_address(origin.substr(kHttp.size())));
     };
     const auto host = request.values("Host");
     if (host.size() != 1 || !is_listed(host.front()))
         return refusal(421, "Host is not a name of this daemon; add it to [page] hosts");
     if (auto response = allow_box(request)) return response;
+    const auto box = box_of(request);
+    if (box && !is_own_origin(*box) && !is_loopback(lower(*box)) && shows_token(request.target))
+        return refusal(403, "the page of another box may read /api only, without the token");
     const bool is_read = request.method == "GET" || request.method == "HEAD";
     const bool is_stream = asks_for_stream(request);
     if (is_read && !is_stream) return std::nullopt;
 
     const auto origins = request.values("Origin");
     for (const auto& origin : origins) {
-        if (!is_own_origin(origin)) return refusal(403, "Origin is not a name of this daemon");
+        if (!is_own_origin(origin) && std::ranges::count(boxes_, lower(origin)) == 0)
+            return refusal(403, "Origin is not a name of this daemon");
     }
     if (is_read && !origins.empty()) return std::nullopt;
     const auto type = request.values("Content-Type");

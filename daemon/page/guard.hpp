@@ -28,6 +28,8 @@ public:
 
     /// Returns the refusal, or std::nullopt for a request that may be answered:
     /// 421 Host missing, twice or not in the list;
+    /// 403 Origin of another box, unless on the browser's own computer: /api/token, and all paths
+    ///     outside of /api, because the pages have the token in them for a local client;
     /// 403 anything but GET and HEAD: Origin not in the list, content type not application/json,
     ///     or the header X-A351-Token missing or wrong;
     /// 403 GET with an upgrade to WebSocket (browsers allow it from any site): Origin not in list,

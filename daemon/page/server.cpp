@@ -79,6 +79,7 @@ public:
         const std::string token = options.token.empty() ? random_token() : options.token;
         guard_.emplace(port_, options.hosts, token, options.boxes);
         const live::Record& live = sources.live;
+        sources.is_token_configured = !options.token.empty();
         api_.emplace(std::move(sources), token,
                      config::to_string({.ip = listen_.ip, .port = port_, .is_v6 = listen_.is_v6}));
         live_.emplace(io_, live, *api_, options.stream_patience);

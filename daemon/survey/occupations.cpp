@@ -58,7 +58,7 @@ Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
 
 /// Returns true if a change that was asked for at `at` was made at `utc`.
 bool Occupations::is_at(std::optional<UtcTime> at, UtcTime utc) {
-    if (!at) return false;
+    if (!at || *at == utc) return at.has_value();  // Also if its sample is no longer in memory.
     const auto placed = place(at);
     return placed.instant && placed.instant->utc == utc;
 }

@@ -190,7 +190,7 @@ class StubDaemon:
             file = directory / name
             if file.is_file() and "/" not in name:
                 token = self.token.encode() if self.tells_token else b""
-                return self.reply(request, file.read_bytes().replace(b"@TOKEN@", token), TYPES[file.suffix])
+                return self.reply(request, file.read_bytes().replace(b"@TOKEN@", token).replace(b"@BOXES@", b""), TYPES[file.suffix])
         return self.reply(request, {"error": "there is no such path"}, status=404)
 
     def history(self, query):

@@ -38,40 +38,47 @@ def stays(session):
     return json.loads(session.ctl("list", "--json"))["occupations"]
 
 
-def orders(boxes):
-    """All stays by the terminal, with one box dead at the start."""
-    count, dead = len(boxes.sessions), boxes.sessions[-1]
-    boxes.kill(dead)
-    said = boxes.ctl("start", "No.1", "--operator", "Ito")
+def repeat_instant(boxes, said):
+    """Demands that an order names the dead box, the last one, and returns the instant with which to repeat it."""
     again = re.search(r"repeat it with --at (\S+);", said.stderr)
-    demand(f"{count} boxes, one dead: the order names it: {said.stderr.strip()}",
+    demand(f"{len(boxes.sessions)} boxes, one dead: the order names it: {said.stderr.strip()}",
            said.returncode == 1 and f"{boxes.urls[-1]}: no daemon answers" in said.stderr and again)
-    starts = [running(session)["start"] for session in boxes.sessions[:-1]]
+    return again[1]
+
+
+def orders(boxes):
+    """All stays by the terminal, with one box dead at the start and at the stop."""
+    count, dead, alive = len(boxes.sessions), boxes.sessions[-1], boxes.sessions[:-1]
+    before = min(session.status()["sample"]["utc"] for session in boxes.sessions)
+    boxes.kill(dead)
+    said = boxes.ctl("start", "No.1", "--operator", "Ito", "--at", before)
+    again = repeat_instant(boxes, said)
+    starts = [running(session)["start"] for session in alive]
     demand(f"{count} boxes: the {len(starts)} others began at the same instant, within {spread_s(starts)} s, limit {SAMPLE_S}",
            spread_s(starts) <= SAMPLE_S)
     boxes.revive(dead)
-    said = boxes.ctl("start", "No.1", "--operator", "Ito", "--at", again[1])
+    said = boxes.ctl("start", "No.1", "--operator", "Ito", "--at", again)
     print(said.stdout, said.stderr)
     demand(f"{count} boxes: repeated, the {len(starts)} that did it say so and change nothing",
-           said.stdout.count("as ordered before") == len(starts)
-           and [running(session)["start"] for session in boxes.sessions[:-1]] == starts)
-    if said.returncode:
-        # After a longer pause it began a new session, which does not have that instant.
-        demand(f"the box that was dead says why it does not begin there: {said.stderr.strip()}", boxes.urls[-1] in said.stderr)
-        demand("it is started by itself", dead.ctl("start", "No.1"))
-    else:
-        starts.append(running(dead)["start"])
-        demand(f"{count} boxes: the box that was dead began at the same instant, within {spread_s(starts)} s",
-               spread_s(starts) <= SAMPLE_S)
-    for command in (("setup",), ("note", "wind"), ("stop",)):
+           said.stdout.count("as ordered before") == len(starts) and [running(session)["start"] for session in alive] == starts)
+    starts.append(running(dead)["start"])
+    demand(f"{count} boxes: the box that was dead began at the same instant, within {spread_s(starts)} s",
+           said.returncode == 0 and spread_s(starts) <= SAMPLE_S)
+    for command in (("setup",), ("note", "wind")):
         time.sleep(1.0)
         said = boxes.ctl(*command)
         demand(f"{count} boxes: {command[0]} is carried out by all: {said.stderr.strip()}",
                said.returncode == 0 and len(said.stdout.splitlines()) == count)
+    boxes.kill(dead)
+    again = repeat_instant(boxes, boxes.ctl("stop"))
+    boxes.revive(dead)
+    demand("the dead box still has its stay, which is stopped by itself", running(dead) and "stopped No.1" in dead.ctl("stop"))
+    said = boxes.ctl("stop", "--at", again)
+    demand(f"{count} boxes: repeated, the {len(alive)} that stopped say so", said.stdout.count("as ordered before") == len(alive))
     made = [stays(session) for session in boxes.sessions]
     demand(f"{count} boxes: each has one stay of two set-ups", all(len(one) == 1 and len(one[0]["set_ups"]) == 2 for one in made))
     for what, instants in (("the set-up began", [one[0]["set_ups"][1]["start"] for one in made]),
-                           ("the stay ended", [one[0]["set_ups"][1]["end"] for one in made])):
+                           ("the stay ended", [one[0]["set_ups"][1]["end"] for one in made[:-1]])):
         demand(f"{count} boxes: {what} at the same instant, within {spread_s(instants)} s", spread_s(instants) <= SAMPLE_S)
 
 

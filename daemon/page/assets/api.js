@@ -8,11 +8,14 @@ import { recalled, remember } from "./memory.js";
 // On another device the page does not contain the token; it is in the address, or the operator types it in.
 let token = document.querySelector('meta[name="a351-token"]').content || fragment.token || recalled("token");
 if (fragment.token) remember("token", fragment.token);
+// A random token of this daemon is not for others.  One of the configuration is that of all boxes, and so is a typed one.
+let token_for_others = document.querySelector('meta[name="a351-token-configured"]')?.content ? token : "";
 const fresh_tokens = new Map(); // Tokens that daemons gave out, by their origins.
 
 by_id("token-form").addEventListener("submit", (event) => {
     event.preventDefault();
     token = by_id("token").value;
+    token_for_others = token;
     fresh_tokens.clear();
     remember("token", token);
     show("token-form", false);
@@ -23,7 +26,8 @@ async function asked(path, options) {
     try {
         reply = await fetch(path, options);
     } catch {
-        throw new Error(tr("the daemon does not answer"));
+        if (new URL(path, location.href).origin === location.origin) throw new Error(tr("the daemon does not answer"));
+        throw new Error(tr("the daemon does not answer, or its [page] boxes does not have {}", location.origin));
     }
     const body = await reply.json().catch(() => ({}));
     const said = body.error && sentence(body.error_parts, body.error);
@@ -42,9 +46,10 @@ export async function get(path, query = {}, options = {}) {
 /** Sends an order.  @param options  of fetch.  @throws Error with a line for the operator. */
 export async function post(path, order, options = {}) {
     const { origin } = new URL(path, location.href);
+    const known = origin === location.origin ? token : token_for_others;
     const send = () => asked(path, {
         method: "POST",
-        headers: { "Content-Type": "application/json", "X-A351-Token": fresh_tokens.get(origin) ?? token },
+        headers: { "Content-Type": "application/json", "X-A351-Token": fresh_tokens.get(origin) ?? known },
         body: JSON.stringify(order),
         ...options,
     });
@@ -52,8 +57,9 @@ export async function post(path, order, options = {}) {
     if (answer.is_forbidden) {
         // A daemon that was restarted has another token.
         const fresh = await asked(`${origin}/api/token`, options);
-        show("token-form", fresh.trouble !== null);
-        if (!fresh.trouble) {
+        if (fresh.trouble) {
+            show("token-form", true);
+        } else {
             fresh_tokens.set(origin, fresh.body.token);
             answer = await send();
         }

@@ -15,6 +15,8 @@ import { Stream } from "./stream.js";
 import { date_with_utc, zone } from "./time.js";
 import { show_tilt, show_verdict } from "./verdict.js";
 
+show("boxes-link", document.querySelector('meta[name="a351-boxes"]').content !== "");
+
 const kRedraw_ms = 200;
 const kStale_s = 3;
 const kSetBack_ms = 1000; // Smaller steps are corrections of a clock that is not well known yet.

@@ -70,6 +70,11 @@ TEST_CASE("the overview of boxes may connect to them, and no other page may", "[
               "; connect-src 'self' http://192.0.2.7:8351 http://192.0.2.8:8351"));
     CHECK(has(overview.headers[0].second, "default-src 'self'; script-src 'self';"));
     CHECK_FALSE(has(assets.answer("/boxes", false).body, "sesame"));
+    CHECK(has(overview.body, R"(<meta name="a351-token-configured" content="">)"));
+    CHECK(has(Assets({}, "sesame", boxes, true).answer("/boxes", false).body,
+              R"(<meta name="a351-token-configured" content="yes">)"));
+    CHECK(has(assets.answer("/", true).body,
+              R"(<meta name="a351-boxes" content="http://192.0.2.7:8351 http://192.0.2.8:8351">)"));
     CHECK(assets.answer("/", true).headers.empty());
     for (const char* inline_code : {"<script>", " style=", " onclick="})
         CHECK_FALSE(has(overview.body, inline_code));

@@ -187,7 +187,11 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
     CHECK(refusal(before_oven + "unit = 0\n") ==
           "a351d.toml:10: oven.unit = 0: out of range; allowed: a whole number from 1 to 99");
     CHECK_THAT(refusal(before_oven + "poll_s = 0\n"), ContainsSubstring("oven.poll_s = 0"));
-    for (const std::string box : {"192.0.2.7:8351", "http://", "http://box/", "http://box; x"})
+    for (const std::string box :
+         {"192.0.2.7:8351", "http://", "http://box/", "http://box; x",
+          "http://box:", "http://box:0", "http://box:65536", "http://box:08351", "http://box:83x",
+          "http://box:1:2", "http://:8351", "http://-", "http://box.", "http://[::1]:8351",
+          "ftp://box"})
         CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nboxes = [\"" + box + "\"]\n"),
                    ContainsSubstring("not the address of a daemon: " + box + "; allowed: http://"));
     const std::string both = before_oven + "enabled = true\nport = \"o\"\n[oven.outer]\n";

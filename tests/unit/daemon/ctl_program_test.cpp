@@ -189,6 +189,39 @@ TEST_CASE("several daemons start, set up and stop at one common instant", "[daem
           minute(60) - std::chrono::seconds(4));  // The last sample that both have.
 }
 
+TEST_CASE("a box with a clock that is far ahead or behind does not stop the order to the others",
+          "[daemon][ctl]") {
+    const auto address = [](const FakeDaemon& daemon) {
+        return "http://127.0.0.1:" + std::to_string(daemon.server.port());
+    };
+    FakeDaemon one, other(Status::Level::good, minute(60) - std::chrono::seconds(1));
+    for (const int last : {50, 70}) {
+        FakeDaemon wrong(Status::Level::good, minute(last));
+        const auto ordered = run("--url " + address(wrong) + " --url " + address(one) + " --url " +
+                                 address(other) + " start No.0");
+        CAPTURE(ordered.text);
+        CHECK(ordered.exit == 1);
+        CHECK(has(ordered,
+                  "a351ctl: " + address(wrong) + ": left out: its last sample is " +
+                      (last == 50 ? "599 s behind the others;" : "600 s ahead of the others;")));
+        for (const FakeDaemon* daemon : {&one, &other})
+            CHECK(has(ordered,
+                      address(*daemon) + (last == 50 ? ": started No.0 at 2026-03-14T08:59:59.0Z"
+                                                     : ": No.0 (stay 1) is running since "
+                                                       "2026-03-14T08:59:59.0Z, as ordered")));
+        CHECK_FALSE(has(ordered, "repeat it with"));  // Its data have another time there.
+        wrong.server.stop();
+        CHECK(wrong.recorder.log.empty());
+    }
+    // Of two boxes the one that gets samples counts.
+    FakeDaemon unplugged(Status::Level::good, minute(40));
+    unplugged.status.now = minute(60);
+    const auto stopped =
+        run("--url " + address(unplugged) + " --url " + address(one) + " start No.1");
+    CHECK(has(stopped, "left out: its last sample is 1200 s behind the others"));
+    CHECK(has(stopped, address(one) + ": No.0 (stay 1) has been running since"));
+}
+
 TEST_CASE("a site is added in the terminal, and a refusal is one line", "[daemon][ctl]") {
     FakeDaemon daemon;
     const test::TemporaryDirectory directory;

@@ -149,6 +149,22 @@ TEST_CASE("pages of the boxes that are configured may read and change, with the 
         question.method = "OPTIONS";
         CHECK(refused_with(guard, question) == 403);
     }
+    // A page of another computer, in a browser on this one, must not get the token of this one.
+    for (const char* target : {"/api/token", "/api/token?x", "/", "/boxes", "/live"}) {
+        CAPTURE(target);
+        CHECK(refused_with(guard, with(get(target), "Origin", "http://192.0.2.7:8351")) == 403);
+        CHECK(refused_with(guard, get(target)) == 200);
+    }
+    CHECK(refused_with(guard, with(get("/api/status"), "Origin", "http://192.0.2.7:8351")) == 200);
+    const Guard neighbour(8351, {"192.0.2.7"}, kToken,
+                          {"http://127.0.0.1:8352", "http://192.0.2.7:8351", "http://localhost",
+                           "http://127.0.0.1.evil.example", "http://localhost.evil.example:8352"});
+    for (const char* origin : {"http://127.0.0.1:8352", "http://localhost",
+                               "http://192.0.2.7:8351"})  // The last is its own.
+        CHECK(refused_with(neighbour, with(get("/api/token"), "Origin", origin)) == 200);
+    for (const char* origin :
+         {"http://127.0.0.1.evil.example", "http://localhost.evil.example:8352"})
+        CHECK(refused_with(neighbour, with(get("/api/token"), "Origin", origin)) == 403);
     // The name of another box is not a name of this one.
     CHECK(refused_with(guard, with(get("/"), "Host", "192.0.2.7:8351")) == 421);
 }
