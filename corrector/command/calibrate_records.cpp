@@ -72,9 +72,10 @@ std::string value_text(const long_record::FittedParameter& parameter) {
 std::string thermal_text(const long_record::PooledThermal& pooled) {
     std::string text;
     for (const long_record::FittedParameter& parameter : pooled.parameters) {
-        text += fmt::format(
-            "  {}{}\n", value_text(parameter),
-            parameter.is_determined ? "" : "; not determined, needed: " + parameter.needed);
+        text += fmt::format("  {}{}\n", value_text(parameter),
+                            parameter.is_determined
+                                ? ""
+                                : "; not determined, needed: " + parameter.needed.english());
     }
     text +=
         fmt::format("  static slope, both paths: {} +- {} mGal/degC{}\n",

@@ -16,6 +16,7 @@
 #include "corrector/report/report.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::command {
@@ -92,18 +93,20 @@ void apply_to(long_record::RecordResult& result, const std::string& file) {
     long_record::AppliedCalibration applied =
         long_record::apply_calibration(*calibration.thermal, result.segment(), result.analysis,
                                        long_record::longest_of_band_s(result.options.cycle_s));
-    applied.origin = fmt::format(
-        "calibration of unit {} ({}, from {}), {}", calibration.serial_number, calibration.program,
-        to_rfc3339(calibration.valid_from),
-        is_in_sample(result.record, calibration) ? "in sample: it was measured from this record"
-                                                 : "measured from other records");
+    applied.origin =
+        text::message("calibration of unit {} ({}, from {}), {}", calibration.serial_number,
+                      calibration.program, to_rfc3339(calibration.valid_from),
+                      is_in_sample(result.record, calibration)
+                          ? text::message("in sample: it was measured from this record")
+                          : text::message("measured from other records"));
     if (unit.empty())
-        applied.remarks.emplace_back(
+        applied.remarks.push_back(text::message(
             "the record has no serial number: it was not checked that the calibration belongs to "
-            "this unit");
+            "this unit"));
     const UtcTime end = calibration.valid_to.value_or(UtcTime::max());
     if (result.segment().start < calibration.valid_from || result.segment().end > end)
-        applied.remarks.emplace_back("the record is not within the calibration's validity");
+        applied.remarks.push_back(
+            text::message("the record is not within the calibration's validity"));
     result.record.inputs.push_back(text::describe_input("calibration", file));
     result.applied = std::move(applied);
 }

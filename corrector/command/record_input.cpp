@@ -45,8 +45,8 @@ std::vector<long_record::LongRecord> read_records(const std::vector<std::string>
         }
     }
     for (const long_record::LongRecord& record : records)
-        for (const std::string& warning : record.warnings)
-            std::cerr << "a351-correct: " << warning << '\n';
+        for (const text::Message& warning : record.warnings)
+            std::cerr << "a351-correct: " << text::in_words(warning) << '\n';
     return records;
 }
 

@@ -112,7 +112,7 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
     settings["from_utc"] = survey.from ? to_rfc3339(*survey.from) : "";
     settings["to_utc"] = survey.to ? to_rfc3339(*survey.to) : "";
     settings["amendments"] = reading::amendments_json(read.amendments.list);
-    settings["warnings"] = read.warnings;
+    settings["warnings"] = text::in_english(read.warnings);
     return settings;
 }
 
@@ -152,8 +152,8 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
          std::move(read.verdicts), read.inputs, read.warnings, picture_formats});
     std::move(report.files.begin(), report.files.end(), std::back_inserter(day.files));
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
-    for (const std::string& warning : read.warnings)
-        std::cerr << "a351-correct: " << survey.name << ": " << warning << '\n';
+    for (const text::Message& warning : read.warnings)
+        std::cerr << "a351-correct: " << survey.name << ": " << text::in_words(warning) << '\n';
     return day;
 }
 

@@ -53,7 +53,7 @@ void correct_table(TableOptions options) {
                                                  reduction::kLeastAdmittance_mgal_per_hpa,
                                                  reduction::kGreatestAdmittance_mgal_per_hpa),
         .is_admittance_fitted = options.survey.network.fits_admittance};
-    const std::vector<std::string> reduced =
+    const std::vector<text::Message> reduced =
         reduction::reduce_rows(rows, sites, reduction::read_gradients(options.sites), reduction);
     const std::optional<double> density = options.bouguer_density_kg_per_m3;
     if (density)
@@ -81,9 +81,9 @@ void correct_table(TableOptions options) {
     settings["base"] = result.options.base;
     settings["datum"] = options.survey.datum;
     settings["rate"] = "backward";
-    std::vector<std::string> warnings = reading::position_warnings(rows, sites);
+    std::vector<text::Message> warnings = reading::position_warnings(rows, sites);
     warnings.insert(warnings.end(), reduced.begin(), reduced.end());
-    settings["warnings"] = warnings;
+    settings["warnings"] = text::in_english(warnings);
     settings["seed"] = options.survey.seed;
     std::vector<text::InputFile> inputs{text::describe_input("sites", options.sites),
                                         text::describe_input("observations", options.observations)};
@@ -104,7 +104,8 @@ void correct_table(TableOptions options) {
     std::move(report.files.begin(), report.files.end(), std::back_inserter(files));
     text::write_together(options.out, files);
     warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-    for (const std::string& warning : warnings) std::cerr << "a351-correct: " << warning << '\n';
+    for (const text::Message& warning : warnings)
+        std::cerr << "a351-correct: " << text::in_words(warning) << '\n';
     std::cout << reading::findings_text(result.findings) << result::survey_text(result)
               << "written to " << options.out << '\n';
 }

@@ -67,7 +67,7 @@ model::NetworkAdjustment hold_reference_values(const SurveyFile& survey,
     tide::apply_tide(rows, read.sites, tide);
     reduction::ReductionChoice reduction = survey.reduction;
     reduction.height.reset();  // that of the sensor
-    const std::vector<std::string> reduced = reduction::reduce_rows(
+    const std::vector<text::Message> reduced = reduction::reduce_rows(
         rows, read.sites, reduction::read_gradients(survey.sites), reduction);
     read.warnings.insert(read.warnings.end(), reduced.begin(), reduced.end());
     const bool is_level_known = has_published_gravity(rows);

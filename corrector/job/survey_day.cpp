@@ -15,7 +15,7 @@ std::string in_context(const InputError& error, const SurveyFile& survey,
                        const reading::OccupationRows& read) {
     std::string message = fmt::format(
         "{}: {}", (survey.path.empty() ? survey.root : survey.path).string(), error.what());
-    for (const std::string& warning : read.warnings) message += "; " + warning;
+    for (const text::Message& warning : read.warnings) message += "; " + warning.english();
     return message;
 }
 

@@ -52,13 +52,13 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey, 
 reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Progress& progress) {
     const reading::SurveySource source = source_of(survey);
     const reading::SurveyStays stays = reading::read_survey_inputs(source);
-    std::vector<std::string> warnings;
+    std::vector<text::Message> warnings;
     if (survey.survey.calibration)
         warnings = check_calibration(survey, stays.station.serial_number, stays.list.windows);
     reading::OccupationRows read = reading::average_occupations(source, stays, progress);
     read.warnings.insert(read.warnings.begin(), warnings.begin(), warnings.end());
     tide::apply_tide(read.rows, read.sites, survey.tide, read.day ? &*read.day : nullptr);
-    const std::vector<std::string> reduced =
+    const std::vector<text::Message> reduced =
         reduction::reduce_rows(read.rows, read.sites, reduction::read_gradients(survey.sites),
                                survey.reduction, read.day ? &*read.day : nullptr);
     read.warnings.insert(read.warnings.end(), reduced.begin(), reduced.end());
@@ -81,11 +81,14 @@ std::vector<UtcTime> steps_between(reading::OccupationRows& read) {
             last = before;
             continue;
         }
-        read.warnings.push_back(fmt::format("the step at {} is not used: no reading is {}",
-                                            to_rfc3339(step),
-                                            before == 0       ? "before it"
-                                            : before == count ? "after it"
-                                                              : "between it and the step before"));
+        const std::string at = to_rfc3339(step);
+        read.warnings.push_back(
+            before == 0 ? text::message("the step at {} is not used: no reading is before it", at)
+            : before == count
+                ? text::message("the step at {} is not used: no reading is after it", at)
+                : text::message(
+                      "the step at {} is not used: no reading is between it and the step before",
+                      at));
     }
     return steps;
 }
@@ -98,8 +101,9 @@ model::SurveyOptions with_sites_of(reading::OccupationRows& read, model::SurveyO
         return std::ranges::find(read.rows, site, &reading::SurveyRow::site) == read.rows.end();
     };
     if (!options.base.empty() && is_absent(options.base) && options.model != model::kPaper) {
-        read.warnings.push_back("base " + options.base +
-                                " has no occupation with a value: the first site is used instead");
+        read.warnings.push_back(
+            text::message("base {} has no occupation with a value: the first site is used instead",
+                          options.base));
         options.base.clear();
     }
     auto& datum = options.datum;
@@ -107,21 +111,21 @@ model::SurveyOptions with_sites_of(reading::OccupationRows& read, model::SurveyO
     for (const std::string& site : datum)
         if (is_absent(site))
             read.warnings.push_back(
-                fmt::format("datum {} has no occupation with a value: it is left out", site));
+                text::message("datum {} has no occupation with a value: it is left out", site));
     std::erase_if(datum, is_absent);
     return options;
 }
 
-std::vector<std::string> check_calibration(const SurveyFile& survey,
-                                           const std::string& serial_number,
-                                           const std::vector<reading::OccupationWindow>& windows) {
+std::vector<text::Message> check_calibration(
+    const SurveyFile& survey, const std::string& serial_number,
+    const std::vector<reading::OccupationWindow>& windows) {
     const unit::Calibration& calibration = survey.survey.calibration.value();
-    std::vector<std::string> warnings;
+    std::vector<text::Message> warnings;
     if (serial_number.empty()) {
         warnings.push_back(
-            fmt::format("the station metadata do not contain the sensor's serial number: it was "
-                        "not checked that the calibration of {} belongs to this sensor",
-                        calibration.serial_number));
+            text::message("the station metadata do not contain the sensor's serial number: it was "
+                          "not checked that the calibration of {} belongs to this sensor",
+                          calibration.serial_number));
     } else if (serial_number != calibration.serial_number) {
         throw InputError(fmt::format(
             "{}: calibration = {}: of unit {}, the record is of unit {}; allowed: a calibration of "
@@ -132,10 +136,13 @@ std::vector<std::string> check_calibration(const SurveyFile& survey,
     const UtcTime end = calibration.valid_to.value_or(UtcTime::max());
     if (windows.front().start < calibration.valid_from || windows.back().end > end)
         warnings.push_back(
-            fmt::format("the survey is not completely within the validity of the calibration, from "
-                        "{}{}",
-                        to_rfc3339(calibration.valid_from),
-                        calibration.valid_to ? " to " + to_rfc3339(end) : " on"));
+            calibration.valid_to
+                ? text::message("the survey is not completely within the validity of the "
+                                "calibration, from {} to {}",
+                                to_rfc3339(calibration.valid_from), to_rfc3339(end))
+                : text::message("the survey is not completely within the validity of the "
+                                "calibration, from {} on",
+                                to_rfc3339(calibration.valid_from)));
     return warnings;
 }
 

@@ -59,7 +59,7 @@ namespace a351::corrector::job {
 /// @param serial_number  serial number of the record's sensor; empty: not known.
 /// @param windows        occupations in order of start, at least one.
 /// @throws InputError  the calibration is of another unit.
-[[nodiscard]] std::vector<std::string> check_calibration(
+[[nodiscard]] std::vector<text::Message> check_calibration(
     const SurveyFile& survey, const std::string& serial_number,
     const std::vector<reading::OccupationWindow>& windows);
 

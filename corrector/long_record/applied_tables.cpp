@@ -25,34 +25,36 @@ Json ways_json(const ThreeWays& ways) {
 }  // namespace
 
 TextTable applied_bands_table(const AppliedCalibration& applied) {
-    TextTable rows{{"rms in mGal, period", "before", "parametric", "by modes"}};
+    TextTable rows{{text::tr("rms in mGal, period"), text::tr("before"), text::tr("parametric"),
+                    text::tr("by modes")}};
     for (const BandScatter& band : applied.bands) {
         const std::string from = text::fixed(band.shortest_s, 0);
         rows.push_back(cells(std::isfinite(band.longest_s)
-                                 ? fmt::format("{} to {} s", from, text::fixed(band.longest_s, 0))
-                                 : from + " s and more",
+                                 ? text::tr("{} to {} s", from, text::fixed(band.longest_s, 0))
+                                 : text::tr("{} s and more", from),
                              band.rms_mgal));
     }
     return rows;
 }
 
 TextTable allan_table(const AppliedCalibration& applied) {
-    TextTable rows{{"Allan deviation in mGal", "before", "parametric", "by modes"}};
+    TextTable rows{{text::tr("Allan deviation in mGal"), text::tr("before"), text::tr("parametric"),
+                    text::tr("by modes")}};
     for (const AllanPoint& point : applied.allan)
-        rows.push_back(cells(fmt::format("averages of {} s", text::fixed(point.averaging_s, 0)),
+        rows.push_back(cells(text::tr("averages of {} s", text::fixed(point.averaging_s, 0)),
                              point.deviation_mgal));
     return rows;
 }
 
 std::vector<std::string> applied_sentences(const AppliedCalibration& applied) {
     std::vector<std::string> lines{
-        applied.origin,
-        fmt::format("parametric: the two paths are applied to the smoothed temperature; by modes: "
-                    "temperature modes with a period of {} s or more are scaled by the response at "
-                    "their period, and shorter modes of the acceleration are averaged out, which "
-                    "does not correct them",
-                    text::fixed(applied.averaged_below_s, 0))};
-    lines.insert(lines.end(), applied.remarks.begin(), applied.remarks.end());
+        text::in_words(applied.origin),
+        text::tr("parametric: the two paths are applied to the smoothed temperature; by modes: "
+                 "temperature modes with a period of {} s or more are scaled by the response at "
+                 "their period, and shorter modes of the acceleration are averaged out, which "
+                 "does not correct them",
+                 text::fixed(applied.averaged_below_s, 0))};
+    for (const text::Message& remark : applied.remarks) lines.push_back(text::in_words(remark));
     return lines;
 }
 
@@ -77,11 +79,11 @@ std::string applied_cells(const RecordResult& result, UtcTime time) {
 
 Json applied_json(const RecordResult& result) {
     if (!result.applied) return nullptr;
-    Json json{{"calibration", result.applied->origin},
+    Json json{{"calibration", result.applied->origin.english()},
               {"averaged_below_s", result.applied->averaged_below_s},
               {"bands", Json::array()},
               {"allan", Json::array()},
-              {"remarks", result.applied->remarks}};
+              {"remarks", text::in_english(result.applied->remarks)}};
     for (const BandScatter& band : result.applied->bands)
         json["bands"].push_back({{"shortest_s", band.shortest_s},
                                  {"longest_s", band.longest_s},

@@ -24,7 +24,7 @@ constexpr double kLeastRatioToError = 2.0;  // least ratio of a part to its erro
 
 /// Returns the response with the parameters that are applied; the others are 0.
 unit::ThermalEffect effect_of(const unit::ThermalResponse& thermal,
-                              std::vector<std::string>& remarks) {
+                              std::vector<text::Message>& remarks) {
     using Vector = Eigen::Matrix<double, 5, 1>;
     using Matrix = Eigen::Matrix<double, 5, 5>;
     // Calibration and priors: inverse covariances and weighted values are added.
@@ -48,20 +48,20 @@ unit::ThermalEffect effect_of(const unit::ThermalResponse& thermal,
     const double rate_error = std::sqrt(covariance(2, 2));
     const auto left_out = [&remarks](const char* name, double value, double error,
                                      const char* unit) {
-        remarks.push_back(fmt::format(
-            "the calibration does not determine the {} ({} +- {} {}): it was not applied", name,
-            text::fixed(value, 1), text::fixed(error, 1), unit));
+        remarks.push_back(text::message(
+            "the calibration does not determine the {} ({} +- {} {}): it was not applied",
+            text::marked_message(name), text::fixed(value, 1), text::fixed(error, 1), unit));
     };
     if (std::abs(slope) >= kLeastRatioToError * slope_error) {
         response.level = values(0);
         response.slow = values(1);
     } else {
-        left_out("static slope", slope, slope_error, "mGal/degC");
+        left_out(text::marked("static slope"), slope, slope_error, "mGal/degC");
     }
     if (std::abs(values(2)) >= kLeastRatioToError * rate_error)
         response.fast = values(2);
     else
-        left_out("fast path", values(2), rate_error, "mGal/(degC/h)");
+        left_out(text::marked("fast path"), values(2), rate_error, "mGal/(degC/h)");
     return response;
 }
 

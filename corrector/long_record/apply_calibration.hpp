@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "corrector/long_record/record_analysis.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector::long_record {
@@ -48,13 +49,13 @@ struct AllanPoint {
 /// part that the calibration does not determine is left out, and `remarks` has the reason.  If all
 /// parts are, parametric_mgal is the acceleration itself (apply_calibration_test.cpp).
 struct AppliedCalibration {
-    std::string origin;                   ///< Origin of the calibration, in words.
+    text::Message origin;                 ///< Origin of the calibration, in words.
     std::vector<double> parametric_mgal;  ///< (n) Acceleration, corrected by the two paths.
     std::vector<double> by_modes_mgal;    ///< (n) Acceleration, corrected mode by mode.
     std::vector<BandScatter> bands;       ///< Bands from 39 s on, the fastest first.
     std::vector<AllanPoint> allan;        ///< Averages of 1, 2, 4 ... samples up to n / 4.
     double averaged_below_s = 0.0;        ///< Modes of the acceleration below it are left out.
-    std::vector<std::string> remarks;     ///< Parts that were not applied, with the reason.
+    std::vector<text::Message> remarks;   ///< Parts that were not applied, with the reason.
 };
 
 /// Corrects a segment with a thermal response.

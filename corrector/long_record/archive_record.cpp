@@ -67,8 +67,8 @@ public:
             if (rate_hz_ == 0.0) begin(segment.rate_hz);
             if (!has_rate(segment)) {
                 push(run, day);
-                divide(fmt::format("another rate: {} Hz after {} Hz",
-                                   text::shortest(segment.rate_hz), text::shortest(rate_hz_)),
+                divide(text::message("another rate: {} Hz after {} Hz",
+                                     text::shortest(segment.rate_hz), text::shortest(rate_hz_)),
                        start);
                 begin(segment.rate_hz);
             }
@@ -81,7 +81,7 @@ public:
                     push(run, day);
                     end_stretch();
                     if (late <= -0.5)
-                        record_.warnings.push_back(fmt::format(
+                        record_.warnings.push_back(text::message(
                             "at {} the time of the archive goes back by {} s", to_rfc3339(start),
                             text::shortest(seconds_between(start, next_time_))));
                 }
@@ -129,10 +129,10 @@ private:
     }
 
     /// Ends the stretch; the next one begins with this change.
-    void divide(std::string change, UtcTime time) {
+    void divide(text::Message change, UtcTime time) {
         end_stretch();
         record_.warnings.push_back(
-            fmt::format("from {} on, {}; the record is divided there", to_rfc3339(time), change));
+            text::message("from {} on, {}; the record is divided there", to_rfc3339(time), change));
         change_ = std::move(change);
     }
 
@@ -307,7 +307,8 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     if (const auto position = position_of(metadata))
         remove_tide(record, *position);
     else
-        record.warnings.push_back(metadata.string() + ": no position: the tide is not removed");
+        record.warnings.push_back(
+            text::message("{}: no position: the tide is not removed", metadata.string()));
     record.source = root;
     record.inputs.push_back(text::describe_input("metadata", metadata));
     describe_inputs(record, root, epochs, of_days);

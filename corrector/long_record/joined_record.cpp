@@ -94,11 +94,11 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
             last.number = next.number;
             continue;
         }
-        if (std::string change =
+        if (text::Message change =
                 sensor_change(last.stretch.serial_number, next.stretch.serial_number);
             last.number != next.number && !change.empty()) {
-            all.warnings.push_back(fmt::format("from {} on, {}; the record is divided there",
-                                               to_rfc3339(start_of(next)), change));
+            all.warnings.push_back(text::message("from {} on, {}; the record is divided there",
+                                                 to_rfc3339(start_of(next)), change));
             next.stretch.begins_with = std::move(change);
         }
         joined.push_back(std::move(next));

@@ -19,6 +19,7 @@
 
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
 
@@ -51,7 +52,7 @@ struct RecordStretch {
 
     std::string serial_number;  ///< Serial number of the sensor; empty: not known.
     /// Change at the start of the stretch, e.g. "another sensor: ..."; empty: start or gap.
-    std::string begins_with;
+    text::Message begins_with;
     std::vector<UtcTime> times;             ///< (n) Times of the samples.
     std::vector<double> acceleration_mgal;  ///< (n) Norm of the decimated axes.
     /// Axes x, y, z (n each) as the sensor gave them, with the tide; empty if only the norm is
@@ -75,7 +76,7 @@ struct LongRecord {
     double step_s = kRecordStep_s;         ///< Time between samples, on the sensor's clock.
     bool is_tide_removed = false;          ///< True: the direct tide was subtracted.
     std::vector<text::InputFile> inputs;   ///< Files that were read.
-    std::vector<std::string> warnings;  ///< Skipped data, divisions and other facts, with reason.
+    std::vector<text::Message> warnings;  ///< Skipped data, divisions and other facts, with reason.
 };
 
 }  // namespace a351::corrector::long_record

@@ -155,8 +155,8 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
             static_cast<std::size_t>(std::max(0.0, cycles - 1.0) / kCyclesPerBlock), kMostBlocks);
         if (blocks < kFewestBlocks) {
             constexpr double kNeeded = kCyclesPerBlock * static_cast<double>(kFewestBlocks) + 1.0;
-            point.refusal = fmt::format("fewer than {} cycles", text::fixed(kNeeded, 0));
-            point.needed = fmt::format(
+            point.refusal = text::message("fewer than {} cycles", text::fixed(kNeeded, 0));
+            point.needed = text::message(
                 "a record of {} h", text::fixed(std::ceil(kNeeded * point.period_s / 3600.0), 0));
             continue;
         }
@@ -168,11 +168,11 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
         const Complex gain = all.acceleration / all.temperature;
         const double chance = chance_gain(z, temperature, acceleration, gain, margin, cycles);
         if (!std::isnormal(std::abs(gain)) || !std::isfinite(chance)) {
-            point.refusal = "temperature or acceleration is constant";
-            point.needed = "a record in which both vary";
+            point.refusal = text::message("temperature or acceleration is constant");
+            point.needed = text::message("a record in which both vary");
         } else if (!set_limits(point, sums, all, gain, chance)) {
-            point.refusal = "not known within a factor of two";
-            point.needed = fmt::format(
+            point.refusal = text::message("not known within a factor of two");
+            point.needed = text::message(
                 "a larger temperature swing or a longer record; here no response below {} "
                 "mGal/degC can be detected",
                 text::fixed(2.0 * chance, 0));

@@ -28,8 +28,10 @@ double zero_crossing_period_s(std::span<const double> values, double step_s) {
     return step_s * static_cast<double>(last - first) / static_cast<double>(count - 1);
 }
 
-std::string seconds_late(double delay_s) {
-    return text::fixed(std::abs(delay_s), 0) + " s " + (delay_s < 0.0 ? "before" : "after");
+text::Message seconds_late(double delay_s) {
+    const std::string seconds = text::fixed(std::abs(delay_s), 0);
+    return delay_s < 0.0 ? text::message("{} s before", seconds)
+                         : text::message("{} s after", seconds);
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ double rate_coefficient(const PairStatistics& pair) {
     return gain * std::sin(phase_rad) / angular_hz / kSecondsPerHour;
 }
 
-std::string causal_reading(const PairStatistics& pair) {
+text::Message causal_reading(const PairStatistics& pair) {
     const correlation::CorrelationPeak &negative = pair.correlation.negative,
                                        &positive = pair.correlation.positive;
     const double ratio = std::abs(positive.value / negative.value);
@@ -84,36 +86,42 @@ std::string causal_reading(const PairStatistics& pair) {
         0.3;  // least correlation of a response: it explains a tenth of the variance
     constexpr double kQuadrature_deg = 45.0;
     if (std::max(std::abs(negative.value), std::abs(positive.value)) < kWeak)
-        return "Neither peak exceeds chance: in this band the record shows no response to "
-               "temperature.";
-    std::string text = fmt::format(
+        return text::message(
+            "Neither peak exceeds chance: in this band the record shows no response to "
+            "temperature.");
+    text::Message text = text::message(
         "The acceleration varies like the temperature with inverted sign {} it, and with the same "
         "sign {} it. ",
         seconds_late(negative.delay_s), seconds_late(positive.delay_s));
     if (ratio > kEqual || ratio < 1.0 / kEqual)
-        text += fmt::format(
+        text += text::message(
             "The peaks differ in size by {}: the band is not narrow, and the {} peak describes the "
             "response better. ",
-            text::fixed(std::max(ratio, 1.0 / ratio), 2), ratio > 1.0 ? "positive" : "negative");
+            text::fixed(std::max(ratio, 1.0 / ratio), 2),
+            text::marked_message(ratio > 1.0 ? text::marked("positive")
+                                             : text::marked("negative")));
     else
-        text += fmt::format(
+        text += text::message(
             "The peaks have nearly equal size: in a narrow band both describe the same response, "
             "with a phase of {} degrees at {} s. ",
             text::fixed(phase_deg, 0), text::fixed(pair.period_s, 0));
     if (negative.delay_s < 0.0 || positive.delay_s < 0.0)
-        text +=
+        text += text::message(
             "No effect comes before its cause: the early peak is not a delayed response of its "
-            "sign. ";
+            "sign. ");
     if (std::abs(std::abs(phase_deg) - 90.0) < kQuadrature_deg)
-        text += fmt::format(
+        text += text::message(
             "The response is mostly to the rate of change of the temperature, {} mGal per degC/h "
             "in this band: the crystals feel a change {}",
             text::fixed(rate_coefficient(pair), 1),
-            phase_deg > 0.0 ? "before the thermometer that compensates them does."
-                            : "after the thermometer that compensates them.");
+            phase_deg > 0.0 ? text::message("before the thermometer that compensates them does.")
+                            : text::message("after the thermometer that compensates them."));
     else
-        text += fmt::format("The response is mostly to the temperature itself, with {}",
-                            std::abs(phase_deg) > 90.0 ? "inverted sign." : "the same sign.");
+        text += std::abs(phase_deg) > 90.0
+                    ? text::message(
+                          "The response is mostly to the temperature itself, with inverted sign.")
+                    : text::message(
+                          "The response is mostly to the temperature itself, with the same sign.");
     return text;
 }
 

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "corrector/correlation/regression.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
 
@@ -73,6 +74,6 @@ struct PairStatistics {
 /// differ by more than a factor of 1.25, it says that the band is not narrow.  A phase within 45
 /// degrees of +-90 is called a response to the rate of change.
 /// @param pair  with a period > 0.
-[[nodiscard]] std::string causal_reading(const PairStatistics& pair);
+[[nodiscard]] text::Message causal_reading(const PairStatistics& pair);
 
 }  // namespace a351::corrector::long_record

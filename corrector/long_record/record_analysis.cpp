@@ -56,7 +56,7 @@ std::optional<ChosenMode> choose_mode(const eemd::Result& result, double cycle_s
 }
 
 /// Returns causal_reading(), but only if a part of the band shows a response above chance.
-std::string reading_of(const RecordAnalysis& analysis, double cycle_s) {
+text::Message reading_of(const RecordAnalysis& analysis, double cycle_s) {
     const ResponsePoint* at_cycle = nullptr;
     for (const ResponsePoint& point : analysis.by_spectrum) {
         const bool is_in_band = point.period_s > shortest_of_band_s(cycle_s) &&
@@ -64,43 +64,43 @@ std::string reading_of(const RecordAnalysis& analysis, double cycle_s) {
         if (is_in_band && point.refusal.empty()) return causal_reading(analysis.band);
         if (point.shortest_s <= cycle_s && cycle_s <= point.longest_s) at_cycle = &point;
     }
-    return fmt::format(
+    return text::message(
         "In the band of {} s this record shows no response{}. The statistics of band and modes "
         "have no meaning here.",
         text::fixed(cycle_s, 0),
         at_cycle == nullptr
-            ? ""
-            : fmt::format(" ({}); needed: {}", at_cycle->refusal, at_cycle->needed));
+            ? text::Message()
+            : text::message(" ({}); needed: {}", at_cycle->refusal, at_cycle->needed));
 }
 
 double change_of(const std::vector<double>& values) { return values.back() - values.front(); }
 
 void remark_on_mode(RecordAnalysis& analysis, const std::optional<ChosenMode>& mode,
-                    const std::string& name, double cycle_s) {
+                    const text::Message& name, double cycle_s) {
     if (!mode)
-        analysis.remarks.push_back(
-            fmt::format("{}: no mode has a mean period within an octave of {} s; needed: a record "
-                        "in which the oven cycles",
-                        name, text::fixed(cycle_s, 0)));
+        analysis.remarks.push_back(text::message(
+            "{}: no mode has a mean period within an octave of {} s; needed: a record "
+            "in which the oven cycles",
+            name, text::fixed(cycle_s, 0)));
     else if (mode->neighbour_share > kMostSplit)
-        analysis.remarks.push_back(
-            fmt::format("{}: a neighbour of mode {} ({} s) has {} % of its energy: the oscillation "
-                        "may be split between both modes",
-                        name, mode->number, text::fixed(mode->period_s, 0),
-                        text::fixed(100.0 * mode->neighbour_share, 0)));
+        analysis.remarks.push_back(text::message(
+            "{}: a neighbour of mode {} ({} s) has {} % of its energy: the oscillation "
+            "may be split between both modes",
+            name, mode->number, text::fixed(mode->period_s, 0),
+            text::fixed(100.0 * mode->neighbour_share, 0)));
 }
 
 void remark_on_trend(RecordAnalysis& analysis, double record_s) {
     constexpr double kLeast_s = 6.0 * 3600.0;
     if (record_s < kLeast_s)
         analysis.remarks.push_back(
-            fmt::format("trend: {} h are too short to show a trend; needed: 12 h or more",
-                        text::fixed(record_s / 3600.0, 1)));
+            text::message("trend: {} h are too short to show a trend; needed: 12 h or more",
+                          text::fixed(record_s / 3600.0, 1)));
     if (!analysis.two_paths[TwoPathTerm::warm_up].is_determined ||
         !analysis.two_paths[TwoPathTerm::drift].is_determined)
-        analysis.remarks.emplace_back(
+        analysis.remarks.push_back(text::message(
             "trend: this record does not separate warm-up, drift and slow temperature; needed: one "
-            "from power-on, or one over days in which the temperature moves up and down");
+            "from power-on, or one over days in which the temperature moves up and down"));
 }
 
 }  // namespace
@@ -144,8 +144,10 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
 
     analysis.temperature_mode = choose_mode(analysis.temperature, options.cycle_s, step_s);
     analysis.acceleration_mode = choose_mode(analysis.acceleration, options.cycle_s, step_s);
-    remark_on_mode(analysis, analysis.temperature_mode, "temperature", options.cycle_s);
-    remark_on_mode(analysis, analysis.acceleration_mode, "acceleration", options.cycle_s);
+    remark_on_mode(analysis, analysis.temperature_mode, text::message("temperature"),
+                   options.cycle_s);
+    remark_on_mode(analysis, analysis.acceleration_mode, text::message("acceleration"),
+                   options.cycle_s);
     if (analysis.temperature_mode && analysis.acceleration_mode) {
         analysis.modes = pair_statistics(
             analysis.temperature.modes[analysis.temperature_mode->number - 1].values,

@@ -23,6 +23,7 @@
 #include "corrector/long_record/record_segments.hpp"
 #include "corrector/long_record/response.hpp"
 #include "corrector/long_record/two_path_fit.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
 
@@ -74,10 +75,10 @@ struct RecordAnalysis {
     std::vector<ResponsePoint> by_spectrum, by_modes;  ///< Response by period, in two ways.
     /// causal_reading() of the band; if no band shows a response above chance, the reason, and the
     /// record that is needed.
-    std::string reading;
+    text::Message reading;
     TwoPathFit two_paths;
-    RecordNoise noise;  ///< Noise of the acceleration.
-    std::vector<std::string> remarks;  ///< Doubtful or impossible results, with the reason.
+    RecordNoise noise;                   ///< Noise of the acceleration.
+    std::vector<text::Message> remarks;  ///< Doubtful or impossible results, with the reason.
 };
 
 /// Analyses a segment (corrector/long_record/long_record.md, "Statistics" to "Two paths").

@@ -162,7 +162,7 @@ PooledThermal pool_thermal(const std::vector<TwoPathFit>& fits) {
             parameter.standard_error *= parameter.value;
         }
         parameter.is_determined = deviation < kDeterminedDeviation;
-        if (parameter.is_determined) parameter.needed.clear();
+        if (parameter.is_determined) parameter.needed = {};
         pooled.parameters.push_back(std::move(parameter));
     }
     Vector both = Vector::Zero();

@@ -27,20 +27,21 @@ std::vector<RecordEpoch> read_record_epochs(const std::filesystem::path& metadat
     return epochs;
 }
 
-std::string sensor_change(const std::string& before, const std::string& after) {
+text::Message sensor_change(const std::string& before, const std::string& after) {
     if (before.empty() || after.empty() || before == after) return {};
-    return "another sensor: " + after + " after " + before;
+    return text::message("another sensor: {} after {}", after, before);
 }
 
-std::string epoch_change(const RecordEpoch& before, const RecordEpoch& after) {
-    if (std::string change = sensor_change(before.serial_number, after.serial_number);
+text::Message epoch_change(const RecordEpoch& before, const RecordEpoch& after) {
+    if (text::Message change = sensor_change(before.serial_number, after.serial_number);
         !change.empty())
         return change;
-    if (!(before.codes == after.codes)) return "other channels";
+    if (!(before.codes == after.codes)) return text::message("other channels");
     for (std::size_t k = 0; k < kRecordChannels; ++k) {
         const station::ChannelScale &a = before.scales.at(k), &b = after.scales.at(k);
-        if (a.code != b.code) return "other channels";
-        if (a.gain != b.gain || a.offset != b.offset) return "another scale of " + b.code;
+        if (a.code != b.code) return text::message("other channels");
+        if (a.gain != b.gain || a.offset != b.offset)
+            return text::message("another scale of {}", b.code);
     }
     return {};
 }

@@ -16,6 +16,7 @@
 
 #include "protocol/core/utc_time.hpp"
 #include "protocol/station/station_xml.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
 
@@ -45,10 +46,10 @@ struct RecordEpoch {
 /// Returns the change from one epoch to the next: "another sensor: B after A", "another scale of
 /// BNZ", "other channels"; empty if there is none.  The first that applies is returned, in the
 /// order sensor, codes and channels, scale.
-[[nodiscard]] std::string epoch_change(const RecordEpoch& before, const RecordEpoch& after);
+[[nodiscard]] text::Message epoch_change(const RecordEpoch& before, const RecordEpoch& after);
 
 /// Returns "another sensor: B after A" for two serial numbers.
 /// @return empty if both are the same, or if one is not known (empty).
-[[nodiscard]] std::string sensor_change(const std::string& before, const std::string& after);
+[[nodiscard]] text::Message sensor_change(const std::string& before, const std::string& after);
 
 }  // namespace a351::corrector::long_record

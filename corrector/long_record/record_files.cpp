@@ -41,8 +41,8 @@ Json points_json(const std::vector<ResponsePoint>& points) {
              {"phase_deg", is_claimed ? limits_json(point.phase_deg) : Json(nullptr)},
              {"coherence", point.coherence},
              {"temperature_rms_degc", point.temperature_rms_degc},
-             {"refused", is_claimed ? Json(nullptr) : Json(point.refusal)},
-             {"needed", is_claimed ? Json(nullptr) : Json(point.needed)}});
+             {"refused", is_claimed ? Json(nullptr) : Json(point.refusal.english())},
+             {"needed", is_claimed ? Json(nullptr) : Json(point.needed.english())}});
     }
     return list;
 }
@@ -78,7 +78,7 @@ Json two_paths_json(const TwoPathFit& fit) {
             {"value", parameter.value},
             {"standard_error", parameter.standard_error},
             {"determined", parameter.is_determined},
-            {"needed", parameter.is_determined ? Json(nullptr) : Json(parameter.needed)}};
+            {"needed", parameter.is_determined ? Json(nullptr) : Json(parameter.needed.english())}};
     }
     // Covariance of the coefficients in their units, and of the logarithms of lags and times.
     for (Eigen::Index row = 0; row < fit.covariance.rows(); ++row) {
@@ -107,7 +107,7 @@ Json segments_json(const RecordResult& result) {
                         {"end_utc", to_rfc3339(segment.end, 3)},
                         {"serial_number", serial_json(segment)},
                         {"samples", segment.size()},
-                        {"begins_with", segment.begins_with},
+                        {"begins_with", segment.begins_with.english()},
                         {"restart", segment.is_restart},
                         {"bridged", segment.bridged},
                         {"knocks", segment.disturbed},
@@ -201,26 +201,26 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["raw_rate_hz"] = result.record.raw_rate_hz;
     json["step_s"] = result.record.step_s;
     json["tide_removed"] = result.record.is_tide_removed;
-    json["warnings"] = result.record.warnings;
+    json["warnings"] = text::in_english(result.record.warnings);
     json["segments"] = segments_json(result);
     json["refused"] = Json::array();
     for (const RefusedPart& part : result.parts.refused)
         json["refused"].push_back({{"start_utc", to_rfc3339(part.start, 3)},
                                    {"end_utc", to_rfc3339(part.end, 3)},
-                                   {"reason", part.reason}});
+                                   {"reason", part.reason.english()}});
     for (const RecordStatistic& statistic : record_statistics(result))
         json["statistics"][statistic.key] = statistic.value;
     json["temperature_mode"] = mode_json(analysis.temperature_mode);
     json["acceleration_mode"] = mode_json(analysis.acceleration_mode);
     json["temperature_components"] = components_json(analysis.temperature, analysis.step_s);
     json["acceleration_components"] = components_json(analysis.acceleration, analysis.step_s);
-    json["causal_reading"] = analysis.reading;
+    json["causal_reading"] = analysis.reading.english();
     json["response_by_spectrum"] = points_json(analysis.by_spectrum);
     json["response_by_modes"] = points_json(analysis.by_modes);
     json["two_paths"] = two_paths_json(analysis.two_paths);
     json["noise"] = noise_json(analysis.noise);
     json["applied"] = applied_json(result);
-    json["remarks"] = analysis.remarks;
+    json["remarks"] = text::in_english(analysis.remarks);
     return json.dump(2) + '\n';
 }
 

@@ -144,16 +144,16 @@ std::vector<double> find_steps(const std::vector<double>& values) {
 
 /// Start of a segment.
 struct Begin {
-    std::string why;
+    text::Message why;
     bool is_restart = false;
 };
 
 Begin begin_after_gap(double seconds, double change_degc) {
-    Begin begin{fmt::format("gap of {} s", text::fixed(seconds, 0)),
+    Begin begin{text::message("gap of {} s", text::fixed(seconds, 0)),
                 std::abs(change_degc) > kRestart_degc};
     if (begin.is_restart)
         begin.why +=
-            fmt::format(" with {} degC between its ends: a restart", text::fixed(change_degc, 2));
+            text::message(" with {} degC between its ends: a restart", text::fixed(change_degc, 2));
     return begin;
 }
 
@@ -184,7 +184,7 @@ private:
                 if (valid.places[i] - valid.places[i - 1] - 1 > kLongestBridge)
                     next = begin_at(stretch, is_stuck, valid, i);
                 else if (steps[i] != 0.0)
-                    next.why = fmt::format("step of {} mGal", text::fixed(steps[i], 1));
+                    next.why = text::message("step of {} mGal", text::fixed(steps[i], 1));
                 if (next.why.empty()) continue;
             }
             add(stretch, valid, knocks, first, i, begin);
@@ -199,14 +199,16 @@ private:
         std::vector<bool> is_stuck(stretch.size(), false);
         std::vector<EqualRun> still = equal_runs(stretch.temperature_degc, kSame_degc);
         remove_coarse_runs(still, stretch.temperature_degc, kSame_degc);
-        refuse_stuck(is_stuck, stretch, stretch.temperature_degc, still, "the temperature", "degC");
+        refuse_stuck(is_stuck, stretch, stretch.temperature_degc, still,
+                     text::marked("the temperature"), "degC");
         // The norm has the tide subtracted, so it varies even if the sensor is stuck.  The axes
         // still contain the tide: they are tested if the record has them.
-        constexpr std::array kNames{"the x axis", "the y axis", "the z axis"};
+        constexpr std::array kNames{text::marked("the x axis"), text::marked("the y axis"),
+                                    text::marked("the z axis")};
         if (stretch.axes_mgal.empty())
             refuse_stuck(is_stuck, stretch, stretch.acceleration_mgal,
-                         equal_runs(stretch.acceleration_mgal, kSame_mgal), "the acceleration",
-                         "mGal");
+                         equal_runs(stretch.acceleration_mgal, kSame_mgal),
+                         text::marked("the acceleration"), "mGal");
         for (std::size_t k = 0; k < stretch.axes_mgal.size(); ++k)
             refuse_stuck(is_stuck, stretch, stretch.axes_mgal[k],
                          equal_runs(stretch.axes_mgal[k], kSame_mgal), kNames.at(k), "mGal");
@@ -219,9 +221,10 @@ private:
         for (const EqualRun& run : still) {
             std::fill_n(is_stuck.begin() + static_cast<std::ptrdiff_t>(run.first), run.size(),
                         true);
-            result_.refused.push_back({stretch.times[run.first], stretch.times[run.behind - 1],
-                                       fmt::format("{} is stuck at {} {}", name,
-                                                   text::fixed(values[run.first], 4), unit)});
+            result_.refused.push_back(
+                {stretch.times[run.first], stretch.times[run.behind - 1],
+                 text::message("{} is stuck at {} {}", text::marked_message(name),
+                               text::fixed(values[run.first], 4), unit)});
         }
     }
 
@@ -231,7 +234,7 @@ private:
     }
 
     [[nodiscard]] Begin begin_of(const RecordStretch& stretch, const Valid& valid) const {
-        if (!last_end_) return {"the record begins"};
+        if (!last_end_) return {text::message("the record begins")};
         Begin begin = begin_after_gap(seconds_between(*last_end_, stretch.times.front()),
                                       level(valid, 0) - last_temperature_);
         if (!stretch.begins_with.empty()) begin.why = stretch.begins_with;
@@ -243,7 +246,7 @@ private:
                                         std::size_t i) {
         const std::size_t before = valid.places[i - 1], after = valid.places[i];
         for (std::size_t k = before + 1; k < after; ++k)
-            if (is_stuck[k]) return {"end of the stuck values"};
+            if (is_stuck[k]) return {text::message("end of the stuck values")};
         return begin_after_gap(
             seconds_between(stretch.times[before], stretch.times[after]),
             level(valid, i) - median_of(valid.temperature_degc, i - std::min(i, kBeside), i));
@@ -265,8 +268,9 @@ private:
             };
             result_.refused.push_back(
                 {segment.start, segment.end,
-                 fmt::format("too short: {} h after \"{}\"; at least {} h in one piece are needed",
-                             hours(span, 2), begin.why, hours(shortest_, 1))});
+                 text::message(
+                     "too short: {} h after \"{}\"; at least {} h in one piece are needed",
+                     hours(span, 2), begin.why, hours(shortest_, 1))});
             return;
         }
         std::size_t previous = first;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "corrector/long_record/long_record.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
 
@@ -33,7 +34,7 @@ struct RecordSegment {
     UtcTime start;              ///< Time of the first sample.
     UtcTime end;                ///< Time of the last sample.
     std::string serial_number;  ///< Serial number of the sensor; empty: not known.
-    std::string begins_with;    ///< Reason of its start: "the record begins", "gap of 512 s" ...
+    text::Message begins_with;  ///< Reason of its start: "the record begins", "gap of 512 s" ...
     std::vector<double> acceleration_mgal;  ///< (n)
     std::vector<double> temperature_degc;   ///< (n)
     std::size_t bridged = 0;                ///< Number of samples from straight lines.
@@ -48,7 +49,7 @@ struct RecordSegment {
 /// channels are stuck at once.  `reason` is a text for people, with the value or length found.
 struct RefusedPart {
     UtcTime start, end;
-    std::string reason;
+    text::Message reason;
 };
 
 /// The parts of a record.  Missing samples between them are in neither list.

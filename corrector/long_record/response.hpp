@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+#include "protocol/text/message.hpp"
+
 namespace a351::corrector::long_record {
 
 /// A value with its confidence limits: low <= value <= high.
@@ -41,8 +43,8 @@ struct ResponsePoint {
     /// Squared coherence, 0 to 1.  By modes: squared correlation of the mode and the acceleration.
     double coherence = 0.0;
     double temperature_rms_degc = 0.0;  ///< Rms of the temperature in the band or mode.
-    std::string refusal;                ///< Reason why no gain is claimed; empty if it is claimed.
-    std::string needed;                 ///< Record that would show a gain; empty if it is claimed.
+    text::Message refusal;              ///< Reason why no gain is claimed; empty if it is claimed.
+    text::Message needed;               ///< Record that would show a gain; empty if it is claimed.
 };
 
 /// Shortest period of a response, s.  Reason: three filters attenuate shorter ones.

@@ -137,8 +137,8 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     const double s_tt = is_noise ? tt : of_oven;
     const std::complex<double> gain = at / s_tt;
     if (!(tt > 0.0) || !(aa > 0.0) || !std::isfinite(std::abs(gain)) || !std::isfinite(aa / tt)) {
-        point.refusal = "temperature or acceleration is constant";
-        point.needed = "a record in which both vary";
+        point.refusal = text::message("temperature or acceleration is constant");
+        point.needed = text::message("a record in which both vary");
         return point;
     }
     // nu: resolutions filled by the temperature's power, minus one.  A line is as wide as the
@@ -157,15 +157,16 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     const double least_swing_degc = std::sqrt(16.0 * noise * bins / kNoiseShare /
                                               spectrum.rayleigh / static_cast<double>(samples));
     if (point.period_s > record_s / kFewestCycles) {
-        point.refusal = fmt::format("fewer than {} cycles", text::fixed(kFewestCycles, 0));
-        point.needed = fmt::format(
+        point.refusal = text::message("fewer than {} cycles", text::fixed(kFewestCycles, 0));
+        point.needed = text::message(
             "a record of {} h", text::fixed(std::ceil(kFewestCycles * point.period_s / 3600.0), 0));
     } else if (is_noise) {
-        point.refusal = "no excitation: the temperature shows the thermometer's noise";
-        point.needed = fmt::format("a swing of {} degC", text::fixed(least_swing_degc, 4));
+        point.refusal =
+            text::message("no excitation: the temperature shows the thermometer's noise");
+        point.needed = text::message("a swing of {} degC", text::fixed(least_swing_degc, 4));
     } else if (radius >= std::abs(gain)) {
-        point.refusal = "no coherence above chance";
-        point.needed = fmt::format(
+        point.refusal = text::message("no coherence above chance");
+        point.needed = text::message(
             "a larger temperature swing or a longer record; here no response below {} mGal/degC "
             "can be detected",
             text::fixed(point.gain.high, 0));

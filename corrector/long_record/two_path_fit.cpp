@@ -302,20 +302,21 @@ struct Named {
     const char *key, *name, *unit, *needed;
 };
 constexpr const char* kByDays =
-    "a set point that moves by about 0.1 degC every few hours, for two days or more";
-constexpr const char* kFromPowerOn = "a record that begins when the sensor is switched on";
+    text::marked("a set point that moves by about 0.1 degC every few hours, for two days or more");
+constexpr const char* kFromPowerOn =
+    text::marked("a record that begins when the sensor is switched on");
 /// Parameters in the order of TwoPathTerm.
 constexpr std::array<Named, kTwoPathTerms> kNamed{{
-    {"drift_mgal_per_h", "drift", "mGal/h", "a week or more"},
-    {"warm_up_mgal", "warm-up at the start", "mGal", kFromPowerOn},
-    {"level_mgal_per_degc", "static slope, prompt", "mGal/degC", kByDays},
-    {"fast_mgal_per_degc_per_h", "fast path", "mGal/(degC/h)",
-     "a larger temperature swing at periods of 5 to 30 min"},
-    {"slow_mgal_per_degc", "static slope, late", "mGal/degC", kByDays},
-    {"fast_lag_s", "lag of the fast path", "s",
-     "a larger temperature swing at periods of 4 to 8 min"},
-    {"slow_lag_s", "lag of the slow path", "s", kByDays},
-    {"warm_up_time_s", "time constant of the warm-up", "s", kFromPowerOn},
+    {"drift_mgal_per_h", text::marked("drift"), "mGal/h", text::marked("a week or more")},
+    {"warm_up_mgal", text::marked("warm-up at the start"), "mGal", kFromPowerOn},
+    {"level_mgal_per_degc", text::marked("static slope, prompt"), "mGal/degC", kByDays},
+    {"fast_mgal_per_degc_per_h", text::marked("fast path"), "mGal/(degC/h)",
+     text::marked("a larger temperature swing at periods of 5 to 30 min")},
+    {"slow_mgal_per_degc", text::marked("static slope, late"), "mGal/degC", kByDays},
+    {"fast_lag_s", text::marked("lag of the fast path"), "s",
+     text::marked("a larger temperature swing at periods of 4 to 8 min")},
+    {"slow_lag_s", text::marked("lag of the slow path"), "s", kByDays},
+    {"warm_up_time_s", text::marked("time constant of the warm-up"), "s", kFromPowerOn},
 }};
 
 }  // namespace
@@ -345,13 +346,14 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         const double value = is_lag ? lag_s(u, lag) : units(place) * beta(place);
         const bool is_determined = std::sqrt(scaled(place, place)) < kDeterminedDeviation;
         const Named& named = kNamed.at(k);
-        fit.parameters.at(k) = {named.key,
-                                named.name,
-                                named.unit,
-                                value,
-                                is_lag ? value * deviation : deviation,
-                                is_determined,
-                                is_determined ? "" : named.needed};
+        fit.parameters.at(k) = {
+            named.key,
+            named.name,
+            named.unit,
+            value,
+            is_lag ? value * deviation : deviation,
+            is_determined,
+            is_determined ? text::Message() : text::marked_message(named.needed)};
     }
     fit.covariance = units.asDiagonal() * scaled * units.asDiagonal();
     constexpr auto level = static_cast<Index>(TwoPathTerm::level),

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "corrector/long_record/response.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::long_record {
@@ -52,13 +53,13 @@ inline constexpr double kDeterminedDeviation = 0.5;
 /// `value` and `standard_error` are in `unit` and include the prior.  For a lag or time the error
 /// is value x error of its natural logarithm.  `name` is for people.
 struct FittedParameter {
-    std::string key;  ///< Key with its unit, as in result.json.
-    std::string name;
+    std::string key;        ///< Key with its unit, as in result.json.
+    const char* name = "";  ///< A text of the catalogue.
     std::string unit;
     double value = 0.0;
     double standard_error = 0.0;
     bool is_determined = false;  ///< True: the standard error is below half of the prior's.
-    std::string needed;          ///< Record that would determine it; empty if it is determined.
+    text::Message needed;        ///< Record that would determine it; empty if it is determined.
 };
 
 /// Result of fit_two_paths().

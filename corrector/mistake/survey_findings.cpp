@@ -229,7 +229,7 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         if (chosen != result.model) {
             options.model = chosen;
             result = correct();
-            result.remarks.push_back(fmt::format(
+            result.remarks.push_back(text::message(
                 "{} is chosen from the readings without the mistakes that were found", chosen));
             found = search(result, survey);
         }

@@ -39,18 +39,18 @@ bool is_harmful(const CalibrationUse& use, const Score& score) {
            *score.loso_mgal > (1.0 + kHarm) * *use.loso_without_mgal;
 }
 
-std::string name_of(const unit::Calibration& calibration) {
-    return fmt::format("calibration of unit {} ({}, from {})", calibration.serial_number,
-                       calibration.program, to_rfc3339(calibration.valid_from));
+text::Message name_of(const unit::Calibration& calibration) {
+    return text::message("calibration of unit {} ({}, from {})", calibration.serial_number,
+                         calibration.program, to_rfc3339(calibration.valid_from));
 }
 
-void remark_test(Fit& result, const char* part, const std::optional<Disagreement>& test) {
+void remark_test(Fit& result, const text::Message& part, const std::optional<Disagreement>& test) {
     if (!test)
-        result.remarks.push_back(fmt::format(
+        result.remarks.push_back(text::message(
             "the calibration's {} not tested: the readings contain no information about this part",
             part));
     if (is_contradicted(test))
-        result.remarks.push_back(fmt::format(
+        result.remarks.push_back(text::message(
             "the readings contradict the calibration's {}: chi-square {} for {} degrees of "
             "freedom, by chance less than once in a hundred surveys; check that it belongs to this "
             "unit and is still valid, and correct the survey without it too",
@@ -141,27 +141,30 @@ void report_prior_use(Fit& result, const unit::Calibration& calibration,
     for (std::size_t i = 0; i < fit.set_ups.size(); ++i)
         squares += std::pow((fit.set_ups[i].corrected - without.set_ups[i].corrected).value(), 2);
     use.effect_rms_mgal = std::sqrt(squares / static_cast<double>(fit.set_ups.size()));
-    result.remarks.push_back(fmt::format(
+    result.remarks.push_back(text::message(
         "{} as prior: {}{}{}{}; it changes the corrected values by {} mGal rms{}",
-        name_of(calibration), calibration.axis_bias ? "axis biases" : "no axis biases",
-        calibration.thermal ? ", thermal response with its errors doubled"
-                            : ", no thermal response",
+        name_of(calibration),
+        calibration.axis_bias ? text::message("axis biases") : text::message("no axis biases"),
+        calibration.thermal ? text::message(", thermal response with its errors doubled")
+                            : text::message(", no thermal response"),
         calibration.placement
-            ? fmt::format(", placement {} mGal", text::fixed(calibration.placement->mgal, 2))
-            : "",
+            ? text::message(", placement {} mGal", text::fixed(calibration.placement->mgal, 2))
+            : text::Message(),
         calibration.scale
-            ? fmt::format(", scale {} +- {}", text::fixed(calibration.scale->value, 5),
-                          text::fixed(calibration.scale->standard_error, 5))
-            : "",
+            ? text::message(", scale {} +- {}", text::fixed(calibration.scale->value, 5),
+                            text::fixed(calibration.scale->standard_error, 5))
+            : text::Message(),
         text::fixed(use.effect_rms_mgal, 2),
         calibration.axis_bias
-            ? "; for the scores of other models axis bias x tilt was subtracted from the readings"
-            : ""));
-    if (calibration.axis_bias) remark_test(result, "axis biases", use.axis_bias);
-    if (calibration.thermal) remark_test(result, "thermal response", use.thermal);
+            ? text::message(
+                  "; for the scores of other models axis bias x tilt was subtracted from the "
+                  "readings")
+            : text::Message()));
+    if (calibration.axis_bias) remark_test(result, text::message("axis biases"), use.axis_bias);
+    if (calibration.thermal) remark_test(result, text::message("thermal response"), use.thermal);
     use.loso_without_mgal = without_loso_mgal;
     if (is_harmful(use, result.score))
-        result.remarks.push_back(fmt::format(
+        result.remarks.push_back(text::message(
             "with the calibration the survey is worse: stations left out are predicted with an "
             "error of {} mGal rms, without it {}; check that it belongs to this unit and is still "
             "valid",
@@ -202,17 +205,17 @@ SurveyCorrection correct_with_calibration(const std::vector<reading::SurveyRow>&
     }
     const auto n = static_cast<double>(result.rows.size());
     use.effect_rms_mgal = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
-    std::string text = name_of(calibration);
+    text::Message text = name_of(calibration);
     if (calibration.axis_bias)
-        text += fmt::format(
+        text += text::message(
             ": axis bias x tilt was subtracted from the readings, for the scores of all models "
             "too; this correction varies by {} mGal rms from reading to reading; the calibration "
             "was not compared with the readings",
             text::fixed(use.effect_rms_mgal, 2));
     else
-        text += ": no axis biases";
+        text += text::message(": no axis biases");
     if (calibration.thermal)
-        text += "; its thermal response is not used by the model " + result.model;
+        text += text::message("; its thermal response is not used by the model {}", result.model);
     result.remarks.push_back(text);
     result.calibration = use;
     return result;

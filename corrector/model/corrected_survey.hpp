@@ -36,6 +36,7 @@
 #include "corrector/whole_day/day_model.hpp"
 #include "corrector/whole_day/goodness_of_fit.hpp"
 #include "corrector/whole_day/unit_posterior.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector::model {
@@ -298,9 +299,9 @@ struct Fit {
     /// Present if there are differences.
     std::optional<StationCovariance> covariance;
     std::vector<Coefficient> coefficients;  ///< In the order of the model.
-    std::vector<ScaleEstimate> scales;  ///< One per instrument; empty: a model without this term.
-    Score score;                        ///< Score on the rows of the fit.
-    std::vector<std::string> remarks;   ///< Further facts for the user, in sentences.
+    std::vector<ScaleEstimate> scales;   ///< One per instrument; empty: a model without this term.
+    Score score;                         ///< Score on the rows of the fit.
+    std::vector<text::Message> remarks;  ///< Further facts for the user, in sentences.
     /// Present if the options have a calibration and the model is `day`, or the fit is that of
     /// correct_with_calibration().
     std::optional<CalibrationUse> calibration;

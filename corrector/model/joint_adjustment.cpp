@@ -11,6 +11,7 @@
 #include "corrector/model/day_fits.hpp"
 #include "corrector/model/model.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::model {
 namespace {
@@ -65,20 +66,20 @@ std::pair<UtcTime, UtcTime> span_of(const reading::DayRecord& day) {
 }
 
 /// Returns why the surveys cannot be adjusted; empty if they can.
-std::string refusal_of(const std::vector<RecordedSurvey>& surveys) {
+text::Message refusal_of(const std::vector<RecordedSurvey>& surveys) {
     for (const RecordedSurvey& survey : surveys)
         if (survey.day == nullptr || survey.result->as<WholeDayPart>() == nullptr)
-            return fmt::format("{} is not corrected by the whole-day model", survey.name);
+            return text::message("{} is not corrected by the whole-day model", survey.name);
     for (std::size_t b = 0; b < surveys.size(); ++b)
         for (std::size_t a = 0; a < b; ++a) {
             if (surveys[a].serial_number != surveys[b].serial_number) continue;
             const auto of_a = span_of(*surveys[a].day), of_b = span_of(*surveys[b].day);
             if (of_a.first < of_b.second && of_b.first < of_a.second)
-                return fmt::format("{} and {} are of one unit ({}) at the same time",
-                                   surveys[a].name, surveys[b].name,
-                                   surveys[a].serial_number.empty()
-                                       ? "no serial number in the metadata"
-                                       : surveys[a].serial_number);
+                return text::message("{} and {} are of one unit ({}) at the same time",
+                                     surveys[a].name, surveys[b].name,
+                                     surveys[a].serial_number.empty()
+                                         ? text::message("no serial number in the metadata")
+                                         : text::Message(surveys[a].serial_number));
         }
     return {};
 }
@@ -228,14 +229,14 @@ void set_stations(JointAdjustment& result, const whole_day::JointFit& fit, const
 
 }  // namespace
 
-std::variant<JointAdjustment, std::string> adjust_jointly(
+std::variant<JointAdjustment, text::Message> adjust_jointly(
     const std::vector<RecordedSurvey>& surveys) {
-    if (std::string refusal = refusal_of(surveys); !refusal.empty()) return refusal;
+    if (text::Message refusal = refusal_of(surveys); !refusal.empty()) return refusal;
     std::vector<Prepared> rows;
     for (const RecordedSurvey& survey : surveys) rows.push_back(prepared(survey));
     const auto references = held_references(rows);
     if (const auto* const site = std::get_if<std::string>(&references))
-        return fmt::format("the surveys have different references of {}", *site);
+        return text::message("the surveys have different references of {}", *site);
     const auto& held = std::get<std::map<std::string, Reference>>(references);
 
     Numbers numbers;
@@ -244,7 +245,8 @@ std::variant<JointAdjustment, std::string> adjust_jointly(
     for (std::size_t k = 0; k < surveys.size(); ++k) {
         joint.push_back(joint_survey(surveys[k], rows[k], held, numbers));
         const auto unit = std::ranges::find_if(first_of_unit, [&](std::size_t other) {
-            return surveys[other].serial_number == surveys[k].serial_number &&
+            return !surveys[k].serial_number.empty() &&
+                   surveys[other].serial_number == surveys[k].serial_number &&
                    are_equal(joint[other].priors, joint[k].priors);
         });
         joint.back().unit = static_cast<std::size_t>(unit - first_of_unit.begin());

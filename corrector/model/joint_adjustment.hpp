@@ -3,7 +3,7 @@
 /// One adjustment of several corrected surveys by the whole-day model (whole_day/joint_model.hpp).
 ///
 ///     const auto joint = adjust_jointly(surveys);
-///     if (const auto* const reason = std::get_if<std::string>(&joint)) return *reason;
+///     if (const auto* const reason = std::get_if<text::Message>(&joint)) return *reason;
 ///     std::get<JointAdjustment>(joint).stations;
 ///
 /// The surveys are corrected one by one before; that decides about flags, steps and references.
@@ -16,13 +16,14 @@
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/day_record.hpp"
 #include "corrector/whole_day/joint_model.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::model {
 
 /// A corrected survey, its record and its unit.  Nothing is owned.
 struct RecordedSurvey {
     std::string name;
-    std::string serial_number;  ///< Empty: not known.
+    std::string serial_number;  ///< Empty: not known, so a unit of its own.
     const SurveyCorrection* result = nullptr;
     const reading::DayRecord* day = nullptr;  ///< Null: there is none.
 };
@@ -64,7 +65,7 @@ struct JointAdjustment {
 /// - two have different references of one station,
 /// - two of one unit are at the same time.
 /// @param surveys  at least one.  Their order changes the result in the last bits only.
-[[nodiscard]] std::variant<JointAdjustment, std::string> adjust_jointly(
+[[nodiscard]] std::variant<JointAdjustment, text::Message> adjust_jointly(
     const std::vector<RecordedSurvey>& surveys);
 
 }  // namespace a351::corrector::model

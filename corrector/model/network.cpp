@@ -168,10 +168,10 @@ Refusal refusal_of(const NetworkAdjustment& network, const NetworkReadings& read
 void add_remarks(NetworkAdjustment& network, const NetworkReadings& readings) {
     const std::vector<std::string> tied = groups_tied_by_drift(readings);
     if (!tied.empty())
-        network.remarks.push_back(
+        network.remarks.push_back(text::message(
             "connected with a datum only by the instrument's constant and drift, because no "
-            "station is occupied before and after: " +
-            text::joined(tied, "; "));
+            "station is occupied before and after: {}",
+            text::joined(tied, "; ")));
     // Datum rows are not checked: their redundancy is always small, because a wrong reference shows
     // in the residuals of the readings.
     std::vector<std::string> uncontrolled;
@@ -180,9 +180,9 @@ void add_remarks(NetworkAdjustment& network, const NetworkReadings& readings) {
         if (row.redundancy < kControlledRedundancy) uncontrolled.push_back(row.label);
     }
     if (!uncontrolled.empty())
-        network.remarks.push_back(
-            "practically uncontrolled (redundancy below 0.1), a blunder there cannot be found: " +
-            text::joined(uncontrolled));
+        network.remarks.push_back(text::message(
+            "practically uncontrolled (redundancy below 0.1), a blunder there cannot be found: {}",
+            text::joined(uncontrolled)));
 }
 
 }  // namespace

@@ -49,6 +49,7 @@
 #include "corrector/model/prior.hpp"
 #include "corrector/model/refusal.hpp"
 #include "corrector/reading/survey_row.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::model {
 
@@ -123,16 +124,16 @@ struct NetworkAdjustment {
     Eigen::MatrixXd covariance;  ///< (s + m, s + m) Covariance of the unknowns a priori.
     /// (n, m) Regressors of the terms, rows in use or not; 0 in rows that are not tied.
     Eigen::MatrixXd term_columns;
-    std::vector<bool> is_tied;         ///< (n) True if the loop of the row has a reading in use.
-    std::vector<NetworkRow> rows;      ///< Readings in use in order of time; datum; priors.
-    std::size_t reading_count = 0;     ///< Number of readings in use.
-    std::size_t datum_count = 0;       ///< Number of stations held.
-    bool is_level_known = true;        ///< False: the gravity that is held is not a published one.
-    std::size_t dof = 0;               ///< Degrees of freedom: rows - unknowns.
-    double weighted_square = 0.0;      ///< v^T W v
-    double chi_square_low = 0.0;       ///< Lower limit of the global test; 0 if dof = 0.
-    double chi_square_high = 0.0;      ///< Upper limit of the global test; 0 if dof = 0.
-    std::vector<std::string> remarks;  ///< Facts that the user must know, in sentences.
+    std::vector<bool> is_tied;      ///< (n) True if the loop of the row has a reading in use.
+    std::vector<NetworkRow> rows;   ///< Readings in use in order of time; datum; priors.
+    std::size_t reading_count = 0;  ///< Number of readings in use.
+    std::size_t datum_count = 0;    ///< Number of stations held.
+    bool is_level_known = true;     ///< False: the gravity that is held is not a published one.
+    std::size_t dof = 0;            ///< Degrees of freedom: rows - unknowns.
+    double weighted_square = 0.0;   ///< v^T W v
+    double chi_square_low = 0.0;    ///< Lower limit of the global test; 0 if dof = 0.
+    double chi_square_high = 0.0;   ///< Upper limit of the global test; 0 if dof = 0.
+    std::vector<text::Message> remarks;  ///< Facts that the user must know, in sentences.
 
     /// Returns s0 = sqrt(v^T W v / dof), the ratio of the standard deviations a posteriori and a
     /// priori; absent if dof = 0.

@@ -103,20 +103,20 @@ double pressure_correlation(const std::vector<CorrectedRow>& rows,
 }
 
 /// Returns the fitted admittance in words, and if the readings can distinguish it from gravity.
-std::string admittance_remark(const Fit& result, const std::vector<bool>& in_use) {
+text::Message admittance_remark(const Fit& result, const std::vector<bool>& in_use) {
     // Real admittances are -0.0002 to -0.0004 mGal/hPa: a value with a larger error is not better
     // than the usual one.
     constexpr double kUsual_mgal_per_hpa = -0.0003, kGoodError_mgal_per_hpa = 0.0001;
     const Coefficient& admittance =
         *std::ranges::find(result.coefficients, kAdmittanceTerm, &Coefficient::name);
     const double u = admittance.standard_error.value();
-    return fmt::format(
+    return text::message(
         "admittance {:.5f} +- {:.5f} mGal/hPa, fitted; pressure and readings correlate by {:.3f}{}",
         admittance.value, u, pressure_correlation(result.rows, in_use),
         u <= kGoodError_mgal_per_hpa
-            ? ""
-            : fmt::format(": it cannot be distinguished from gravity and drift, use the fixed {}",
-                          kUsual_mgal_per_hpa));
+            ? text::Message()
+            : text::message(": it cannot be distinguished from gravity and drift, use the fixed {}",
+                            kUsual_mgal_per_hpa));
 }
 
 StationValue adjusted_station(const Fit& result, const NetworkAdjustment& network, std::size_t k) {
@@ -179,9 +179,9 @@ void leave_out_untied(Fit& result, const NetworkAdjustment& network) {
     result.rows = std::move(rows);
     if (names.empty()) return;
     result.remarks.push_back(
-        fmt::format("no reading in use between two pauses of more than {} h, so the instrument's "
-                    "constant is undetermined there: left out are {}",
-                    std::lround(kLoopPause_h), text::joined(names)));
+        text::message("no reading in use between two pauses of more than {} h, so the instrument's "
+                      "constant is undetermined there: left out are {}",
+                      std::lround(kLoopPause_h), text::joined(names)));
 }
 
 void set_stations(Fit& result, const NetworkAdjustment& network, double sd) {

@@ -121,11 +121,13 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
     if (has_temperature)
         network.terms.emplace_back("temperature_mgal_per_degc");
     else
-        network.remarks.emplace_back(
+        network.remarks.push_back(
             rows.front().has_temperature
-                ? "the temperature does not vary between the readings: its coefficient cannot be "
-                  "separated from the constant and is left out"
-                : "no temperature is given: the readings are taken as corrected for it");
+                ? text::message(
+                      "the temperature does not vary between the readings: its coefficient cannot "
+                      "be separated from the constant and is left out")
+                : text::message("no temperature is given: the readings are taken as corrected for "
+                                "it"));
     if (has_rate) network.terms.emplace_back("rate_mgal_per_degc_per_h");
     if (options.fits_admittance) network.terms.emplace_back(kAdmittanceTerm);
     std::vector<Eigen::VectorXd> steps;
@@ -148,7 +150,8 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
     network.term_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
                                                  static_cast<Eigen::Index>(network.terms.size()));
     std::vector<std::optional<UtcTime>> origins(loops.count);
-    std::vector<std::string> of_gravimeters;
+    text::Message of_gravimeters;
+    std::size_t gravimeter_loops = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         network.is_tied.push_back(loops.of[i].has_value());
         if (!loops.of[i]) continue;
@@ -156,8 +159,11 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
         if (!origin) {
             origin = rows[i].time;
             if (!rows[i].instrument.empty())
-                of_gravimeters.push_back(fmt::format("loop {} is {} from {}", *loops.of[i] + 1,
-                                                     rows[i].instrument, to_rfc3339(*origin)));
+                of_gravimeters += gravimeter_loops++ == 0
+                                      ? text::message("loop {} is {} from {}", *loops.of[i] + 1,
+                                                      rows[i].instrument, to_rfc3339(*origin))
+                                      : text::message("; loop {} is {} from {}", *loops.of[i] + 1,
+                                                      rows[i].instrument, to_rfc3339(*origin));
         }
         auto line = network.term_columns.row(static_cast<Eigen::Index>(i));
         const double hours =
@@ -171,7 +177,7 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
         if (has_rate) line(k++) = rows[i].rate_degc_per_h;
         if (options.fits_admittance) line(k) = rows[i].excess_pressure_hpa.value_or(0.0);
     }
-    if (of_gravimeters.size() > 1) network.remarks.push_back(text::joined(of_gravimeters, "; "));
+    if (gravimeter_loops > 1) network.remarks.push_back(of_gravimeters);
     for (std::size_t k = 0; k < steps.size(); ++k)
         network.term_columns.col(network.term_columns.cols() - std::ssize(network.scales) -
                                  std::ssize(steps) + static_cast<Eigen::Index>(k)) = steps[k];

@@ -9,6 +9,8 @@
 
 #include <string>
 
+#include "protocol/text/message.hpp"
+
 namespace a351::corrector::model {
 
 /// Reason why a model cannot be fitted to the rows of a survey.
@@ -16,8 +18,8 @@ namespace a351::corrector::model {
 /// Both texts are parts of one sentence: without a capital at the start and a full stop at the end.
 /// A default-constructed object with empty texts means that nothing is refused.
 struct Refusal {
-    std::string trouble;  ///< Cause, without the name of the model.
-    std::string allowed;  ///< Remedy: conditions that would make the fit possible.
+    text::Message trouble;  ///< Cause, without the name of the model.
+    std::string allowed;    ///< Remedy: conditions that would make the fit possible.
 };
 
 }  // namespace a351::corrector::model

@@ -102,8 +102,8 @@ std::string doubts_text(const SurveyCorrection& result) {
     return "doubtful readings (none is left out because of this):\n" + text;
 }
 
-std::string temperature_remark(const std::vector<CorrectedRow>& rows,
-                               const std::vector<std::string>& datum) {
+text::Message temperature_remark(const std::vector<CorrectedRow>& rows,
+                                 const std::vector<std::string>& datum) {
     if (rows.empty() || !rows.front().row.has_temperature) return {};
     double low_degc = HUGE_VAL, high_degc = -HUGE_VAL;
     for (const CorrectedRow& row : rows) {
@@ -123,7 +123,7 @@ std::string temperature_remark(const std::vector<CorrectedRow>& rows,
         names.push_back(fmt::format("{} ({})", row.row.site, row.row.occupation));
     }
     if (names.empty()) return {};
-    return fmt::format(
+    return text::message(
         "temperature outside {} to {} degC, that of the known stations in the fit, by up to {} "
         "degC: the temperature correction is extrapolated for {}",
         text::fixed(low_degc, 2), text::fixed(high_degc, 2), text::fixed(most_degc, 2),

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::model {
 
@@ -80,7 +81,7 @@ void doubt_by_prediction(Fit& result);
 /// on the whole distance.
 /// @param rows   rows of the fit.
 /// @param datum  stations whose reference is held; empty: all.
-[[nodiscard]] std::string temperature_remark(const std::vector<CorrectedRow>& rows,
-                                             const std::vector<std::string>& datum);
+[[nodiscard]] text::Message temperature_remark(const std::vector<CorrectedRow>& rows,
+                                               const std::vector<std::string>& datum);
 
 }  // namespace a351::corrector::model

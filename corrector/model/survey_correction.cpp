@@ -34,7 +34,7 @@ struct Chosen {
     std::optional<Choice> choice;
     std::optional<double> choice_loso_mgal;
     std::optional<Priors> priors;  ///< Priors that were fitted, if not those of the options.
-    std::vector<std::string> remarks;
+    std::vector<text::Message> remarks;
 };
 
 std::vector<reading::SurveyRow> used_rows(const SurveyProblem& problem, const RowChoice& rows) {
@@ -58,7 +58,7 @@ void fit_without_record(Chosen& chosen, const SurveyProblem& problem, const RowC
             choice_loso_mgal(used, problem.origin(), options.base, options.priors);
     } else {
         chosen.model = find_model(kNetwork);
-        chosen.remarks.push_back(fmt::format(
+        chosen.remarks.push_back(text::message(
             "{} readings at {} known stations do not allow to compare models: network, with the "
             "priors {}",
             used.size(), station_names(used).size(), add_published_priors(options.priors)));
@@ -70,7 +70,7 @@ void fit_without_record(Chosen& chosen, const SurveyProblem& problem, const RowC
 /// Comparison of the whole-day model with the linear model that `auto` would choose.
 struct Comparison {
     bool is_linear_better = false;
-    std::string errors;  ///< Errors of both, in words.
+    text::Message errors;  ///< Errors of both, in words.
 };
 
 /// Compares both models by the errors at stations left out; nullopt if these are not known.
@@ -101,20 +101,21 @@ std::optional<Comparison> compare_with_linear(const SurveyProblem& problem, cons
     const auto interval = bootstrap_mean_interval(differences, stations, options.seed);
     return Comparison{
         interval && interval->low > 0.0,
-        fmt::format("it predicts stations left out with an error of {} mGal, {} with {}",
-                    text::fixed(*day.score.loso_mgal, 2), choice->model,
-                    text::fixed(std::sqrt(squares / static_cast<double>(differences.size())), 2))};
+        text::message(
+            "it predicts stations left out with an error of {} mGal, {} with {}",
+            text::fixed(*day.score.loso_mgal, 2), choice->model,
+            text::fixed(std::sqrt(squares / static_cast<double>(differences.size())), 2))};
 }
 
 /// Says that no other model was compared, and what the fit was tested with.
-std::string without_comparison(const Fit& day) {
+text::Message without_comparison(const Fit& day) {
     const bool is_tested = !day.as<WholeDayPart>()->fit_tests.empty();
-    return fmt::format(
+    return text::message(
         "the whole-day model is used without a comparison with others, which needs enough readings "
         "at {} or more known stations; {}",
         kFewestComparedStations,
-        is_tested ? "its fit was tested at repeated and known stations"
-                  : "its fit could not be tested either");
+        is_tested ? text::message("its fit was tested at repeated and known stations")
+                  : text::message("its fit could not be tested either"));
 }
 
 /// Returns true if the survey asks for the network and nothing that only the adjustment has.
@@ -143,7 +144,7 @@ void remark_unused_uncertainties(Fit& result, const Model& model) {
     if (!uses_them && std::ranges::any_of(result.rows, [](const CorrectedRow& row) {
             return row.is_used && row.row.u_reference.value_or(MilliGal(0.0)).value() > 0.0;
         }))
-        result.remarks.push_back(fmt::format(
+        result.remarks.push_back(text::message(
             "{} takes the references as exact: their uncertainties in the table of sites are not "
             "used",
             model.name));
@@ -152,7 +153,7 @@ void remark_unused_uncertainties(Fit& result, const Model& model) {
 /// Says that a model has no scale, and so does not use the prior that is given for it.
 void remark_unused_scale(Fit& result, const Model& model, const Priors& priors) {
     if (!result.scales.empty() || priors.find(kScale) == nullptr) return;
-    result.remarks.push_back(fmt::format("{} has no scale: its prior is not used", model.name));
+    result.remarks.push_back(text::message("{} has no scale: its prior is not used", model.name));
 }
 
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
@@ -167,7 +168,7 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     chosen.model = find_model(kWholeDay);
     chosen.fit = chosen.model->fit(problem, rows);
     const std::optional<Choice> choice = is_automatic ? choose_linear(problem, rows) : std::nullopt;
-    std::optional<std::string> trouble;
+    std::optional<text::Message> trouble;
     std::optional<Comparison> comparison;
     if (const auto* const refusal = std::get_if<Refusal>(&chosen.fit))
         trouble = refusal->trouble;
@@ -176,13 +177,15 @@ Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     if (comparison && comparison->is_linear_better) trouble = comparison->errors;
     if (!trouble) {
         chosen.remarks.push_back(
-            !is_automatic ? "network: the whole-day model is used, because it makes the same "
-                            "adjustment and knows the temperature between the readings"
-            : comparison  ? "the whole-day model is used: " + comparison->errors
-                          : without_comparison(std::get<Fit>(chosen.fit)));
+            !is_automatic
+                ? text::message("network: the whole-day model is used, because it makes the same "
+                                "adjustment and knows the temperature between the readings")
+            : comparison ? text::message("the whole-day model is used: {}", comparison->errors)
+                         : without_comparison(std::get<Fit>(chosen.fit)));
         return chosen;
     }
-    if (problem.day != nullptr) chosen.remarks.push_back("not the whole-day model: " + *trouble);
+    if (problem.day != nullptr)
+        chosen.remarks.push_back(text::message("not the whole-day model: {}", *trouble));
     if (is_automatic) {
         chosen.choice = choice;
         fit_without_record(chosen, problem, rows);
@@ -250,11 +253,11 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     value_stations_outside(result);
     remark_unused_uncertainties(result, *chosen.model);
     remark_unused_scale(result, *chosen.model, applied.priors);
-    if (std::string remark = temperature_remark(result.rows, applied.datum); !remark.empty())
+    if (text::Message remark = temperature_remark(result.rows, applied.datum); !remark.empty())
         result.remarks.insert(result.remarks.begin(), std::move(remark));
     if (chosen.model->name == kPaper && !applied.steps.empty())
-        result.remarks.emplace_back(
-            "paper does not know steps: those of the amendments are not used");
+        result.remarks.push_back(
+            text::message("paper does not know steps: those of the amendments are not used"));
     result.model = chosen.model->name;
     result.choice = chosen.choice;
     result.choice_loso_mgal = chosen.choice_loso_mgal;

@@ -142,7 +142,7 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
     // The variance that is left, of the prior's: the share that no reading has determined.
     const double share = posterior * posterior / (prior * prior);
     if (!is_calibrated && share > kNotableShare)
-        result.remarks.push_back(fmt::format(
+        result.remarks.push_back(text::message(
             "the slope for a steady temperature is {} % prior: the readings at known stations "
             "determine it little (standard error {} mGal/degC, of the prior alone {})",
             std::lround(100.0 * share), text::fixed(posterior, 1), text::fixed(prior, 1)));
@@ -151,7 +151,7 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
         missing_s +=
             static_cast<double>(gap.after - gap.before - 1) / temperature.series.rate().value();
     if (missing_s >= kNotableGap_s)
-        result.remarks.push_back(fmt::format(
+        result.remarks.push_back(text::message(
             "{} min of the temperature are missing, the longest gap has {}; the effect of a gap on "
             "later readings is estimated, and u includes its uncertainty, provided that the sensor "
             "stayed powered",
@@ -164,10 +164,14 @@ void remark_misfit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
     auto& part = std::get<WholeDayPart>(result.own);
     part.fit_tests = tests;
     if (tests.empty())
-        result.remarks.emplace_back(
+        result.remarks.push_back(text::message(
             "too few readings of known or repeated stations to test whether the model fits the "
-            "day");
-    std::vector<std::string> misfits;
+            "day"));
+    text::Message misfits;
+    const auto add = [&misfits](const text::Message& misfit) {
+        if (!misfits.empty()) misfits += ", ";
+        misfits += misfit;
+    };
     for (const whole_day::FitTest& test : tests) {
         if (!test.is_misfit()) continue;
         const auto reading = [&](std::size_t i) {
@@ -177,17 +181,17 @@ void remark_misfit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
         const std::string p = fmt::format(" (p = {})", text::fixed(test.p, 4));
         switch (test.misfit) {
             case whole_day::Misfit::curvature:
-                misfits.push_back(fmt::format("the residuals follow the square of the {}{}",
-                                              test.place == 0 ? "temperature" : "time", p));
+                add(test.place == 0
+                        ? text::message("the residuals follow the square of the temperature{}", p)
+                        : text::message("the residuals follow the square of the time{}", p));
                 break;
             case whole_day::Misfit::step:
-                misfits.push_back(fmt::format("the readings from {} on are off by a step{}",
-                                              reading(test.place), p));
+                add(text::message("the readings from {} on are off by a step{}",
+                                  reading(test.place), p));
                 break;
             case whole_day::Misfit::tails:
-                misfits.push_back(
-                    fmt::format("a few set-ups are much further off than the others, {} most{}",
-                                reading(test.place), p));
+                add(text::message("a few set-ups are much further off than the others, {} most{}",
+                                  reading(test.place), p));
                 break;
         }
     }
@@ -198,27 +202,29 @@ void remark_misfit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
         squares += std::pow(*row.studentised_residual, 2);
         count += 1.0;
     }
-    std::string consequence = "no reading could be left out, so the uncertainties are unchecked";
+    text::Message consequence =
+        text::message("no reading could be left out, so the uncertainties are unchecked");
     if (count > 0.0) {
         constexpr double kNotable = 1.01;  // less would be printed as 1.00
         const double factor = std::sqrt(squares / count);
-        consequence = "the uncertainties already contain the scatter of the readings left out";
+        consequence =
+            text::message("the uncertainties already contain the scatter of the readings left out");
         if (factor > kNotable) {
             part.uncertainty_factor = factor;
             enlarge_uncertainties(result, factor);
             consequence =
-                fmt::format("the uncertainties of stations and differences are enlarged by {}",
-                            text::fixed(factor, 2));
+                text::message("the uncertainties of stations and differences are enlarged by {}",
+                              text::fixed(factor, 2));
         }
     }
     result.remarks.push_back(
-        fmt::format("the model does not fit this day: {}; {}", text::joined(misfits), consequence));
+        text::message("the model does not fit this day: {}; {}", misfits, consequence));
 }
 
-std::optional<std::string> refusal_of(const SurveyProblem& problem, const RowChoice& choice) {
+std::optional<text::Message> refusal_of(const SurveyProblem& problem, const RowChoice& choice) {
     auto refusal = day_refusal(problem.rows, choice.in_use, problem.day);
     if (!refusal && problem.options.priors.has_slope())
-        refusal = "uses its own priors, `prior` would be ignored";
+        refusal = text::message("uses its own priors, `prior` would be ignored");
     return refusal;
 }
 
@@ -266,9 +272,9 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
         result.remarks.push_back(
-            fmt::format("the temperature record begins {} min before the first occupation; its "
-                        "slow effect needs two hours",
-                        std::lround(lead_s / 60.0)));
+            text::message("the temperature record begins {} min before the first occupation; its "
+                          "slow effect needs two hours",
+                          std::lround(lead_s / 60.0)));
     doubt_by_prediction(result);
     remark_misfit(result, whole_day::goodness_of_fit(day, fits.all.stations, fits.all.fit, priors));
     return result;
@@ -291,21 +297,22 @@ std::optional<residual::Residuals> residuals_of_day(const ChosenSurvey& survey,
 
 }  // namespace
 
-std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& rows,
-                                       const std::vector<bool>& in_use,
-                                       const reading::DayRecord* day) {
-    if (day == nullptr) return "needs the record of the day's temperature";
-    if (std::ranges::count(in_use, true) == 0) return "needs a row with a reference, has none";
+std::optional<text::Message> day_refusal(const std::vector<reading::SurveyRow>& rows,
+                                         const std::vector<bool>& in_use,
+                                         const reading::DayRecord* day) {
+    if (day == nullptr) return text::message("needs the record of the day's temperature");
+    if (std::ranges::count(in_use, true) == 0)
+        return text::message("needs a row with a reference, has none");
     if (day->temperature.longest_gap_s() > kLongestGap_s)
-        return fmt::format("the temperature has a gap of {} min, more than the allowed {}",
-                           std::lround(day->temperature.longest_gap_s() / 60.0),
-                           std::lround(kLongestGap_s / 60.0));
+        return text::message("the temperature has a gap of {} min, more than the allowed {}",
+                             std::lround(day->temperature.longest_gap_s() / 60.0),
+                             std::lround(kLongestGap_s / 60.0));
     std::vector<bool> has_bins(rows.size(), false);
     for (const reading::DayBin& bin : day->bins) has_bins[bin.set_up] = true;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (!has_bins[i])
-            return fmt::format("{} ({}) has no half minute without a disturbance", rows[i].site,
-                               rows[i].occupation);
+            return text::message("{} ({}) has no half minute without a disturbance", rows[i].site,
+                                 rows[i].occupation);
     return std::nullopt;
 }
 

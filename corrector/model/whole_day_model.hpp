@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "corrector/model/model.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::model {
 
@@ -24,9 +25,9 @@ namespace a351::corrector::model {
 /// @param rows    (n), one per set-up, in the order of the record.
 /// @param in_use  (n) rows of the fit, each with a reference.
 /// @param day     record of these rows; null: there is none.
-[[nodiscard]] std::optional<std::string> day_refusal(const std::vector<reading::SurveyRow>& rows,
-                                                     const std::vector<bool>& in_use,
-                                                     const reading::DayRecord* day);
+[[nodiscard]] std::optional<text::Message> day_refusal(const std::vector<reading::SurveyRow>& rows,
+                                                       const std::vector<bool>& in_use,
+                                                       const reading::DayRecord* day);
 
 /// The whole-day model:
 ///

@@ -53,8 +53,8 @@ void leave_out_overlapping(OccupationList& list) {
                 std::find_if(windows.begin(), windows.end(), [&](const OccupationWindow& window) {
                     return &window != &windows[i] && do_overlap(window, windows[i]);
                 });
-            leave_out(list.left_out, list.warnings, windows[i], "overlaps another",
-                      ", " + named(*other));
+            leave_out(list.left_out, list.warnings, windows[i], text::marked("overlaps another"),
+                      text::message(", {}", named(*other)));
         }
         for (auto i = most.rbegin(); i != most.rend(); ++i)
             windows.erase(windows.begin() + static_cast<std::ptrdiff_t>(*i));
@@ -88,7 +88,7 @@ void keep_last_day(std::vector<events::Occupation>& occupations, OccupationList&
     const UtcTime last = occupations.back().set_ups.back().start;
     occupations = events::survey_day(std::move(occupations), last);
     if (occupations.size() == all) return;
-    list.warnings.push_back(fmt::format(
+    list.warnings.push_back(text::message(
         "{}: only the last day is used, from {} on; occupations of earlier days: {}; use from_utc "
         "and to_utc to choose others",
         origin.string(), to_rfc3339(occupations.front().set_ups.front().start),
@@ -158,8 +158,8 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     const events::EventLog log = events::read_events(events);
     OccupationList list;
     for (const events::EventDamage& damage : log.damage) {
-        list.warnings.push_back(fmt::format("{}:{}: not an event, skipped",
-                                            damage.file.filename().string(), damage.line));
+        list.warnings.push_back(text::message("{}:{}: not an event, skipped",
+                                              damage.file.filename().string(), damage.line));
     }
     events::OccupationReplay replay(log.events);
     const std::string last_key = stop_running(replay, running_until);
@@ -181,9 +181,13 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     keep_between(list.windows, from, to, events);
     for (const OccupationWindow& window : list.windows) {
         if (!window.notes.empty())
-            list.warnings.push_back(named(window) + " has no stop: it lasts until the " +
-                                    (window.is_last ? "end of the record, six hours at most"
-                                                    : "next start, at " + to_rfc3339(window.end)));
+            list.warnings.push_back(
+                window.is_last
+                    ? text::message("{} has no stop: it lasts until the end of the record, six "
+                                    "hours at most",
+                                    named(window))
+                    : text::message("{} has no stop: it lasts until the next start, at {}",
+                                    named(window), to_rfc3339(window.end)));
     }
     return list;
 }
@@ -192,13 +196,14 @@ OccupationList drop_invalid_occupations(OccupationList list, const std::vector<t
                                         const std::filesystem::path& origin) {
     std::vector<OccupationWindow> windows;
     for (OccupationWindow& window : list.windows) {
-        const auto drop = [&](const std::string& reason, const std::string& detail) {
+        const auto drop = [&](const std::string& reason, const text::Message& detail) {
             leave_out(list.left_out, list.warnings, window, reason, detail);
         };
         if (text::find_site(sites, window.site) == nullptr) {
-            drop("not in the table of sites", "");
+            drop(text::marked("not in the table of sites"), {});
         } else if (window.end <= window.start) {
-            drop("ends before it starts", ", at " + to_rfc3339(window.end));
+            drop(text::marked("ends before it starts"),
+                 text::message(", at {}", to_rfc3339(window.end)));
         } else {
             windows.push_back(std::move(window));
         }
@@ -209,16 +214,18 @@ OccupationList drop_invalid_occupations(OccupationList list, const std::vector<t
     if (list.windows.empty()) {
         list.warnings.insert(list.warnings.begin(), origin.string() + ": no occupation");
         throw Refused(list.left_out.empty() ? "no_stay" : "no_usable_stay",
-                      text::joined(list.warnings, "; ") + "; allowed: at least one, with its end");
+                      text::joined(text::in_english(list.warnings), "; ") +
+                          "; allowed: at least one, with its end");
     }
     return list;
 }
 
-void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warnings,
+void leave_out(std::vector<LeftOut>& left_out, std::vector<text::Message>& warnings,
                const OccupationWindow& window, const std::string& reason,
-               const std::string& detail) {
+               const text::Message& detail) {
     left_out.push_back({window.site, window.number, window.start, window.end, reason, window.key});
-    warnings.push_back(fmt::format("{} is left out: {}{}", named(window), reason, detail));
+    warnings.push_back(
+        text::message("{} is left out: {}{}", named(window), text::marked_message(reason), detail));
 }
 
 }  // namespace a351::corrector::reading

@@ -19,6 +19,7 @@
 
 #include "corrector/reading/survey_row.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::reading {
@@ -51,7 +52,7 @@ struct OccupationWindow {
 struct OccupationList {
     std::vector<OccupationWindow> windows;  ///< Set-ups in order of start.
     std::vector<LeftOut> left_out;          ///< Set-ups that cannot be used, in order of discovery.
-    std::vector<std::string> warnings;      ///< Entries skipped or left out, with the reason.
+    std::vector<text::Message> warnings;    ///< Entries skipped or left out, with the reason.
     std::string running_key = {};           ///< Key of the stay that still runs; may be empty.
 };
 
@@ -113,8 +114,8 @@ struct OccupationList {
 /// The warning is "SITE (NUMBER) at START is left out: REASON" and the detail.
 /// @param reason  a few words without the site; the printed table uses them as a flag.
 /// @param detail  text after the reason in the warning, with its own comma or blank in front.
-void leave_out(std::vector<LeftOut>& left_out, std::vector<std::string>& warnings,
+void leave_out(std::vector<LeftOut>& left_out, std::vector<text::Message>& warnings,
                const OccupationWindow& window, const std::string& reason,
-               const std::string& detail = "");
+               const text::Message& detail = {});
 
 }  // namespace a351::corrector::reading

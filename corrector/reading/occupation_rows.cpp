@@ -242,7 +242,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         const OccupationWindow& given = windows[i];
         auto record = cut_occupation(samples, channels, given.start, given.end);
         if (!record) {
-            troubles[i] = "no samples";
+            troubles[i] = text::marked("no samples");
             return;
         }
         DecimatedAxes axes = decimate_axes(*record);
@@ -255,9 +255,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         auto& value = values[i];
         value = representative_value(*record, axes, source.averaging);
         if (!value) {
-            troubles[i] = "too few samples in a row";
+            troubles[i] = text::marked("too few samples in a row");
         } else if (!value->temperature) {
-            troubles[i] = "no temperature";
+            troubles[i] = text::marked("no temperature");
         } else {
             rows[i] = row_of(window, *value);
             bins[i] = bin_set_up(0, axes, kDisturbanceThreshold);
@@ -306,7 +306,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     for (Finding& remark : stay_remarks(averaged, samples.axes.back()))
         result.findings.push_back(std::move(remark));
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
-    for (std::string& warning : position_warnings(result.rows, sites))
+    for (text::Message& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));
     result.temperature_course =
         temperature_course(samples.temperature.segments, channels.temperature);

@@ -30,6 +30,7 @@
 #include "corrector/reading/verdict_course.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::reading {
@@ -77,11 +78,11 @@ struct OccupationRows {
     std::vector<SurveyRow> rows;  ///< In order of time; the rate is that within a row's interval.
     std::vector<RepresentativeValue> records;           ///< Record of each row.
     std::vector<MinuteTemperature> temperature_course;  ///< Temperature over the whole survey.
-    std::vector<VerdictSpan> verdicts;  ///< Verdicts of the recorder in this time, if logged.
-    std::optional<DayRecord> day;       ///< Set-ups numbered as the rows; absent: no temperature.
-    std::vector<LeftOut> left_out;      ///< Occupations without a value, by start.
-    std::vector<std::string> warnings;  ///< Doubts and omissions, with reasons.
-    std::vector<Finding> findings;      ///< Moved boxes, in order of time.
+    std::vector<VerdictSpan> verdicts;    ///< Verdicts of the recorder in this time, if logged.
+    std::optional<DayRecord> day;         ///< Set-ups numbered as the rows; absent: no temperature.
+    std::vector<LeftOut> left_out;        ///< Occupations without a value, by start.
+    std::vector<text::Message> warnings;  ///< Doubts and omissions, with reasons.
+    std::vector<Finding> findings;        ///< Moved boxes, in order of time.
     Amendments amendments;
     std::vector<text::Site> sites;        ///< With the references as amended.
     std::vector<text::InputFile> inputs;  ///< All files that were read; none so far.

@@ -126,9 +126,14 @@ SurveyChannels find_channels(const station::Metadata& station, const std::filesy
     return channels;
 }
 
-void add_damage(std::vector<std::string>& warnings, const archive::ChannelData& channel) {
+void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData& channel) {
     for (const archive::Damage& damage : channel.damage)
-        warnings.push_back(archive::to_text(damage));
+        warnings.push_back(
+            damage.is_of_another_station
+                ? text::message("{}: offset {}: {} bytes are a record of another station",
+                                damage.file.filename().string(), damage.offset, damage.byte_count)
+                : text::message("{}: offset {}: {} bytes are not a record",
+                                damage.file.filename().string(), damage.offset, damage.byte_count));
 }
 
 std::optional<OccupationRecord> cut_occupation(const SurveySamples& samples,

@@ -25,6 +25,7 @@
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/station/station_xml.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::reading {
 
@@ -89,7 +90,7 @@ struct SurveyChannels {
 
 /// Adds a warning for each piece of the channel's files that could not be read.  The text is that
 /// of record::to_text(); earlier warnings are kept.
-void add_damage(std::vector<std::string>& warnings, const archive::ChannelData& channel);
+void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData& channel);
 
 /// The samples of all channels over a survey.
 /// The temperature should begin earlier than the axes, for the whole-day model.

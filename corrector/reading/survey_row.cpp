@@ -155,15 +155,20 @@ void set_backward_rates(std::vector<SurveyRow>& rows) {
     }
 }
 
-std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
-                                           const std::vector<text::Site>& sites) {
-    std::vector<std::string> warnings;
+std::vector<text::Message> position_warnings(const std::vector<SurveyRow>& rows,
+                                             const std::vector<text::Site>& sites) {
+    std::vector<text::Message> warnings;
     for (const SurveyRow& row : rows) {
         const text::Site* const site = text::find_site(sites, row.site);
         if (site == nullptr || (site->is_placed && site->has_altitude)) continue;
-        std::string warning = row.site;
-        warning += site->is_placed ? ": no height" : ": no position";
-        warning += " in the table of sites; the mean of the others is used";
+        text::Message warning =
+            site->is_placed
+                ? text::message(
+                      "{}: no height in the table of sites; the mean of the others is used",
+                      row.site)
+                : text::message(
+                      "{}: no position in the table of sites; the mean of the others is used",
+                      row.site);
         if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
             warnings.push_back(std::move(warning));
     }

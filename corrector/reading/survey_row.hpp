@@ -20,6 +20,7 @@
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::reading {
@@ -156,7 +157,7 @@ void set_backward_rates(std::vector<SurveyRow>& rows);
 /// Returns a warning for every site of the rows without a known position, once per site, in order
 /// of the rows.  The site has the mean position of the others, which is good enough for the tide
 /// and not for a map.  A site that is not in the table gets no warning.
-[[nodiscard]] std::vector<std::string> position_warnings(const std::vector<SurveyRow>& rows,
-                                                         const std::vector<text::Site>& sites);
+[[nodiscard]] std::vector<text::Message> position_warnings(const std::vector<SurveyRow>& rows,
+                                                           const std::vector<text::Site>& sites);
 
 }  // namespace a351::corrector::reading

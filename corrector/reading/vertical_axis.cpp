@@ -75,14 +75,14 @@ VerticalAxis put_vertical_last(SurveySamples& samples, SurveyChannels& channels,
     VerticalAxis vertical{channels.axes[nearest].code, StandardGravity(means[nearest]), {}};
     const auto named = named_vertical(channels);
     if (named != channels.axes.end() && named->code != vertical.code)
-        vertical.warning = fmt::format(
+        vertical.warning = text::message(
             "{}: {} is vertical by its dip, but gravity is along {} ({}); {} is used; the axis "
             "biases of a calibration belong to the usual mounting",
             file.string(), named->code, vertical.code, list, vertical.code);
     if (means[nearest] < 0.0)
-        vertical.warning += fmt::format("{}the sensor is mounted upside down: {} has {}",
-                                        vertical.warning.empty() ? file.string() + ": " : "; ",
-                                        vertical.code, in_g(means[nearest]));
+        vertical.warning += text::message("{}the sensor is mounted upside down: {} has {}",
+                                          vertical.warning.empty() ? file.string() + ": " : "; ",
+                                          vertical.code, in_g(means[nearest]));
     put_last(samples, channels, static_cast<std::ptrdiff_t>(nearest));
     return vertical;
 }

@@ -16,6 +16,7 @@
 #include "corrector/reading/occupation_list.hpp"
 #include "corrector/reading/occupation_window.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::reading {
 
@@ -25,9 +26,9 @@ inline constexpr StandardGravity kLeastVertical{0.9};
 
 /// The vertical axis of a survey.
 struct VerticalAxis {
-    std::string code;      ///< Channel, e.g. BNZ.
-    StandardGravity mean;  ///< Mean over the windows; negative: mounted upside down.
-    std::string warning;   ///< Sentence for the user; empty if there is nothing to say.
+    std::string code;       ///< Channel, e.g. BNZ.
+    StandardGravity mean;   ///< Mean over the windows; negative: mounted upside down.
+    text::Message warning;  ///< Sentence for the user; empty if there is nothing to say.
 };
 
 /// Finds the axis whose |mean| is nearest to 1 g, and exchanges axes of samples and channels so

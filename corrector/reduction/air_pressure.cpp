@@ -52,10 +52,10 @@ std::optional<PressureChannel> pressure_channel(const std::string& name) {
 }
 
 AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcTime to,
-                              std::vector<std::string>& warnings) {
+                              std::vector<text::Message>& warnings) {
     AirPressure pressure;
     std::size_t bad_count = 0;
-    std::string first_bad;
+    text::Message first_bad;
     for (const archive::Segment& segment :
          archive::read_channel(channel.archive, channel.codes, channel.channel, from, to).segments)
         for (std::size_t i = 0; i < segment.counts.size(); ++i) {
@@ -64,7 +64,8 @@ AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcT
             const double hpa = static_cast<double>(segment.counts[i]) / channel.counts_per_hpa;
             if (!(hpa >= kLeastPressure_hpa && hpa <= kGreatestPressure_hpa)) {
                 if (bad_count++ == 0)
-                    first_bad = fmt::format("{} hPa at {}", text::fixed(hpa, 2), to_rfc3339(time));
+                    first_bad =
+                        text::message("{} hPa at {}", text::fixed(hpa, 2), to_rfc3339(time));
                 continue;
             }
             pressure.times_.push_back(time);
@@ -81,7 +82,7 @@ AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcT
             "{}: no samples in {} between {} and {}; allowed: a channel with samples in the survey",
             channel.name(), channel.archive.string(), to_rfc3339(from), to_rfc3339(to)));
     if (bad_count > 0)
-        warnings.push_back(fmt::format(
+        warnings.push_back(text::message(
             "{}: samples that are no pressure on the ground are left out: {}, the first {}",
             channel.name(), bad_count, first_bad));
     return pressure;

@@ -13,6 +13,7 @@
 
 #include "protocol/core/utc_time.hpp"
 #include "protocol/journal/journal.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::reduction {
 
@@ -53,7 +54,7 @@ public:
     ///                     example because they are in Pa.
     /// @throws std::system_error  as archive::read_channel().
     [[nodiscard]] static AirPressure read(const PressureChannel& channel, UtcTime from, UtcTime to,
-                                          std::vector<std::string>& warnings);
+                                          std::vector<text::Message>& warnings);
 
     /// Reads a file with two rows or more in ascending time.
     /// @throws InputError  a time without zone or not after the one before, a pressure that is not

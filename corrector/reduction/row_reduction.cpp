@@ -30,19 +30,20 @@ const text::Site& site_of(const reading::SurveyRow& row, const std::vector<text:
 }
 
 /// Returns a warning if only some of the rows have a value; `taken_as` says what the others are.
-void warn_of_missing(std::vector<std::string>& warnings, std::ptrdiff_t missing, std::size_t rows,
-                     std::string_view value, std::string_view taken_as) {
+void warn_of_missing(std::vector<text::Message>& warnings, std::ptrdiff_t missing, std::size_t rows,
+                     const text::Message& value, const text::Message& taken_as) {
     if (missing > 0 && missing < static_cast<std::ptrdiff_t>(rows))
-        warnings.push_back(fmt::format("{} of {} readings have no {}: they are taken as {}",
-                                       missing, rows, value, taken_as));
+        warnings.push_back(text::message("{} of {} readings have no {}: they are taken as {}",
+                                         missing, rows, value, taken_as));
 }
 
 void reduce_heights(std::vector<reading::SurveyRow>& rows, const Gradients& gradients,
-                    std::vector<std::string>& warnings) {
+                    std::vector<text::Message>& warnings) {
     const auto missing = std::ranges::count_if(
         rows, [](const reading::SurveyRow& row) { return !row.instrument_height; });
     if (missing == std::ssize(rows)) return;
-    warn_of_missing(warnings, missing, rows.size(), "instrument_height_m", "at the mark");
+    warn_of_missing(warnings, missing, rows.size(), "instrument_height_m",
+                    text::message("at the mark"));
     for (reading::SurveyRow& row : rows) {
         const auto own = gradients.find(row.site);
         const double gradient = own == gradients.end() ? kNormalGradient_mgal_per_m : own->second;
@@ -53,13 +54,12 @@ void reduce_heights(std::vector<reading::SurveyRow>& rows, const Gradients& grad
 }
 
 void reduce_pressures(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
-                      double admittance_mgal_per_hpa, std::vector<std::string>& warnings) {
+                      double admittance_mgal_per_hpa, std::vector<text::Message>& warnings) {
     const auto missing = std::ranges::count_if(
         rows, [](const reading::SurveyRow& row) { return !row.pressure_hpa; });
     if (missing == std::ssize(rows)) return;
-    warn_of_missing(warnings, missing, rows.size(), "air pressure",
-                    "at that of the standard "
-                    "atmosphere");
+    warn_of_missing(warnings, missing, rows.size(), text::message("air pressure"),
+                    text::message("at that of the standard atmosphere"));
     for (reading::SurveyRow& row : rows) {
         const text::Site& site = site_of(row, sites);
         if (row.pressure_hpa && !site.has_altitude)
@@ -96,11 +96,11 @@ Gradients read_gradients(const std::filesystem::path& sites) {
     return gradients;
 }
 
-std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
-                                     const std::vector<text::Site>& sites,
-                                     const Gradients& gradients, const ReductionChoice& choice,
-                                     reading::DayRecord* day) {
-    std::vector<std::string> warnings;
+std::vector<text::Message> reduce_rows(std::vector<reading::SurveyRow>& rows,
+                                       const std::vector<text::Site>& sites,
+                                       const Gradients& gradients, const ReductionChoice& choice,
+                                       reading::DayRecord* day) {
+    std::vector<text::Message> warnings;
     std::optional<AirPressure> pressure;
     if (!choice.pressure.empty()) pressure = AirPressure::read(choice.pressure);
     if (choice.pressure_channel)
@@ -120,8 +120,8 @@ std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
     reduce_heights(rows, gradients, warnings);
     reduce_pressures(rows, sites,
                      choice.is_admittance_fitted ? 0.0 : choice.admittance_mgal_per_hpa, warnings);
-    const auto no_pressure = std::ranges::find_if(
-        rows, [](const reading::SurveyRow& row) { return !row.pressure_hpa; });
+    const auto no_pressure =
+        std::ranges::find_if(rows, [](const reading::SurveyRow& row) { return !row.pressure_hpa; });
     if (choice.is_admittance_fitted && no_pressure != rows.end())
         throw InputError("the admittance cannot be fitted without the air pressure of " +
                          no_pressure->site +

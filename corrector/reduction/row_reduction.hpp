@@ -22,6 +22,7 @@
 #include "corrector/reading/day_record.hpp"
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/reduction/air_pressure.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::reduction {
@@ -68,11 +69,11 @@ using Gradients = std::map<std::string, double>;
 /// @return warnings, in sentences.
 /// @throws InputError  as AirPressure::read(); no pressure, if the admittance is fitted; a pressure so far from the standard one that altitude
 ///                     and pressure do not belong together (kMostExcess_hpa).
-[[nodiscard]] std::vector<std::string> reduce_rows(std::vector<reading::SurveyRow>& rows,
-                                                   const std::vector<text::Site>& sites,
-                                                   const Gradients& gradients,
-                                                   const ReductionChoice& choice,
-                                                   reading::DayRecord* day = nullptr);
+[[nodiscard]] std::vector<text::Message> reduce_rows(std::vector<reading::SurveyRow>& rows,
+                                                     const std::vector<text::Site>& sites,
+                                                     const Gradients& gradients,
+                                                     const ReductionChoice& choice,
+                                                     reading::DayRecord* day = nullptr);
 
 /// Adds the choice to the settings of a result: instrument_height_m, pressure and
 /// admittance_mgal_per_hpa.

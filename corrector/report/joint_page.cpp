@@ -157,7 +157,8 @@ Advice advice_on(const std::string& site, const std::vector<JointDay>& days) {
             grade::grade_of_station(*day.result, grade::grade_readings(*day.result), site);
         advice.grade = std::min(advice.grade, of_day.grade);
         if (!of_day.reasons.empty())
-            reasons.push_back(text::tr("{}, {}", day.name, grade::reason_text(of_day)));
+            reasons.push_back(
+                text::tr("{}, {}", day.name, text::Message(grade::reason_in_words(of_day))));
     }
     if (advice.grade != grade::Grade::trust) advice.reasons = reasons;
     for (auto a = days.begin(); a != days.end(); ++a)

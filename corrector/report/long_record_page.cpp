@@ -27,9 +27,10 @@ void add_record_head(pugi::xml_node parent, const long_record::RecordResult& res
                  unit.empty() ? "" : text::tr("sensor {}, ", unit), text::fixed(hours, 1),
                  to_rfc3339(segment.start), text::fixed(result.record.step_s, 0),
                  result.record.is_tide_removed ? text::tr(", earth tide removed") : ""));
-    add(parent, "p", result.analysis.reading);
-    add(parent, "p", fmt::format("Two-path fit: {}.", long_record::two_paths_reading(result)));
-    add_list(parent, result.analysis.remarks);
+    add(parent, "p", text::in_words(result.analysis.reading));
+    add(parent, "p",
+        text::tr("Two-path fit: {}.", text::Message(long_record::two_paths_reading(result))));
+    add_list(parent, text::each_in_words(result.analysis.remarks));
 }
 
 void add_applied(pugi::xml_node parent, const long_record::AppliedCalibration& applied,
@@ -92,7 +93,7 @@ Report make_long_record_page(const long_record::RecordResult& result,
                    long_record::segments_table(result));
     add_list(section, long_record::refused_parts(result));
     add_provenance(document.add_section(text::tr("Settings, inputs, warnings")), settings,
-                   result.record.inputs, result.record.warnings);
+                   result.record.inputs, text::each_in_words(result.record.warnings));
     page.files.emplace_back("record.html", document.text());
     add_figure_files(page.files, all, drawing);
     return page;

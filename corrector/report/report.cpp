@@ -52,8 +52,8 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
     figure::Drawing drawing = figure::draw(all, sources.picture_formats);
     Report report;
     report.warnings = missing_lines(drawing.troubles);
-    std::vector<std::string> warnings = sources.warnings;
-    warnings.insert(warnings.end(), result.remarks.begin(), result.remarks.end());
+    std::vector<std::string> warnings = text::each_in_words(sources.warnings);
+    for (const text::Message& remark : result.remarks) warnings.push_back(text::in_words(remark));
 
     Page page(tr("Gravity survey {}", sources.title));
     add_head(page.body(), result, warnings, report.warnings);

@@ -23,6 +23,7 @@
 #include "corrector/reading/temperature_course.hpp"
 #include "corrector/reading/verdict_course.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
 #include "protocol/text/write_together.hpp"
 
@@ -41,7 +42,7 @@ struct ReportSources {
     std::vector<reading::VerdictSpan> verdicts;                  ///< Verdicts of the recorder.
     std::vector<text::InputFile> inputs;
     /// Entries skipped or left out, with reasons; the report adds the remarks of the result.
-    std::vector<std::string> warnings;
+    std::vector<text::Message> warnings;
     std::vector<std::string> picture_formats;  ///< Formats other than SVG, from picture_formats().
 };
 

@@ -1,6 +1,7 @@
 #include "corrector/result/column.hpp"
 
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -25,7 +26,7 @@ std::string csv_text(const Cell& cell) {
 
 std::string shown_text(const Cell& cell, int decimals) {
     return std::visit(Overloaded{[](std::monostate) { return std::string("-"); },
-                                 [](bool is_so) { return std::string(is_so ? "yes" : "no"); },
+                                 [](bool is_so) { return is_so ? text::tr("yes") : text::tr("no"); },
                                  [](std::int64_t count) { return std::to_string(count); },
                                  [decimals](double value) { return text::fixed(value, decimals); },
                                  [](const std::string& text) { return text; },

@@ -12,7 +12,7 @@
 namespace a351::corrector::result {
 
 /// The adjustment of several surveys, or the reason why there is none.
-using JointResult = std::variant<model::JointAdjustment, std::string>;
+using JointResult = std::variant<model::JointAdjustment, text::Message>;
 
 /// Returns the content of joint.json (table-format.md).
 [[nodiscard]] std::string joint_json(const JointResult& joint, const JointTables& tables);

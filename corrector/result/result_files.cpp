@@ -155,7 +155,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
     json["unit"] = unit_json(result);
     json["calibration"] = model::calibration_json(result);
     json["findings"] = reading::findings_json(result.findings);
-    json["remarks"] = result.remarks;
+    json["remarks"] = text::in_english(result.remarks);
     json["models"] = json_array(score_columns(result), score_rows(result));
     json["stations"] = json_array(station_columns(result.stations), result.stations);
     json["station_covariance"] = covariance_json(result.covariance);

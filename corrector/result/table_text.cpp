@@ -11,6 +11,7 @@
 #include "corrector/result/scale_report.hpp"
 #include "corrector/result/side_by_side_report.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -95,10 +96,10 @@ std::string weights_text(const model::SurveyCorrection& result) {
 
 std::string choice_text(const model::SurveyCorrection& result) {
     if (result.options.model != model::kAutomatic) return "";
-    if (result.choice) return " (chosen by leave-one-station-out error)";
+    if (result.choice) return text::tr(" (chosen by leave-one-station-out error)");
     return result.as<model::WholeDayPart>() != nullptr
-               ? " (chosen because the whole day was recorded)"
-               : " (chosen because the known stations do not allow to compare models)";
+               ? text::tr(" (chosen because the whole day was recorded)")
+               : text::tr(" (chosen because the known stations do not allow to compare models)");
 }
 
 std::string flags_of(const model::CorrectedRow& row, const model::SurveyOptions& options) {
@@ -182,7 +183,7 @@ std::string survey_text(const model::SurveyCorrection& result) {
                        weights_text(result) + model::doubts_text(result);
     for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
     for (const std::string& sentence : side_by_side_sentences(result)) text += sentence + '\n';
-    for (const std::string& remark : result.remarks) text += remark + '\n';
+    for (const text::Message& remark : result.remarks) text += text::in_words(remark) + '\n';
     return text;
 }
 

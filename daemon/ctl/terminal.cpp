@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "protocol/text/columns.hpp"
+
 namespace a351::daemon::ctl {
 namespace {
 
@@ -34,13 +36,6 @@ void write_all(std::string_view text) {
 void leave() {
     write_all(kLeave);
     if (g_has_keys) tcsetattr(STDIN_FILENO, TCSANOW, &g_before);
-}
-
-/// Returns the columns of a letter that begins with this byte of UTF-8; 0 within a letter.
-std::size_t columns_of_letter(unsigned char byte) {
-    constexpr unsigned char kFirstWide = 0xE3;  // U+3000
-    if ((byte & 0xC0U) == 0x80) return 0;
-    return byte >= kFirstWide ? 2 : 1;
 }
 
 /// Returns true if a line must not begin with the letter at this place: a Japanese comma, stop or
@@ -108,12 +103,6 @@ std::optional<std::string> Terminal::keys(int wait_ms) const {
     return std::string(bytes, static_cast<std::size_t>(got));
 }
 
-std::size_t columns_of(std::string_view text) {
-    std::size_t columns = 0;
-    for (const char c : text) columns += columns_of_letter(static_cast<unsigned char>(c));
-    return columns;
-}
-
 std::string fitted(const std::string& screen, std::size_t columns, std::size_t rows) {
     constexpr std::size_t kIndent = 13;  // that of line()
     std::string shown;
@@ -134,7 +123,7 @@ std::string fitted(const std::string& screen, std::size_t columns, std::size_t r
             break_at = std::string::npos;
             continue;
         }
-        const std::size_t width = columns_of_letter(static_cast<unsigned char>(c));
+        const std::size_t width = text::columns_of({&c, 1});
         if (width == 0) continue;
         column += width;
         const bool is_wide = width == 2 && !ends_a_phrase(std::string_view(screen).substr(i));

@@ -16,9 +16,6 @@ namespace a351::daemon::ctl {
 /// set or empty.
 [[nodiscard]] bool wants_colour();
 
-/// Returns the columns of a text on a terminal.  Letters from U+3000 on count as two.
-[[nodiscard]] std::size_t columns_of(std::string_view text);
-
 /// Fits a screen to a terminal: long lines are broken at blanks or before letters of two columns, and
 /// indented.  Lines at the end that have no place are left out.
 /// @param columns, rows  size of the terminal.

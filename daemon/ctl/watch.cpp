@@ -16,6 +16,7 @@
 #include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/terminal.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/columns.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::daemon::ctl {
@@ -149,7 +150,8 @@ private:
     /// Returns a question with the end of the typed text that has room behind it.
     [[nodiscard]] std::string prompt(const std::string& question, std::size_t columns) const {
         std::string shown = printable(typed_);
-        while (!shown.empty() && columns_of(question) + columns_of(shown) + 1 >= columns) {
+        while (!shown.empty() &&
+               text::columns_of(question) + text::columns_of(shown) + 1 >= columns) {
             std::size_t letter = 1;
             while (letter < shown.size() &&
                    (static_cast<unsigned char>(shown[letter]) & 0xC0U) == 0x80)

@@ -16,7 +16,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// Time between looks for new records: small against their age, and 0.2 % of a core.
+/// Time between looks for new records: small against their age.
 constexpr milliseconds kBetweenLooks{100};
 /// Records sent before their acknowledgements are read, so that a slow network carries a day of
 /// records in minutes.

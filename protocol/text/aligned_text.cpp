@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "protocol/text/columns.hpp"
+
 namespace a351::text {
 
 std::string fixed(double value, int decimals) {
@@ -33,13 +35,14 @@ std::string joined(const std::vector<std::string>& texts, const std::string& sep
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const auto& row : rows) {
-        for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+        for (std::size_t k = 0; k < row.size(); ++k)
+            widths[k] = std::max(widths[k], columns_of(row[k]));
     }
     std::string text;
     for (const auto& row : rows) {
         std::string line;
         for (std::size_t k = 0; k < row.size(); ++k) {
-            const std::string blanks(widths[k] - row[k].size(), ' ');
+            const std::string blanks(widths[k] - columns_of(row[k]), ' ');
             line += k == 0 ? row[k] + blanks : "  " + blanks + row[k];
         }
         line.erase(line.find_last_not_of(' ') + 1);

@@ -47,8 +47,8 @@ namespace a351::text {
 /// is aligned left, the others right.
 ///
 /// Two blanks separate the columns.  A line has no blanks at its end; each line ends with LF, also
-/// the last.  The width of a cell is its number of bytes, so letters outside ASCII shift the
-/// columns after them.
+/// the last.  The width of a cell is that on a terminal, where letters from U+3000 on count as two
+/// (columns_of()).
 /// @param rows  at least one, all of the same length.
 [[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& rows);
 

@@ -118,6 +118,18 @@ std::string place_of(std::string_view text, std::size_t argument) {
     return "{}";
 }
 
+std::vector<std::string> each_in_words(const std::vector<Message>& messages) {
+    std::vector<std::string> texts;
+    for (const Message& one : messages) texts.push_back(in_words(one));
+    return texts;
+}
+
+std::vector<std::string> in_english(const std::vector<Message>& messages) {
+    std::vector<std::string> texts;
+    for (const Message& one : messages) texts.push_back(one.english());
+    return texts;
+}
+
 std::string in_words(const std::vector<Message>& messages, std::string_view separator) {
     std::string whole;
     for (const Message& one : messages) {

@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <concepts>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -74,17 +75,23 @@ private:
 /// Returns the message with its arguments in the language of this program.
 [[nodiscard]] inline std::string in_words(const Message& message) { return message.in(language()); }
 
+/// Returns messages one by one, in the language of this program or in English.
+[[nodiscard]] std::vector<std::string> each_in_words(const std::vector<Message>& messages);
+[[nodiscard]] std::vector<std::string> in_english(const std::vector<Message>& messages);
+
 /// Returns messages in the language of this program, with a separator between two.
 [[nodiscard]] std::string in_words(const std::vector<Message>& messages,
                                    std::string_view separator);
 
 }  // namespace a351::text
 
+/// A message as an argument of another text; its place has no width.
 template <>
-struct fmt::formatter<a351::text::Message> : fmt::formatter<std::string_view> {
+struct fmt::formatter<a351::text::Message> {
+    constexpr auto parse(fmt::format_parse_context& context) { return context.begin(); }
     template <class Context>
     auto format(const a351::text::Message& message, Context& context) const {
-        return fmt::formatter<std::string_view>::format(message.english(), context);
+        return std::copy(message.english().begin(), message.english().end(), context.out());
     }
 };
 

@@ -98,6 +98,8 @@ def extracted(folder):
                    cwd=TOP, check=True)
     subprocess.run([*common, "--join-existing", "--language=JavaScript", *sources("js", "daemon")], cwd=TOP, check=True)
     subprocess.run([*common, "--join-existing", "--language=C++", "index.html"], cwd=folder, check=True)
+    # xgettext takes "% o" for a format of printf, but places for arguments are those of fmt.
+    template.write_text(re.sub(r"^#, c-format\n", "", template.read_text(), flags=re.MULTILINE))
     return template
 
 

@@ -236,7 +236,7 @@ TEST_CASE("with one known station auto takes the network with weak priors, and i
     CHECK(result.model == "network");
     CHECK_FALSE(result.choice);
     REQUIRE_FALSE(result.remarks.empty());
-    CHECK(result.remarks.front().find("temperature_mgal_per_degc -29 +- 10") != std::string::npos);
+    CHECK(result.remarks.front().english().find("temperature_mgal_per_degc -29 +- 10") != std::string::npos);
     // The priors are those of the network alone: no other model is scored with them.
     for (const Score& score : result.row_sets.front().scores)
         if (score.model == "t") CHECK(score.dof == 1);

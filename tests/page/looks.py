@@ -113,4 +113,4 @@ for a_language in ("en", "ja"):
     for a_size in SIZES:
         for a_scheme in ("light", "dark"):
             look(a_language, a_size, a_scheme)
-demand(f"the pictures are in {SCREENSHOTS / 'looks'}", True)
+print(f"the pictures are in {SCREENSHOTS / 'looks'}")

@@ -3,6 +3,7 @@ both languages have the same places for arguments.  Then the programs themselves
 without installed locales, and their machine-readable output stays the same.
 """
 
+import re
 import subprocess
 import sys
 
@@ -23,6 +24,13 @@ demand("English and Japanese differ", answers["en"] != answers["ja"])
 demand("A351_LANG and the locale give the same text", answers["ja"] == answers["locale"])
 demand("a language without a catalogue is English", answers["en"] == answers["unknown"])
 
+
+def english_phrases(page):
+    """Returns the rows of four English words in a page, except those of the figures' scripts and of settings."""
+    text = re.sub(r"<(style|svg|pre|title)\b.*?</\1>|<[^>]+>", "\n", page, flags=re.DOTALL)
+    return re.findall(r"[A-Za-z]{2,}(?:[ ,]+[a-z]{2,}){3,}", text)
+
+
 with Scratch() as scratch:
     run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 3, "--out", "day", cwd=scratch)
     for language in ("en", "ja"):
@@ -32,3 +40,12 @@ with Scratch() as scratch:
     demand(f"only the report depends on the language, not JSON and CSV: {differing}", differing == {"report.html"})
     report = (scratch / "ja" / "report.html").read_text()
     demand("the report is in Japanese", 'lang="ja"' in report and "すべきこと" in report and "What to do" not in report)
+    demand(f"no sentence of it is in English: {english_phrases(report)}", not english_phrases(report))
+
+    run(BIN / "a351-sim", "survey", "--scenario", "indoor", "--seed", 1, "--out", "night", cwd=scratch)
+    for language in ("en", "ja"):
+        run(BIN / "a351-correct", "record", "night", "--out", f"night-{language}", cwd=scratch, env={"A351_LANG": language})
+    page = (scratch / "night-ja" / "record.html").read_text()
+    demand(f"no sentence of a long record is in English: {english_phrases(page)}", not english_phrases(page))
+    demand("the results of a long record are the same in both languages", all(
+        (scratch / "night-en" / name).read_bytes() == (scratch / "night-ja" / name).read_bytes() for name in ("result.json", "record.csv")))

@@ -63,7 +63,7 @@ TEST_CASE("surveys that cannot be adjusted together are refused with the reason"
           "[survey][joint]") {
     const Corrected a = corrected(1), linear = corrected(2, "t"), moved = corrected(2, "day", 3.0);
     const auto reason = [&](const Corrected& other, const std::string& serial) {
-        return std::get<std::string>(adjust_jointly(
+        return std::get<text::Message>(adjust_jointly(
             {{"a", "1", &a.result, &a.day}, {"b", serial, &other.result, &other.day}}));
     };
     CHECK(reason(linear, "2") == "b is not corrected by the whole-day model");

@@ -121,7 +121,7 @@ TEST_CASE("a model without a scale says that it does not use the prior of the sc
     set_prior(options.priors, "test", "scale", {1.0, 0.002});
     for (const std::string name : {"robust", "network", "t-rate-drift"}) {
         options.model = name;
-        const std::string remark = text::joined(correct_survey(rows, options).remarks);
+        const std::string remark = text::in_words(correct_survey(rows, options).remarks, "; ");
         CHECK((remark.find("has no scale: its prior is not used") != std::string::npos) ==
               (name == "robust"));
     }

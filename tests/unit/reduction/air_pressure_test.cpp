@@ -65,7 +65,7 @@ TEST_CASE("a barometer's channel in the archive gives the pressure of a reading"
     writer.sync();
     const UtcTime end = start + std::chrono::hours(2);
     CHECK(channel.files(start, end).size() == 2);
-    std::vector<std::string> warnings;
+    std::vector<text::Message> warnings;
     const AirPressure record = AirPressure::read(channel, start, end, warnings);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings.front(), ContainsSubstring("XX.BARO.00.LDO") &&
