@@ -16,9 +16,10 @@ namespace a351::corrector::command {
 void print_gravity_so_far(job::SurveyFile survey) {
     survey.is_so_far = true;
     report::GravitySoFar so_far;
-    so_far.as_of = archive::journal_end(survey.root / "journal");
+    so_far.as_of = survey.running_until = archive::journal_end(survey.root / "journal");
     try {
         so_far.read = job::read_survey(survey, [](std::size_t, std::size_t) {});
+        so_far.as_of = so_far.read->as_of;
         so_far.result = job::correct_survey_day(survey, *so_far.read);
         so_far.u_evening =
             design::u_in_the_evening(*so_far.result, so_far.read->sites, so_far.read->running_key);

@@ -59,8 +59,7 @@ std::vector<std::filesystem::path> archive_files(const SurveySource& source,
 /// compressed is looked for once more.
 void add_journaled(SurveySamples& samples, const SurveySource& source,
                    const journal::StationCodes& codes, const SurveyChannels& channels,
-                   const std::vector<OccupationWindow>& windows) {
-    const UtcTime to = windows.back().end + kMargin;
+                   const std::vector<OccupationWindow>& windows, UtcTime to) {
     UtcTime archived = to;
     const auto each_channel = [&](const auto& visit) {
         for (std::size_t k = 0; k < samples.axes.size(); ++k)
@@ -84,14 +83,15 @@ void add_journaled(SurveySamples& samples, const SurveySource& source,
     each_channel([&](archive::ChannelData& data, const std::string& code, UtcTime from) {
         tail.append_to(data, code, from, to);
     });
+    samples.journal_end = tail.end();
 }
 
 /// Reads all samples from the first window to the last, and the temperature before.  Each channel
-/// is read once.
+/// is read once.  Nothing is read behind an occupation that runs, so that its end is that of the data.
 SurveySamples read_samples(const SurveySource& source, const journal::StationCodes& codes,
                            const SurveyChannels& channels,
-                           const std::vector<OccupationWindow>& windows) {
-    const UtcTime to = windows.back().end + kMargin;
+                           const std::vector<OccupationWindow>& windows, bool is_running) {
+    const UtcTime to = windows.back().end + (is_running ? Nanoseconds(0) : Nanoseconds(kMargin));
     SurveySamples samples;
     const auto read = [&](std::size_t k) {
         const bool is_axis = k < samples.axes.size();
@@ -101,7 +101,7 @@ SurveySamples read_samples(const SurveySource& source, const journal::StationCod
                                   first_sample(is_axis, windows), to);
     };
     on_all_cores(samples.axes.size() + 1, read);
-    if (source.is_so_far) add_journaled(samples, source, codes, channels, windows);
+    if (source.is_so_far) add_journaled(samples, source, codes, channels, windows, to);
     return samples;
 }
 
@@ -157,10 +157,8 @@ std::pair<OccupationList, Amendments> read_occupations(const SurveySource& sourc
                                                        std::vector<text::Site>& sites) {
     const bool is_logged = source.occupations.empty();
     const auto origin = is_logged ? source.root / "events" : source.occupations;
-    const auto running_until =
-        source.is_so_far ? archive::journal_end(source.root / "journal") : std::nullopt;
     OccupationList list =
-        is_logged ? read_logged_occupations(origin, source.from, source.to, running_until)
+        is_logged ? read_logged_occupations(origin, source.from, source.to, source.running_until)
                   : read_occupation_table(origin, sites, source.from, source.to);
     for (std::size_t i = 0; i < list.windows.size(); ++i)
         list.windows[i].listed = {list.windows[i].site, list.windows[i].number,
@@ -226,7 +224,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     OccupationRows result;
     result.serial_number = station.serial_number;
     SurveyChannels channels = channels_of_file;
-    SurveySamples samples = read_samples(source, station.codes, channels, list.windows);
+    const bool is_running =
+        !list.running_key.empty() && list.windows.back().key == list.running_key;
+    SurveySamples samples = read_samples(source, station.codes, channels, list.windows, is_running);
     std::vector<OccupationWindow> windows = list.windows;
     end_with_record(windows, samples.axes.back());
     const VerticalAxis vertical = source.is_tumbled
@@ -315,6 +315,10 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     if (!source.is_so_far) result.inputs = inputs_of(source, stays);
     result.running_key = list.running_key;
     if (!samples.axes[2].segments.empty()) result.data_end = last_sample(samples.axes[2]);
+    if (source.is_so_far)
+        result.as_of = is_running            ? source.running_until
+                       : samples.journal_end ? samples.journal_end
+                                             : archive::journal_end(source.root / "journal");
     return result;
 }
 

@@ -52,6 +52,7 @@ struct SurveySource {
     /// True while the daemon records: an occupation that runs is used up to the last sample, and
     /// samples that have not reached the archive are taken from the journal.
     bool is_so_far = false;
+    std::optional<UtcTime> running_until;  ///< End of an occupation that runs, if is_so_far.
     /// True if the sensor was laid down in several positions: the axis that the metadata call vertical
     /// is z, whichever axis gravity is along.
     bool is_tumbled = false;
@@ -88,7 +89,10 @@ struct OccupationRows {
     std::vector<text::InputFile> inputs;  ///< All files that were read; none so far.
     std::string running_key;              ///< Key of the stay that still runs; may be empty.
     std::optional<UtcTime> data_end;      ///< Last sample of the vertical axis that was read.
-    std::string serial_number;            ///< Sensor; empty if not in the metadata.
+    /// So far only: newest clock reading of the journal as it was read.  A copy of the root that
+    /// ends there gives the same rows.
+    std::optional<UtcTime> as_of;
+    std::string serial_number;  ///< Sensor; empty if not in the metadata.
 };
 
 /// Reads the table of sites, the occupations and the station's metadata.

@@ -97,6 +97,7 @@ void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData
 struct SurveySamples {
     std::array<archive::ChannelData, 3> axes;  ///< x, y, z.
     archive::ChannelData temperature;
+    std::optional<UtcTime> journal_end;  ///< OccupationRows::as_of, if samples are of the journal.
 };
 
 /// Returns the record of one occupation, axes in g.  The temperature extends 10 s (500 samples at

@@ -149,7 +149,11 @@ JournalTail::JournalTail(const fs::path& journal, const journal::StationCodes& c
         if (reading != nullptr) {
             raw_to_utc = reading->realtime.time_since_epoch() - reading->raw.time_since_epoch();
             const bool is_beyond = reading->realtime > to + kBeyond;
-            if (is_beyond && is_at_part) break;
+            end_ = reading->realtime;
+            if (is_beyond && is_at_part) {
+                end_.reset();
+                break;
+            }
             is_at_part = is_at_part || !is_beyond;
         }
         if (const auto* received = std::get_if<journal::RxChunk>(&*chunk);

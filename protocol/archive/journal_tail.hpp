@@ -59,11 +59,16 @@ public:
     /// @param from, to  samples outside [from, to) are not appended.
     void append_to(ChannelData& data, const std::string& channel, UtcTime from, UtcTime to) const;
 
+    /// Returns the newest clock reading of the journal, as journal_end() at the time when it was
+    /// read; std::nullopt if the journal continued behind `to`.
+    [[nodiscard]] const std::optional<UtcTime>& end() const noexcept { return end_; }
+
 private:
     using Runs = std::map<std::uint64_t, ChannelData>;  ///< Key: number of the run.
     struct Gather;
 
     std::map<std::string, Runs, std::less<>> channels_;
+    std::optional<UtcTime> end_;
 };
 
 }  // namespace a351::archive

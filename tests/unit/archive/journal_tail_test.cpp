@@ -181,6 +181,14 @@ TEST_CASE("the newest clock reading of a journal is its end", "[tail]") {
     CHECK(journal_end(root.journal()) == kStart + due(499));
 }
 
+TEST_CASE("a tail knows the end of the journal as it read it, unless the journal continues",
+          "[tail]") {
+    const DataRoot root;
+    root.write_journal(half_an_hour());
+    CHECK(JournalTail(root.journal(), {}, kFrom, kTo).end() == journal_end(root.journal()));
+    CHECK(!JournalTail(root.journal(), {}, kFrom, kStart + 10min).end());
+}
+
 TEST_CASE("a host clock that was ahead at the start and set back does not end the tail", "[tail]") {
     auto chunks = half_an_hour();
     const auto set_back = chunks.begin() + static_cast<std::ptrdiff_t>(chunks.size() / 10);
