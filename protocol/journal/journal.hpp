@@ -166,7 +166,7 @@ struct TxChunk {
 ///
 /// It shows later how well the times were known at that moment.  The archiver does not use it: it
 /// computes times from reads and clock readings.  `time.is_host_synchronised` is not stored and is
-/// read as false.
+/// read as false, and an uncertainty beyond kLongestSpan is stored as kLongestSpan.
 struct ModelChunk {
     std::int64_t index = 0;  ///< Sample to which `time` belongs.
     timing::SampleTime time;

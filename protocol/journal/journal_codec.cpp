@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/crc.hpp>
 #include <cstring>
@@ -140,7 +141,8 @@ struct PayloadWriter {
     void operator()(const ModelChunk& model) const {
         put<std::int64_t>(out, model.index);
         put<std::int64_t>(out, model.time.utc.time_since_epoch().count());
-        put<std::int64_t>(out, model.time.uncertainty.count());
+        // A host clock that was in 1970 makes it decades, which a reader would take for damage.
+        put<std::int64_t>(out, std::min(model.time.uncertainty, kLongestSpan).count());
         put<std::uint8_t>(out, static_cast<std::uint8_t>(model.time.state));
     }
     void operator()(const EventChunk& event) const { put(out, event.json); }

@@ -169,6 +169,15 @@ TEST_CASE("a chunk with a time outside the usable range is refused", "[record][j
     CHECK_FALSE(decode_payload(ChunkType::rx, payload_of(encode_chunk(rx, 1))));
 }
 
+TEST_CASE("an uncertainty of decades, after a start in 1970, is no damage", "[record][journal]") {
+    ModelChunk model;
+    model.time.utc = UtcTime(std::chrono::seconds(11));
+    model.time.uncertainty = std::chrono::hours(24 * 365 * 57);
+    const auto decoded = decode_payload(ChunkType::model, payload_of(encode_chunk(model, 1)));
+    REQUIRE(decoded);
+    CHECK(std::get<ModelChunk>(*decoded).time.uncertainty == kLongestSpan);
+}
+
 TEST_CASE("the time stamps of reads keep their order and their nanoseconds", "[record][journal]") {
     RxChunk rx;
     rx.bytes.resize(300);
