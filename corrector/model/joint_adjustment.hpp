@@ -38,8 +38,8 @@ struct JointGravity {
 
 /// A unit or a survey of the adjustment, with what belongs to it.
 struct JointTerms {
-    std::string name;           ///< Of the survey; empty for a unit.
-    std::string serial_number;  ///< Of the unit.
+    std::string name;           ///< Name of the survey; empty for a unit.
+    std::string serial_number;  ///< Serial number of the unit.
     std::vector<Coefficient> coefficients;
 };
 

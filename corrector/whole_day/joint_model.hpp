@@ -40,7 +40,7 @@ struct JointSurvey {
     std::size_t unit = 0;  ///< Number of the unit from 0.
 };
 
-/// What the adjustment found of one survey.
+/// Result of the adjustment for one survey.
 struct JointSurveyFit {
     std::array<Estimate, kDayTerms> coefficients;  ///< Those of the unit are equal on all its days.
     std::array<double, 2> lags_s{}, lag_log_errors{};  ///< tF and tS.
@@ -58,7 +58,7 @@ struct PlacementShare {
 /// Result of fit_jointly().
 struct JointFit {
     std::vector<JointSurveyFit> surveys;
-    std::vector<Estimate> gravity_mgal;   ///< By number in the adjustment; held or estimated.
+    std::vector<Estimate> gravity_mgal;   ///< Held or estimated, by number in the adjustment.
     std::optional<PlacementShare> share;  ///< Absent without two sensors at one place and time.
     StationSystem system;                 ///< Of all gravities; numbers as `gravity_mgal`.
 };

@@ -120,7 +120,7 @@ private:
     const std::vector<JointSurvey>& surveys_;
     std::vector<std::unique_ptr<DayProblem>> problems_;
     std::vector<Group> groups_;
-    std::vector<std::size_t> group_of_, place_in_group_;  ///< Of each survey.
+    std::vector<std::size_t> group_of_, place_in_group_;  ///< One of each survey.
     std::vector<Eigen::Index> own_begin_;                 ///< First own column of each survey.
     std::vector<Eigen::Index> places_;
     std::size_t unit_count_ = 0;

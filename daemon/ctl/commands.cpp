@@ -99,7 +99,7 @@ struct Box {
     Client client;
     std::string name;
     std::optional<UtcTime> last_sample = {};
-    bool is_recording = false;  ///< By its own clock its last sample is at most kMostApart_s old.
+    bool is_recording = false;  ///< Its last sample is at most kMostApart_s old by its own clock.
     bool is_there = false;
     bool is_left_out = false;
 };

@@ -80,8 +80,9 @@ struct CoolBoxParameters {
 };
 
 struct SensorParameters {
-    double bias_mgal = 0.0;                 ///< Along the vertical.
-    double scale = 1.0;  ///< Change of the reading divided by that of gravity; exact at 980665 mGal.
+    double bias_mgal = 0.0;  ///< Along the vertical.
+    double scale =
+        1.0;  ///< Change of the reading divided by that of gravity; exact at 980665 mGal.
     double horizontal_bias_max_mgal = 0.0;  ///< x and y, drawn uniformly within +- this for a unit.
     double levelling_sigma_deg = 0.0;       ///< Two angles, drawn for each set-up.
     double white_mgal = 0.0;                ///< Rms per axis and sample.
@@ -174,7 +175,7 @@ struct OuterOvenParameters {
 /// The box in which a sensor is with others, or the sled.  Sensors of one box have its seed and
 /// different seeds of their own.
 struct BoxParameters {
-    int seed = 0;  ///< Of what they have in common: times, levelling, air, vibration, and
+    int seed = 0;  ///< Seed of what they have in common: times, levelling, air, vibration, and
     double placement_share = 0.0;  ///< this share of the placement's variance.
 };
 

@@ -101,7 +101,7 @@ public:
 
 private:
     double sigma_rad_;
-    double box_share_ = 0.0;  ///< Of the placement's variance.
+    double box_share_ = 0.0;  ///< Share of the placement's variance.
     const SlowNoiseParameters& noise_;
     noise::RandomStream levelling_, placement_, box_placement_, gross_;
 };

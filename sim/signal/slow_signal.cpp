@@ -51,8 +51,9 @@ SlowSignal::SlowSignal(const scenario::Scenario& scenario,
 }
 
 double SlowSignal::outer_oven_mgal() {
-    if (!wall_) return 0.0;
-    const double from_degc = std::exchange(wall_degc_, ovens_.outer()->heater().value());
+    const plant::ThermalPlant* const outer = ovens_.outer();
+    if (!wall_ || outer == nullptr) return 0.0;
+    const double from_degc = std::exchange(wall_degc_, outer->heater().value());
     const scenario::OuterOvenParameters& p = *scenario_.outer_oven;
     return p.reading_mgal_per_degc * (wall_->next(from_degc, wall_degc_) - p.oven.set_point_degc);
 }

@@ -20,8 +20,9 @@ int main(int argc, char** argv) {
         while (const auto chunk = reader.next()) {
             const auto bytes = encode_chunk(*chunk, reader.sequence());
             const bool is_head = std::holds_alternative<Header>(*chunk);
-            std::printf("chunk %d %u %u\n", static_cast<int>(chunk->index() + 1), reader.sequence(),
-                        is_head ? 0 : decode_chunk_header(bytes).crc);
+            const ChunkHeader head = decode_chunk_header(bytes);
+            std::printf("chunk %d %u %u\n", static_cast<int>(head.type), reader.sequence(),
+                        is_head ? 0 : head.crc);
         }
         for (const Damage& damage : reader.damage())
             std::printf("damage %llu %llu\n", static_cast<unsigned long long>(damage.offset),

@@ -54,7 +54,7 @@ def payload(draw, kind):
         return struct.pack("<qqqB", wide(), wide(), wide(), draw.randrange(6))
     if kind == 7:
         return bytes(16) + b"".join(struct.pack("<B3sqq", 3, b"BNZ", wide(), wide()) for _ in range(draw.randrange(3)))
-    if kind == 8:
+    if kind in (8, 9):
         registers = draw.randrange(4)
         return struct.pack("<qBBB", wide(), draw.randrange(8), 1, registers) + bytes(2 * registers)
     return struct.pack("<q", wide()) + draw.randbytes(draw.randrange(20))
@@ -64,7 +64,7 @@ def undamaged(draw):
     """Returns the chunks of a segment."""
     chunks = [GOLDEN[0] if draw.random() < 0.9 else (1, 0, head(draw))]
     for number in range(1, draw.randrange(2, 14)):
-        kind = draw.choice([*range(2, 9), 2, 3, 6, draw.choice([0, 1, 9, 200])])
+        kind = draw.choice([*range(2, 9), 2, 3, 6, draw.choice([0, 1, 9, 10, 200])])
         content = payload(draw, kind)
         if draw.random() < 0.3:
             kind, _, content = draw.choice(GOLDEN[1:])

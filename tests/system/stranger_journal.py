@@ -5,7 +5,7 @@ import re
 import struct
 
 PREAMBLE = b"A351JRNL\1\0\0\0"
-HEAD, UNKNOWN = 1, 9
+HEAD, UNKNOWN = 1, 10
 STRINGS = {"session": "[0-9a-f]{32}", "network": "[A-Z0-9]{1,2}", "station": "[A-Z0-9]{1,5}", "location": "([A-Z0-9]{2})?",
            **dict.fromkeys(("boot_id", "program_version", "profile", "product_id", "serial_number", "filter"), "(?s).*")}
 INTEGERS = "firmware", "output_rate_hz", "burst_ctrl", "baud"

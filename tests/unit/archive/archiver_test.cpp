@@ -226,7 +226,8 @@ TEST_CASE("records end at the age that the header states, with the same samples 
         CHECK(sink.counts(channel) == usual.sink.counts(channel));
         if (!channel.starts_with("B")) continue;
         // The first record waits until the times of its samples are fixed.
-        CHECK(records.front().samples.size() == 50U * std::max<std::int64_t>(age.count(), 2) + 1);
+        CHECK(std::ssize(records.front().samples) ==
+              50 * std::max<std::int64_t>(age.count(), 2) + 1);
         CHECK(records[1].samples.size() == 50U * static_cast<unsigned>(age.count()) + 1);
         std::int64_t index = 0;
         for (const auto& record : records) {
