@@ -271,8 +271,7 @@ Scenario parse_scenario(std::string_view toml, const std::filesystem::path& orig
     }
     scenario.name = required_name(document);
     const auto read = [&](std::string_view name, auto reader, auto&... values) {
-        const bool may_lack = name == "box" ? scenario.box.has_value()
-                                            : !base.empty() || name == "clock" || name == "line";
+        const bool may_lack = !base.empty() || name == "clock" || name == "line";
         Section section(document, name, may_lack);
         reader(section, values...);
         section.done();
@@ -302,10 +301,11 @@ Scenario parse_scenario(std::string_view toml, const std::filesystem::path& orig
     read("slow_noise", read_slow_noise, scenario.slow_noise);
     read("vibration", read_vibration, scenario.vibration);
     read("line", read_line, scenario.line);
+    Section box(document, "box", scenario.box.has_value());
     if (document.has("box")) {
-        BoxParameters box = scenario.box.value_or(BoxParameters{});
-        read("box", read_box, box);
-        scenario.box = box;
+        if (!scenario.box) scenario.box.emplace();
+        read_box(box, *scenario.box);
+        box.done();
     }
     read_places(document, scenario);
     document.require_all_read();
