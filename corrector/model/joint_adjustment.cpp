@@ -137,15 +137,10 @@ Coefficient coefficient_of(std::string name, const whole_day::Estimate& estimate
     return {std::move(name), estimate.value, estimate.standard_error};
 }
 
-bool is_of_survey(whole_day::DayTerm term) {
-    return term == whole_day::DayTerm::constant || term == whole_day::DayTerm::drift ||
-           term == whole_day::DayTerm::warm_up;
-}
-
 std::vector<Coefficient> terms_of(const whole_day::JointSurveyFit& fit, bool of_survey) {
     std::vector<Coefficient> list;
     for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
-        if (is_of_survey(static_cast<whole_day::DayTerm>(k)) == of_survey)
+        if (whole_day::is_of_survey(static_cast<whole_day::DayTerm>(k)) == of_survey)
             list.push_back(coefficient_of(std::string(whole_day::kDayTermNames.at(k)),
                                           fit.coefficients.at(k)));
     return list;

@@ -31,8 +31,8 @@ struct RecordedSurvey {
 /// A station of the adjustment.
 struct JointGravity {
     std::string site;
-    MilliGal gravity;           ///< With its own reference hidden on all days, all others held.
-    MilliGal u;                 ///< Standard uncertainty.
+    MilliGal gravity;  ///< With its own reference hidden in all surveys, and all others held.
+    MilliGal u;        ///< Standard uncertainty.
     bool is_in_sample = false;  ///< It alone is held: gravity is its reference.
 };
 
@@ -43,12 +43,14 @@ struct JointTerms {
     std::vector<Coefficient> coefficients;
 };
 
+/// What adjust_jointly() finds.
 struct JointAdjustment {
-    std::vector<JointGravity> stations;          ///< In the order of their first accepted reading.
-    std::vector<StationDifference> differences;  ///< Of all pairs, the references of both hidden.
-    StationCovariance covariance;                ///< Of JointGravity::gravity.
-    std::vector<JointTerms> units;               ///< Lags, slopes, axis biases, scale.
-    std::vector<JointTerms> surveys;             ///< Constant, drift, warm-up, steps, noise.
+    std::vector<JointGravity> stations;  ///< In the order of their first accepted reading.
+    std::vector<StationDifference>
+        differences;                  ///< One for each pair, with both references hidden.
+    StationCovariance covariance;     ///< Covariance of the gravities in `stations`.
+    std::vector<JointTerms> units;    ///< Lags, slopes, axis biases, scale.
+    std::vector<JointTerms> surveys;  ///< Constant, drift, warm-up, steps, noise.
     /// Share of the placement that the sensors of a box have in common; absent without a box.
     std::optional<whole_day::PlacementShare> share;
     /// Factor by which all uncertainties are multiplied: the rms of reference minus gravity divided by

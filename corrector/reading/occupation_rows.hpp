@@ -89,8 +89,8 @@ struct OccupationRows {
     std::vector<text::InputFile> inputs;  ///< All files that were read; none so far.
     std::string running_key;              ///< Key of the stay that still runs; may be empty.
     std::optional<UtcTime> data_end;      ///< Last sample of the vertical axis that was read.
-    /// So far only: newest clock reading of the journal as it was read.  A copy of the root that
-    /// ends there gives the same rows.
+    /// Newest clock reading that the journal had when it was read; absent unless is_so_far.  A copy
+    /// of the root made at this instant gives the same rows.
     std::optional<UtcTime> as_of;
     std::string serial_number;  ///< Sensor; empty if not in the metadata.
 };

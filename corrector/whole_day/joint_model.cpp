@@ -191,9 +191,9 @@ private:
     Eigen::VectorXd expected_;             ///< Its common coefficients with the expected noise.
     std::vector<Eigen::VectorXd> values_;  ///< Estimates of each survey.
     std::vector<JointProblem::Normal> groups_;  ///< With the groups' own columns.
-    Eigen::MatrixXd products_;                  ///< Of all common columns and the readings.
-    std::vector<Index> fitted_;                 ///< Common columns of the fit.
-    Eigen::MatrixXd covariance_;                ///< Of their coefficients.
+    Eigen::MatrixXd products_;    ///< Products of all common columns and the readings.
+    std::vector<Index> fitted_;   ///< Common columns of the fit.
+    Eigen::MatrixXd covariance_;  ///< Covariance of the coefficients of `fitted_`.
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 ///
 ///     std::vector<JointSurvey> surveys;                   // one per data root and day
 ///     const JointFit fit = fit_jointly(surveys);
-///     fit.gravity_mgal[3];                                // of station 3 of the adjustment
+///     fit.gravity_mgal[3];                                // station 3 of the adjustment
 ///     fit.system.left_out(3);                             // with its own reference hidden
 ///
 /// Methods and figures: corrector/methods.md, "Several surveys in one adjustment".
@@ -29,10 +29,16 @@
 
 namespace a351::corrector::whole_day {
 
+/// Returns true for a term that each survey has for itself: constant, drift, warm-up.  The others are
+/// of the unit.
+[[nodiscard]] constexpr bool is_of_survey(DayTerm term) {
+    return term == DayTerm::constant || term == DayTerm::drift || term == DayTerm::warm_up;
+}
+
 /// One unit on one day.
 struct JointSurvey {
     const reading::DayRecord* record = nullptr;
-    std::vector<DayStation> stations;  ///< As fit_day(), numbered for the survey alone.
+    std::vector<DayStation> stations;  ///< Stations as in fit_day(), numbered within this survey.
     DayPriors priors;                  ///< Equal for all surveys of a unit.
     /// Number in the adjustment of each number of `stations`.  A gravity that one survey holds is held,
     /// with the same value, in all surveys that have it.
@@ -60,7 +66,7 @@ struct JointFit {
     std::vector<JointSurveyFit> surveys;
     std::vector<Estimate> gravity_mgal;   ///< Held or estimated, by number in the adjustment.
     std::optional<PlacementShare> share;  ///< Absent without two sensors at one place and time.
-    StationSystem system;                 ///< Of all gravities; numbers as `gravity_mgal`.
+    StationSystem system;                 ///< Holds all gravities, numbered as `gravity_mgal`.
 };
 
 /// Fits several surveys together.

@@ -10,22 +10,11 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Returns true for a term of a survey alone; the others are of its unit.
-bool is_of_survey(Index term) {
-    switch (static_cast<DayTerm>(term)) {
-        case DayTerm::constant:
-        case DayTerm::drift:
-        case DayTerm::warm_up:
-            return true;
-        default:
-            return false;
-    }
-}
-
 /// Number of common columns of a unit: its terms, then its lags.
 Index columns_of_unit() {
     Index count = kLags;
-    for (Index term = 0; term < kTerms; ++term) count += is_of_survey(term) ? 0 : 1;
+    for (Index term = 0; term < kTerms; ++term)
+        count += is_of_survey(static_cast<DayTerm>(term)) ? 0 : 1;
     return count;
 }
 
@@ -125,7 +114,7 @@ void JointProblem::set_columns() {
         for (const std::size_t k : group.surveys) {
             own_begin_[k] = group.own_count;
             for (Index term = 0; term < kTerms; ++term)
-                group.own_count += is_of_survey(term) ? 1 : 0;
+                group.own_count += is_of_survey(static_cast<DayTerm>(term)) ? 1 : 0;
             group.own_count += of(k).estimated() - of(k).steps_begin();
         }
     }
@@ -152,7 +141,7 @@ std::vector<Index> JointProblem::places_in_group(std::size_t survey, bool is_ext
     std::vector<Index> places{common + common_count_ + extra};
     Index own = own_begin_[survey], of_unit = unit;
     for (Index term = 0; term < kTerms; ++term)
-        places.push_back(is_of_survey(term) ? own++ : of_unit++);
+        places.push_back(is_of_survey(static_cast<DayTerm>(term)) ? own++ : of_unit++);
     places.resize(static_cast<std::size_t>(problem.steps_begin()) + 1);
     for (std::size_t number = 0; number < surveys_[survey].gravities.size(); ++number)
         if (const Index place = problem.place_of(number); place >= 0)

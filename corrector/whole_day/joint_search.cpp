@@ -23,7 +23,7 @@ struct Block {
 /// All blocks of an adjustment.
 struct Blocks {
     std::vector<Block<3>> units;       ///< Lags and size of the axis biases.
-    std::vector<Block<1>> placements;  ///< Of each group.
+    std::vector<Block<1>> placements;  ///< One for each group.
     std::vector<Block<2>> noises;      ///< Flicker and white noise of each survey.
 };
 

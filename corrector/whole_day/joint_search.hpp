@@ -10,8 +10,9 @@ namespace a351::corrector::whole_day {
 
 /// The point of least cost, and the share with its limits if there is a box.
 struct JointSearch {
-    JointPoint most_likely;  ///< With the expected share.
-    JointPoint expected;  ///< With the roots of the expected variances, as DayProblem::expected().
+    JointPoint most_likely;  ///< The point of least cost, but with the expected share.
+    /// The same with the roots of the expected variances, as DayProblem::expected().
+    JointPoint expected;
     std::optional<PlacementShare> share;
 };
 

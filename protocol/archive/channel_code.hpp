@@ -28,9 +28,9 @@ inline constexpr std::string_view kSensorTemperature = "LK1";  ///< 0.001 degC
 inline constexpr std::string_view kOvenTemperature = "LK2";    ///< Process value, 0.001 degC.
 inline constexpr std::string_view kOvenSetPoint = "LK3";       ///< 0.001 degC
 inline constexpr std::string_view kOvenHeating = "LYH";        ///< 0.01 %
-inline constexpr std::string_view kOuterTemperature = "LK4";   ///< Of the outer oven, 0.001 degC.
-inline constexpr std::string_view kOuterSetPoint = "LK5";      ///< Of the outer oven, 0.001 degC.
-inline constexpr std::string_view kOuterHeating = "LYO";       ///< Of the outer oven, 0.01 %.
+inline constexpr std::string_view kOuterTemperature = "LK4";   ///< Outer oven, 0.001 degC.
+inline constexpr std::string_view kOuterSetPoint = "LK5";      ///< Outer oven, 0.001 degC.
+inline constexpr std::string_view kOuterHeating = "LYO";       ///< Outer oven, 0.01 %.
 inline constexpr std::string_view kClockError = "LCE";         ///< 1 us
 inline constexpr std::string_view kTimingQuality = "LCQ";      ///< 1 %
 

@@ -85,7 +85,7 @@ reading::DayRecord record_of(const sim::scenario::Scenario& scenario,
         };
         bin.times.push_back(now);
         double reading = bin.reading.value(), x = bin.x.value(), y = bin.y.value();
-        // Of 100 samples.
+        // A value is the mean of 100 samples.
         add(reading, norm_mgal + scenario.sensor.white_mgal / 10.0 * white.normal());
         add(x, axes[0] / kMilliGalPerStandardGravity);
         add(y, axes[1] / kMilliGalPerStandardGravity);
@@ -103,7 +103,7 @@ reading::DayRecord record_of(const sim::scenario::Scenario& scenario,
     return {{TimeSeries<DegC>(scenario.start(), Hertz(1.0 / kSample_s), degc), {}}, bins};
 }
 
-/// What a day gives.
+/// Errors at the unknown stations of a simulated day.
 struct Trial {
     std::vector<double> errors_mgal, u_mgal;
     bool is_share_inside = true;

@@ -48,7 +48,7 @@ with (Scratch() as scratch,
     stop_all(page)
     page.wait_for_text("order-answer", "4 of 4 boxes did it, at ")
     demand("no stay runs any more", all(session.status()["occupation"] is None for session in boxes.sessions))
-    # What one box refuses, it does when it is asked again, at the same instant.
+    # A box refuses an order, and carries it out when asked again with the same instant.
     dead.ctl("start", "No.2")
     page.driver.find_element(By.ID, "start").click()
     page.wait_for_text("order-answer", "3 of 4 boxes did it, at ")

@@ -213,7 +213,7 @@ TEST_CASE("a box with a clock that is far ahead or behind does not stop the orde
         wrong.server.stop();
         CHECK(wrong.recorder.log.empty());
     }
-    // Of two boxes the one that gets samples counts.
+    // With two boxes, the one that receives samples gives the instant.
     FakeDaemon unplugged(Status::Level::good, minute(40));
     unplugged.status.now = minute(60);
     const auto stopped =
