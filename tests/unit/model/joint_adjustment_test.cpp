@@ -59,6 +59,25 @@ TEST_CASE("two units at one time are one box, and each station has one gravity",
               Approx(adjustment.stations[static_cast<std::size_t>(k)].u.value()));
 }
 
+TEST_CASE("without a serial number each day is a unit of its own", "[survey][joint]") {
+    const Corrected a = corrected(1), b = corrected(2);
+    DayRecord later = b.day;
+    const auto one_day = std::chrono::hours(24);
+    const TimeSeries<DegC>& degc = b.day.temperature.series;
+    later.temperature.series = TimeSeries<DegC>(degc.start() + one_day, degc.rate(), degc.values());
+    for (DayBin& bin : later.bins) {
+        bin.time += one_day;
+        for (UtcTime& time : bin.times) time += one_day;
+    }
+    const auto units = [&](const std::string& serial) {
+        const auto joint =
+            adjust_jointly({{"a", serial, &a.result, &a.day}, {"b", serial, &b.result, &later}});
+        return std::get<JointAdjustment>(joint).units.size();
+    };
+    CHECK(units("1") == 1);
+    CHECK(units("") == 2);
+}
+
 TEST_CASE("surveys that cannot be adjusted together are refused with the reason",
           "[survey][joint]") {
     const Corrected a = corrected(1), linear = corrected(2, "t"), moved = corrected(2, "day", 3.0);
