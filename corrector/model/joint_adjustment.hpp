@@ -43,7 +43,7 @@ struct JointTerms {
     std::vector<Coefficient> coefficients;
 };
 
-/// What adjust_jointly() finds.
+/// The result of adjust_jointly().
 struct JointAdjustment {
     std::vector<JointGravity> stations;  ///< In the order of their first accepted reading.
     std::vector<StationDifference>
