@@ -269,7 +269,7 @@ std::string joint_html(const std::vector<JointDay>& days, const result::JointRes
             troubles.push_back(fmt::format("{}: {}", day.name, day.trouble));
         }
     }
-    const std::string title = text::tr("Gravity survey of {} days", days.size());
+    const std::string title = text::tr("Gravity of {} surveys", days.size());
     Page page(title);
     if (!troubles.empty())
         add(page.body(), "p", text::tr("Not corrected, and not included below:"));

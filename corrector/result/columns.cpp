@@ -190,19 +190,16 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
                           [](Row row) { return cell(row.row.pressure_correction); },
                           {"Pressure corr.", 4}}});
     if (first.scale_correction)
-        columns.push_back(
-            {"scale_correction_mgal",
-             of(&model::CorrectedRow::scale_correction),
-             {text::marked("Scale corr.")}});
+        columns.push_back({"scale_correction_mgal",
+                           of(&model::CorrectedRow::scale_correction),
+                           {text::marked("Scale corr.")}});
     if (!first.row.instrument.empty())
-        append(
-            columns,
-            {{"instrument",
-              [](Row row) { return row.row.instrument; },
-              {text::marked("Instrument"), 0, 'n'}},
-             {"loop",
-              [](Row row) { return static_cast<std::int64_t>(row.row.loop); },
-              {text::marked("Loop")}}});
+        append(columns, {{"instrument",
+                          [](Row row) { return row.row.instrument; },
+                          {text::marked("Instrument"), 0, 'n'}},
+                         {"loop",
+                          [](Row row) { return static_cast<std::int64_t>(row.row.loop); },
+                          {text::marked("Loop")}}});
     if (first.row.record) append(columns, columns_of_records());
     if (first.as<model::WholeDayRow>() != nullptr)
         append(columns, columns_of_day());
@@ -234,21 +231,24 @@ std::vector<Column<model::StationValue>> station_columns(
         {"dof", of(&model::StationValue::dof)},
         {"k_95", of(&model::StationValue::coverage_factor)},
         {"expanded_u_mgal", expanded_uncertainty, {text::marked("U 95 % mGal"), 2}},
-        part_column("u_placement_mgal", "Placement", whole_day::ErrorSource::placement),
-        part_column("u_flicker_mgal", "Flicker", whole_day::ErrorSource::flicker),
-        part_column("u_white_mgal", "White", whole_day::ErrorSource::white),
-        part_column("u_levelling_mgal", "Levelling", whole_day::ErrorSource::levelling),
-        part_column("u_thermal_mgal", "Thermal", whole_day::ErrorSource::thermal),
-        part_column("u_drift_mgal", "Drift", whole_day::ErrorSource::drift),
-        part_column("u_datum_mgal", "Datum", whole_day::ErrorSource::datum),
-        part_column("u_scale_mgal", "Scale", whole_day::ErrorSource::scale),
+        part_column("u_placement_mgal", text::marked("Placement"),
+                    whole_day::ErrorSource::placement),
+        part_column("u_flicker_mgal", text::marked("Flicker"), whole_day::ErrorSource::flicker),
+        part_column("u_white_mgal", text::marked("White"), whole_day::ErrorSource::white),
+        part_column("u_levelling_mgal", text::marked("Levelling"),
+                    whole_day::ErrorSource::levelling),
+        part_column("u_thermal_mgal", text::marked("Thermal"), whole_day::ErrorSource::thermal),
+        part_column("u_drift_mgal", text::marked("Drift"), whole_day::ErrorSource::drift),
+        part_column("u_datum_mgal", text::marked("Datum"), whole_day::ErrorSource::datum),
+        part_column("u_scale_mgal", text::marked("Scale"), whole_day::ErrorSource::scale),
     };
     if (std::ranges::any_of(stations, [](const auto& one) { return one.anomalies.has_value(); }))
-        for (auto& column :
-             {anomaly_column("normal_gravity_mgal", "Normal mGal",
-                             &model::Anomalies::normal_gravity),
-              anomaly_column("free_air_anomaly_mgal", "Free air mGal", &model::Anomalies::free_air),
-              anomaly_column("bouguer_anomaly_mgal", "Bouguer mGal", &model::Anomalies::bouguer)})
+        for (auto& column : {anomaly_column("normal_gravity_mgal", text::marked("Normal mGal"),
+                                            &model::Anomalies::normal_gravity),
+                             anomaly_column("free_air_anomaly_mgal", text::marked("Free air mGal"),
+                                            &model::Anomalies::free_air),
+                             anomaly_column("bouguer_anomaly_mgal", text::marked("Bouguer mGal"),
+                                            &model::Anomalies::bouguer)})
             columns.push_back(column);
     return columns;
 }

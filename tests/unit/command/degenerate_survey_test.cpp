@@ -163,7 +163,7 @@ TEST_CASE("one bad day of three is reported, and the others and the joint table 
     REQUIRE(joint.row_count() == 3);
     CHECK(joint.cell(0, "days") == "2");
     CHECK_THAT(text::read_text_file(result / "joint.html"),
-               ContainsSubstring("Gravity survey of 3 days") &&
+               ContainsSubstring("Gravity of 3 surveys") &&
                    ContainsSubstring("<li>bad: b.toml: ") &&
                    ContainsSubstring("href=\"a/report.html\"") &&
                    ContainsSubstring("href=\"c/report.html\""));
