@@ -43,13 +43,15 @@ long_record::RecordSegment without_begin(long_record::RecordSegment segment, dou
                                     segment.acceleration_mgal.begin() + behind);
     segment.temperature_degc.erase(segment.temperature_degc.begin(),
                                    segment.temperature_degc.begin() + behind);
+    if (!segment.outer_degc.empty())
+        segment.outer_degc.erase(segment.outer_degc.begin(), segment.outer_degc.begin() + behind);
     segment.start = segment.start + from_seconds(static_cast<double>(cut) * step_s);
     return segment;
 }
 
 long_record::TwoPathFit fitted(const long_record::RecordSegment& segment, double step_s) {
     return long_record::fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, step_s,
-                                      kCycle_s);
+                                      kCycle_s, segment.outer_degc);
 }
 
 /// @throws InputError  the record is of several units.

@@ -14,6 +14,7 @@
 #include "corrector/long_record/record_epochs.hpp"
 #include "corrector/long_record/stretch_builder.hpp"
 #include "corrector/reading/occupation_window.hpp"
+#include "corrector/reading/temperature_course.hpp"
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/archive/sds.hpp"
@@ -208,6 +209,19 @@ private:
     std::vector<std::vector<double>> block_{kChannels};
 };
 
+/// Sets the outer oven's temperature of the stretches, or warns why it is not used.
+void set_outer(LongRecord& record, const std::vector<reading::MinuteTemperature>& outer) {
+    for (RecordStretch& stretch : record.stretches) {
+        if (reading::is_without_gaps(outer, stretch.times.front(), stretch.times.back()))
+            stretch.outer_degc = reading::interpolated(outer, stretch.times);
+        else
+            record.warnings.push_back(
+                text::message("from {} on, the temperature of the outer oven is not used: it has a "
+                              "gap of more than 10 min",
+                              to_rfc3339(stretch.times.front())));
+    }
+}
+
 std::optional<tide::Station> position_of(const std::filesystem::path& metadata) {
     const auto document = station::load_station_document(metadata);
     const auto station = document.child("FDSNStationXML").child("Network").child("Station");
@@ -246,16 +260,17 @@ std::set<Day> days_with_files(const std::filesystem::path& archive,
 void describe_inputs(LongRecord& record, const std::filesystem::path& root,
                      const std::vector<RecordEpoch>& epochs, const std::set<Day>& of_days) {
     std::vector<std::filesystem::path> files;
-    for (std::size_t k = 0; k < kChannels; ++k) {
-        for (const RecordEpoch& epoch : epochs) {
-            for (const Day day : of_days) {
-                auto file =
-                    archive::sds_file(root / "archive", epoch.codes, epoch.scales.at(k).code, day);
-                if (std::filesystem::exists(file) && std::ranges::find(files, file) == files.end())
-                    files.push_back(std::move(file));
-            }
+    const auto add = [&](const RecordEpoch& epoch, const std::string& channel) {
+        for (const Day day : of_days) {
+            auto file = archive::sds_file(root / "archive", epoch.codes, channel, day);
+            if (std::filesystem::exists(file) && std::ranges::find(files, file) == files.end())
+                files.push_back(std::move(file));
         }
-    }
+    };
+    for (std::size_t k = 0; k < kChannels; ++k)
+        for (const RecordEpoch& epoch : epochs) add(epoch, epoch.scales.at(k).code);
+    for (const RecordEpoch& epoch : epochs)
+        if (epoch.outer) add(epoch, epoch.outer->code);
     std::vector<text::InputFile> inputs(files.size());
     reading::on_all_cores(files.size(), [&](std::size_t i) {
         inputs[i] = text::describe_input("archive", files[i]);
@@ -276,6 +291,8 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
 
     LongRecord record;
     ArchiveStream stream(record);
+    std::vector<reading::MinuteTemperature> outer;
+    bool has_outer = false;
     std::size_t done = 0;
     for (const Day day : of_days) {
         const UtcTime next = std::min(UtcTime(day + days(1)), window.to.value_or(UtcTime::max()));
@@ -285,6 +302,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
             const UtcTime to = e + 1 < epochs.size() ? std::min(next, epochs[e + 1].start) : next;
             if (from >= to) continue;
             const RecordEpoch& epoch = epochs[e];
+            const UtcTime begin = from;
             DayOfChannels samples;
             reading::on_all_cores(kChannels, [&](std::size_t k) {
                 samples[k] =
@@ -296,6 +314,13 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
             if (samples[kLeading].segments.empty()) continue;
             stream.use(epoch);
             stream.take(samples);
+            if (!epoch.outer) continue;
+            has_outer = true;
+            const archive::ChannelData data =
+                archive::read_channel(archive, epoch.codes, epoch.outer->code, begin, to);
+            reading::add_damage(record.warnings, data);
+            const auto course = reading::temperature_course(data.segments, *epoch.outer);
+            outer.insert(outer.end(), course.begin(), course.end());
         }
         progress(++done, of_days.size());
     }
@@ -304,6 +329,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
         throw InputError(fmt::format(
             "{}: archive: no sample of {}; allowed: an archive with samples from --from to --to",
             root.string(), epochs.back().scales[kLeading].code));
+    if (has_outer) set_outer(record, outer);
     if (const auto position = position_of(metadata))
         remove_tide(record, *position);
     else

@@ -36,6 +36,9 @@ void append(RecordStretch& to, std::size_t missing, double step_s, const RecordS
         append(to.axes_mgal[k], missing, kNaN, from.axes_mgal[k]);
     append(to.acceleration_mgal, missing, kNaN, from.acceleration_mgal);
     append(to.temperature_degc, missing, kNaN, from.temperature_degc);
+    if (from.outer_degc.empty()) to.outer_degc.clear();
+    if (!to.outer_degc.empty())
+        append(to.outer_degc, missing, to.outer_degc.back(), from.outer_degc);
     for (; missing > 0; --missing) to.times.push_back(to.times.back() + from_seconds(step_s));
     to.times.insert(to.times.end(), from.times.begin(), from.times.end());
 }

@@ -36,8 +36,8 @@ inline constexpr double kLongestGap_s = 3600.0;
 /// Value of a missing sample.  Find one with std::isnan(): NaN is not equal to itself.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Samples on one clock; missing samples are NaN.  All vectors have the same length n; `raw` and
-/// `axes_mgal` may be empty.
+/// Samples on one clock; missing samples are NaN.  All vectors have the same length n; `raw`,
+/// `axes_mgal` and `outer_degc` may be empty.
 ///
 /// Invariants of a stretch that was read: n >= 1, times ascend, and neighbours are about one step
 /// apart.  A sample may be missing in one series and exist in another.  A default-constructed
@@ -59,6 +59,8 @@ struct RecordStretch {
     /// known.
     std::vector<std::vector<double>> axes_mgal;
     std::vector<double> temperature_degc;  ///< (n)
+    /// Temperature of an outer oven (n), without missing values; empty if there is none.
+    std::vector<double> outer_degc;
     std::vector<RawRange> raw;             ///< (n); empty if nothing was decimated.
 
     /// Returns n.

@@ -162,7 +162,8 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     for (const eemd::Component& mode : analysis.temperature.modes)
         if (mode.extrema_count > 0) modes.push_back(mode.values);
     analysis.by_modes = response_by_modes(modes, temperature, acceleration, step_s);
-    analysis.two_paths = fit_two_paths(temperature, acceleration, step_s, options.cycle_s);
+    analysis.two_paths =
+        fit_two_paths(temperature, acceleration, step_s, options.cycle_s, segment.outer_degc);
     remark_on_trend(analysis, static_cast<double>(segment.size()) * step_s);
     return analysis;
 }

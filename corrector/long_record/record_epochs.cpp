@@ -20,9 +20,12 @@ std::vector<RecordEpoch> read_record_epochs(const std::filesystem::path& metadat
         RecordEpoch epoch{start,
                           station.serial_number,
                           station.codes,
-                          {found.axes[0], found.axes[1], found.axes[2], found.temperature}};
+                          {found.axes[0], found.axes[1], found.axes[2], found.temperature},
+                          found.outer};
         if (epochs.empty() || !epoch_change(epochs.back(), epoch).empty())
             epochs.push_back(std::move(epoch));
+        else if (found.outer)
+            epochs.back().outer = found.outer;  // it was fitted later
     }
     return epochs;
 }

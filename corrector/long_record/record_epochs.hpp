@@ -11,6 +11,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct RecordEpoch {
     std::string serial_number;  ///< Serial number of the sensor; empty: not known.
     journal::StationCodes codes;
     std::array<station::ChannelScale, kRecordChannels> scales;
+    /// Temperature of an outer oven; absent if there is none.
+    std::optional<station::ChannelScale> outer = {};
 };
 
 /// Reads the epochs in order of time; neighbours differ.  Samples before the first belong to the

@@ -73,13 +73,15 @@ Json components_json(const eemd::Result& result, double step_s) {
 
 Json two_paths_json(const TwoPathFit& fit) {
     Json json;
-    for (const FittedParameter& parameter : fit.parameters) {
-        json["parameters"][parameter.key] = {
+    const auto add = [&json](const char* list, const FittedParameter& parameter) {
+        json[list][parameter.key] = {
             {"value", parameter.value},
             {"standard_error", parameter.standard_error},
             {"determined", parameter.is_determined},
             {"needed", parameter.is_determined ? Json(nullptr) : Json(parameter.needed.english())}};
-    }
+    };
+    for (const FittedParameter& parameter : fit.parameters) add("parameters", parameter);
+    for (const FittedParameter& parameter : fit.outer) add("outer_oven", parameter);
     // Covariance of the coefficients in their units, and of the logarithms of lags and times.
     for (Eigen::Index row = 0; row < fit.covariance.rows(); ++row) {
         Json cells = Json::array();
@@ -139,10 +141,15 @@ Json noise_json(const RecordNoise& noise) {
 
 /// Returns record.csv: `time_utc,acceleration_mgal,temperature_degc,segment`, one row per sample.
 /// Cells of missing values are empty.  Segments are numbered from 1; empty outside all.  With a
-/// calibration `parametric_mgal` and `by_modes_mgal` follow, filled within the analysed segment.
+/// calibration `parametric_mgal` and `by_modes_mgal` follow, filled within the analysed segment, with
+/// an outer oven `outer_degc`.
 std::string record_csv(const RecordResult& result) {
+    const bool has_outer = std::ranges::any_of(
+        result.record.stretches,
+        [](const RecordStretch& stretch) { return !stretch.outer_degc.empty(); });
     std::string csv = "time_utc,acceleration_mgal,temperature_degc,segment" +
-                      std::string(result.applied ? ",parametric_mgal,by_modes_mgal\n" : "\n");
+                      std::string(result.applied ? ",parametric_mgal,by_modes_mgal" : "") +
+                      std::string(has_outer ? ",outer_degc\n" : "\n");
     for (const RecordStretch& stretch : result.record.stretches) {
         for (std::size_t i = 0; i < stretch.size(); ++i) {
             csv += to_rfc3339(stretch.times[i], 6) + ',' +
@@ -153,7 +160,10 @@ std::string record_csv(const RecordResult& result) {
                 if (stretch.times[i] >= segment.start && stretch.times[i] <= segment.end)
                     csv += std::to_string(k + 1);
             }
-            csv += applied_cells(result, stretch.times[i]) + '\n';
+            csv += applied_cells(result, stretch.times[i]);
+            if (has_outer)
+                csv += ',' + (stretch.outer_degc.empty() ? "" : exact_cell(stretch.outer_degc[i]));
+            csv += '\n';
         }
     }
     return csv;

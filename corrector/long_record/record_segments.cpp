@@ -283,6 +283,12 @@ private:
             append(segment, valid, previous, i);
             previous = i;
         }
+        if (!stretch.outer_degc.empty()) {
+            const auto first_outer =
+                stretch.outer_degc.begin() + static_cast<std::ptrdiff_t>(valid.places[first]);
+            segment.outer_degc.assign(first_outer,
+                                      first_outer + static_cast<std::ptrdiff_t>(segment.size()));
+        }
         result_.segments.push_back(std::move(segment));
     }
 

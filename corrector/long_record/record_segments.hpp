@@ -37,6 +37,7 @@ struct RecordSegment {
     text::Message begins_with;  ///< Reason of its start: "the record begins", "gap of 512 s" ...
     std::vector<double> acceleration_mgal;  ///< (n)
     std::vector<double> temperature_degc;   ///< (n)
+    std::vector<double> outer_degc;         ///< (n), or empty without an outer oven.
     std::size_t bridged = 0;                ///< Number of samples from straight lines.
     std::size_t disturbed = 0;              ///< Number of these that replace knocks.
     bool is_restart = false;                ///< True: the sensor was switched on before it.

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "corrector/correlation/fourier.hpp"
 #include "corrector/correlation/regression.hpp"
+#include "corrector/whole_day/day_model.hpp"
 #include "corrector/whole_day/search_grid.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
@@ -16,21 +19,30 @@ namespace a351::corrector::long_record {
 namespace {
 
 using Index = Eigen::Index;
-/// Lags tF, tS and time tW: logarithms of lag / median, in standard deviations of their priors.
-using Lags = std::array<double, 3>;
+/// Lags tF, tS, time tW and lag tO: logarithms of lag / median, in standard deviations of their priors.
+/// Without an outer oven the last is 0.
+using Lags = std::array<double, 4>;
 
 constexpr double kShortest_s = 240.0;  // at shorter periods the thermometer's noise dominates
 constexpr Index kLinear = 5;           // number of linear terms: drift ... slow
 constexpr double kDriftDeviation_mgal_per_h = 1.0;
 constexpr double kWarmUpDeviation_mgal = 60.0;  // more than the warm-up of the typical unit
 constexpr double kWarmUpTimeFactor = 1.5;
-/// Priors of the linear terms; their means are 0.
-constexpr std::array<double, kLinear> kPriorDeviation{
-    kDriftDeviation_mgal_per_h, kWarmUpDeviation_mgal, unit::kRecordSlopeDeviation_mgal_per_degc,
-    unit::kRecordFastDeviation_mgal_per_degc_per_h, unit::kRecordSlopeDeviation_mgal_per_degc};
+/// Priors of the linear terms, then of the outer oven's slopes, which may be as large as those of the
+/// sensor; their means are 0.
+constexpr std::array<double, kLinear + 2> kPriorDeviation{
+    kDriftDeviation_mgal_per_h,
+    kWarmUpDeviation_mgal,
+    unit::kRecordSlopeDeviation_mgal_per_degc,
+    unit::kRecordFastDeviation_mgal_per_degc_per_h,
+    unit::kRecordSlopeDeviation_mgal_per_degc,
+    unit::kRecordSlopeDeviation_mgal_per_degc,
+    unit::kRecordSlopeDeviation_mgal_per_degc};
 constexpr Lags kLagMedian_s{unit::kTypicalUnit.fast_lag_s, unit::kTypicalUnit.slow_lag_s,
-                            unit::kTypicalUnit.warm_up_h* kSecondsPerHour};
-constexpr Lags kLagFactor{unit::kRecordLagFactor, unit::kRecordLagFactor, kWarmUpTimeFactor};
+                            unit::kTypicalUnit.warm_up_h* kSecondsPerHour,
+                            whole_day::kOuterLag_s.median};
+constexpr Lags kLagFactor{unit::kRecordLagFactor, unit::kRecordLagFactor, kWarmUpTimeFactor,
+                          whole_day::kOuterLag_s.factor};
 
 /// Returns lag k at the point u, s: median x factor^u.
 double lag_s(const Lags& u, std::size_t k) {
@@ -41,12 +53,13 @@ double lag_s(const Lags& u, std::size_t k) {
 class Problem {
 public:
     Problem(const std::vector<double>& temperature, const std::vector<double>& acceleration,
-            double step_s)
+            double step_s, const std::vector<double>& outer)
         : count_(fast_length_within(temperature.size())),
           step_s_(step_s),
           temperature_(
               {}, Hertz(1.0 / step_s),
               {temperature.begin(), temperature.begin() + static_cast<std::ptrdiff_t>(count_)}) {
+        if (!outer.empty()) outer_.emplace(UtcTime{}, Hertz(1.0 / step_s), outer);
         frequencies_ =
             std::min(static_cast<Index>(static_cast<double>(count_) * step_s / kShortest_s),
                      static_cast<Index>(count_ / 2));
@@ -61,7 +74,12 @@ public:
         for (Index k = 0; k < frequencies_; ++k) noise_(k) = 1.0 / static_cast<double>(k + 1);
     }
 
-    /// Returns the model's columns, kLinear series of the temperature's length.
+    /// Returns the number of linear columns: kLinear, with an outer oven two more.
+    [[nodiscard]] Index linear() const { return kLinear + (outer_ ? 2 : 0); }
+    /// Returns the number of lags and times: 3, with an outer oven 4.
+    [[nodiscard]] std::size_t lag_count() const { return outer_ ? 4 : 3; }
+
+    /// Returns the model's columns, linear() series of the temperature's length.
     [[nodiscard]] std::vector<std::vector<double>> columns(const TimeSeries<DegC>& temperature,
                                                            const Lags& u) const {
         const std::vector<double>& t = temperature.values();
@@ -75,18 +93,22 @@ public:
             all[2][i] = t[i] - mean_degc_;
             all[4][i] -= mean_degc_;
         }
+        if (outer_)
+            for (const std::vector<double>& outer :
+                 {outer_->values(), unit::lagged(*outer_, lag_s(u, 3))})
+                all.emplace_back(outer.begin(), outer.begin() + std::ssize(t));
         return all;
     }
 
-    /// Returns the columns (2 frequencies, kLinear), real parts above imaginary parts, scaled to
+    /// Returns the columns (2 frequencies, linear()), real parts above imaginary parts, scaled to
     /// noise and priors of variance 1.
     [[nodiscard]] Eigen::MatrixXd design(const Lags& u) const {
         const auto all = columns(temperature_, u);
-        Eigen::MatrixXd x(2 * frequencies_, kLinear);
-        for (Index k = 0; k < kLinear; ++k) {
+        Eigen::MatrixXd x(2 * frequencies_, linear());
+        for (Index k = 0; k < linear(); ++k) {
             const auto place = static_cast<std::size_t>(k);
             Eigen::VectorXd column = transformed(all[place]);
-            if (place >= static_cast<std::size_t>(TwoPathTerm::level))
+            if (place >= static_cast<std::size_t>(TwoPathTerm::level) && k < kLinear)
                 column =
                     trusted(std::move(column), correlation::fit_line(numbers_, all[place]).slope);
             x.col(k) = kPriorDeviation.at(place) * whitened(std::move(column));
@@ -115,7 +137,8 @@ public:
     [[nodiscard]] Lags most_likely(const Lags& start, bool is_nearby) const {
         return whole_day::least_cost_point(
             [this](const Lags& u) { return cost(u); }, start, is_nearby,
-            {.farthest = 5.0, .first_step = 0.3, .tolerance = 0.01, .most_costs = 120});
+            {.farthest = 5.0, .first_step = 0.3, .tolerance = 0.01, .most_costs = 120},
+            lag_count());
     }
 
     /// Returns the coefficients, each divided by the standard deviation of its prior:
@@ -127,16 +150,20 @@ public:
     }
 
     /// Returns the covariance of coefficients and lags, in deviations of their priors: the parts of
-    /// the priors and of the noise, with the derivatives J by coefficients and lags.
+    /// the priors and of the noise, with the derivatives J by coefficients and lags: those of
+    /// TwoPathTerm, then the outer oven's slopes and lag.
     [[nodiscard]] Eigen::MatrixXd covariance(const Lags& u, const Eigen::VectorXd& beta) const {
         constexpr double kStep = 0.05;
-        Eigen::MatrixXd jacobian(2 * frequencies_, static_cast<Index>(kTwoPathTerms));
-        jacobian.leftCols(kLinear) = design(u);
-        for (std::size_t k = 0; k < u.size(); ++k) {
+        constexpr auto kTerms = static_cast<Index>(kTwoPathTerms);
+        const Eigen::MatrixXd x = design(u);
+        Eigen::MatrixXd jacobian(2 * frequencies_, kTerms + (outer_ ? 3 : 0));
+        jacobian.leftCols(kLinear) = x.leftCols(kLinear);
+        if (outer_) jacobian.middleCols(kTerms, 2) = x.rightCols(2);
+        for (std::size_t k = 0; k < lag_count(); ++k) {
             Lags more = u, less = u;
             more[k] += kStep;
             less[k] -= kStep;
-            jacobian.col(kLinear + static_cast<Index>(k)) =
+            jacobian.col(k < 3 ? kLinear + static_cast<Index>(k) : kTerms + 2) =
                 (design(more) - design(less)) * beta / (2.0 * kStep);
         }
         // The error of the estimate is C (J'e + p), C = (J'J + 1)^-1.
@@ -287,6 +314,7 @@ private:
     std::size_t count_;
     double step_s_;
     TimeSeries<DegC> temperature_;
+    std::optional<TimeSeries<DegC>> outer_;  ///< Temperature of an outer oven.
     double mean_degc_ = 0.0;
     Index frequencies_ = 0;
     std::vector<double> numbers_;  ///< 0, 1, 2 ...
@@ -305,8 +333,10 @@ constexpr const char* kByDays =
     text::marked("a set point that moves by about 0.1 degC every few hours, for two days or more");
 constexpr const char* kFromPowerOn =
     text::marked("a record that begins when the sensor is switched on");
-/// Parameters in the order of TwoPathTerm.
-constexpr std::array<Named, kTwoPathTerms> kNamed{{
+constexpr const char* kByOuterOven =
+    text::marked("an outer oven whose set point moves by a degree every few hours");
+/// Parameters in the order of TwoPathTerm, then slopes and lag of the outer oven.
+constexpr std::array<Named, kTwoPathTerms + 3> kNamed{{
     {"drift_mgal_per_h", text::marked("drift"), "mGal/h", text::marked("a week or more")},
     {"warm_up_mgal", text::marked("warm-up at the start"), "mGal", kFromPowerOn},
     {"level_mgal_per_degc", text::marked("static slope, prompt"), "mGal/degC", kByDays},
@@ -317,14 +347,19 @@ constexpr std::array<Named, kTwoPathTerms> kNamed{{
      text::marked("a larger temperature swing at periods of 4 to 8 min")},
     {"slow_lag_s", text::marked("lag of the slow path"), "s", kByDays},
     {"warm_up_time_s", text::marked("time constant of the warm-up"), "s", kFromPowerOn},
+    {"outer_level_mgal_per_degc", text::marked("slope by the outer oven, prompt"), "mGal/degC",
+     kByOuterOven},
+    {"outer_slow_mgal_per_degc", text::marked("slope by the outer oven, late"), "mGal/degC",
+     kByOuterOven},
+    {"outer_lag_s", text::marked("lag of the outer oven"), "s", kByOuterOven},
 }};
 
 }  // namespace
 
 TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
                          const std::vector<double>& acceleration_mgal, double step_s,
-                         double cycle_s) {
-    Problem problem(temperature_degc, acceleration_mgal, step_s);
+                         double cycle_s, const std::vector<double>& outer_degc) {
+    Problem problem(temperature_degc, acceleration_mgal, step_s, outer_degc);
     constexpr int kRounds = 4;
     Lags u{};
     Eigen::VectorXd beta = problem.coefficients(u);
@@ -337,16 +372,19 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
     TwoPathFit fit;
     const Eigen::MatrixXd scaled = problem.covariance(u, beta);
     Eigen::VectorXd units(static_cast<Index>(kTwoPathTerms));
-    for (std::size_t k = 0; k < kTwoPathTerms; ++k) {
-        const auto place = static_cast<Index>(k);
-        const bool is_lag = place >= kLinear;
-        const std::size_t lag = is_lag ? k - static_cast<std::size_t>(kLinear) : 0;
-        units(place) = is_lag ? std::log(kLagFactor.at(lag)) : kPriorDeviation.at(k);
-        const double deviation = units(place) * std::sqrt(scaled(place, place));
-        const double value = is_lag ? lag_s(u, lag) : units(place) * beta(place);
+    for (Index place = 0; place < scaled.rows(); ++place) {
+        const auto k = static_cast<std::size_t>(place);
+        const bool is_outer = k >= kTwoPathTerms;
+        const bool is_lag = is_outer ? place + 1 == scaled.rows() : place >= kLinear;
+        const std::size_t lag = is_outer ? 3 : k - static_cast<std::size_t>(kLinear);
+        const Index column = is_outer ? place - units.size() + kLinear : place;
+        const double one = is_lag ? std::log(kLagFactor.at(lag))
+                                  : kPriorDeviation.at(static_cast<std::size_t>(column));
+        const double deviation = one * std::sqrt(scaled(place, place));
+        const double value = is_lag ? lag_s(u, lag) : one * beta(column);
         const bool is_determined = std::sqrt(scaled(place, place)) < kDeterminedDeviation;
         const Named& named = kNamed.at(k);
-        fit.parameters.at(k) = {
+        FittedParameter parameter{
             named.key,
             named.name,
             named.unit,
@@ -354,8 +392,15 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
             is_lag ? value * deviation : deviation,
             is_determined,
             is_determined ? text::Message() : text::marked_message(named.needed)};
+        if (is_outer) {
+            fit.outer.push_back(std::move(parameter));
+            continue;
+        }
+        units(place) = one;
+        fit.parameters.at(k) = std::move(parameter);
     }
-    fit.covariance = units.asDiagonal() * scaled * units.asDiagonal();
+    const auto of_terms = scaled.topLeftCorner(units.size(), units.size());
+    fit.covariance = units.asDiagonal() * of_terms * units.asDiagonal();
     constexpr auto level = static_cast<Index>(TwoPathTerm::level),
                    slow = static_cast<Index>(TwoPathTerm::slow);
     fit.static_slope = fit[TwoPathTerm::level].value + fit[TwoPathTerm::slow].value;
@@ -366,10 +411,12 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
 
     const TimeSeries<DegC> whole({}, Hertz(1.0 / step_s), temperature_degc);
     const auto columns = problem.columns(whole, u);
+    constexpr auto kInner = static_cast<std::size_t>(kLinear);
     fit.residual_mgal = acceleration_mgal;
     for (std::size_t i = 0; i < fit.residual_mgal.size(); ++i)
         for (std::size_t k = 0; k < columns.size(); ++k)
-            fit.residual_mgal[i] -= fit.parameters.at(k).value * columns[k][i];
+            fit.residual_mgal[i] -=
+                columns[k][i] * (k < kInner ? fit.parameters.at(k) : fit.outer[k - kInner]).value;
     const double mean = correlation::mean_of(fit.residual_mgal);
     for (double& value : fit.residual_mgal) value -= mean;
     fit.residual_rms_mgal = std::sqrt(correlation::variance_of(fit.residual_mgal));

@@ -3,8 +3,10 @@
 /// The two paths from temperature to acceleration, fitted to one segment:
 ///
 ///     a = c + d t + w exp(-t / tW) + rA (T - T0) + rF (T - lag(T, tF)) / tF + rS (lag(T, tS) - T0)
+///         + oA To + oS lag(To, tO)
 ///
 /// a is in mGal, T in degC, t in h, rF in mGal/(degC/h), tF, tS and tW in s.
+/// - To: temperature of an outer oven, if there is one; oA and oS in mGal/degC, tO in s.
 /// - rA, rF, rS, lag(T, tau): the unit's thermal response (protocol/unit/thermal_response.hpp), in
 ///   equilibrium at the start of the segment.
 /// - w: warm-up that the thermometer does not see, at the start of the segment.
@@ -71,6 +73,7 @@ struct TwoPathFit {
     /// (kTwoPathTerms, kTwoPathTerms) Covariance of the coefficients in their units, and of the
     /// natural logarithms of lags and times.
     Eigen::MatrixXd covariance;
+    std::vector<FittedParameter> outer;  ///< oA, oS and tO; empty without an outer oven.
     double static_slope = 0.0, static_slope_error = 0.0;  ///< rA + rS, mGal/degC.
     /// True: static_slope_error is below half of the prior standard deviation of rA + rS.
     bool is_static_slope_determined = false;
@@ -93,8 +96,9 @@ struct TwoPathFit {
 ///
 /// Priors, mean and standard deviation:
 /// - d 0, 1 mGal/h; w 0, 60 mGal; rA and rS 0, 60 mGal/degC; rF 0, 30 mGal/(degC/h)
+/// - oA and oS 0, 60 mGal/degC
 ///
-/// Log-normal priors, median and factor: tF 43 s, 2; tS 2700 s, 2; tW 2.5 h, 1.5.
+/// Log-normal priors, median and factor: tF 43 s, 2; tS 2700 s, 2; tW 2.5 h, 1.5; tO 1200 s, 2.
 ///
 /// - The thermometer's white noise is measured between 70 and 110 s, where the acceleration does not
 ///   follow the temperature.  Each frequency of the
@@ -116,9 +120,10 @@ struct TwoPathFit {
 /// @param acceleration_mgal  (n) finite.
 /// @param step_s             time between samples, s.
 /// @param cycle_s            cycle of the oven, s, for the bands of the residual test.
+/// @param outer_degc         (n) temperature of an outer oven, finite; empty: there is none.
 /// Source: P. Whittle, J. R. Stat. Soc. B 15, 125-139, 1953.
 [[nodiscard]] TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
                                        const std::vector<double>& acceleration_mgal, double step_s,
-                                       double cycle_s);
+                                       double cycle_s, const std::vector<double>& outer_degc = {});
 
 }  // namespace a351::corrector::long_record

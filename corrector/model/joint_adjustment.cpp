@@ -154,6 +154,13 @@ JointTerms unit_terms(const RecordedSurvey& survey, const whole_day::JointSurvey
     for (std::size_t k = 0; k < fit.lags_s.size(); ++k)
         unit.coefficients.push_back(
             {kLagNames.at(k), fit.lags_s.at(k), fit.lags_s.at(k) * fit.lag_log_errors.at(k)});
+    if (fit.outer) {
+        for (std::size_t k = 0; k < fit.outer->mgal_per_degc.size(); ++k)
+            unit.coefficients.push_back(coefficient_of(std::string(whole_day::kOuterNames.at(k)),
+                                                       fit.outer->mgal_per_degc.at(k)));
+        unit.coefficients.push_back(
+            {std::string(whole_day::kOuterNames.back()), fit.outer->lag_s, {}});
+    }
     return unit;
 }
 

@@ -53,6 +53,13 @@ std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit) {
                         fit.steps_mgal[k].standard_error});
     list.push_back({"fast_lag_s", fit.fast_lag_s, fit.fast_lag_s * fit.lag_log_errors[0]});
     list.push_back({"slow_lag_s", fit.slow_lag_s, fit.slow_lag_s * fit.lag_log_errors[1]});
+    if (fit.outer) {
+        for (std::size_t k = 0; k < fit.outer->mgal_per_degc.size(); ++k)
+            list.push_back({std::string(whole_day::kOuterNames.at(k)),
+                            fit.outer->mgal_per_degc.at(k).value,
+                            fit.outer->mgal_per_degc.at(k).standard_error});
+        list.push_back({std::string(whole_day::kOuterNames.back()), fit.outer->lag_s, {}});
+    }
     const auto add_noise = [&](std::size_t place, std::string name, double mgal) {
         std::optional<double> error;
         if (fit.noise_log_errors) error = mgal * fit.noise_log_errors->at(place);

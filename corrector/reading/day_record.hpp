@@ -100,6 +100,9 @@ struct DayTemperature {
 struct DayRecord {
     DayTemperature temperature;
     std::vector<DayBin> bins;  ///< Bins in order of set-up and time.
+    /// Temperature of an outer oven on the grid of `temperature`, finite; absent if there is none, or
+    /// if it has gaps (is_without_gaps() in temperature_course.hpp).
+    std::optional<TimeSeries<DegC>> outer = {};
 };
 
 }  // namespace a351::corrector::reading

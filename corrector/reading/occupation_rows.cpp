@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::chrono::minutes kMargin(1);  // reach of the temperature's filters, 9 s, and more
 constexpr std::chrono::hours kBefore(8);    // memory of the slowest response to temperature
+constexpr std::chrono::hours kOuterLead(1);  // a gap of the outer oven before has little effect
 
 UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows) {
     return windows.front().start - (is_axis ? Nanoseconds(kMargin) : Nanoseconds(kBefore));
@@ -37,6 +38,7 @@ std::vector<std::filesystem::path> archive_files(const SurveySource& source,
                                                  const SurveyChannels& channels,
                                                  const std::vector<OccupationWindow>& windows) {
     std::vector<std::string> names{channels.temperature.code};
+    if (channels.outer) names.push_back(channels.outer->code);
     for (const station::ChannelScale& axis : channels.axes) names.push_back(axis.code);
     std::sort(names.begin(), names.end());
     std::vector<std::filesystem::path> files;
@@ -44,7 +46,8 @@ std::vector<std::filesystem::path> archive_files(const SurveySource& source,
     using std::chrono::floor;
     const auto last_day = floor<days>(windows.back().end + kMargin);
     for (const std::string& channel : names) {
-        const bool is_axis = channel != channels.temperature.code;
+        const bool is_axis =
+            std::ranges::count(channels.axes, channel, &station::ChannelScale::code) > 0;
         for (auto day = floor<days>(first_sample(is_axis, windows)); day <= last_day;
              day += days(1)) {
             const auto file = archive::sds_file(source.root / "archive", codes, channel, day);
@@ -83,6 +86,8 @@ void add_journaled(SurveySamples& samples, const SurveySource& source,
     each_channel([&](archive::ChannelData& data, const std::string& code, UtcTime from) {
         tail.append_to(data, code, from, to);
     });
+    if (channels.outer)
+        tail.append_to(samples.outer, channels.outer->code, first_sample(false, windows), to);
     samples.journal_end = tail.end();
 }
 
@@ -101,6 +106,9 @@ SurveySamples read_samples(const SurveySource& source, const journal::StationCod
                                   first_sample(is_axis, windows), to);
     };
     on_all_cores(samples.axes.size() + 1, read);
+    if (channels.outer)
+        samples.outer = archive::read_channel(source.root / "archive", codes, channels.outer->code,
+                                              first_sample(false, windows), to);
     if (source.is_so_far) add_journaled(samples, source, codes, channels, windows, to);
     return samples;
 }
@@ -140,6 +148,24 @@ std::optional<DayTemperature> temperature_of_day(const SurveySamples& samples,
     if (!grid) return std::nullopt;
     return day_temperature(TimeSeries<DegC>(grid->origin, Hertz(grid->rate_hz),
                                             place_on_grid(segments, channels.temperature, *grid)));
+}
+
+/// Adds the temperature of an outer oven to the day, or a warning why it is not used.
+void add_outer(DayRecord& day, const SurveySamples& samples, const SurveyChannels& channels,
+               const std::vector<OccupationWindow>& windows, std::vector<text::Message>& warnings) {
+    if (!channels.outer) return;
+    const auto course = temperature_course(samples.outer.segments, *channels.outer);
+    const TimeSeries<DegC>& grid = day.temperature.series;
+    const UtcTime from = std::max(grid.start(), windows.front().start - kOuterLead);
+    if (!is_without_gaps(course, from, windows.back().end)) {
+        warnings.push_back(text::message(
+            "the temperature of the outer oven is not used: it has a gap of more than 10 min"));
+        return;
+    }
+    std::vector<UtcTime> times;
+    for (std::size_t i = 0; i < grid.size(); ++i)
+        times.push_back(grid.time_of(static_cast<double>(i)));
+    day.outer = TimeSeries<DegC>(grid.start(), grid.rate(), interpolated(course, times));
 }
 
 /// Returns the number of a set-up in its stay, from 1; std::nullopt if the stay has one set-up.
@@ -269,11 +295,13 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.day = DayRecord{std::move(*temperature), {}};
     result.left_out = list.left_out;
     result.warnings = list.warnings;
+    if (result.day) add_outer(*result.day, samples, channels, windows, result.warnings);
     if (!vertical.warning.empty()) result.warnings.push_back(vertical.warning);
     result.amendments = amendments;
     result.sites = sites;
     for (const archive::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
     add_damage(result.warnings, samples.temperature);
+    add_damage(result.warnings, samples.outer);
     std::vector<OccupationWindow> averaged;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const OccupationWindow& window = windows[i];

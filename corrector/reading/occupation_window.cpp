@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "protocol/archive/channel_code.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -123,6 +124,9 @@ SurveyChannels find_channels(const station::Metadata& station, const std::filesy
     for (std::size_t k = 0; k < channels.axes.size(); ++k)
         channels.axes[k] = channel_with(station, "N" + station.codes.axes[k], "m/s**2", file);
     channels.temperature = channel_with(station, "K1", "degC", file);
+    const auto outer = std::ranges::find(station.channels, archive::kOuterTemperature,
+                                         &station::ChannelScale::code);
+    if (outer != station.channels.end()) channels.outer = *outer;
     return channels;
 }
 

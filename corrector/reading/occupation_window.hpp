@@ -73,13 +73,16 @@ struct SampleGrid {
 struct SurveyChannels {
     std::array<station::ChannelScale, 3> axes;  ///< x, y, z in m/s2.
     station::ChannelScale temperature;          ///< degC, at the rate of the axes.
+    /// Temperature of an outer oven, degC; absent if the box has none.
+    std::optional<station::ChannelScale> outer;
 };
 
 /// Finds the channels of the axes and of the temperature.
 ///
 /// The code of an axis is any band letter, then N and the last letter of the axis
 /// (StationCodes::axes).  The code of the temperature ends in K1.  Channels that begin with L, of 1
-/// Hz, are derived and left out.  If several channels fit, the first is taken.
+/// Hz, are derived and left out, except LK4, the temperature of an outer oven.  If several channels
+/// fit, the first is taken.
 ///
 /// @param station  from station::read_station_xml().
 /// @param file  name of the metadata, for messages.
@@ -97,6 +100,7 @@ void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData
 struct SurveySamples {
     std::array<archive::ChannelData, 3> axes;  ///< x, y, z.
     archive::ChannelData temperature;
+    archive::ChannelData outer;          ///< Without samples if the box has no outer oven.
     std::optional<UtcTime> journal_end;  ///< OccupationRows::as_of, if samples are of the journal.
 };
 

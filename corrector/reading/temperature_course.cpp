@@ -1,6 +1,8 @@
 #include "corrector/reading/temperature_course.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <map>
 
@@ -44,6 +46,35 @@ std::vector<MinuteTemperature> temperature_course(const std::vector<archive::Seg
             {minute + std::chrono::seconds(30), DegC(scale.offset + scale.gain * mean)});
     }
     return course;
+}
+
+bool is_without_gaps(const std::vector<MinuteTemperature>& course, UtcTime from, UtcTime to) {
+    constexpr std::chrono::minutes kLongestGap(10);
+    UtcTime last = from;
+    bool is_any = false;
+    for (const MinuteTemperature& minute : course) {
+        if (minute.middle < from || minute.middle > to) continue;
+        if (minute.middle - last > kLongestGap) return false;
+        last = minute.middle;
+        is_any = true;
+    }
+    return is_any && to - last <= kLongestGap;
+}
+
+std::vector<double> interpolated(const std::vector<MinuteTemperature>& course,
+                                 const std::vector<UtcTime>& times) {
+    std::vector<double> values;
+    auto after = course.begin();  // the first mean behind the instant
+    for (const UtcTime time : times) {
+        while (after != course.end() && after->middle <= time) ++after;
+        const MinuteTemperature& last = after == course.begin() ? *after : *(after - 1);
+        const MinuteTemperature& next = after == course.end() ? last : *after;
+        const double share = &last == &next ? 0.0
+                                            : seconds_between(last.middle, time) /
+                                                  seconds_between(last.middle, next.middle);
+        values.push_back(std::lerp(last.mean.value(), next.mean.value(), share));
+    }
+    return values;
 }
 
 }  // namespace a351::corrector::reading

@@ -1,9 +1,11 @@
 #pragma once
 /// @file
-/// The temperature of a survey in means of one minute.
+/// A temperature in means of one minute: that of a survey for figures and tables, that of an outer oven
+/// for the correction.
 ///
-/// It is for figures and tables, where every sample would be too much.  For the correction use
-/// day_temperature(), which has no gaps and the noise smoothed.
+/// The sensor's own temperature in the correction is day_temperature(), which has no gaps and the noise
+/// smoothed.  The thermometer of an outer oven is coarse and lags its wall by minutes, so that straight
+/// lines between minutes are good enough.
 
 #include <vector>
 
@@ -21,7 +23,7 @@ struct MinuteTemperature {
     DegC mean;       ///< Mean of its samples.
 };
 
-/// Returns the sensor's temperature in means of one minute, in order of time; minutes without a
+/// Returns a temperature in means of one minute, in order of time; minutes without a
 /// sample are left out.
 ///
 /// Minutes are whole minutes of UTC.  The time of a sample is counted from the time stamp of its
@@ -37,5 +39,18 @@ struct MinuteTemperature {
 /// @return one mean for each minute with a sample; empty without samples.
 [[nodiscard]] std::vector<MinuteTemperature> temperature_course(
     const std::vector<archive::Segment>& segments, const station::ChannelScale& scale);
+
+/// Returns true if the longest time without a mean between two instants, both included, is at most 10
+/// min, the shortest published cycle of an oven.
+/// @param course  in order of time.
+[[nodiscard]] bool is_without_gaps(const std::vector<MinuteTemperature>& course, UtcTime from,
+                                   UtcTime to);
+
+/// Returns the temperature at some instants: a straight line between two means, constant before the
+/// first and after the last.
+/// @param course  in order of time, at least one.
+/// @param times   in order of time.
+[[nodiscard]] std::vector<double> interpolated(const std::vector<MinuteTemperature>& course,
+                                               const std::vector<UtcTime>& times);
 
 }  // namespace a351::corrector::reading

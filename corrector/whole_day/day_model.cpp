@@ -21,7 +21,7 @@ struct Estimates {
 
 /// Returns the source of the prior of column k of DayProblem::linearised().
 ErrorSource source_of(const DayProblem& problem, Index k) {
-    if (k >= problem.states_begin()) return ErrorSource::thermal;  // states, then lags
+    if (k >= problem.states_begin()) return ErrorSource::thermal;  // states, outer oven, lags
     if (k >= kTerms) return ErrorSource::datum;
     switch (static_cast<DayTerm>(k)) {
         case DayTerm::constant:
@@ -95,7 +95,8 @@ void set_gravities(const DayProblem& problem, const reading::DayRecord& record,
 }
 
 /// Returns values by least squares at the fit's point, and errors with the lags as two more terms
-/// and with the expected noise; sets gravities, the shift and its covariance.
+/// and with the expected noise; sets gravities, the response to an outer oven, the shift and its
+/// covariance.
 Estimates estimate(const DayProblem& problem, const reading::DayRecord& record, std::size_t set_ups,
                    DayFit& fit) {
     const DayFit::Point& u = fit.point;
@@ -117,6 +118,7 @@ Estimates estimate(const DayProblem& problem, const reading::DayRecord& record, 
     const Eigen::MatrixXd unscaling = problem.unscaling(fit.expected);
     result.standard_errors =
         (unscaling * covariance * unscaling.transpose()).diagonal().cwiseSqrt();
+    fit.outer = problem.outer_response(u, result.values, result.standard_errors);
     fit.shift << u[kFastLag], u[kSlowLag], scaled.head(kTerms);
     set_gravities(problem, record, result, unscaling, all, covariance, fit);
     // The lags are last in `covariance` and first in the shift.
@@ -162,12 +164,15 @@ std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const reading:
             mean.effect_mgal.at(static_cast<std::size_t>(DayTerm::drift)) +=
                 weight * coefficients(k) * x(row, k);
         // States behind gaps are in turn of the fast and of the slow lag.
-        for (Index k = problem.states_begin(); k < problem.estimated(); ++k) {
+        for (Index k = problem.states_begin(); k < problem.outer_begin(); ++k) {
             const DayTerm term =
                 (k - problem.states_begin()) % 2 == 0 ? DayTerm::fast : DayTerm::slow;
             mean.effect_mgal.at(static_cast<std::size_t>(term)) +=
                 weight * coefficients(k) * x(row, k);
         }
+        for (Index k = problem.outer_begin(); k < problem.estimated(); ++k)
+            mean.effect_mgal.at(static_cast<std::size_t>(DayTerm::slow)) +=
+                weight * coefficients(k) * x(row, k);
     }
     return means;
 }

@@ -5,7 +5,7 @@
 ///
 ///     reading = g + tide + c + rA (T - T0) + rF (T - lag(T, tF)) / tF + rS (lag(T, tS) - T0)
 ///               + d (t - t0) + w exp(-t / 2.5 h) + bx x + by y + k (g - g0) + steps + placement
-///               + flicker + white
+///               + flicker + white + oA To + oS lag(To, tO)
 ///
 /// Readings are in mGal, T in degC, rF in mGal/(degC/h), t in h, lags tF and tS in s, x and y in g.
 /// A reading is the mean of a bin, and so are T, lag(T, tau), x and y.
@@ -19,6 +19,7 @@
 /// - k: scale factor minus 1; g0 is the gravity of the first set-up that is held.
 /// - bx, by: biases of the horizontal axes, which a tilt turns into the norm.
 /// - placement, flicker, white: noise (day_noise.hpp).
+/// - To: temperature of an outer oven, if the box has one; oA and oS in mGal/degC, tO in s.
 ///
 /// Order of the set-ups: they are numbered from 0 in order of time.  The bins are in order of
 /// set-up, and in order of time within it; all bins of a set-up are together.  Element s of the
@@ -74,6 +75,12 @@ inline constexpr std::array<std::string_view, kDayTerms> kDayTermNames{
 
 /// Number of lags: fast tF, slow tS.  In DayPriors they are before the terms.
 inline constexpr std::size_t kDayLags = 2;
+
+/// Names of oA, oS and tO, as in result.json.
+inline constexpr std::array<std::string_view, 3> kOuterNames{
+    "outer_level_mgal_per_degc", "outer_slow_mgal_per_degc", "outer_lag_s"};
+/// Prior of tO, s.  Assumed: minutes to an hour.
+inline constexpr LogNormalPrior kOuterLag_s{1200.0, 2.0};
 
 /// Joint normal prior: natural logarithms of the lags in seconds, then the terms in their units.
 ///
@@ -152,7 +159,8 @@ struct Estimate {
 ///
 /// - placement, flicker, white: the three parts of the noise.
 /// - levelling: the biases bx and by.
-/// - thermal: both lags, rA, rS, rF and what gaps of the temperature left in the instrument.
+/// - thermal: both lags, rA, rS, rF, oA, oS and what gaps of the temperature left in the
+///   instrument.
 /// - drift: d and w.
 /// - datum: the references that are held.
 /// - scale: k.
@@ -169,7 +177,8 @@ struct GravityEstimate : Estimate {
     std::array<double, kErrorSources> parts_mgal{};
     /// Contributions of the unit's parameters, whose priors several days of one unit have in common:
     /// how the estimate answers to one deviation of the fast lag, the slow lag, rA, rS, rF, bx, by
-    /// and k, mGal.  All 0 if an exact reference is held.
+    /// and k, mGal.  All 0 if an exact reference is held.  Each day decides the size of oA and oS,
+    /// so that they are not among them.
     std::array<double, kSharedErrors> shared_mgal{};
     /// The same for the gravities, by their numbers: of a reference that is held, one deviation is its
     /// uncertainty.  0 for exact references, practically 0 for unknown gravities.
@@ -179,7 +188,7 @@ struct GravityEstimate : Estimate {
 /// One set-up.  Effects are means over its bins, mGal, with the sign that they have in the reading.
 ///
 /// A bin counts by its number of samples.  A correction is minus an effect.  The effect of the drift
-/// contains the steps.
+/// contains the steps, that of the slow term the outer oven's.
 struct DaySetUp {
     MilliGal reading;                             ///< Mean reading, the full value.
     MilliGal tide;                                ///< Mean effect of the tide on gravity.
@@ -193,11 +202,18 @@ struct DaySetUp {
     MilliGal corrected;
 };
 
+/// The response to the temperature of an outer oven.
+struct OuterResponse {
+    std::array<Estimate, 2> mgal_per_degc;  ///< oA and oS; errors with the lag held.
+    double lag_s = 0.0;                     ///< Most likely lag tO.
+};
+
 /// Result of fit_day().
 struct DayFit {
-    /// Lags, placement, flicker, white, size of the axis biases: deviations from their priors in
-    /// standard deviations.
-    using Point = std::array<double, 6>;
+    /// Lags, placement, flicker, white, size of the axis biases, lag and size of the outer oven's
+    /// effect: deviations from their priors in standard deviations.  The last two are 0 without an
+    /// outer oven.
+    using Point = std::array<double, 8>;
 
     Point point{};  ///< Most likely point; 0: medians of the priors.
     /// The same with the roots of the expected variances (DayProblem::expected()).
@@ -208,6 +224,7 @@ struct DayFit {
     std::array<Estimate, kDayTerms> coefficients;  ///< Errors include those of the lags.
     std::vector<GravityEstimate> gravity_mgal;     ///< Gravity of the stations, by their numbers.
     std::vector<Estimate> steps_mgal;              ///< Offsets of the steps, in order of time.
+    std::optional<OuterResponse> outer;            ///< Absent without an outer oven.
     /// Standard errors of the logarithms of placement, flicker and white, from the curvature of the
     /// likelihood; absent if it has no maximum there.
     std::optional<std::array<double, 3>> noise_log_errors;
@@ -236,8 +253,8 @@ struct DayFit {
 ///
 /// Log-normal priors, median and factor: lags 43 s and 2700 s, 1.5; placement, if it was not measured,
 /// and flicker 1.2 mGal, 2; white the scatter of the bins, 2; common standard deviation of bx and by, whose mean is 0,
-/// 300 mGal/g, 3.  The means explain the long record and the survey day of the publication
-/// (corrector/methods.md).
+/// 300 mGal/g, 3; tO 1200 s, 2; common standard deviation of oA and oS, whose mean is 0, 3 mGal/degC, 3.
+/// The means explain the long record and the survey day of the publication (corrector/methods.md).
 ///
 /// Accuracy (day_model_test.cpp): on a made-up day without placement and flicker, lags come out
 /// within 1 % and gravity within 0.001 mGal.  With a placement of 1.2 mGal, the rms error of an

@@ -40,7 +40,7 @@ inline constexpr DayNoise kUsualNoise{1.2, 1.2, 0.25};
 ///
 /// About two thirds of the probability are between median / factor and median x factor.
 struct LogNormalPrior {
-    double median = 0.0, factor = 1.0;  ///< Median, mGal; factor of one deviation, > 1.
+    double median = 0.0, factor = 1.0;  ///< Median; factor of one deviation, > 1.
     /// Returns median x factor^u.
     [[nodiscard]] double at(double u) const { return median * std::pow(factor, u); }
     /// Returns the u of a value > 0.

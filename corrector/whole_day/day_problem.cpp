@@ -20,6 +20,9 @@ constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the pub
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 constexpr LogNormalPrior kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
 constexpr double kWhiteFactor = 2.0;
+// Assumed, for nobody has measured a double oven: the wall hardly acts, or up to as much as the sensor's
+// own slow response (two deviations are 27 mGal/degC).
+constexpr LogNormalPrior kOuterSize_mgal_per_degc{3.0, 3.0};
 
 /// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
 /// at least 1e-3.  It is the median of the white noise's prior.
@@ -161,6 +164,13 @@ Eigen::VectorXd DayProblem::slow_column(double lag_s) const {
            kReferenceTemperature_degc;
 }
 
+Eigen::MatrixXd DayProblem::outer_columns(const Point& u) const {
+    Eigen::MatrixXd columns(readings_mgal_.size(), kOuterSlopes);
+    columns << means_.of(record_.outer->values()),
+        means_.of(unit::lagged(*record_.outer, kOuterLag_s.at(u[kOuterLag])));
+    return columns.rowwise() - columns.colwise().mean();
+}
+
 Eigen::VectorXd DayProblem::unscaled(const Point& u, const Eigen::VectorXd& scaled) const {
     Eigen::VectorXd all(estimated() + kLags);
     all << scaled, u[kFastLag], u[kSlowLag];
@@ -182,6 +192,9 @@ Eigen::MatrixXd DayProblem::unscaling(const Point& u) const {
     derivative.topLeftCorner(kTerms, kTerms) = factor.bottomRightCorner<kTerms, kTerms>();
     derivative.diagonal().segment(kTerms, gravity_sd_mgal_.size()) = gravity_sd_mgal_;
     derivative.diagonal().segment(states_begin(), states_sd_mgal_.size()) = states_sd_mgal_;
+    derivative.diagonal()
+        .segment(outer_begin(), estimated() - outer_begin())
+        .setConstant(kOuterSize_mgal_per_degc.at(u[kOuterSize]));
     derivative.topRightCorner(kTerms, kLags) = factor.bottomLeftCorner<kTerms, kLags>();
     return derivative;
 }
@@ -215,6 +228,7 @@ DayProblem::Point DayProblem::expected(const Point& u) const {
     grow(kPlacement);
     grow(kFlicker);
     grow(kBiasSize);
+    if (has_outer()) grow(kOuterSize);
     return expected;
 }
 
@@ -224,6 +238,8 @@ double DayProblem::log_factor(DayHyper part) const {
             return std::log(priors_.placement_mgal.factor);
         case kFlicker:
             return std::log(kFlickerPrior_mgal.factor);
+        case kOuterSize:
+            return std::log(kOuterSize_mgal_per_degc.factor);
         default:
             return std::log(priors_.bias_factor);
     }
@@ -255,6 +271,7 @@ Eigen::MatrixXd DayProblem::design(const Point& u, LagColumns& lagged) const {
                 column(i) = remaining(record_.bins[static_cast<std::size_t>(i)], states_[k].from,
                                       lag_s(u, lag));
         }
+    if (has_outer()) columns.rightCols(kOuterSlopes) = outer_columns(u);
     return columns;
 }
 
@@ -276,8 +293,10 @@ Eigen::MatrixXd DayProblem::scaled(const Point& u, LagColumns& lagged) const {
         x.leftCols(kTerms) * prior_factor(u).bottomRightCorner<kTerms, kTerms>();
     columns.middleCols(1 + kTerms, gravity_sd_mgal_.size()) =
         x.middleCols(kTerms, gravity_sd_mgal_.size()) * gravity_sd_mgal_.asDiagonal();
-    columns.rightCols(states_sd_mgal_.size()) =
-        x.rightCols(states_sd_mgal_.size()) * states_sd_mgal_.asDiagonal();
+    columns.middleCols(1 + states_begin(), states_sd_mgal_.size()) =
+        x.middleCols(states_begin(), states_sd_mgal_.size()) * states_sd_mgal_.asDiagonal();
+    const Index outer = estimated() - outer_begin();
+    columns.rightCols(outer) = kOuterSize_mgal_per_degc.at(u[kOuterSize]) * x.rightCols(outer);
     return columns;
 }
 
@@ -296,6 +315,15 @@ Eigen::MatrixXd DayProblem::lag_columns(const Point& u, const Eigen::VectorXd& v
             (lagged_effects(more) - lagged_effects(less)) / (2.0 * kStep);
     }
     return columns;
+}
+
+std::optional<OuterResponse> DayProblem::outer_response(const Point& u,
+                                                        const Eigen::VectorXd& values,
+                                                        const Eigen::VectorXd& errors) const {
+    if (!has_outer()) return std::nullopt;
+    const Index level = outer_begin(), slow = level + 1;
+    return OuterResponse{{{{values(level), errors(level)}, {values(slow), errors(slow)}}},
+                         kOuterLag_s.at(u[kOuterLag])};
 }
 
 Eigen::MatrixXd DayProblem::linearised(const Point& expected, const Eigen::VectorXd& values) const {
@@ -360,7 +388,7 @@ DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) co
     LagColumns lagged;
     return least_cost_point(
         [&](const Point& u) { return cost(u, scaled(u, lagged)); }, start, nearby.has_value(),
-        {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000});
+        {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000}, searched());
 }
 
 }  // namespace a351::corrector::whole_day

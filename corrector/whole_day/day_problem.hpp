@@ -3,9 +3,9 @@
 /// The whole-day model as a regression whose columns depend on the lags, and the likelihood of lags
 /// and noise.
 ///
-/// It is a part of fit_day().  A point u has six numbers: both lags, placement, flicker, white noise
-/// and the size of the axis biases, each in standard deviations from its prior.  For a fixed point
-/// the model is linear:
+/// It is a part of fit_day().  A point u has eight numbers: both lags, placement, flicker, white
+/// noise, the size of the axis biases, and lag and size of an outer oven's effect, each in standard
+/// deviations from its prior.  For a fixed point the model is linear:
 ///
 ///     const DayProblem problem(record, stations, priors);
 ///     const DayProblem::Point u = problem.most_likely(std::nullopt);
@@ -37,13 +37,26 @@ inline constexpr double kFreeGravity_mgal = 1e4;
 inline constexpr auto kLags = static_cast<Eigen::Index>(kDayLags);
 inline constexpr auto kTerms = static_cast<Eigen::Index>(kDayTerms);
 
+/// Number of slopes of an outer oven: oA, oS.
+inline constexpr Eigen::Index kOuterSlopes = 2;
+
 /// Places in DayFit::Point.  kFastLag and kSlowLag are also places in DayPriors.
-enum DayHyper : std::size_t { kFastLag, kSlowLag, kPlacement, kFlicker, kWhite, kBiasSize };
+enum DayHyper : std::size_t {
+    kFastLag,
+    kSlowLag,
+    kPlacement,
+    kFlicker,
+    kWhite,
+    kBiasSize,
+    kOuterLag,
+    kOuterSize
+};
 
 /// Readings and columns of fit_day() for n bins.  The estimated quantities are the terms, then the
 /// gravities, then the steps, then for each gap of the temperature the effects of the fast and of
-/// the slow lag's state, mGal where the gap ends (lag_states.hpp).  A reference that is held with an
-/// uncertainty is one of the gravities, with that prior; an exact one is none.
+/// the slow lag's state, mGal where the gap ends (lag_states.hpp), then the slopes of an outer oven.
+/// A reference that is held with an uncertainty is one of the gravities, with that prior; an exact one
+/// is none.
 ///
 /// The scale's column has the rough gravity too.  Therefore the estimate of an unknown is the scale
 /// times its gravity minus the rough one.
@@ -68,8 +81,18 @@ public:
     DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
                const DayPriors& priors, const std::vector<double>& rough_mgal = {});
 
-    /// Returns the number of terms, gravities and states.
-    [[nodiscard]] Eigen::Index estimated() const { return states_begin() + states_sd_mgal_.size(); }
+    /// Returns the number of terms, gravities, states and slopes of an outer oven.
+    [[nodiscard]] Eigen::Index estimated() const {
+        return outer_begin() + (has_outer() ? kOuterSlopes : 0);
+    }
+    [[nodiscard]] bool has_outer() const { return record_.outer.has_value(); }
+    /// Returns the place of the first slope of an outer oven, behind the states.
+    [[nodiscard]] Eigen::Index outer_begin() const {
+        return states_begin() + states_sd_mgal_.size();
+    }
+    /// Returns the number of parameters of a point that are searched; the others are those of an outer
+    /// oven.
+    [[nodiscard]] std::size_t searched() const { return has_outer() ? Point{}.size() : kOuterLag; }
     /// Returns the place of the first state after a gap.
     [[nodiscard]] Eigen::Index states_begin() const { return kTerms + gravity_sd_mgal_.size(); }
     /// Returns the place of the first step, in front of the states.
@@ -111,7 +134,7 @@ public:
     /// @param u  most likely point.  Elsewhere the curvature means nothing.
     [[nodiscard]] Point expected(const Point& u) const;
     /// Returns ln of the factor of one deviation.
-    /// @param part  placement, flicker or size of the axis biases.
+    /// @param part  placement, flicker, size of the axis biases or of an outer oven's effect.
     [[nodiscard]] double log_factor(DayHyper part) const;
     /// Returns the standard errors of the logarithms of placement, flicker and white noise, from the
     /// curvature of the cost with the other three numbers held; absent if it has no minimum there.
@@ -137,7 +160,7 @@ public:
 
     /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
     /// the terms, then 1 for the bins of each gravity and for those after each step, then what remains of
-    /// each state.
+    /// each state, then the outer oven's temperature without and with its lag.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
@@ -158,6 +181,12 @@ public:
     /// Returns the gravity of each station from which its estimate counts, mGal: the reference, or a
     /// rough value; 0 for a number without a bin.
     [[nodiscard]] const std::vector<double>& base_mgal() const { return base_mgal_; }
+
+    /// Returns the response to an outer oven; std::nullopt without one.
+    /// @param values, errors  (estimated) from unscaled(), and their standard errors.
+    [[nodiscard]] std::optional<OuterResponse> outer_response(const Point& u,
+                                                              const Eigen::VectorXd& values,
+                                                              const Eigen::VectorXd& errors) const;
 
     /// Returns the problem linearised at a fit: columns (n, estimated + 2) of coefficients whose
     /// priors are independent and of variance 1, the lags last, whitened with the expected noise.
@@ -185,6 +214,8 @@ private:
     [[nodiscard]] Eigen::MatrixXd scaled(const Point& u, LagColumns& lagged) const;
     /// Returns cost(u) from the scaled() columns of a point that differs from `u` in its noise only.
     [[nodiscard]] double cost(const Point& u, Eigen::MatrixXd columns) const;
+    /// Returns the columns (n, kOuterSlopes) of an outer oven, without their means.
+    [[nodiscard]] Eigen::MatrixXd outer_columns(const Point& u) const;
     /// Returns the priors' factor of lags and terms, with the size of the axis biases at a point.
     [[nodiscard]] DayPriors::Matrix prior_factor(const Point& u) const;
 

@@ -61,6 +61,8 @@ JointPoint start_of(const JointProblem& problem, const std::vector<DayFit>& fits
             of_unit[0] += fits[k].point[kFastLag] / static_cast<double>(days.size());
             of_unit[1] += fits[k].point[kSlowLag] / static_cast<double>(days.size());
             of_unit[2] += fits[k].point[kBiasSize] / static_cast<double>(days.size());
+            of_unit[3] += fits[k].point[kOuterLag] / static_cast<double>(days.size());
+            of_unit[4] += fits[k].point[kOuterSize] / static_cast<double>(days.size());
         }
     }
     for (const JointProblem::Group& group : problem.groups()) {
@@ -148,6 +150,7 @@ public:
             fit.coefficients.at(static_cast<std::size_t>(term)) = {values_[k](term), errors(term)};
         for (Index i = problem.steps_begin(); i < problem.states_begin(); ++i)
             fit.steps_mgal.push_back({values_[k](i), errors(i)});
+        fit.outer = problem.outer_response(u, values_[k], errors);
         const Eigen::MatrixXd factor = surveys_[k].priors.factor.topLeftCorner<kLags, kLags>();
         const Eigen::MatrixXd of_lags =
             factor * covariance.bottomRightCorner(kLags, kLags) * factor.transpose();
@@ -214,6 +217,13 @@ JointFit fit_jointly(const std::vector<JointSurvey>& surveys) {
     }
     std::vector<JointSurveyFit> fits;
     for (std::size_t k = 0; k < surveys.size(); ++k) fits.push_back(last.survey(k));
+    for (std::size_t unit = 0; unit < problem.unit_count(); ++unit) {
+        const std::vector<std::size_t> days = problem.surveys_of_unit(unit);
+        const auto of_unit =
+            std::ranges::find_if(days, [&](std::size_t k) { return fits[k].outer.has_value(); });
+        if (of_unit == days.end()) continue;
+        for (const std::size_t k : days) fits[k].outer = fits[*of_unit].outer;
+    }
     return {std::move(fits), std::move(gravities), found.share, last.system(std::move(fitted))};
 }
 

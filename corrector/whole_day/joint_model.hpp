@@ -5,7 +5,8 @@
 /// The model of each survey is that of day_model.hpp.  Common to the surveys are:
 ///
 /// - the gravities of the stations;
-/// - of a unit, its lags, slopes, axis biases and scale: what a unit is made of;
+/// - of a unit, its lags, slopes (also those by an outer oven), axis biases and scale: what a unit is
+///   made of;
 /// - of the sensors of one box, a part of the placement of each set-up.
 ///
 /// Each survey has its constant, drift, warm-up, steps and noise.  Surveys of different units that
@@ -51,6 +52,7 @@ struct JointSurveyFit {
     std::array<Estimate, kDayTerms> coefficients;  ///< Those of the unit are equal on all its days.
     std::array<double, 2> lags_s{}, lag_log_errors{};  ///< tF and tS.
     std::vector<Estimate> steps_mgal;
+    std::optional<OuterResponse> outer;  ///< Of the unit, also on its days without an outer oven.
     DayNoise noise;  ///< Most likely; placement of both parts together.
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Number of common columns of a unit: its terms, then its lags.
+/// Number of common columns of a unit without an outer oven: its terms, then its lags.
 Index columns_of_unit() {
     Index count = kLags;
     for (Index term = 0; term < kTerms; ++term)
@@ -100,7 +100,10 @@ void JointProblem::set_groups() {
 }
 
 void JointProblem::set_columns() {
-    common_count_ = static_cast<Index>(unit_count_) * columns_of_unit();
+    for (std::size_t unit = 0; unit < unit_count_; ++unit) {
+        unit_begin_.push_back(common_count_);
+        common_count_ += columns_of_unit() + (has_outer(unit) ? kOuterSlopes : 0);
+    }
     for (std::size_t k = 0; k < surveys_.size(); ++k)
         for (std::size_t number = 0; number < surveys_[k].gravities.size(); ++number) {
             Index& place = places_[surveys_[k].gravities[number]];
@@ -115,7 +118,7 @@ void JointProblem::set_columns() {
             own_begin_[k] = group.own_count;
             for (Index term = 0; term < kTerms; ++term)
                 group.own_count += is_of_survey(static_cast<DayTerm>(term)) ? 1 : 0;
-            group.own_count += of(k).estimated() - of(k).steps_begin();
+            group.own_count += of(k).outer_begin() - of(k).steps_begin();
         }
     }
 }
@@ -123,6 +126,11 @@ void JointProblem::set_columns() {
 bool JointProblem::has_boxes() const {
     return std::ranges::any_of(groups_,
                                [](const Group& group) { return group.surveys.size() > 1; });
+}
+
+bool JointProblem::has_outer(std::size_t unit) const {
+    return std::ranges::any_of(surveys_of_unit(unit),
+                               [this](std::size_t k) { return of(k).has_outer(); });
 }
 
 std::vector<std::size_t> JointProblem::surveys_of_unit(std::size_t unit) const {
@@ -136,7 +144,7 @@ std::vector<Index> JointProblem::places_in_group(std::size_t survey, bool is_ext
     const Group& group = groups_[group_of_[survey]];
     const DayProblem& problem = of(survey);
     const Index common = group.own_count;
-    const Index unit = common + static_cast<Index>(surveys_[survey].unit) * columns_of_unit();
+    const Index unit = common + unit_begin_[surveys_[survey].unit];
     const Index extra = is_extended ? std::ssize(places_) : 0;
     std::vector<Index> places{common + common_count_ + extra};
     Index own = own_begin_[survey], of_unit = unit;
@@ -147,7 +155,9 @@ std::vector<Index> JointProblem::places_in_group(std::size_t survey, bool is_ext
         if (const Index place = problem.place_of(number); place >= 0)
             places[static_cast<std::size_t>(place) + 1] =
                 common + places_[surveys_[survey].gravities[number]];
-    for (Index k = problem.steps_begin(); k < problem.estimated(); ++k) places.push_back(own++);
+    for (Index k = problem.steps_begin(); k < problem.outer_begin(); ++k) places.push_back(own++);
+    for (Index k = problem.outer_begin(); k < problem.estimated(); ++k)
+        places.push_back(unit + columns_of_unit() + k - problem.outer_begin());
     if (group.surveys.size() > 1)
         for (Index k = 0; k < static_cast<Index>(group.set_up_count); ++k) places.push_back(k);
     if (!is_extended) return places;
@@ -163,6 +173,8 @@ DayProblem::Point JointProblem::point_of(const JointPoint& point, std::size_t su
     u[kFastLag] = unit[0];
     u[kSlowLag] = unit[1];
     u[kBiasSize] = unit[2];
+    u[kOuterLag] = unit[3];
+    u[kOuterSize] = unit[4];
     u[kPlacement] = point.placements[group_of_[survey]];
     u[kFlicker] = point.surveys[survey][0];
     u[kWhite] = point.surveys[survey][1];

@@ -6,7 +6,7 @@
 /// columns in common, which is all that makes the adjustment joint:
 ///
 /// - of a survey alone: constant, drift, warm-up, steps, states after gaps;
-/// - of a unit: the other terms, and the lags;
+/// - of a unit: the other terms, the lags, and the slopes of an outer oven;
 /// - of all: the gravities;
 /// - of a box: the part of the placement that all sensors of a set-up have in common.  It is one more
 ///   unknown for each set-up of the box, with the deviation sqrt(share) placement; the noise of each
@@ -29,7 +29,9 @@ namespace a351::corrector::whole_day {
 
 /// Lags and noise of an adjustment, in deviations from the priors as DayFit::Point.
 struct JointPoint {
-    std::vector<std::array<double, 3>> units;    ///< Fast lag, slow lag, size of the axis biases.
+    /// Fast lag, slow lag, size of the axis biases, lag and size of an outer oven's effect (0 without
+    /// one).
+    std::vector<std::array<double, 5>> units;
     std::vector<double> placements;              ///< One per group.
     std::vector<std::array<double, 2>> surveys;  ///< Flicker, white.
     double share = 0.0;                          ///< Share of the placement's variance, 0 to 1.
@@ -65,6 +67,8 @@ public:
     [[nodiscard]] std::size_t group_of(std::size_t survey) const { return group_of_[survey]; }
     [[nodiscard]] std::size_t unit_count() const { return unit_count_; }
     [[nodiscard]] std::vector<std::size_t> surveys_of_unit(std::size_t unit) const;
+    /// Returns true if a survey of the unit has the temperature of an outer oven.
+    [[nodiscard]] bool has_outer(std::size_t unit) const;
     /// Returns true if a group has several sensors, so that the share matters.
     [[nodiscard]] bool has_boxes() const;
     [[nodiscard]] const DayProblem& of(std::size_t survey) const { return *problems_[survey]; }
@@ -122,6 +126,7 @@ private:
     std::vector<Group> groups_;
     std::vector<std::size_t> group_of_, place_in_group_;  ///< One of each survey.
     std::vector<Eigen::Index> own_begin_;                 ///< First own column of each survey.
+    std::vector<Eigen::Index> unit_begin_;                ///< First common column of each unit.
     std::vector<Eigen::Index> places_;
     std::size_t unit_count_ = 0;
     Eigen::Index common_count_ = 0;

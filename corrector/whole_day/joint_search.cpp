@@ -18,11 +18,12 @@ struct Block {
     std::vector<std::size_t> surveys;  ///< Those whose equations they change.
     bool is_of_unit = false;           ///< They change the columns, not only the noise.
     std::array<std::function<double&(JointPoint&)>, kCount> numbers;
+    std::size_t searched = kCount;  ///< The first of the numbers, which are not always 0.
 };
 
 /// All blocks of an adjustment.
 struct Blocks {
-    std::vector<Block<3>> units;       ///< Lags and size of the axis biases.
+    std::vector<Block<5>> units;       ///< Lags, size of the axis biases, effect of an outer oven.
     std::vector<Block<1>> placements;  ///< One for each group.
     std::vector<Block<2>> noises;      ///< Flicker and white noise of each survey.
 };
@@ -35,7 +36,10 @@ Blocks blocks_of(const JointProblem& problem) {
              true,
              {[unit](JointPoint& point) -> double& { return point.units[unit][0]; },
               [unit](JointPoint& point) -> double& { return point.units[unit][1]; },
-              [unit](JointPoint& point) -> double& { return point.units[unit][2]; }}});
+              [unit](JointPoint& point) -> double& { return point.units[unit][2]; },
+              [unit](JointPoint& point) -> double& { return point.units[unit][3]; },
+              [unit](JointPoint& point) -> double& { return point.units[unit][4]; }},
+             problem.has_outer(unit) ? 5U : 3U});
     for (std::size_t group = 0; group < problem.groups().size(); ++group) {
         blocks.placements.push_back(
             {problem.groups()[group].surveys, false, {[group](JointPoint& point) -> double& {
@@ -107,7 +111,8 @@ public:
                 return cost();
             },
             start, true,
-            {.farthest = 12.0, .first_step = 0.25, .tolerance = 1e-2, .most_costs = 200});
+            {.farthest = 12.0, .first_step = 0.25, .tolerance = 1e-2, .most_costs = 200},
+            block.searched);
         place(found);
         double farthest = 0.0;
         for (std::size_t i = 0; i < kCount; ++i)
@@ -226,6 +231,9 @@ JointPoint expected_point(Walk& walk, const JointProblem& problem, const Blocks&
         const DayProblem& of_unit = problem.of(blocks.units[unit].surveys.front());
         expected.units[unit][2] =
             walk.expected(blocks.units[unit], 2, of_unit.log_factor(kBiasSize));
+        if (problem.has_outer(unit))
+            expected.units[unit][4] =
+                walk.expected(blocks.units[unit], 4, of_unit.log_factor(kOuterSize));
     }
     for (std::size_t group = 0; group < blocks.placements.size(); ++group) {
         const DayProblem& of_group = problem.of(blocks.placements[group].surveys.front());

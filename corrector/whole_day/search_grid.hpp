@@ -63,14 +63,17 @@ struct SearchLimits {
 ///                   without a search, on the grid.
 /// @param is_nearby  true if the start is close to the minimum.
 /// @param limits     see SearchLimits.
+/// @param count      only the first `count` parameters are searched; the others are 0.
 template <std::size_t kCount, class Cost>
 std::array<double, kCount> least_cost_point(Cost cost, const std::array<double, kCount>& start,
-                                            bool is_nearby, const SearchLimits& limits) {
+                                            bool is_nearby, const SearchLimits& limits,
+                                            std::size_t count = kCount) {
     const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
-        nlopt_create(is_nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, kCount), &nlopt_destroy);
-    const auto cost_of = [](unsigned, const double* at, double*, void* costs) {
-        std::array<double, kCount> point;
-        std::transform(at, at + kCount, point.begin(), search_point);
+        nlopt_create(is_nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, static_cast<unsigned>(count)),
+        &nlopt_destroy);
+    const auto cost_of = [](unsigned searched, const double* at, double*, void* costs) {
+        std::array<double, kCount> point{};
+        std::transform(at, at + searched, point.begin(), search_point);
         return search_cost((*static_cast<Cost*>(costs))(point));
     };
     nlopt_set_min_objective(search.get(), cost_of, &cost);
@@ -79,7 +82,8 @@ std::array<double, kCount> least_cost_point(Cost cost, const std::array<double, 
     nlopt_set_initial_step1(search.get(), limits.first_step);
     nlopt_set_xtol_abs1(search.get(), limits.tolerance);
     nlopt_set_maxeval(search.get(), limits.most_costs);
-    std::array<double, kCount> u = start;
+    std::array<double, kCount> u{};
+    std::copy_n(start.begin(), count, u.begin());
     double least = 0.0;
     nlopt_optimize(search.get(), u.data(), &least);
     for (double& value : u) value = search_point(value);

@@ -23,14 +23,19 @@ const std::string kValue = "<Value>1710799.9163832706</Value>";
 /// A data root of a sensor at rest at 1 g and 42.476 degC.
 class Root {
 public:
-    Root() {
-        folder_.write("metadata/station.xml", station::to_station_xml(station::description()));
+    explicit Root(bool has_outer_oven = false) {
+        auto station = station::description();
+        station.has_outer_oven = has_outer_oven;
+        folder_.write("metadata/station.xml", station::to_station_xml(station));
     }
 
     /// Adds ten minutes of samples, beginning `from_s` after the start.
     void add(double from_s, double rate_hz) {
-        const std::pair<const char*, std::int32_t> channels[] = {
-            {"BN1", 0}, {"BN2", 0}, {"BNZ", 16'777'216}, {"BK1", -1975}};
+        add(from_s, rate_hz, {{"BN1", 0}, {"BN2", 0}, {"BNZ", 16'777'216}, {"BK1", -1975}});
+    }
+
+    void add(double from_s, double rate_hz,
+             const std::vector<std::pair<std::string, std::int32_t>>& channels) {
         for (const auto& [channel, count] : channels) {
             archive::RecordHeader header;
             header.network = "XX";
@@ -100,6 +105,31 @@ TEST_CASE("a new epoch with the same sensor and scales does not divide the recor
     CHECK(record.warnings.empty());
     CHECK(middle_mgal(record.stretches[0]) ==
           Approx(980665.0).epsilon(0.0).margin(0.2));  // the tide
+}
+
+TEST_CASE("the temperature of an outer oven is read beside the record, unless it has a gap",
+          "[long_record][archive]") {
+    Root root(true);
+    root.add(0.0, 50.0);
+    root.add(kHalf_s, 50.0);
+    const LongRecord without = root.read();
+    CHECK(without.stretches.at(0).outer_degc.empty());
+    REQUIRE(without.warnings.size() == 1);
+    CHECK_THAT(without.warnings[0], ContainsSubstring("outer oven is not used"));
+    root.add(0.0, 1.0, {{"LK4", 38'100}});
+    root.add(kHalf_s, 1.0, {{"LK4", 38'300}});
+    const LongRecord record = root.read();
+    CHECK(record.warnings.empty());
+    REQUIRE(record.stretches.size() == 1);
+    const std::vector<double>& outer = record.stretches[0].outer_degc;
+    REQUIRE(outer.size() == record.stretches[0].size());
+    CHECK(outer.front() == Approx(38.1));
+    CHECK(outer.back() == Approx(38.3));
+    SegmentOptions options;
+    options.shortest = 10;
+    const RecordSegments parts = divide_record(record, options);
+    REQUIRE(parts.segments.size() == 1);
+    CHECK(parts.segments[0].outer_degc.size() == parts.segments[0].size());
 }
 
 TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][archive]") {

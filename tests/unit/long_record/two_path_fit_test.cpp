@@ -80,6 +80,35 @@ TEST_CASE("a week has smaller errors than a night and determines the static slop
     CHECK(week[TwoPathTerm::fast].standard_error < 0.6 * night[TwoPathTerm::fast].standard_error);
 }
 
+TEST_CASE("slopes and lag of an outer oven are found, and are missing without one",
+          "[long_record][two_paths]") {
+    const RecordSegment segment = simulated_segment(of_drawn_units("indoor"), 7);
+    std::vector<double> outer, reading = segment.acceleration_mgal;
+    for (std::size_t i = 0; i < segment.size(); ++i) {
+        const double time_h = static_cast<double>(i) * kRecordStep_s / 3600.0;
+        outer.push_back(38.0 + 0.6 * std::sin(1.3 * time_h) + 0.6 * std::sin(25.0 * time_h));
+    }
+    const auto effect =
+        unit::lagged(TimeSeries<DegC>({}, Hertz(1.0 / kRecordStep_s), outer), 900.0);
+    for (std::size_t i = 0; i < reading.size(); ++i)
+        reading[i] += 5.0 * outer[i] + 15.0 * effect[i];
+    const auto fit = [&](const std::vector<double>& degc) {
+        return fit_two_paths(segment.temperature_degc, reading, kRecordStep_s, 900.0, degc);
+    };
+    const TwoPathFit seen = fit(outer), unseen = fit({});
+    REQUIRE(seen.outer.size() == 3);
+    const double truth[] = {5.0, 15.0, 900.0};
+    for (std::size_t k = 0; k < seen.outer.size(); ++k) {
+        const FittedParameter& found = seen.outer[k];
+        CAPTURE(found.key, found.value, found.standard_error);
+        CHECK(found.is_determined);
+        CHECK(found.standard_error < 0.2 * truth[k]);
+        CHECK(std::abs(found.value - truth[k]) < 3.0 * found.standard_error);
+    }
+    CHECK(seen.residual_rms_mgal < 0.5 * unseen.residual_rms_mgal);
+    CHECK(unseen.outer.empty());
+}
+
 TEST_CASE("the thermometer's noise gives no information on the static slope",
           "[long_record][two_paths]") {
     // The same night without that noise must leave the slope as uncertain: a trend that leaks into

@@ -93,6 +93,10 @@ TEST_CASE("a channel that is missing or in another unit is refused", "[survey][w
     CHECK(channels.axes[0].code == "BN1");
     CHECK(channels.axes[2].code == "BNZ");
     CHECK(channels.temperature.code == "BK1");
+    CHECK_FALSE(channels.outer);
+    auto double_oven = station;
+    double_oven.channels.push_back({"LK4", 0.001, 0.0, "degC"});
+    CHECK(find_channels(double_oven, "station.xml").outer.value().gain == 0.001);
     station.channels.pop_back();
     CHECK_THROWS_WITH(find_channels(station, "station.xml"),
                       ContainsSubstring("station.xml: no channel ?K1"));

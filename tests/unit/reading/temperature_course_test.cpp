@@ -38,6 +38,28 @@ TEST_CASE("the temperature course has means of whole minutes, without minutes th
     CHECK(temperature_course({}, kCourseScale).empty());
 }
 
+TEST_CASE("a course without gaps has a mean at least every ten minutes, begin and end included",
+          "[survey][temperature]") {
+    const auto at = [](int minute) { return kCourseStart + minute * 1min; };
+    std::vector<MinuteTemperature> course;
+    for (const int minute : {0, 10, 20, 21}) course.push_back({at(minute), DegC(38.0)});
+    CHECK(is_without_gaps(course, at(-5), at(31)));
+    CHECK_FALSE(is_without_gaps(course, at(-11), at(21)));
+    CHECK_FALSE(is_without_gaps(course, at(0), at(32)));
+    course.erase(course.begin() + 1);
+    CHECK_FALSE(is_without_gaps(course, at(0), at(21)));
+    CHECK(is_without_gaps(course, at(15), at(21)));
+    CHECK_FALSE(is_without_gaps({}, at(0), at(5)));
+}
+
+TEST_CASE("between two means the temperature is a straight line, outside them it is constant",
+          "[survey][temperature]") {
+    const auto at = [](int second) { return kCourseStart + second * 1s; };
+    const std::vector<MinuteTemperature> course{{at(0), DegC(38.0)}, {at(60), DegC(39.0)}};
+    CHECK(interpolated(course, {at(-100), at(0), at(15), at(30), at(60), at(90)}) ==
+          std::vector<double>{38.0, 38.0, 38.25, 38.5, 39.0, 39.0});
+}
+
 TEST_CASE("a verdict lasts until the next one, but not over a pause of the recorder",
           "[survey][temperature]") {
     const auto minute = [](int k) { return kCourseStart - 30s + k * 1min; };

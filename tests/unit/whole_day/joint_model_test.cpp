@@ -95,6 +95,8 @@ std::pair<double, std::vector<double>> dense(const std::vector<JointSurvey>& sur
                     " term " + std::to_string(term),
                 term);
         }
+        for (Eigen::Index at = problem.of(k).outer_begin(); at < problem.of(k).estimated(); ++at)
+            add("unit " + std::to_string(survey.unit) + " outer " + std::to_string(at), at);
         for (std::size_t number = 0; number < survey.gravities.size(); ++number)
             if (const Eigen::Index place = problem.of(k).place_of(number); place >= 0)
                 add("gravity " + std::to_string(survey.gravities[number]), place);
@@ -132,7 +134,8 @@ std::pair<double, std::vector<double>> dense(const std::vector<JointSurvey>& sur
 }  // namespace
 
 TEST_CASE("the likelihood and the gravities of a box are those of dense matrices", "[day][joint]") {
-    const std::vector<DayRecord> records = box_of(2, 0.5, 5);
+    std::vector<DayRecord> records = box_of(2, 0.5, 5);
+    records[0] = with_outer_oven(records[0], 2.0, 5.0);
     const std::vector<JointSurvey> surveys{survey_of(records[0], 0), survey_of(records[1], 1)};
     std::vector<double> rough_mgal;
     for (std::size_t s = 0; s < MadeUpDay::kSites; ++s)
@@ -140,7 +143,7 @@ TEST_CASE("the likelihood and the gravities of a box are those of dense matrices
     const JointProblem problem(surveys, rough_mgal);
     REQUIRE(problem.groups().size() == 1);
     const std::vector<JointPoint> points{
-        {{{0.1, -0.2, 0.3}, {-0.4, 0.2, 0.0}}, {0.2}, {{-1.0, 0.1}, {-0.5, 0.0}}, 0.6},
+        {{{0.1, -0.2, 0.3, 0.6, 0.4}, {-0.4, 0.2, 0.0}}, {0.2}, {{-1.0, 0.1}, {-0.5, 0.0}}, 0.6},
         {{{0.1, -0.2, 0.3}, {-0.4, 0.2, 0.0}}, {0.7}, {{-1.0, 0.1}, {-0.5, 0.2}}, 1.0},
         {{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, {0.0}, {{0.0, 0.0}, {0.0, 0.0}}, 0.0}};
     for (const JointPoint& point : points) {

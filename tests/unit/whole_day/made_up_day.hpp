@@ -88,4 +88,25 @@ struct MadeUpDay {
     }
 };
 
+/// Returns the day in a box with an outer oven, which has a slow course and a cycle of its own, and the
+/// effect level To + slow lag(To, 900 s) on the readings, without a constant.
+inline reading::DayRecord with_outer_oven(reading::DayRecord day, double level, double slow) {
+    const auto& grid = day.temperature.series;
+    std::vector<double> degc(grid.size());
+    for (std::size_t i = 0; i < degc.size(); ++i) {
+        const double t_h = static_cast<double>(i) / 1800.0;
+        degc[i] =
+            38.0 + 0.5 * std::sin(1.1 * t_h) + 0.5 * std::sin(2.0 * std::numbers::pi * t_h * 5.0);
+    }
+    day.outer = TimeSeries<DegC>(grid.start(), grid.rate(), degc);
+    const BinMeans means(grid, day.bins);
+    const auto prompt = means.of(degc), lagged = means.of(unit::lagged(*day.outer, 900.0));
+    for (std::size_t i = 0; i < day.bins.size(); ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        MilliGal& reading = day.bins[i].reading;
+        reading = reading + MilliGal(level * (prompt(k) - 38.0) + slow * (lagged(k) - 38.0));
+    }
+    return day;
+}
+
 }  // namespace a351::corrector::whole_day
