@@ -93,6 +93,11 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
                 parts[next.number].source.string(), to_rfc3339(start_of(next)),
                 parts[last.number].source.string()));
         if (const auto missing = bridged(last, next, all.step_s)) {
+            if (last.stretch.outer_degc.empty() != next.stretch.outer_degc.empty())
+                all.warnings.push_back(text::message(
+                    "around {}, the temperature of the outer oven is not used: a part "
+                    "of the record lacks it",
+                    to_rfc3339(start_of(next))));
             append(last.stretch, *missing, all.step_s, next.stretch);
             last.number = next.number;
             continue;

@@ -57,7 +57,7 @@ TEST_CASE("a night cut into two files is one segment", "[long_record][joining]")
     }
 }
 
-TEST_CASE("joined parts have the temperature of an outer oven if all have it",
+TEST_CASE("joined parts have the temperature of an outer oven if all have it, else a warning",
           "[long_record][joining]") {
     LongRecord first = part(20.0, 0.0, 21600.0), second = part(20.0, 21900.0, 43200.0);
     for (LongRecord* const record : {&first, &second})
@@ -65,8 +65,10 @@ TEST_CASE("joined parts have the temperature of an outer oven if all have it",
     const LongRecord both = joined(first, second);
     CHECK(both.stretches.at(0).outer_degc == std::vector<double>(2160, 38.0));
     second.stretches[0].outer_degc.clear();
-    CHECK(joined(first, second).stretches.at(0).outer_degc.empty());
-    CHECK(joined(second, first).stretches.at(0).outer_degc.empty());
+    for (const LongRecord& record : {joined(first, second), joined(second, first)}) {
+        CHECK(record.stretches.at(0).outer_degc.empty());
+        CHECK(record.warnings.size() == both.warnings.size() + 1);
+    }
 }
 
 TEST_CASE("two files with a longer gap between them are two segments", "[long_record][joining]") {
