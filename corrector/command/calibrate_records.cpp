@@ -118,7 +118,10 @@ std::string calibrate_from_records(unit::Calibration& calibration,
     std::vector<std::string> lacks;
     for (long_record::RecordSegment segment : parts.segments) {
         if (const auto begin_h = begins_after_h(segment, options.power_on)) {
-            warm_up = long_record::warm_up_guidance(fitted(segment, record.step_s), *begin_h,
+            // The warm-up of an outer oven is a part of what the operator waits for.
+            long_record::RecordSegment whole = segment;
+            whole.outer_degc.clear();
+            warm_up = long_record::warm_up_guidance(fitted(whole, record.step_s), *begin_h,
                                                     hours_of(segment, record.step_s), within_mgal);
             segment = without_begin(std::move(segment), record.step_s);
         }

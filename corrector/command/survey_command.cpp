@@ -244,7 +244,7 @@ void correct_days(const SurveyCommandOptions& options) {
     std::cout << "written to " << out.string() << '\n';
     if (!troubles.empty())
         throw std::runtime_error(
-            fmt::format("{} of {} days are not corrected, the others are written: {}",
+            fmt::format("{} of {} surveys are not corrected, the others are written: {}",
                         surveys.size() - corrected, surveys.size(), troubles));
 }
 

@@ -209,16 +209,23 @@ private:
     std::vector<std::vector<double>> block_{kChannels};
 };
 
-/// Sets the outer oven's temperature of the stretches, or warns why it is not used.
+/// Sets the outer oven's temperature of the stretches: NaN in its gaps, with a warning.
 void set_outer(LongRecord& record, const std::vector<reading::MinuteTemperature>& outer) {
     for (RecordStretch& stretch : record.stretches) {
-        if (reading::is_without_gaps(outer, stretch.times.front(), stretch.times.back()))
-            stretch.outer_degc = reading::interpolated(outer, stretch.times);
+        if (outer.empty())
+            stretch.outer_degc.assign(stretch.size(), kNaN);
         else
-            record.warnings.push_back(
-                text::message("from {} on, the temperature of the outer oven is not used: it has a "
-                              "gap of more than 10 min",
-                              to_rfc3339(stretch.times.front())));
+            stretch.outer_degc =
+                reading::interpolated(outer, stretch.times, reading::kLongestOuterGap);
+        const auto gap = std::ranges::find_if(stretch.outer_degc,
+                                              [](double value) { return std::isnan(value); });
+        if (gap == stretch.outer_degc.end()) continue;
+        const UtcTime time =
+            stretch.times[static_cast<std::size_t>(gap - stretch.outer_degc.begin())];
+        record.warnings.push_back(text::message(
+            "at {} the temperature of the outer oven has a gap of more than 10 min; a segment with "
+            "such a gap does not use it",
+            to_rfc3339(time)));
     }
 }
 

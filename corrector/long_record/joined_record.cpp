@@ -36,9 +36,12 @@ void append(RecordStretch& to, std::size_t missing, double step_s, const RecordS
         append(to.axes_mgal[k], missing, kNaN, from.axes_mgal[k]);
     append(to.acceleration_mgal, missing, kNaN, from.acceleration_mgal);
     append(to.temperature_degc, missing, kNaN, from.temperature_degc);
-    if (from.outer_degc.empty()) to.outer_degc.clear();
-    if (!to.outer_degc.empty())
-        append(to.outer_degc, missing, to.outer_degc.back(), from.outer_degc);
+    if (!to.outer_degc.empty() || !from.outer_degc.empty()) {
+        to.outer_degc.resize(to.size(), kNaN);
+        const double last = to.outer_degc.back();
+        append(to.outer_degc, missing, last, from.outer_degc);
+        to.outer_degc.resize(to.size() + missing + from.size(), kNaN);
+    }
     for (; missing > 0; --missing) to.times.push_back(to.times.back() + from_seconds(step_s));
     to.times.insert(to.times.end(), from.times.begin(), from.times.end());
 }
@@ -94,10 +97,10 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
                 parts[last.number].source.string()));
         if (const auto missing = bridged(last, next, all.step_s)) {
             if (last.stretch.outer_degc.empty() != next.stretch.outer_degc.empty())
-                all.warnings.push_back(text::message(
-                    "around {}, the temperature of the outer oven is not used: a part "
-                    "of the record lacks it",
-                    to_rfc3339(start_of(next))));
+                all.warnings.push_back(
+                    text::message("a part of the record that begins or ends at {} lacks the "
+                                  "temperature of the outer oven",
+                                  to_rfc3339(start_of(next))));
             append(last.stretch, *missing, all.step_s, next.stretch);
             last.number = next.number;
             continue;

@@ -59,9 +59,9 @@ struct RecordStretch {
     /// known.
     std::vector<std::vector<double>> axes_mgal;
     std::vector<double> temperature_degc;  ///< (n)
-    /// Temperature of an outer oven (n), without missing values; empty if there is none.
+    /// Temperature of an outer oven (n), NaN in gaps of more than 10 min; empty if there is none.
     std::vector<double> outer_degc;
-    std::vector<RawRange> raw;             ///< (n); empty if nothing was decimated.
+    std::vector<RawRange> raw;  ///< (n); empty if nothing was decimated.
 
     /// Returns n.
     [[nodiscard]] std::size_t size() const noexcept { return times.size(); }

@@ -25,7 +25,7 @@ std::vector<RecordEpoch> read_record_epochs(const std::filesystem::path& metadat
         if (epochs.empty() || !epoch_change(epochs.back(), epoch).empty())
             epochs.push_back(std::move(epoch));
         else if (found.outer)
-            epochs.back().outer = found.outer;  // it was fitted later
+            epochs.back().outer = found.outer;  // it was installed later
     }
     return epochs;
 }

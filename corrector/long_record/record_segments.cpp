@@ -288,6 +288,9 @@ private:
                 stretch.outer_degc.begin() + static_cast<std::ptrdiff_t>(valid.places[first]);
             segment.outer_degc.assign(first_outer,
                                       first_outer + static_cast<std::ptrdiff_t>(segment.size()));
+            if (std::ranges::any_of(segment.outer_degc,
+                                    [](double value) { return std::isnan(value); }))
+                segment.outer_degc.clear();
         }
         result_.segments.push_back(std::move(segment));
     }

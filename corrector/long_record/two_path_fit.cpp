@@ -347,11 +347,11 @@ constexpr std::array<Named, kTwoPathTerms + 3> kNamed{{
      text::marked("a larger temperature swing at periods of 4 to 8 min")},
     {"slow_lag_s", text::marked("lag of the slow path"), "s", kByDays},
     {"warm_up_time_s", text::marked("time constant of the warm-up"), "s", kFromPowerOn},
-    {"outer_level_mgal_per_degc", text::marked("slope by the outer oven, prompt"), "mGal/degC",
+    {whole_day::kOuterNames[0].data(), text::marked("slope by the outer oven, prompt"), "mGal/degC",
      kByOuterOven},
-    {"outer_slow_mgal_per_degc", text::marked("slope by the outer oven, late"), "mGal/degC",
+    {whole_day::kOuterNames[1].data(), text::marked("slope by the outer oven, late"), "mGal/degC",
      kByOuterOven},
-    {"outer_lag_s", text::marked("lag of the outer oven"), "s", kByOuterOven},
+    {whole_day::kOuterNames[2].data(), text::marked("lag of the outer oven"), "s", kByOuterOven},
 }};
 
 }  // namespace

@@ -19,8 +19,8 @@
 namespace a351::corrector::reading {
 namespace {
 
-constexpr std::chrono::minutes kMargin(1);  // reach of the temperature's filters, 9 s, and more
-constexpr std::chrono::hours kBefore(8);    // memory of the slowest response to temperature
+constexpr std::chrono::minutes kMargin(1);   // reach of the temperature's filters, 9 s, and more
+constexpr std::chrono::hours kBefore(8);     // memory of the slowest response to temperature
 constexpr std::chrono::hours kOuterLead(1);  // a gap of the outer oven before has little effect
 
 UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows) {
@@ -72,6 +72,7 @@ void add_journaled(SurveySamples& samples, const SurveySource& source,
     each_channel([&](const archive::ChannelData& data, const std::string&, UtcTime from) {
         archived = std::min(archived, data.segments.empty() ? from : last_sample(data));
     });
+    if (!samples.outer.segments.empty()) archived = std::min(archived, last_sample(samples.outer));
     if (archived > to - std::chrono::seconds(1)) return;
     const auto read = [&] {
         return archive::JournalTail(source.root / "journal", codes, archived, to);
@@ -157,7 +158,8 @@ void add_outer(DayRecord& day, const SurveySamples& samples, const SurveyChannel
     const auto course = temperature_course(samples.outer.segments, *channels.outer);
     const TimeSeries<DegC>& grid = day.temperature.series;
     const UtcTime from = std::max(grid.start(), windows.front().start - kOuterLead);
-    if (!is_without_gaps(course, from, windows.back().end)) {
+    const UtcTime to = std::min(windows.back().end, last_sample(samples.temperature));
+    if (!is_without_gaps(course, from, to)) {
         warnings.push_back(text::message(
             "the temperature of the outer oven is not used: it has a gap of more than 10 min"));
         return;
@@ -165,7 +167,8 @@ void add_outer(DayRecord& day, const SurveySamples& samples, const SurveyChannel
     std::vector<UtcTime> times;
     for (std::size_t i = 0; i < grid.size(); ++i)
         times.push_back(grid.time_of(static_cast<double>(i)));
-    day.outer = TimeSeries<DegC>(grid.start(), grid.rate(), interpolated(course, times));
+    day.outer = TimeSeries<DegC>(grid.start(), grid.rate(),
+                                 interpolated(course, times, Nanoseconds::max()));
 }
 
 /// Returns the number of a set-up in its stay, from 1; std::nullopt if the stay has one set-up.

@@ -126,6 +126,9 @@ SurveyChannels find_channels(const station::Metadata& station, const std::filesy
     channels.temperature = channel_with(station, "K1", "degC", file);
     const auto outer = std::ranges::find(station.channels, archive::kOuterTemperature,
                                          &station::ChannelScale::code);
+    if (outer != station.channels.end() && outer->unit != "degC")
+        throw InputError(fmt::format("{}: channel {}: unit = {}; allowed: degC", file.string(),
+                                     outer->code, outer->unit));
     if (outer != station.channels.end()) channels.outer = *outer;
     return channels;
 }

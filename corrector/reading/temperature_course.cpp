@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 
 namespace a351::corrector::reading {
@@ -49,26 +50,31 @@ std::vector<MinuteTemperature> temperature_course(const std::vector<archive::Seg
 }
 
 bool is_without_gaps(const std::vector<MinuteTemperature>& course, UtcTime from, UtcTime to) {
-    constexpr std::chrono::minutes kLongestGap(10);
     UtcTime last = from;
     bool is_any = false;
     for (const MinuteTemperature& minute : course) {
         if (minute.middle < from || minute.middle > to) continue;
-        if (minute.middle - last > kLongestGap) return false;
+        if (minute.middle - last > kLongestOuterGap) return false;
         last = minute.middle;
         is_any = true;
     }
-    return is_any && to - last <= kLongestGap;
+    return is_any && to - last <= kLongestOuterGap;
 }
 
 std::vector<double> interpolated(const std::vector<MinuteTemperature>& course,
-                                 const std::vector<UtcTime>& times) {
+                                 const std::vector<UtcTime>& times, Nanoseconds gap) {
     std::vector<double> values;
     auto after = course.begin();  // the first mean behind the instant
     for (const UtcTime time : times) {
         while (after != course.end() && after->middle <= time) ++after;
         const MinuteTemperature& last = after == course.begin() ? *after : *(after - 1);
         const MinuteTemperature& next = after == course.end() ? last : *after;
+        const Nanoseconds apart = &last == &next ? Nanoseconds(std::chrono::abs(time - last.middle))
+                                                 : next.middle - last.middle;
+        if (apart > gap) {
+            values.push_back(std::numeric_limits<double>::quiet_NaN());
+            continue;
+        }
         const double share = &last == &next ? 0.0
                                             : seconds_between(last.middle, time) /
                                                   seconds_between(last.middle, next.middle);

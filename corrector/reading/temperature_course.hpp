@@ -7,6 +7,7 @@
 /// smoothed.  The thermometer of an outer oven is coarse and lags its wall by minutes, so that straight
 /// lines between minutes are good enough.
 
+#include <chrono>
 #include <vector>
 
 #include "protocol/archive/archive_reader.hpp"
@@ -40,17 +41,22 @@ struct MinuteTemperature {
 [[nodiscard]] std::vector<MinuteTemperature> temperature_course(
     const std::vector<archive::Segment>& segments, const station::ChannelScale& scale);
 
-/// Returns true if the longest time without a mean between two instants, both included, is at most 10
-/// min, the shortest published cycle of an oven.
+/// Longest time without a mean of an outer oven that a straight line bridges: half the expected lag,
+/// which damps what the line misses.
+inline constexpr std::chrono::minutes kLongestOuterGap(10);
+
+/// Returns true if the longest time without a mean between two instants, both included, is at most
+/// kLongestOuterGap.
 /// @param course  in order of time.
 [[nodiscard]] bool is_without_gaps(const std::vector<MinuteTemperature>& course, UtcTime from,
                                    UtcTime to);
 
 /// Returns the temperature at some instants: a straight line between two means, constant before the
-/// first and after the last.
+/// first and after the last; NaN where the means are further apart.
 /// @param course  in order of time, at least one.
 /// @param times   in order of time.
+/// @param gap     longest time between two means, or from an end to an instant.
 [[nodiscard]] std::vector<double> interpolated(const std::vector<MinuteTemperature>& course,
-                                               const std::vector<UtcTime>& times);
+                                               const std::vector<UtcTime>& times, Nanoseconds gap);
 
 }  // namespace a351::corrector::reading

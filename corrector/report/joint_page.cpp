@@ -59,7 +59,7 @@ void add_days(pugi::xml_node parent, const std::vector<JointDay>& days) {
         text::tr("The days. The RMS of the residuals is in sample, that of stations left out is "
                  "cross-validated."),
         "nnnnrrr",
-        {text::tr("Day"), text::tr("First reading UTC"), text::tr("Last reading UTC"),
+        {text::tr("Survey"), text::tr("First reading UTC"), text::tr("Last reading UTC"),
          text::tr("Model"), text::tr("In the fit"), text::tr("RMS mGal (in sample)"),
          text::tr("RMS mGal (cross-validated, leave-one-station-out)")},
         rows);
@@ -281,7 +281,7 @@ std::string joint_html(const std::vector<JointDay>& days, const result::JointRes
     for (const std::string& sentence : result::joint_sentences(joint)) add(stations, "p", sentence);
     add_joint_stations(stations, days, results, joined, adjustment != nullptr);
     add(stations, "p", scatter_sentence(results));
-    const pugi::xml_node section = page.add_section(text::tr("The days"));
+    const pugi::xml_node section = page.add_section(text::tr("The surveys"));
     add_days(section, days);
     add_links(section, days);
     return page.text();

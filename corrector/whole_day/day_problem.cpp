@@ -20,7 +20,7 @@ constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the pub
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 constexpr LogNormalPrior kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
 constexpr double kWhiteFactor = 2.0;
-// Assumed, for nobody has measured a double oven: the wall hardly acts, or up to as much as the sensor's
+// Assumed, because nobody has measured a double oven: the wall hardly acts, or up to as much as the sensor's
 // own slow response (two deviations are 27 mGal/degC).
 constexpr LogNormalPrior kOuterSize_mgal_per_degc{3.0, 3.0};
 

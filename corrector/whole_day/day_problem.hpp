@@ -122,12 +122,12 @@ public:
     /// bins of a set-up, at least 1e-3 mGal; 1 mGal if no set-up has two bins.
     [[nodiscard]] DayNoise noise(const Point& u) const;
 
-    /// Returns the point with this noise, and with the medians of lags and size of the biases.
+    /// Returns the point with this noise, and with the medians of all other parameters.
     /// @param noise  each part > 0.
     [[nodiscard]] Point point_of(const DayNoise& noise) const;
 
-    /// Returns the point with the roots of the expected variances of placement, flicker and axis
-    /// biases; the rest as in `u`.
+    /// Returns the point with the roots of the expected variances of placement, flicker, axis biases
+    /// and an outer oven's effect; the rest as in `u`.
     ///
     /// They are larger than the most likely ones, because the distribution is skew.  It is taken as
     /// log-normal, with the variance from the curvature of the cost.
@@ -137,7 +137,7 @@ public:
     /// @param part  placement, flicker, size of the axis biases or of an outer oven's effect.
     [[nodiscard]] double log_factor(DayHyper part) const;
     /// Returns the standard errors of the logarithms of placement, flicker and white noise, from the
-    /// curvature of the cost with the other three numbers held; absent if it has no minimum there.
+    /// curvature of the cost with the other numbers held; absent if it has no minimum there.
     /// @param u  most likely point.
     [[nodiscard]] std::optional<std::array<double, 3>> noise_log_errors(const Point& u) const;
     /// Returns a lag at a point, s.

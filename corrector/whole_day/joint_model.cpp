@@ -222,7 +222,8 @@ JointFit fit_jointly(const std::vector<JointSurvey>& surveys) {
         const auto of_unit =
             std::ranges::find_if(days, [&](std::size_t k) { return fits[k].outer.has_value(); });
         if (of_unit == days.end()) continue;
-        for (const std::size_t k : days) fits[k].outer = fits[*of_unit].outer;
+        for (const std::size_t k : days)
+            if (!fits[k].outer) fits[k].outer = fits[*of_unit].outer;
     }
     return {std::move(fits), std::move(gravities), found.share, last.system(std::move(fitted))};
 }

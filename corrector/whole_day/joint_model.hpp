@@ -52,7 +52,8 @@ struct JointSurveyFit {
     std::array<Estimate, kDayTerms> coefficients;  ///< Those of the unit are equal on all its days.
     std::array<double, 2> lags_s{}, lag_log_errors{};  ///< tF and tS.
     std::vector<Estimate> steps_mgal;
-    std::optional<OuterResponse> outer;  ///< Of the unit, also on its days without an outer oven.
+    /// Response of the unit, also on its days without an outer oven.
+    std::optional<OuterResponse> outer;
     DayNoise noise;  ///< Most likely; placement of both parts together.
 };
 

@@ -28,7 +28,6 @@
 namespace {
 
 using namespace a351;
-using corrector::residual::Direction;
 using corrector::residual::Residuals;
 using Index = Eigen::Index;
 
@@ -66,7 +65,7 @@ Misfit a_step(const Residuals& residuals, double size_mgal) {
 /// Sums the likelihoods of all subsets of set-ups that may be gross.
 struct GrossSubsets {
     double share;         ///< Probability that a set-up is gross.
-    double variance;      ///< What is added to it, mGal^2.
+    double variance;      ///< Added to the variance of a gross one, mGal^2.
     Eigen::ArrayXd most;  ///< (days) ln of a limit of the likelihood ratios.
     Eigen::ArrayXd sum;   ///< (days) Sum of the ratios, divided by this limit.
 
@@ -98,7 +97,8 @@ struct GrossSubsets {
 /// @param placement_mgal  placement that is part of the residuals' covariance.
 Misfit gross_placement(const Residuals& residuals, double placement_mgal, double share,
                        double factor) {
-    // More of 19 have 2 % of the prior.  On a day all subsets gave the same share to 0.001.
+    // More than seven of 19 set-ups are gross with a probability of 2 %.  On one day all subsets gave the
+    // same share to 0.001.
     constexpr int kMostGross = 7;
     const Index set_ups = residuals.whitening.cols();
     Eigen::MatrixXd effects(residuals.values.size(), set_ups);
@@ -143,7 +143,7 @@ double power(const Residuals& residuals, const Misfit& misfit, double false_alar
 int main(int argc, char** argv) {
     if (argc < 5) return 2;
     const bool is_step = std::string_view(argv[3]) == "step";
-    if (!is_step && argc < 6) return 2;
+    if (!is_step && (argc < 6 || std::string_view(argv[3]) != "gross")) return 2;
     const auto survey = corrector::job::read_survey_file(argv[1]);
     auto read = corrector::job::read_survey(survey, [](std::size_t, std::size_t) {});
     const auto options = corrector::job::with_sites_of(read, survey.survey);

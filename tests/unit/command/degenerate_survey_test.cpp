@@ -150,7 +150,7 @@ TEST_CASE("one bad day of three is reported, and the others and the joint table 
     const Outcome outcome = run(folder, "survey a.toml b.toml c.toml");
     CHECK(outcome.status == 1);
     CHECK_THAT(outcome.errors,
-               ContainsSubstring("1 of 3 days are not corrected, the others are written: "
+               ContainsSubstring("1 of 3 surveys are not corrected, the others are written: "
                                  "bad: b.toml: root = ") &&
                    ContainsSubstring("no occupation has samples"));
     CHECK_THAT(outcome.output, ContainsSubstring("survey a\n") && ContainsSubstring("survey c\n") &&

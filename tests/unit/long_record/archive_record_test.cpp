@@ -113,9 +113,11 @@ TEST_CASE("the temperature of an outer oven is read beside the record, unless it
     root.add(0.0, 50.0);
     root.add(kHalf_s, 50.0);
     const LongRecord without = root.read();
-    CHECK(without.stretches.at(0).outer_degc.empty());
+    SegmentOptions options;
+    options.shortest = 10;
+    CHECK(divide_record(without, options).segments.at(0).outer_degc.empty());
     REQUIRE(without.warnings.size() == 1);
-    CHECK_THAT(without.warnings[0], ContainsSubstring("outer oven is not used"));
+    CHECK_THAT(without.warnings[0], ContainsSubstring("outer oven has a gap"));
     root.add(0.0, 1.0, {{"LK4", 38'100}});
     root.add(kHalf_s, 1.0, {{"LK4", 38'300}});
     const LongRecord record = root.read();
@@ -125,8 +127,6 @@ TEST_CASE("the temperature of an outer oven is read beside the record, unless it
     REQUIRE(outer.size() == record.stretches[0].size());
     CHECK(outer.front() == Approx(38.1));
     CHECK(outer.back() == Approx(38.3));
-    SegmentOptions options;
-    options.shortest = 10;
     const RecordSegments parts = divide_record(record, options);
     REQUIRE(parts.segments.size() == 1);
     CHECK(parts.segments[0].outer_degc.size() == parts.segments[0].size());

@@ -66,7 +66,10 @@ TEST_CASE("joined parts have the temperature of an outer oven if all have it, el
     CHECK(both.stretches.at(0).outer_degc == std::vector<double>(2160, 38.0));
     second.stretches[0].outer_degc.clear();
     for (const LongRecord& record : {joined(first, second), joined(second, first)}) {
-        CHECK(record.stretches.at(0).outer_degc.empty());
+        const std::vector<double>& degc = record.stretches.at(0).outer_degc;
+        REQUIRE(degc.size() == record.stretches[0].size());
+        CHECK(std::ranges::count(degc, 38.0) == 1095);  // the first part and the bridge of 300 s
+        CHECK(divide_record(record).segments.at(0).outer_degc.empty());
         CHECK(record.warnings.size() == both.warnings.size() + 1);
     }
 }

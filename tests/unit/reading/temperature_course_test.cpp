@@ -1,6 +1,8 @@
 #include "corrector/reading/temperature_course.hpp"
 #include "corrector/reading/verdict_course.hpp"
 
+#include <cmath>
+
 #include "tests/support/catch.hpp"
 
 using namespace a351;
@@ -56,8 +58,14 @@ TEST_CASE("between two means the temperature is a straight line, outside them it
           "[survey][temperature]") {
     const auto at = [](int second) { return kCourseStart + second * 1s; };
     const std::vector<MinuteTemperature> course{{at(0), DegC(38.0)}, {at(60), DegC(39.0)}};
-    CHECK(interpolated(course, {at(-100), at(0), at(15), at(30), at(60), at(90)}) ==
+    CHECK(interpolated(course, {at(-100), at(0), at(15), at(30), at(60), at(90)},
+                       Nanoseconds::max()) ==
           std::vector<double>{38.0, 38.0, 38.25, 38.5, 39.0, 39.0});
+    const std::vector<double> near = interpolated(course, {at(-31), at(-30), at(30), at(91)}, 30s);
+    CHECK(std::isnan(near[0]));
+    CHECK(near[1] == 38.0);
+    CHECK(std::isnan(near[2]));
+    CHECK(std::isnan(near[3]));
 }
 
 TEST_CASE("a verdict lasts until the next one, but not over a pause of the recorder",
