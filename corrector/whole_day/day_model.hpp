@@ -251,9 +251,12 @@ struct DayFit {
 /// - k 0, 0.002
 /// - d 0, 1 mGal/h; w 0, 36 mGal; c, unknowns and steps free (0, 1e4 mGal)
 ///
-/// Log-normal priors, median and factor: lags 43 s and 2700 s, 1.5; placement, if it was not measured,
-/// and flicker 1.2 mGal, 2; white the scatter of the bins, 2; common standard deviation of bx and by, whose mean is 0,
-/// 300 mGal/g, 3; tO 1200 s, 2; common standard deviation of oA and oS, whose mean is 0, 3 mGal/degC, 3.
+/// Log-normal priors, median and factor:
+/// - lags 43 s and 2700 s, 1.5; tO 1200 s, 2
+/// - placement, if it was not measured, and flicker 1.2 mGal, 2; white the scatter of the bins, 2
+/// - common standard deviation of bx and by, whose mean is 0, 300 mGal/g, 3
+/// - common standard deviation of oA and oS, whose mean is 0, 3 mGal/degC, 3
+///
 /// The means explain the long record and the survey day of the publication (corrector/methods.md).
 ///
 /// Accuracy (day_model_test.cpp): on a made-up day without placement and flicker, lags come out

@@ -2,7 +2,7 @@
 
 usage: double_oven.py [SEEDS [SLOPE...]]    (A351_BIN)
 SEEDS: default 71001-71020, which were not used while the corrector was developed.  Each seed draws another unit (+-25 %).
-SLOPE: what the outer wall does to the reading, mGal/degC; default 60 and 0.  At 0 the outer temperature says nothing.
+SLOPE: what the outer wall does to the reading, mGal/degC; default 60 and 0.  At 0 it has no effect.
 
 Days: the scenario double-oven with this slope.  Without: the channel LK4 is taken out of the archive.
 Errors: out of sample, each station left out in turn.  The interval is that of the ratio of the mean errors over days, from

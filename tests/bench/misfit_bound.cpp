@@ -97,8 +97,8 @@ struct GrossSubsets {
 /// @param placement_mgal  placement that is part of the residuals' covariance.
 Misfit gross_placement(const Residuals& residuals, double placement_mgal, double share,
                        double factor) {
-    // More than seven of 19 set-ups are gross with a probability of 2 %.  On one day all subsets gave the
-    // same share to 0.001.
+    // More than seven of 19 set-ups are gross with a probability of 2 %.  On one day all subsets
+    // gave the same share to 0.001.
     constexpr int kMostGross = 7;
     const Index set_ups = residuals.whitening.cols();
     Eigen::MatrixXd effects(residuals.values.size(), set_ups);
