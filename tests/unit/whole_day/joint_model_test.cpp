@@ -146,6 +146,9 @@ TEST_CASE("the likelihood and the gravities of a box are those of dense matrices
         {{{0.1, -0.2, 0.3, 0.6, 0.4}, {-0.4, 0.2, 0.0}}, {0.2}, {{-1.0, 0.1}, {-0.5, 0.0}}, 0.6},
         {{{0.1, -0.2, 0.3}, {-0.4, 0.2, 0.0}}, {0.7}, {{-1.0, 0.1}, {-0.5, 0.2}}, 1.0},
         {{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, {0.0}, {{0.0, 0.0}, {0.0, 0.0}}, 0.0}};
+    // Lags, placement, flicker, white, size of the biases, lag and size of the outer oven's effect.
+    CHECK(problem.point_of(points[0], 0) ==
+          DayProblem::Point{0.1, -0.2, 0.2, -1.0, 0.1, 0.3, 0.6, 0.4});
     for (const JointPoint& point : points) {
         std::vector<JointProblem::Normal> normals;
         for (std::size_t k = 0; k < surveys.size(); ++k)
