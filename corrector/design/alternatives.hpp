@@ -31,13 +31,18 @@ inline constexpr double kLeastGain = 0.01;
 ///
 /// - twice as many set-ups of half the length; only if each keeps three minutes,
 /// - one more set-up at each visit, or at those of known stations only,
-/// - stays twice as long,
-/// - a return to the first known station at the end or in the middle,
+/// - set-ups twice as long,
+/// - a return to the first known station at the end, if the last one is not known, or in the
+///   middle,
 /// - each of the three nearest known stations of the table that is not visited,
 /// - all visits once more in reverse order.
 ///
-/// @param plan  as read_plan() gives it.
-/// @param u     its own ExpectedErrors::u_unknown.
+/// A change beyond the limits of a plan, kMostSetUps or kMostMinutes, is left out.  The uncertainty
+/// of each is that of expected_errors() for the changed plan (alternatives_test.cpp).
+/// @param plan   as read_plan() gives it.
+/// @param sites  all sites of the plan, and known ones that could be added.
+/// @param unit   unit with which `u` was computed.
+/// @param u      ExpectedErrors::u_unknown of the plan.
 [[nodiscard]] std::vector<Alternative> alternatives(const Plan& plan,
                                                     const std::vector<text::Site>& sites,
                                                     const PlannedUnit& unit, MilliGal u);

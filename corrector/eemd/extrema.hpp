@@ -19,9 +19,8 @@ namespace a351::corrector::eemd {
 /// Returns the number of interior maxima and minima of `curve`.
 ///
 /// @param curve  (n), any n and unit; fewer than three samples have no extremum.  A NaN counts as
-///               equal to its neighbours.
-///               The jump from one side of a NaN to the other is not seen.  Infinite samples are
-///               compared like others.
+///               equal to its neighbours.  The jump from one side of a NaN to the other is not
+///               seen.  Infinite samples are compared like others.
 /// @return the number; nothing is allocated.
 [[nodiscard]] std::size_t count_extrema(std::span<const double> curve) noexcept;
 

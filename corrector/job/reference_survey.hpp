@@ -9,10 +9,12 @@
 ///     SurveyCorrection result = ...  // of `read`
 ///     compare_with_reference(result, reference);
 ///
-/// A joint adjustment of all readings gives the same within the weight that the sensor has at a
-/// station, 1e-4 for 0.01 mGal beside 1 mGal.  The covariance between the gravimeter's values is
-/// neglected: an error that they have in common is one of the level, or of the gravimeter's scale,
-/// of which the scale of the sensor therefore has the relative error too.
+/// Limits:
+/// - The sensor's readings do not improve the gravimeters' values, as they would in a joint
+///   adjustment.  Their weight there is small: 1e-4 for 1 mGal beside 0.01 mGal.
+/// - Covariances between the gravimeters' values are neglected.  Errors that the values have in
+///   common are those of the level and of the gravimeters' scale.  compare_with_reference() adds
+///   the latter.
 
 #include "corrector/job/survey_file.hpp"
 #include "corrector/model/corrected_survey.hpp"
@@ -22,16 +24,18 @@ namespace a351::corrector::job {
 
 /// Adjusts the gravimeters of a survey and makes their values the references of its rows and sites.
 ///
-/// Held are the references of the sites that the gravimeters measured.  If none of them has one, the
-/// mean reading of the sensor at the first common station is held.
+/// Held are the references of the sites that the gravimeters measured.  If none of them has one,
+/// the mean reading of the sensor at the first common station is held, and the values show
+/// differences only (reference_survey_test.cpp).
 /// @param survey  with `reference`.
-/// @throws InputError  the table cannot be read or has no gravimeter, no station is common, or the
-///                     network refuses.
+/// @throws InputError  the table cannot be read or has no gravimeter, or the network refuses.  No
+///                     common station is an error only if none of the sites has a reference.
 [[nodiscard]] model::NetworkAdjustment hold_reference_values(const SurveyFile& survey,
                                                              reading::OccupationRows& read);
 
-/// Sets SurveyCorrection::side_by_side, and adds the error of the gravimeter's scale to that of the
-/// sensor.
+/// Sets SurveyCorrection::side_by_side, and adds the relative error of the gravimeter's scale to
+/// that of the sensor's scale, as an independent error.  With several gravimeters the smallest of
+/// their errors counts.
 /// @param result     of the rows with these references.
 /// @param reference  from hold_reference_values().
 void compare_with_reference(model::SurveyCorrection& result,

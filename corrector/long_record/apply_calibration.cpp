@@ -129,7 +129,7 @@ std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnaly
     return corrected;
 }
 
-/// Returns the mean squares by band, from the spectrum without a straight line.
+/// Returns the mean square of the values in each band of periods, without their straight line.
 std::vector<double> band_squares(const std::vector<double>& values, double step_s,
                                  const std::vector<double>& edges_s) {
     const std::vector<double> centred = correlation::without_line(values);

@@ -58,10 +58,15 @@ std::vector<Sums> sums_of_blocks(const correlation::Spectrum& mode,
     return sums;
 }
 
-/// Returns the gain (mGal/degC) that chance exceeds with the probability kSignificance.  It comes
-/// from the rest a - H T of the acceleration, which is shifted around the record 40 times.
-/// Source of the quantile: as response_by_spectrum(), with independent shifts as degrees of
-/// freedom.
+/// Returns the gain (mGal/degC) that chance exceeds with the probability p = kSignificance.
+///
+/// The rest a - H T of the acceleration is shifted around the record 40 times, and each shift gives
+/// a gain without a cause.  With s the rms of these gains and f independent shifts:
+///
+///     gain^2 = s^2 f (p^(-1/f) - 1)
+///
+/// Reason: |gain|^2 / s^2 has the distribution F(2, 2 f), of which this is the quantile.  f is half
+/// the number of cycles in the record, at most 40.
 double chance_gain(const correlation::Spectrum& mode, const correlation::Spectrum& temperature,
                    const correlation::Spectrum& acceleration, Complex gain, std::size_t margin,
                    double cycles) {

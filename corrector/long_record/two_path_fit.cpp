@@ -149,9 +149,9 @@ public:
             .solve(x.transpose() * readings());
     }
 
-    /// Returns the covariance of coefficients and lags, in deviations of their priors: the parts of
-    /// the priors and of the noise, with the derivatives J by coefficients and lags: those of
-    /// TwoPathTerm, then the outer oven's slopes and lag.
+    /// Returns the covariance of coefficients and lags, in deviations of their priors: a part of
+    /// the priors and a part of the noise.  The order is that of TwoPathTerm, then the outer oven's
+    /// slopes and lag.
     [[nodiscard]] Eigen::MatrixXd covariance(const Lags& u, const Eigen::VectorXd& beta) const {
         constexpr double kStep = 0.05;
         constexpr auto kTerms = static_cast<Index>(kTwoPathTerms);
@@ -166,7 +166,8 @@ public:
             jacobian.col(k < 3 ? kLinear + static_cast<Index>(k) : kTerms + 2) =
                 (design(more) - design(less)) * beta / (2.0 * kStep);
         }
-        // The error of the estimate is C (J'e + p), C = (J'J + 1)^-1.
+        // The error of the estimate is C (J'e + p), C = (J'J + 1)^-1, with the derivatives J of the
+        // model, the noise e, and the deviations p of the true values from their priors.
         const Eigen::MatrixXd c =
             linear_algebra::Cholesky(linear_algebra::normal_matrix(jacobian)).inverse();
         return c * c + noise_covariance(jacobian * c);
@@ -230,10 +231,11 @@ private:
 
     /// Returns the covariance that the noise leaves in weighted sums of the whitened frequencies.
     ///
-    /// A record is cut out of noise whose periods do not fit into it, so that every frequency has
-    /// noise of its neighbours, and two have it in common.  The columns of a drift and of a warm-up
-    /// leak in the same way.  So the sums are taken back to time; each has the variance
-    /// integral |weights|^2 x noise over all frequencies, also those between the record's own.
+    /// The noise at different frequencies of a record is not independent: its periods do not fit
+    /// into the record, so each frequency has a part of the noise of its neighbours.  The columns
+    /// of a drift and of a warm-up leak in the same way.  Therefore each sum is written as weights
+    /// of the samples, and its variance is the integral of |their spectrum|^2 x noise, on a grid
+    /// finer than the record's own frequencies.
     /// @param weights  (2 frequencies, m)
     [[nodiscard]] Eigen::MatrixXd noise_covariance(const Eigen::MatrixXd& weights) const {
         constexpr std::size_t kFiner = 8;
@@ -252,6 +254,7 @@ private:
                 parts(half + k, m) = value.imag();
             }
         }
+        // normal_matrix() adds 1 to the diagonal.
         return linear_algebra::normal_matrix(parts) -
                Eigen::MatrixXd::Identity(weights.cols(), weights.cols());
     }

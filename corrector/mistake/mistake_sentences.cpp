@@ -100,15 +100,15 @@ private:
                                      text::toml_string(reason)));
     }
 
-    /// A site that a reading may be of.
+    /// A site at which a reading may have been made instead of at the one that it names.
     struct Candidate {
         const text::Site* site = nullptr;
         double distance_mgal = 0.0;
         double cost = 0.0;  ///< -2 ln(likelihood)
     };
 
-    /// Returns the sites that a reading off by the size of the mistake may be of, the likeliest
-    /// first.
+    /// Returns the sites at which the reading may have been made, the likeliest first: their
+    /// gravity is about the reference of the named site plus the size of the mistake.
     [[nodiscard]] std::vector<Candidate> read_sites(const Mistake& mistake) const {
         std::vector<Candidate> candidates;
         const SurveyRow& row = first(mistake);

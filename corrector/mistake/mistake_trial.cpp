@@ -15,14 +15,14 @@ using Index = Eigen::Index;
 /// Range of the size of a mistake, mGal.  Reason: benchmarks of a survey lie within tens of mGal, and
 /// so do slips in a table.
 constexpr double kSizeRange_mgal = 100.0;
-/// The range is at most so many uncertainties of a usual mistake of unknown size: 100 mGal at 0.5 mGal.
-/// Reason: a gravimeter of 0.005 mGal has no slips of 100 mGal, and against swaps, which have no such
-/// cost, its steps would have to be twice as large.
+/// Largest range, in the median uncertainty of a size.  At 0.5 mGal it is kSizeRange_mgal.
+/// Reason: a gravimeter of 0.005 mGal has no slips of 100 mGal.  With that range a step would have
+/// to be twice as large to be preferred to a swap, whose cost has no range.
 constexpr double kLargestSize_u = 200.0;
 /// Least degrees of freedom of the scatter.  Reason: with fewer, everything is explained.
 constexpr double kFewestDof = 4.0;
-/// The same if a mistake is only put right on trial.  Reason: each trial takes one of them, and
-/// kFewestDof must be left.
+/// The same before a further mistake is searched while one that is not sure is put right on trial.
+/// Assumed: each of them takes one degree of freedom, and more than kFewestDof must be left.
 constexpr double kFewestTrialDof = 8.0;
 /// Simulated surveys: first enough to see that nothing is found, then to know a small probability.
 constexpr int kFewDraws = 500, kManyDraws = 20000;

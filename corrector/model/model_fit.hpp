@@ -108,8 +108,8 @@ inline constexpr std::array<LinearModel, 2> kModelsOnRequest{{
 
 /// Returns the model with a term for the scale if the priors have one for it, else the model itself.
 ///
-/// A few known stations hardly determine a scale, and without a calibration its usual prior, 1 +-
-/// 0.002, is far below what they can find: nothing is gained by the term then.
+/// Without a calibration the term would gain nothing: a few known stations determine a scale far
+/// less well than its usual prior, 1 +- 0.002.
 [[nodiscard]] LinearModel with_scale(LinearModel model, const Priors& priors);
 
 /// Returns the regressors of a model (n, p - 1): those of T - T0 (degC), R (degC/h), t - t0 (h), x
@@ -242,11 +242,10 @@ inline constexpr int kBootstrapDraws = 1000;
     const std::vector<double>& errors, const std::vector<std::string>& stations,
     std::uint64_t seed);
 
-/// Returns the 95 % bootstrap interval of a mean, drawn by station as bootstrap_rms_interval(), which
-/// is the root of the interval of the squares.
+/// Returns the 95 % bootstrap interval of a mean, drawn by station as in bootstrap_rms_interval().
 ///
 /// For a paired comparison of two models give the differences of their squared errors.  Accuracy:
-/// that of bootstrap_rms_interval(), which calls it.
+/// tested through bootstrap_rms_interval(), which takes the root of the interval of the squares.
 /// @param values    (n) finite, any unit.
 /// @param stations  (n) name of the station of each value.
 /// @param seed      seed of the draws.

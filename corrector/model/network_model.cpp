@@ -23,7 +23,7 @@ Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     score.rms_mgal = std::sqrt(squares / static_cast<double>(network.reading_count));
     if (const auto s0 = network.s0()) score.s_mgal = *s0 * reading_sd_mgal;
     if (network.datum_count < 2) return score;
-    // v / r is the error of predicting a datum without its own row.
+    // Residual / redundancy is the error of predicting a datum without its own row.
     squares = 0.0;
     for (std::size_t k = 0; k < network.datum_count; ++k) {
         const NetworkRow& datum = network.rows[network.reading_count + k];
@@ -104,8 +104,8 @@ double pressure_correlation(const std::vector<CorrectedRow>& rows,
 
 /// Returns the fitted admittance in words, and if the readings can distinguish it from gravity.
 text::Message admittance_remark(const Fit& result, const std::vector<bool>& in_use) {
-    // Real admittances are -0.0002 to -0.0004 mGal/hPa: a value with a larger error is not better
-    // than the usual one.
+    // Real admittances are -0.0002 to -0.0004 mGal/hPa: a value whose error is larger than half
+    // this range is not better than the usual one.
     constexpr double kUsual_mgal_per_hpa = -0.0003, kGoodError_mgal_per_hpa = 0.0001;
     const Coefficient& admittance =
         *std::ranges::find(result.coefficients, kAdmittanceTerm, &Coefficient::name);

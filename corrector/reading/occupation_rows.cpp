@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::chrono::minutes kMargin(1);   // reach of the temperature's filters, 9 s, and more
 constexpr std::chrono::hours kBefore(8);     // memory of the slowest response to temperature
-constexpr std::chrono::hours kOuterLead(1);  // a gap of the outer oven before has little effect
+constexpr std::chrono::hours kOuterLead(1);  // an earlier gap of the outer oven has little effect
 
 UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows) {
     return windows.front().start - (is_axis ? Nanoseconds(kMargin) : Nanoseconds(kBefore));
@@ -93,7 +93,7 @@ void add_journaled(SurveySamples& samples, const SurveySource& source,
 }
 
 /// Reads all samples from the first window to the last, and the temperature before.  Each channel
-/// is read once.  Nothing is read behind an occupation that runs, so that its end is that of the data.
+/// is read once.  Nothing is read after the end of an occupation that still runs.
 SurveySamples read_samples(const SurveySource& source, const journal::StationCodes& codes,
                            const SurveyChannels& channels,
                            const std::vector<OccupationWindow>& windows, bool is_running) {

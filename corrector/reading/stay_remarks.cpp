@@ -10,11 +10,11 @@
 namespace a351::corrector::reading {
 namespace {
 
-/// A stay is short below the median divided by this, and below this length.  Reason: a set-up of 6 min
-/// is about as good as one of 12 (methods.md, "Moved box").
+/// A stay is short if it is shorter than both kLongEnough and the median divided by kShortDivisor.
+/// Reason: a set-up of 6 min is about as good as one of 12 (methods.md, "Moved box").
 constexpr int kShortDivisor = 2;
 constexpr std::chrono::minutes kLongEnough(6);
-/// Fewest stays with a median.
+/// Fewest stays whose median is compared with.
 constexpr std::size_t kFewestCompared = 5;
 /// Errors of the clock above this are named.  Reason: the ends of a stay are known to a second, and in
 /// a second the tide changes by less than 0.1 uGal.

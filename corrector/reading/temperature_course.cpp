@@ -64,7 +64,7 @@ bool is_without_gaps(const std::vector<MinuteTemperature>& course, UtcTime from,
 std::vector<double> interpolated(const std::vector<MinuteTemperature>& course,
                                  const std::vector<UtcTime>& times, Nanoseconds gap) {
     std::vector<double> values;
-    auto after = course.begin();  // the first mean behind the instant
+    auto after = course.begin();  // the first mean after the instant
     for (const UtcTime time : times) {
         while (after != course.end() && after->middle <= time) ++after;
         const MinuteTemperature& last = after == course.begin() ? *after : *(after - 1);

@@ -24,9 +24,9 @@ namespace a351::corrector::result {
 /// longitude is -180 to 180 also if the table has 0 to 360 (export_files_test.cpp).
 ///
 /// Properties are site, n, gravity_mgal, u_gravity_mgal, reference_mgal, residual_mgal,
-/// flagged_only, grade and grade_reason (grade_of_station()).  Values are rounded to 1e-6 mGal; null
-/// if there is none.  The text is UTF-8 with one line
-/// per feature.  Bytes of a name that are not UTF-8 become U+FFFD.
+/// flagged_only, grade and grade_reason (grade_of_station()).  Values are rounded to 1e-6 mGal;
+/// null if there is none.  The text is UTF-8 with one line per feature.  Bytes of a name that are
+/// not UTF-8 become U+FFFD.
 /// @param sites  position of each station; Site::is_placed false: without geometry.
 [[nodiscard]] std::string stations_geojson(const model::SurveyCorrection& result,
                                            const std::vector<text::Site>& sites);
@@ -35,9 +35,9 @@ namespace a351::corrector::result {
 ///
 /// Tide, temperature and rate are corrected.  Drift is not, because GSadjust estimates it.  Each
 /// occupation has two lines, value - u and value + u, because GSadjust takes the standard deviation
-/// of a station from the scatter of its lines.  Excluded and flagged occupations are comments.
-/// Flagged ones are comments only with SurveyOptions::use_flags.  Tilt is corrected too, and the
-/// flicker of the whole-day model is not (export_files_test.cpp).
+/// of a station from the scatter of its lines.  Excluded occupations are comments, and so are
+/// flagged ones with SurveyOptions::use_flags.  Tilt is corrected too, and the flicker of the
+/// whole-day model is not (export_files_test.cpp).
 ///
 /// - u is CorrectedRow::u_corrected, or 2 mGal if the fit has none.
 /// - The tide column is the correction that was added, -tide, so that GSadjust can replace it.

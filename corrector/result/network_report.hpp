@@ -13,11 +13,13 @@
 
 namespace a351::corrector::result {
 
-/// Returns the network's size, degrees of freedom and global test as text; empty for another model.
+/// Returns the network's size, degrees of freedom, global test, kind of uncertainty and comparison
+/// with known stations as text; empty for another model.
 ///
-/// Each line ends with LF.  Without a degree of freedom there is no line on the test.  If the test
-/// fails, the text has the reading_sd_mgal that agrees with the scatter.  Do not take it over at
-/// once: a failed test usually means a fault in a reading.
+/// Each line ends with LF.  Without a degree of freedom there is no line on the test, and without a
+/// station to compare with none on the comparison.  If the test fails, the text has the
+/// reading_sd_mgal that agrees with the scatter.  Do not use it at once: a failed test usually
+/// means a fault in a reading.
 [[nodiscard]] std::string network_text(const model::SurveyCorrection& result);
 
 /// Returns the same with the redundancy of each row as JSON; null for another model.
@@ -25,7 +27,9 @@ namespace a351::corrector::result {
 /// - Keys: datum_sd_mgal, drift_degree, unknowns, dof, weighted_square, global_test (alpha, low,
 ///   high, passed), s0, u_gravity, references_not_held (stations, rms_mgal), rows (row, residual,
 ///   sd, redundancy).
-/// - `passed` and `s0` are null without a degree of freedom.
+/// - weighted_square is v'Wv, compared with the chi-square limits low and high
+///   (corrector/methods.md).
+/// - `passed` and `s0` are null without a degree of freedom, rms_mgal without a station.
 /// - Residual and sd have the unit of their row: mGal for readings and datum, that of the
 ///   coefficient for priors.
 [[nodiscard]] nlohmann::ordered_json network_json(const model::SurveyCorrection& result);

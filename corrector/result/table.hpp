@@ -12,7 +12,7 @@ namespace a351::corrector::result {
 /// Invariant: `alignment`, `headings` and every row have the same length.  Whoever adds a column by
 /// hand must extend all three.
 struct Table {
-    std::string alignment;                       ///< One letter per column, as in Shown.
+    std::string alignment;                       ///< One letter per column: Shown::alignment.
     std::vector<std::string> headings;           ///< One per column.
     std::vector<std::vector<std::string>> rows;  ///< One text per column each.
 };
@@ -20,7 +20,7 @@ struct Table {
 /// Returns a table as lines of text, the headings first.
 ///
 /// The first column is aligned left and the others right.  `alignment` has no effect here; it is
-/// for HTML.  Letters outside ASCII shift the columns after them (text::aligned()).
+/// for HTML.  Letters of two columns on a terminal count as two (text::aligned()).
 [[nodiscard]] std::string aligned_text(const Table& table);
 
 }  // namespace a351::corrector::result

@@ -163,7 +163,7 @@ std::vector<DaySetUp> means_of_set_ups(const DayProblem& problem, const reading:
         for (Index k = problem.steps_begin(); k < problem.states_begin(); ++k)
             mean.effect_mgal.at(static_cast<std::size_t>(DayTerm::drift)) +=
                 weight * coefficients(k) * x(row, k);
-        // States behind gaps are in turn of the fast and of the slow lag.
+        // States after gaps are in turn of the fast and of the slow lag.
         for (Index k = problem.states_begin(); k < problem.outer_begin(); ++k) {
             const DayTerm term =
                 (k - problem.states_begin()) % 2 == 0 ? DayTerm::fast : DayTerm::slow;

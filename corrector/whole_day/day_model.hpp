@@ -98,9 +98,9 @@ struct DayPriors {
 
     Vector mean = Vector::Zero();        ///< Means; of a lag ln(s).
     Matrix factor = Matrix::Identity();  ///< Lower triangular L of the covariance L L'.
-    /// Factor of one deviation of a log-normal prior: the standard deviations of bx and by in
-    /// `factor` are medians, and the day decides how much larger or smaller both are.  1: they are
-    /// known.
+    /// The size of bx and by is estimated from the day.  Its log-normal prior has as median the
+    /// standard deviations of bx and by in `factor`, and this factor as one deviation, for both
+    /// alike.  1: the standard deviations in `factor` are used as they are.
     double bias_factor = 1.0;
     LogNormalPrior placement_mgal = kUsualPlacement_mgal;  ///< Prior of the placement.
 

@@ -58,11 +58,11 @@ enum DayHyper : std::size_t {
 /// A reference that is held with an uncertainty is one of the gravities, with that prior; an exact one
 /// is none.
 ///
-/// The scale's column has the rough gravity too.  Therefore the estimate of an unknown is the scale
-/// times its gravity minus the rough one.
+/// An unknown gravity counts from a rough one: the mean of its readings minus the mean constant of
+/// the set-ups that are held.  Therefore its prior, 0 +- 1e4 mGal, has practically no influence.
 ///
-/// An unknown counts from a rough gravity: the mean of its readings minus the mean constant of the
-/// set-ups that are held.  Therefore its prior, 0 +- 1e4 mGal, has practically no influence.
+/// The column of the scale has the rough gravities of the unknowns.  Therefore the estimate of an
+/// unknown is (1 + k) (gravity - rough gravity).
 ///
 /// Accuracy: day_model_test.cpp, through fit_day(); the class has no test of its own.
 /// station_system_test.cpp: ln(placement) of 20 made-up days scatters by 0.5 to 1.6 of
@@ -86,7 +86,7 @@ public:
         return outer_begin() + (has_outer() ? kOuterSlopes : 0);
     }
     [[nodiscard]] bool has_outer() const { return record_.outer.has_value(); }
-    /// Returns the place of the first slope of an outer oven, behind the states.
+    /// Returns the place of the first slope of an outer oven, after the states.
     [[nodiscard]] Eigen::Index outer_begin() const {
         return states_begin() + states_sd_mgal_.size();
     }

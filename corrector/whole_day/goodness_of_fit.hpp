@@ -65,9 +65,10 @@ inline constexpr int kFewestFitDof = 5;
 /// Tests a fit.
 ///
 /// Accuracy: a probability of 1 % has a standard error of 0.2 %.  Error rates on simulated days:
-/// tests/bench/misfits.py.  goodness_of_fit_test.cpp: on ten ordinary days with five times the usual
-/// noise at most 2 of 30 tests name a misfit; a step of 15 mGal, a response of 150 mGal/degC^2 and
-/// two set-ups that are off by 14 and 17 mGal are found where they are.
+/// tests/bench/misfits.py.  goodness_of_fit_test.cpp: on ten ordinary days with five times the
+/// usual noise at most 2 of 30 tests name a misfit.  One day each: a step of 15 mGal is found at
+/// its set-up, a response of 150 mGal/degC^2 as curvature of the temperature, and of two set-ups
+/// that are off by 14 and -17 mGal the latter is named.
 /// @param record, stations, priors  those of the fit; finite.
 /// @param fit  fit_day() of them.
 /// @return one test of each kind; none with fewer than kFewestFitDof degrees of freedom.

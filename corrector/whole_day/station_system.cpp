@@ -106,7 +106,8 @@ Estimate StationSystem::difference(std::size_t from, std::size_t to) const {
         has_datum = true;
         if (gravity.held >= 0) columns.push_back(gravity.held);
     }
-    // Without another reference one of both stations is the datum of their difference.
+    // Without another reference nothing gives the level, on which a difference does not depend.
+    // `from` is then held, or `to` if `from` has no reference.
     const bool is_from_datum = !has_datum && gravities_[from].is_held;
     const bool is_to_datum = !has_datum && !is_from_datum;
     const auto add = [&](std::size_t number, bool is_datum, double factor) {

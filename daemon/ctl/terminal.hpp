@@ -9,11 +9,11 @@
 
 namespace a351::daemon::ctl {
 
-/// Returns whether standard output is a terminal that can be drawn on: not one with TERM=dumb.
+/// Returns true if standard output is a terminal that can be drawn on: not one with TERM=dumb.
 [[nodiscard]] bool is_screen();
 
-/// Returns whether it may also be coloured: the environment variable NO_COLOR (no-color.org) is not
-/// set or empty.
+/// Returns true if it may also be coloured: the environment variable NO_COLOR (no-color.org) is
+/// absent or empty.
 [[nodiscard]] bool wants_colour();
 
 /// Fits a screen to a terminal: long lines are broken at blanks or before letters of two columns, and

@@ -147,7 +147,7 @@ private:
                "   " + text::tr("n note   q quit");
     }
 
-    /// Returns a question with the end of the typed text that has room behind it.
+    /// Returns a question and, after it, as much of the end of the typed text as there is room for.
     [[nodiscard]] std::string prompt(const std::string& question, std::size_t columns) const {
         std::string shown = printable(typed_);
         while (!shown.empty() &&

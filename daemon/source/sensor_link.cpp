@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr milliseconds kShortestRealWait{50};
-// Waiting times, instrument time.
+// Waiting times in instrument time, which real_wait() converts.
 constexpr seconds kPortRetry{1};
 constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
                                        seconds(30)};

@@ -9,7 +9,8 @@
 namespace a351::daemon::status {
 namespace {
 
-// 1 GiB lasts 9 days at 50 Hz: 100 MB of journal and 15 MB of archive a day.
+// Free space below which the status warns.  Reason: 1 GiB lasts 9 days at 50 Hz, with 100 MB of
+// journal and 15 MB of archive a day, so there is time for a remedy.
 constexpr std::uint64_t kLittleSpace_bytes = std::uint64_t{1} << 30;
 
 /// Replaces unprintable characters: a device may report any bytes as its name.

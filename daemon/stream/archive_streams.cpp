@@ -74,7 +74,8 @@ std::vector<std::byte> readable(const fs::path& file, std::uint64_t offset, std:
     }
 }
 
-/// Returns the offset behind a record in a day file; 0 if it is not there.  It is read from its end.
+/// Returns the offset after a record in a day file, which is read from its end; 0 if the record is
+/// not there.
 std::uint64_t offset_behind(const fs::path& file, std::uint64_t size, const Mark& mark) {
     const std::string digits = fmt::format("{:06}", mark.sequence);
     for (std::uint64_t end = size / kRecordSize; end > 0;) {

@@ -55,7 +55,7 @@ struct Record {
     std::string stream;  ///< Name of the stream.
     std::array<std::byte, archive::kRecordSize> bytes{};
     Mark mark;
-    std::uint64_t end = 0;  ///< Offset behind it in its day file.
+    std::uint64_t end = 0;  ///< Offset after it in its day file.
 };
 
 /// Streams of an archive.  A stream is one channel of one station, named NET_STA_LOC_CHAN.
@@ -98,7 +98,7 @@ public:
 private:
     struct DayFile {
         std::uint64_t size = 0;     ///< Size when it was examined last.
-        std::uint64_t read_to = 0;  ///< Offset behind the records in `ahead`.
+        std::uint64_t read_to = 0;  ///< Offset after the records in `ahead`.
         std::deque<Record> ahead;   ///< Records that were read and not taken.
     };
     struct Stream {

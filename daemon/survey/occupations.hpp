@@ -75,8 +75,8 @@ public:
     Occupations(Recorder& recorder, std::vector<text::Site> sites,
                 const std::vector<events::Event>& events, const OccupationOptions& options = {});
 
-    /// @param set_ups  planned set-ups of this stay, each of kTestSetUp: 2 to 100; absent: as
-    ///                 configured.  A placement test has 20.
+    /// @param set_ups  planned number of set-ups of this stay, 2 to 100, each kTestSetUp long;
+    ///                 absent: as configured.  A placement test has 20.
     Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at,
                   std::optional<int> set_ups = {});
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
@@ -107,7 +107,7 @@ public:
     [[nodiscard]] MilliGal target() const noexcept { return target_.value_or(options_.target); }
     /// Returns the planned length of the running stay, or else of the next one.
     [[nodiscard]] Nanoseconds planned() const noexcept;
-    /// Returns its planned number of set-ups.
+    /// Returns the planned number of set-ups of the same stay.
     [[nodiscard]] int planned_set_ups() const noexcept;
 
     /// Appends a site to the list, see append_site(), and uses it from now on.

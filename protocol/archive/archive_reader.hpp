@@ -73,7 +73,8 @@ struct ChannelData {
 /// the next record, at any offset.
 ///
 /// A gap or an overlap of more than half a sample begins a new segment, and another rate too.
-/// After the host's clock was set back, segments may overlap; nothing is removed.
+/// After the host's clock was set back, segments may overlap; nothing is removed.  Gaps, overlaps,
+/// midnight, damage and stepped clocks: archive_reader_test.cpp.
 ///
 /// A missing archive or channel gives no segments and no error, and so does from >= to.  The
 /// interval may exceed the archive, for example UtcTime::min() to UtcTime::max().

@@ -71,12 +71,15 @@ public:
     /// archive is skipped.  Each record of the archive counts once, because times repeat after a
     /// clock was set back.
     ///
-    /// A record that overlaps others, which the replay has not matched, is held back.  The replay
-    /// makes records in the order in which they were written.  If one of the others is between
-    /// the matches before and after it, it is a conflict: the archive is right, the record is
-    /// skipped, and sync() does not report it.  If not, they have its time only because a clock was
-    /// set back, and the record is written with the next match, or by settle().
-    /// A hole that an earlier start filled breaks that order: the record for it is at the end.
+    /// A record without such a match that overlaps unmatched records of the archive is held back
+    /// until the next match, or settle().  The replay makes records in the order in which they are
+    /// in the archive, so the places of the matches decide:
+    /// - One of the overlapped records is between the matches before and after: a conflict.  The
+    ///   archive is right, the record is skipped, and sync() does not report it.
+    /// - None is: they have its time only because a clock was set back.  The record is written.
+    ///
+    /// The order is broken where an earlier replay filled a hole: that record is at the end of its
+    /// file.
     /// @param record      result of pack_record(); its sequence number is replaced.
     /// @param last_index  index of the last sample of the record, reported by sync().
     /// @throws std::system_error  the archive cannot be written.  The record can be given again.

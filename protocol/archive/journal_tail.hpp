@@ -60,7 +60,7 @@ public:
     void append_to(ChannelData& data, const std::string& channel, UtcTime from, UtcTime to) const;
 
     /// Returns the newest clock reading of the journal, as journal_end() at the time when it was
-    /// read; std::nullopt if the journal continued behind `to`.
+    /// read; std::nullopt if the journal continued after `to`.
     [[nodiscard]] const std::optional<UtcTime>& end() const noexcept { return end_; }
 
 private:

@@ -77,7 +77,7 @@ struct RecoveryPlan {
 /// They are those of an uninterrupted run, except where an earlier shutdown ended records early.
 ///
 /// The bytes cut from the archive are kept in side_directory().  Damage within a segment costs the
-/// chunks in it; the replay continues behind it.
+/// chunks in it; the replay continues after it.
 ///
 /// @param writer  new, for the codes of `replay`.  Afterwards it is still in its replay, and not
 ///                synced.

@@ -93,7 +93,7 @@ std::optional<std::size_t> unpack(std::span<const std::byte> packed, std::span<s
     }
 }
 
-/// Returns the size of a damaged frame, if another one or the end of the file is behind it.
+/// Returns the size of a damaged frame, if another one or the end of the file is after it.
 std::optional<std::size_t> damaged_size(std::span<const std::byte> packed) {
     const std::size_t size = ZSTD_findFrameCompressedSize(packed.data(), packed.size());
     if (ZSTD_isError(size)) return std::nullopt;

@@ -225,9 +225,9 @@ private:
 /// so a crash in between loses nothing.  An older `*.torn` of the same segment is replaced.
 ///
 /// If its end is not damaged, the segment is only synced.  A compressed segment is left as it is.
-/// Damage with good chunks behind it, and in older segments, is left too; readers continue behind
-/// it.  Each call treats one segment: after it was renamed as a whole, a further call examines the
-/// one before it.
+/// Damage with good chunks after it is left too, and so is damage in older segments; readers
+/// continue after it.  Each call treats one segment: after it was renamed as a whole, a further
+/// call examines the one before it.
 ///
 /// @return the damaged end, if there was one.  Positions are those before the repair.
 /// @throws std::system_error  a file cannot be read or written; call it again.

@@ -22,8 +22,8 @@ enum class Language { english, japanese };
 /// and not empty.  English, if there is no catalogue for it.
 [[nodiscard]] Language language_of_environment() noexcept;
 
-/// Sets and returns the language in which this program writes to people, at first English.  It is set
-/// before the first text, and never while other threads run.
+/// Sets the language in which this program writes to people, at first English.  Call it before the
+/// first text, and never while other threads run.  language() returns it.
 void write_in(Language language) noexcept;
 [[nodiscard]] Language language() noexcept;
 
@@ -34,7 +34,8 @@ void write_in(Language language) noexcept;
 [[nodiscard]] std::vector<std::pair<std::string_view, std::string_view>> catalogue(
     Language language);
 
-/// Marks a text for the catalogue that is translated elsewhere.
+/// Returns the text itself.  It marks a text for the catalogue (update_catalogue.py) at a place
+/// where the text is not translated yet, for example in a table of constants.
 [[nodiscard]] constexpr const char* marked(const char* text) noexcept { return text; }
 
 }  // namespace a351::text

@@ -86,7 +86,7 @@ public:
 
     /// Adds the arrival of a sample.  Any number of samples may be missing before it.
     /// Cost: O(1); at the end of a block O(n log n) in its n arrivals.
-    /// @param index    rises from call to call; not checked.
+    /// @param index    rises from call to call; otherwise the program ends (require_invariant()).
     /// @param arrival  time of the last byte of the frame on the raw clock.
     void observe(std::int64_t index, RawTime arrival);
 
@@ -101,13 +101,13 @@ public:
     /// Returns true once 2 s of data are complete, so that the timer of an adapter would show.
     [[nodiscard]] bool is_settled() const noexcept { return blocks_.size() > 1; }
 
-    /// Returns the line at the sample that was the newest at the first call after the last block
-    /// was completed; before the first block is complete, at the newest sample.  Call it directly
-    /// after observe(), so that it does not depend on later arrivals.  Precondition: not
-    /// is_empty().
+    /// Returns the line at the newest sample, fitted to the complete blocks, or to the only block.
     ///
-    /// The line is fitted once per block, in O(blocks), and kept.  The reference is valid until the
-    /// next call of a function that is not const.
+    /// It is fitted in O(blocks) at the first call after a block was completed, and kept until the
+    /// next block is complete.  Until the first block is complete, each arrival makes a new line.
+    /// Call it after every observe(): a later first call would give the line at a later sample.
+    /// Precondition: not is_empty().  The reference is valid until the next call of a function that
+    /// is not const.
     [[nodiscard]] const EdgeLine& line();
 
     /// Returns the line at any sample, fitted to those of the remembered blocks that lie in the

@@ -166,8 +166,6 @@ TEST_CASE("a short record reversed in time has its first mode reversed, with eve
 }
 
 TEST_CASE("no component grows far beyond the range of the record at its ends") {
-    // White noise on a drift, 20 records, each end rule: the limit is three times the record's
-    // range.
     for (const EndRule ends : {EndRule::line, EndRule::mirror}) {
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
             auto signal = white_noise(450, seed);

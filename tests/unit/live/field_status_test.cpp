@@ -148,7 +148,8 @@ TEST_CASE("a return to the first site of the day is no warning", "[field]") {
     CHECK(field_status(field.occupations, field.live, minute(5)).warnings.empty());
 }
 
-TEST_CASE("missing samples of the running set-up are said, those before it are not", "[field]") {
+TEST_CASE("missing samples of the running set-up give a warning, those before it do not",
+          "[field]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
     Record live{kProfile, 50, {}};

@@ -19,7 +19,7 @@ std::vector<FitTest> tests_of(const DayRecord& record,
     return goodness_of_fit(record, stations, fit_day(record, stations).value(), priors);
 }
 
-/// Adds to every reading what the function gives for its set-up.
+/// Returns a made-up day to whose readings the function adds an effect, bin by bin.
 template <class Effect>
 DayRecord with_effect(std::uint64_t seed, const Effect& effect_mgal) {
     DayRecord record = kScattered.record(seed);

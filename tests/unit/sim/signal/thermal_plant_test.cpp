@@ -106,9 +106,9 @@ TEST_CASE("the body follows ambient by the ratio of the resistances", "[sim][the
     CHECK(rise_degc / 10.0 == Approx(5.0 / 83.0).margin(0.002));
 }
 
-TEST_CASE("a coarse resolution makes a limit cycle with the published period and swing",
+TEST_CASE("a coarse resolution makes a limit cycle of 700 to 1050 s and 0.010 to 0.025 degC",
           "[sim][thermal_plant]") {
-    // Matsuda et al.: 10-15 min and about 0.02 degC peak to peak.
+    // Published (Matsuda et al.): 10-15 min and about 0.02 degC peak to peak.
     for (const double ambient_degc : {24.0, 29.0, 34.0}) {
         const Cycle cycle = cycle_of(limit_cycle_degc(ambient_degc));
         CAPTURE(ambient_degc);
