@@ -105,7 +105,8 @@ void amend_survey(const AmendOptions& options) {
 
 void add_amend_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
-        "amend", "Writes what the findings of a survey propose to its amendments file.");
+        "amend",
+        "Writes the amendments that the findings of a survey propose into its amendments file.");
     const auto options = std::make_shared<AmendOptions>();
     add_required(command, "FILE", "", options->survey, "Survey file (TOML)");
     auto* const all = command.add_flag("--all", options->is_all,

@@ -257,7 +257,8 @@ void add_survey_command(CLI::App& program) {
     add_required(command, "FILE", "", options->files,
                  "Survey files (TOML), one per day, or data roots");
     add_option(command, "--sites", "FILE", options->sites,
-               "Table of the sites of a data root (default: sites.csv beside it)");
+               "Table of the sites of a data root (default: sites.csv in the folder that contains "
+               "the root)");
     command.add_flag("--json", options->is_json,
                      "Print the gravity so far as one JSON document and write nothing. The stay "
                      "that runs is used, and data that are only in the journal");

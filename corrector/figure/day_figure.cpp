@@ -211,8 +211,8 @@ std::string caption_of(const model::SurveyCorrection& result, bool has_records, 
             : tr("The day. Above: residuals, reference minus corrected value (in sample); bars: "
                  "standard uncertainty u as of a new station, from the scatter in sample.");
     return errors +
-           (has_records ? tr(" Middle: samples of 2 s minus the mean of the reading, knocks are "
-                             "cut off.")
+           (has_records ? tr(" Middle: samples of 2 s minus the mean of the reading; the scale "
+                             "cuts off knocks.")
                         : "") +
            (has_course ? tr(" Below: temperature of the sensor and of the readings.")
                        : tr(" Below: temperature of the readings.")) +

@@ -87,14 +87,14 @@ std::string averaged_text(const model::CorrectedRow& row, double mean_mgal) {
     const auto* const day = row.as<model::WholeDayRow>();
     const auto error = row.row.record ? row.row.record->standard_error : std::nullopt;
     const std::string samples =
-        error ? text::tr("; standard error by the scatter of the samples alone {} mGal",
+        error ? text::tr("; standard error from the scatter of the samples alone {} mGal",
                          text::fixed(error->value(), 2))
               : "";
     if (day == nullptr)
         return text::tr("mean over the interval {} mGal{}.", text::fixed(mean_mgal, 3), samples);
     return text::tr(
-        "the model day averages {} s of it to {} mGal{}; trend and interval apply to the other "
-        "models.",
+        "the model day averages {} s of it, mean {} mGal{}. Only the other models use the trend "
+        "and the interval shown.",
         text::fixed(day->averaged_s, 0), text::fixed(row.row.measured().value(), 3), samples);
 }
 
@@ -239,7 +239,7 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
     Panels acceleration{
         "records-acceleration",
         text::tr("Acceleration of every reading: samples of 2 s minus the value of the "
-                 "reading; one scale for all, knocks are cut off."),
+                 "reading. All panels have the same scale, which cuts off knocks."),
         text::tr("Acceleration - mean (mGal)"),
         "2",
         "lw 0.7 lc rgb " + kBlue,
@@ -249,7 +249,7 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
     Panels temperature{
         "records-temperature",
         text::tr("Temperature of every reading: samples of 2 s minus the temperature of the "
-                 "reading; one scale for all."),
+                 "reading. All panels have the same scale."),
         text::tr("Temperature - mean (°C)"),
         "4",
         "lw 0.9 lc rgb " + kVermilion,

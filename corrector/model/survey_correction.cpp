@@ -102,7 +102,7 @@ std::optional<Comparison> compare_with_linear(const SurveyProblem& problem, cons
     return Comparison{
         interval && interval->low > 0.0,
         text::message(
-            "it predicts stations left out with an error of {} mGal, {} with {}",
+            "its error at stations left out is {} mGal, that of {} is {} mGal",
             text::fixed(*day.score.loso_mgal, 2), choice->model,
             text::fixed(std::sqrt(squares / static_cast<double>(differences.size())), 2))};
 }

@@ -104,18 +104,18 @@ void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days
         is_adjusted
             ? text::tr(
                   "Gravity from the adjustment of all surveys, with its standard uncertainty u. It "
-                  "does not use the station's own reference (left out); in sample: this reference "
-                  "alone is held. Differences of stations are in joint-differences.csv. NAME - "
-                  "joint: the day's own value minus that of the adjustment. *: only readings that "
-                  "were left out of the day's fit.")
+                  "does not use the station's own reference (left out). In sample: this is the "
+                  "only reference, so the value uses it. Differences of stations are in "
+                  "joint-differences.csv. NAME - joint: the day's own value minus that of the "
+                  "adjustment. *: only readings that were left out of the day's fit.")
             : text::tr(
                   "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no "
                   "u), with its standard uncertainty u. The value of a day does not use the "
-                  "station's own reference (left out); in sample: a day gives only a value that "
-                  "does. u contains what the days share of the uncertainties of instrument and "
-                  "references. Differences of stations are in joint-differences.csv. NAME - joint: "
-                  "the day's value minus the mean. *: only readings that were left out of the "
-                  "day's fit.");
+                  "station's own reference (left out). In sample: one of the days has only a value "
+                  "that uses it. u includes the uncertainties of instrument and references that "
+                  "the days share. Differences of stations are in joint-differences.csv. NAME - "
+                  "joint: the day's value minus the mean. *: only readings that were left out of "
+                  "the day's fit.");
     add_table(parent, caption, table);
 }
 

@@ -93,7 +93,8 @@ Report make_long_record_page(const long_record::RecordResult& result,
                    long_record::segments_table(result));
     add_list(section, long_record::refused_parts(result));
     add_provenance(document.add_section(text::tr("Settings, inputs, warnings")), settings,
-                   result.record.inputs, text::each_in_words(result.record.warnings));
+                   result.record.inputs, text::tr("Warnings"),
+                   text::each_in_words(result.record.warnings));
     page.files.emplace_back("record.html", document.text());
     add_figure_files(page.files, all, drawing);
     return page;

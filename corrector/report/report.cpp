@@ -82,7 +82,7 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
     if (!figures.records.empty())
         add_figures(page.add_section(tr("Records")), figures.records, drawing);
     add_provenance(page.add_section(tr("Settings, inputs, warnings")), settings, sources.inputs,
-                   warnings);
+                   tr("Remarks and warnings"), warnings);
     report.files.emplace_back("report.html", page.text());
     add_figure_files(report.files, all, drawing);
     return report;

@@ -252,9 +252,9 @@ void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {
 }
 
 void add_provenance(pugi::xml_node parent, const nlohmann::ordered_json& settings,
-                    const std::vector<text::InputFile>& inputs,
+                    const std::vector<text::InputFile>& inputs, const std::string& title,
                     const std::vector<std::string>& warnings) {
-    add(parent, "h3", tr("Warnings"));
+    add(parent, "h3", title);
     if (warnings.empty()) add(parent, "p", tr("None."));
     add_list(parent, warnings);
     std::vector<HtmlCells> rows;

@@ -52,13 +52,13 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result);
 /// gives the limit of the error by which a linear model was chosen.
 void add_models(pugi::xml_node parent, const model::SurveyCorrection& result);
 
-/// Adds warnings, settings, and inputs with their checksums.
+/// Adds warnings below their title, settings, and inputs with their checksums.
 /// @param settings  object; a value that is not a string is shown as JSON.  The key `warnings` is
 ///                  skipped, and the program with its version is added.
 /// @param inputs    shown with role, name, size in bytes and CRC-32 in hexadecimal digits.
 /// @param warnings  one item each; "None." if there are none.
 void add_provenance(pugi::xml_node parent, const nlohmann::ordered_json& settings,
-                    const std::vector<text::InputFile>& inputs,
+                    const std::vector<text::InputFile>& inputs, const std::string& title,
                     const std::vector<std::string>& warnings);
 
 }  // namespace a351::corrector::report

@@ -206,8 +206,7 @@ void add_head(pugi::xml_node parent, const model::SurveyCorrection& result,
     add(parent, "p", headline(result));
     std::vector<std::string> remarks = missing;
     if (!warnings.empty())
-        remarks.push_back(
-            tr("Warnings about the input: {}, see the last section.", warnings.size()));
+        remarks.push_back(tr("Remarks and warnings: {}, see the last section.", warnings.size()));
     add_list(parent, remarks);
 }
 

@@ -16,12 +16,14 @@ std::vector<std::string> scale_sentences(const model::SurveyCorrection& result) 
     for (const model::ScaleEstimate& scale : result.scales) {
         const model::Interval limits = scale.limits();
         sentences.push_back(text::tr(
-            "scale of {}: {} +- {} (limits of 95 %: {} to {}); the share of its prior ({} +- {}) "
-            "is {} %, and a difference of 100 mGal is uncertain by {} mGal",
-            scale.instrument.empty() ? text::tr("the sensor") : scale.instrument, text::fixed(scale.value, 5),
-            text::fixed(scale.u, 5), text::fixed(limits.low, 5), text::fixed(limits.high, 5),
-            text::shortest(scale.prior.mean), text::shortest(scale.prior.sd),
-            std::lround(100.0 * scale.prior_share()), text::fixed(100.0 * scale.u, 3)));
+            "scale of {}: {} +- {} (95 % limits: {} to {}). Of the variance of its prior ({} +- "
+            "{}) the readings leave {} %. The scale makes a difference of 100 mGal uncertain by {} "
+            "mGal",
+            scale.instrument.empty() ? text::tr("the sensor") : scale.instrument,
+            text::fixed(scale.value, 5), text::fixed(scale.u, 5), text::fixed(limits.low, 5),
+            text::fixed(limits.high, 5), text::shortest(scale.prior.mean),
+            text::shortest(scale.prior.sd), std::lround(100.0 * scale.prior_share()),
+            text::fixed(100.0 * scale.u, 3)));
     }
     return sentences;
 }

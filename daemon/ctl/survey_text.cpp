@@ -81,7 +81,7 @@ std::string newest_gravity(const json& answer) {
         line = fmt::format("{}: {} +- {} mGal", stay_name(stay), mgal_of(stay, "gravity_mgal"),
                            mgal_of(stay, "u_mgal"));
         if (const json& known = stay.at("left_out_difference_mgal"); known.is_number())
-            line += text::tr(", left out - known {:+.2f} mGal", known.get<double>());
+            line += text::tr(", left out - reference {:+.2f} mGal", known.get<double>());
     }
     if (!line.empty() && answer.at("reason").is_string()) line += text::tr(" (old figures)");
     for (const json& finding : answer.at("findings")) {

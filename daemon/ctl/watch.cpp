@@ -126,13 +126,13 @@ private:
             case Question::note:
                 return prompt(text::tr("note (Esc cancels): "), columns);
             case Question::other_site:
-                return text::tr("did you mean {}? y start there, any other key: no",
+                return text::tr("did you mean {}? y: start there, any other key: cancel",
                                 printable(other_site_));
             case Question::stop: {
                 const std::string site = printable(asked_stay_.value("site", ""));
-                if (!moved_utc_) return text::tr("stop {}? y stop, any other key: no", site);
+                if (!moved_utc_) return text::tr("stop {}? y: stop, any other key: cancel", site);
                 return text::tr(
-                    "stop {} at {}, when the box was moved? y there, n now, other keys: no", site,
+                    "stop {} at {}, when the box was moved? y: then, n: now, others: cancel", site,
                     to_rfc3339(*moved_utc_).substr(11, 8));
             }
             case Question::none:

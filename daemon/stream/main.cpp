@@ -73,13 +73,14 @@ int main(int argc, char** argv) {
         ->required();
     app.add_option(
            "--from", from,
-           "Begin of what is sent to a new ring (RFC 3339): the first record that ends then "
-           "or later; default: the oldest record")
+           "First data to send to a new ring: begin with the first record that ends at or after "
+           "this time (RFC 3339); default: the oldest record")
         ->type_name("WHEN");
     std::string state;
-    app.add_option("--state", state,
-                   "File with the record of each stream that was acknowledged last, one file for "
-                   "each server; default: none")
+    app.add_option(
+           "--state", state,
+           "File that keeps the last acknowledged record of each stream; use one file for each "
+           "server; default: none")
         ->type_name("FILE");
     app.add_flag("--once", options.is_once, "Send all records that there are, then exit");
     try {

@@ -25,11 +25,13 @@ std::optional<MovePrompt> move_prompt(std::span<const signal::MotionSample> samp
 text::Message text_of(const MovePrompt& prompt) {
     const std::string time = to_rfc3339(prompt.time, 0);
     return prompt.is_at_start
-               ? text::message("the box was moved until {}: begin there, or was it not moved?",
-                               time)
+               ? text::message(
+                     "the box was moved until {}: should the stay begin at that time, or was the "
+                     "box not moved?",
+                     time)
                : text::message(
-                     "the box was moved at {}: stop there, next set-up there, or was it not "
-                     "moved?",
+                     "the box was moved at {}: stop at that time, next set-up at that time, or was "
+                     "it not moved?",
                      time);
 }
 

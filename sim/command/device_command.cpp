@@ -204,7 +204,7 @@ void add_device_command(CLI::App& app, UntilStopped until_stopped) {
         ->capture_default_str();
     device
         ->add_option("--truth", command->truth,
-                     "File to write with every frame and what became of it")
+                     "File to write with every frame and what happened to it")
         ->type_name("FILE");
     device->add_option("--report", command->report, "JSON file to write at the end")
         ->type_name("FILE");

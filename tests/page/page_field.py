@@ -57,7 +57,7 @@ def show_between_stays(stub, browser):
     stub.status["occupation"] = None
     stub.status["verdict"] = verdict("warming up")
     browser.wait_for_text("last-value", "979861.32 ± 1.27 mGal gravity so far", seconds=10)
-    demand("a known benchmark shows its difference", browser.text("last-name") == "Last stay: No.5 (1), left out − known +12.10 mGal")
+    demand("a known benchmark shows its difference", browser.text("last-name") == "Last stay: No.5 (1), left out − reference +12.10 mGal")
     browser.wait_for_text("gravity-findings", headline)
     demand("of the findings only the headline is shown", browser.text("gravity-findings") == headline)
     demand_for_gloves(browser, "between stays", "last-value", ["verdict-word", "start-site", "start"])

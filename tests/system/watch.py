@@ -200,7 +200,7 @@ def operate(session):
     watched.press("nlorr \u5c71\x7f\x7fy\n")
     watched.shows("answer noted at ")
     watched.press("x")
-    watched.shows("stop No.1? y stop, any other key: no")
+    watched.shows("stop No.1? y: stop, any other key: cancel")
     watched.shows("2 of 3 planned set-ups; the verdict is ")
     watched.press("n")
     watched.shows("nothing was changed")
@@ -292,11 +292,11 @@ def answer_move():
         occupation=occupation("Mt Tsukuba", whole=both, planned_set_ups=3, set_up_count=2, set_up_left_s=0.0, propose_set_up=True,
                               moved={"utc": at, "is_at_start": False},
                               warnings=["the site was occupied before: this is stay 2", "90 s are missing in this set-up",
-                                        f"the box was moved at {at}: stop there, next set-up there, or was it not moved?"]))
+                                        f"the box was moved at {at}: stop at that time, next set-up at that time, or was it not moved?"]))
     stub.survey = survey([stay("No.0", difference_mgal=0.42)], [finding("No.3 (1) reads like No.7: it is 12.1 mGal too high for No.3", True)])
     named = {key: stub.status["occupation"][key] for key in ("key", "site")}
     watched = Watched(stub)
-    watched.shows("gravity No.0 (1): 979861.32 +- 1.27 mGal, left out - known +0.42 mGal; ! No.3 (1) reads like No.7")
+    watched.shows("gravity No.0 (1): 979861.32 +- 1.27 mGal, left out - reference +0.42 mGal; ! No.3 (1) reads like No.7")
     watched.shows("GB free")
     watched.demand_fits("with everything that can be said")
     for keys, path, body in (("xy", "stop", {**named, "at": "2026-03-01T01:43:20.500000000Z", "operator": "km"}),
@@ -306,7 +306,7 @@ def answer_move():
         wait_for(f"{keys} sends an order", lambda count=count: len(stub.posts) > count)
         demand(f"the keys {keys} send {path} {body}: {stub.posts[-1]}", stub.posts[-1] == (f"/api/occupation/{path}", body))
     watched.press("x")
-    watched.shows("stop Mt Tsukuba at 01:43:20, when the box was moved? y there, n now")
+    watched.shows("stop Mt Tsukuba at 01:43:20, when the box was moved? y: then, n: now")
     watched.press("zq")
     watched.demand_restored("q")
 

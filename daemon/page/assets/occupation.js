@@ -40,7 +40,7 @@ function test_text(one) {
 /** Returns by how much the gravity of a known benchmark differs from its reference, as the end of a sentence. */
 function difference_text(gravity) {
     const difference_mgal = gravity?.left_out_difference_mgal ?? null;
-    return difference_mgal === null ? "" : tr(", left out − known {} mGal", signed(difference_mgal, 2));
+    return difference_mgal === null ? "" : tr(", left out − reference {} mGal", signed(difference_mgal, 2));
 }
 
 export class OccupationPanel {
@@ -158,7 +158,7 @@ export class OccupationPanel {
         if (by_id("start-at").value) {
             // The latest such instant up to an hour ahead, which the daemon refuses: a watch may be fast.
             const instant_ms = nearest_instant(by_id("start-at").value, this.now_ms - 11 / 24 * kDay_ms);
-            if (instant_ms === null) return this.refuse(tr("started at: allowed: HH:MM or HH:MM:SS, HH:MMZ in UTC"));
+            if (instant_ms === null) return this.refuse(tr("the time of the start is not a time of day; allowed: HH:MM or HH:MM:SS, HH:MMZ in UTC"));
             order.at = new Date(instant_ms).toISOString();
         }
         if (await this.order("/api/occupation/start", order)) {
@@ -322,7 +322,7 @@ export class OccupationPanel {
         const time = time_of_day(moved.utc);
         set_text("moved-text", moved.is_at_start ? tr("The box was moved until {}, after the start.", time_with_utc(moved.utc))
             : tr("The box was moved at {} while {} runs.", time_with_utc(moved.utc), visible(one.site)));
-        set_text("moved-stop", moved.is_at_start ? tr("Begin at {}", time) : tr("Stop at {}", time));
+        set_text("moved-stop", moved.is_at_start ? tr("Move the start to {}", time) : tr("Stop at {}", time));
         set_text("moved-setup", tr("Next set-up at {}", time));
         show("moved-setup", !moved.is_at_start);
     }

@@ -53,7 +53,7 @@ export class StayDialogs {
             set_items("confirm-stop-doubts", doubts(stay, verdict).map((text) => [`⚠ ${text}`, ""]));
         } else if (kind === "discard") {
             set_text("discard-text", stay.end ? tr("Discard {}?", described(stay))
-                : tr("Discard the running occupation at {}, {} old?", visible(stay.site), duration(stay.running_s)));
+                : tr("Discard the running occupation at {}, {} so far?", visible(stay.site), duration(stay.running_s)));
         } else if (kind === "rename") {
             by_id("rename-site").value = by_id("rename-name").value = "";
             set_text("rename-text", tr("Choose the correct site for {}:", described(stay)));

@@ -212,8 +212,8 @@ TEST_CASE("the gravity so far is a table with findings first and remarks behind"
           "no new figures: killed: signal 9 ended it\n"
           "as of 2026-03-01T12:03:10.000Z, data up to 2026-03-01T12:03:09.500Z, model day\n");
     CHECK(newest_gravity(answer) ==
-          "No.0 (1): 979861.32 +- 1.27 mGal, left out - known -0.42 mGal (old figures); ! the box "
-          "moved");
+          "No.0 (1): 979861.32 +- 1.27 mGal, left out - reference -0.42 mGal (old figures); ! the "
+          "box moved");
     const std::string screen =
         watch_screen(nlohmann::json::object(), newest_gravity(answer), false);
     CHECK(screen.find("\ngravity      No.0 (1): 979861.32") != std::string::npos);

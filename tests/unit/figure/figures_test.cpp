@@ -117,7 +117,7 @@ TEST_CASE("a row of the whole-day model gets the record of which it averages mor
     REQUIRE(records.size() == 1);
     CHECK(records.front().value == &values[1]);
     CHECK_THAT(reading_figures(result, records).at(0).caption,
-               ContainsSubstring("the model day averages 280 s of it to 981702.125 mGal"));
+               ContainsSubstring("the model day averages 280 s of it, mean 981702.125 mGal"));
     CHECK_THAT(panel_figures(result, records).at(0).script, ContainsSubstring("mean 981702.1"));
 }
 

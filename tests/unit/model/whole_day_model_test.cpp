@@ -194,8 +194,8 @@ TEST_CASE("auto says what the whole-day model was compared with, or that nothing
     auto rows = rows_of(day);
     const auto all = correct_survey(rows, by_model("auto"), &day);
     REQUIRE(all.model == "day");
-    CHECK_THAT(all.remarks.at(0), ContainsSubstring("the whole-day model is used: it predicts "
-                                                    "stations left out with an error of"));
+    CHECK_THAT(all.remarks.at(0), ContainsSubstring("the whole-day model is used: its error at "
+                                                    "stations left out is"));
     for (SurveyRow& row : rows)
         if (row.site != "S0") row.reference.reset();
     const auto one = correct_survey(rows, by_model("auto"), &day);
@@ -323,7 +323,7 @@ TEST_CASE("auto leaves the whole-day model if a simpler one predicts stations be
     CHECK(result.model == "t");
     REQUIRE_FALSE(result.remarks.empty());
     CHECK_THAT(result.remarks.front(),
-               ContainsSubstring("not the whole-day model: it predicts stations left out with"));
+               ContainsSubstring("not the whole-day model: its error at stations left out is"));
     CHECK(correct_survey(rows, by_model("day"), &day).model == "day");
     rows = rows_of(kScattered.record());
     const DayRecord good = kScattered.record();

@@ -118,7 +118,7 @@ TEST_CASE("the summary says of every accuracy figure whether it is in sample or 
     CHECK_THAT(html, ContainsSubstring("<td>in sample</td>") &&
                          ContainsSubstring("<td>cross-validated (leave-one-out)</td>") &&
                          ContainsSubstring("<td>cross-validated (leave-one-station-out)</td>") &&
-                         ContainsSubstring("Warnings about the input: 1,") &&
+                         ContainsSubstring("Remarks and warnings: 1,") &&
                          ContainsSubstring("figures &lt;missing&gt;"));
 }
 
