@@ -22,7 +22,7 @@ class App;
 
 namespace a351::corrector::command {
 
-/// `amend`: what the findings of a survey propose, appended to its amendments file.
+/// `amend`: writes the amendments that the findings of a survey propose into its amendments file.
 void add_amend_command(CLI::App& program);
 /// `calibrate`: what is to be known of a unit before a survey, measured.  Writes a calibration file
 /// for `survey --calibration` and `record --apply`.

@@ -21,7 +21,7 @@ constexpr double kSizeRange_mgal = 100.0;
 constexpr double kLargestSize_u = 200.0;
 /// Least degrees of freedom of the scatter.  Reason: with fewer, everything is explained.
 constexpr double kFewestDof = 4.0;
-/// The same before a further mistake is searched while one that is not sure is put right on trial.
+/// The same, when a mistake that is not sure is put right on trial and a further one is searched for.
 /// Assumed: each of them takes one degree of freedom, and more than kFewestDof must be left.
 constexpr double kFewestTrialDof = 8.0;
 /// Simulated surveys: first enough to see that nothing is found, then to know a small probability.

@@ -14,7 +14,7 @@ namespace {
 /// Reason: a set-up of 6 min is about as good as one of 12 (methods.md, "Moved box").
 constexpr int kShortDivisor = 2;
 constexpr std::chrono::minutes kLongEnough(6);
-/// Fewest stays whose median is compared with.
+/// Fewest stays that are compared with their median.
 constexpr std::size_t kFewestCompared = 5;
 /// Errors of the clock above this are named.  Reason: the ends of a stay are known to a second, and in
 /// a second the tide changes by less than 0.1 uGal.

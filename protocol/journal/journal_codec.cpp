@@ -141,7 +141,7 @@ struct PayloadWriter {
     void operator()(const ModelChunk& model) const {
         put<std::int64_t>(out, model.index);
         put<std::int64_t>(out, model.time.utc.time_since_epoch().count());
-        // While the host's clock is in 1970 the uncertainty is decades.  A reader takes a time
+        // While the host's clock is in 1970 the uncertainty is decades.  A reader takes a span
         // above kLongestSpan for damage.
         put<std::int64_t>(out, std::min(model.time.uncertainty, kLongestSpan).count());
         put<std::uint8_t>(out, static_cast<std::uint8_t>(model.time.state));

@@ -83,7 +83,8 @@ TEST_CASE("each reason for which there is no gravity so far has its code", "[so_
     CHECK(reason() == "no_metadata");
 }
 
-TEST_CASE("a data root takes its sites from --sites, or from sites.csv beside it", "[so_far]") {
+TEST_CASE("a data root takes its sites from --sites, or from the folder that contains it",
+          "[so_far]") {
     const Morning morning;
     for (std::size_t i = 0; i < 4; ++i) log_stay(morning, i);
     std::filesystem::rename(morning.folder().path() / "sites.csv",
