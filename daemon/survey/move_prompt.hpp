@@ -6,6 +6,7 @@
 
 #include "protocol/core/utc_time.hpp"
 #include "protocol/signal/moved_box.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::survey {
 
