@@ -3,6 +3,7 @@
 Files of a root only grow, so any state that the root had during a run can be made again later: a copy, cut to the sizes of that instant.
 """
 
+import json
 import pathlib
 import shutil
 import struct
@@ -39,6 +40,11 @@ def chunk_ends(data, begin):
     return ends
 
 
+def as_of(answer):
+    """Returns the instant that an answer describes, RFC 3339."""
+    return json.loads(answer)["as_of_utc"]
+
+
 class TracedCorrector:
     def __init__(self, scratch):
         """Puts the daemon and the corrector with its trace into a folder of their own."""
@@ -50,37 +56,57 @@ class TracedCorrector:
         (scratch / "bin" / "a351-correct").chmod(0o755)
 
     def states(self, before, after):
-        """Yields a copy of the root in each state between two, the oldest first: archive and logs as before or after, with the
-        journal cut at each of its chunks between."""
-        copy = self.scratch / "copy"
+        """Returns the states of the root between two, the oldest first, as sizes of its files: the journal cut at each of its chunks
+        between, archive and logs as before; then the same with archive and logs as after."""
+        all_states = []
         for others in (before, after):
-            shutil.rmtree(copy, ignore_errors=True)
-            grown = []
-            for name in sorted(after):
-                is_journal = name.startswith("journal/")
-                data = (self.scratch / "data" / name).read_bytes()[:(after if is_journal else others).get(name, 0)]
-                least = before.get(name, 0) if is_journal else len(data)
-                if least > 0 or name in others:
-                    (copy / name).parent.mkdir(parents=True, exist_ok=True)
-                    (copy / name).write_bytes(data[:least])
-                if least < len(data):
-                    grown.append((copy / name, data, chunk_ends(data, least)))
-            yield copy
-            for file, data, ends in grown:
-                for end in ends:
-                    file.write_bytes(data[:end])
-                    yield copy
+            state = {name: before.get(name, 0) if name.startswith("journal/") else others.get(name, 0) for name in after}
+            all_states.append(state)
+            for name in sorted(name for name in after if name.startswith("journal/")):
+                data = (self.scratch / "data" / name).read_bytes()[:after[name]]
+                for end in chunk_ends(data, before.get(name, 0)):
+                    state = {**state, name: end}
+                    all_states.append(state)
+        return all_states
+
+    def answer(self, state):
+        """Returns what the corrector prints for a copy of the root in that state."""
+        copy = self.scratch / "copy"
+        shutil.rmtree(copy, ignore_errors=True)
+        for name, size in state.items():
+            if size > 0:
+                (copy / name).parent.mkdir(parents=True, exist_ok=True)
+                (copy / name).write_bytes((self.scratch / "data" / name).read_bytes()[:size])
+        return subprocess.run([BIN / "a351-correct", "survey", copy, "--sites", self.scratch / "sites.csv", "--json"],
+                              capture_output=True, check=False).stdout
 
     def compare(self, document):
-        """Runs the corrector on copies of the root, one for each state that it had during the run that printed the document.
+        """Searches for the state of the root that the corrector saw in the run that printed the document.
+
+        The journal grows from state to state, and with it the instant that the answer describes.  So the first state of that instant
+        is found by bisection, and all states of the same instant are tried: with the archive as before, then as after.
 
         @return number of copies until one gave the same bytes, or None if none did
         """
         run = next(one for one in sorted(self.trace.iterdir(), reverse=True)
                    if (one / "after").exists() and (one / "output").read_bytes() == document)
-        for count, copy in enumerate(self.states(sizes(run / "before"), sizes(run / "after")), 1):
-            answer = subprocess.run([BIN / "a351-correct", "survey", copy, "--sites", self.scratch / "sites.csv", "--json"],
-                                    capture_output=True, check=False)
-            if answer.stdout == document:
-                return count
+        states = self.states(sizes(run / "before"), sizes(run / "after"))
+        half = len(states) // 2
+        copies = 0
+        for begin, end in ((0, half), (half, len(states))):
+            low, high = begin, end
+            while low < high:
+                middle = (low + high) // 2
+                answer = self.answer(states[middle])
+                copies += 1
+                if answer == document:
+                    return copies
+                low, high = (middle + 1, high) if as_of(answer) < as_of(document) else (low, middle)
+            for state in states[low:end]:
+                answer = self.answer(state)
+                copies += 1
+                if answer == document:
+                    return copies
+                if as_of(answer) > as_of(document):
+                    break
         return None
