@@ -25,9 +25,9 @@ using Lags = std::array<double, 4>;
 
 constexpr double kShortest_s = 240.0;  // at shorter periods the thermometer's noise dominates
 constexpr Index kLinear = 5;           // number of linear terms: drift ... slow
-constexpr double kDriftDeviation_mgal_per_h = 1.0;
+constexpr double kDriftDeviation_mgal_per_h = 1.0;  // assumed: the linear drift of a record
 constexpr double kWarmUpDeviation_mgal = 60.0;  // more than the warm-up of the typical unit
-constexpr double kWarmUpTimeFactor = 1.5;
+constexpr double kWarmUpTimeFactor = 1.5;       // assumed: how much the times of units differ
 /// Priors of the linear terms, then of the outer oven's slopes, which may be as large as those of the
 /// sensor; their means are 0.
 constexpr std::array<double, kLinear + 2> kPriorDeviation{

@@ -14,7 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kShortestRealWait{50};
+constexpr milliseconds kShortestRealWait{50};  // a fast emulator is not asked without a pause
 // Waiting times in instrument time, which real_wait() converts.
 constexpr seconds kPortRetry{1};
 constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
