@@ -107,8 +107,8 @@ with Scratch() as scratch:
     if speed > 1:  # At factor 1 the last records stay open for minutes; the corrector takes them from the journal.
         wait_for("the archive has everything", lambda: session.status()["archived"] == session.status()["received"], 60)
     for place, shown in answers:  # Now, because the corrector beside the recording would delay the next value.
-        copies = traced.compare(shown)
-        demand(f"{place}: its {len(shown)} bytes are those of the corrector on a copy of the root (copy {copies})", copies is not None)
+        state = traced.compare(shown)
+        demand(f"{place}: its {len(shown)} bytes are those of the corrector on a copy of the root (state {state})", state is not None)
     session.ctl("note", "end of the test")
     last = survey(session)["as_of_utc"]
     wait_for("figures of the silent sensor", lambda: survey(session)["as_of_utc"] != last, 30)

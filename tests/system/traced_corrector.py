@@ -3,6 +3,7 @@
 Files of a root only grow, so any state that the root had during a run can be made again later: a copy, cut to the sizes of that instant.
 """
 
+import bisect
 import json
 import pathlib
 import shutil
@@ -86,27 +87,18 @@ class TracedCorrector:
         The journal grows from state to state, and with it the instant that the answer describes.  So the first state of that instant
         is found by bisection, and all states of the same instant are tried: with the archive as before, then as after.
 
-        @return number of copies until one gave the same bytes, or None if none did
+        @return number of the state that gave the same bytes, or None if none did
         """
         run = next(one for one in sorted(self.trace.iterdir(), reverse=True)
                    if (one / "after").exists() and (one / "output").read_bytes() == document)
         states = self.states(sizes(run / "before"), sizes(run / "after"))
         half = len(states) // 2
-        copies = 0
         for begin, end in ((0, half), (half, len(states))):
-            low, high = begin, end
-            while low < high:
-                middle = (low + high) // 2
-                answer = self.answer(states[middle])
-                copies += 1
+            first = bisect.bisect_left(states, as_of(document), begin, end, key=lambda state: as_of(self.answer(state)))
+            for number in range(first, end):
+                answer = self.answer(states[number])
                 if answer == document:
-                    return copies
-                low, high = (middle + 1, high) if as_of(answer) < as_of(document) else (low, middle)
-            for state in states[low:end]:
-                answer = self.answer(state)
-                copies += 1
-                if answer == document:
-                    return copies
+                    return number
                 if as_of(answer) > as_of(document):
                     break
         return None
