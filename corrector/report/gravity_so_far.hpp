@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// Gravity so far: one JSON document about the stays of a day that is still being recorded.  The
-/// daemon shows it; its members are in the manual page a351-correct-survey(1).
+/// daemon shows it; its members are in corrector/result/table-format.md, "Gravity so far".
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
