@@ -133,12 +133,20 @@ void Handshake::fail(std::string reason) {
     queue_.push_back(HandshakeFailure{std::move(reason), !has_answered_});
 }
 
+/// Reading has cleared DIAG_STAT, so that only a new start-up shows a fault again.
+void Handshake::test_again(std::string reason) {
+    send(config_->write(kGlobCmd, kGlobSoftReset, kLowByte));
+    fail(std::move(reason));
+}
+
 void Handshake::take_answer(std::span<const std::byte> answer) {
     const auto value = parse_answer(*asked_, answer);
     if (asked_ == &kId) {  // not required: Epson's other devices answer 0x5345
         if (!value) queue_.push_back(kShortDrain);
         return ask_target();
     }
+    if (!value && asked_ == &kDiagStat)
+        return test_again("DIAG_STAT: the answer was lost, and the fault that it may have named");
     if (!value) {
         return retry(fmt::format("{}: expected an answer of 4 bytes, found none in {} tries",
                                  asked_->name, kTries));
@@ -168,9 +176,10 @@ void Handshake::take_start_up(std::uint16_t value) {
 void Handshake::take_diagnosis(std::uint16_t value) {
     identity_.diag_stat = value;
     const std::string found = mismatch(kDiagStat, 0, value, kDiagHardError | kDiagFlashError);
-    if ((value & kDiagHardError) != 0) return fail(found + ": HARD_ERR, the sensor is faulty");
+    if ((value & kDiagHardError) != 0)
+        return test_again(found + ": HARD_ERR, the sensor is faulty");
     if ((value & kDiagFlashError) != 0)
-        return fail(found + ": FLASH_ERR, the sensor could not read its calibration");
+        return test_again(found + ": FLASH_ERR, the sensor could not read its calibration");
     ask(&Handshake::take_identity, *register_at(Window::w1, kFirstIdentityAddress));
 }
 

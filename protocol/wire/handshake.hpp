@@ -110,8 +110,8 @@ using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling
 
 /// Sequence: stop and drain twice, check configuration mode, wait for start-up, check diagnosis,
 /// read identity, set registers (only those that differ are written), check rate against filter,
-/// check window, start.  A read without a valid answer is repeated.  Flash is never written and the
-/// baud rate is never changed.
+/// check window, start.  A read without a valid answer is repeated, except that of DIAG_STAT.  Flash
+/// is never written and the baud rate is never changed.
 ///
 /// A read is tried three times, a setting is written twice at most; then the handshake fails and
 /// names the register.  It recovers from a device that is sampling and from a command that another
@@ -122,8 +122,10 @@ using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling
 /// and noise mode are left as found.  Offsets, alarm limits and long-term filter are neither read
 /// nor changed.  Nothing is saved: a reset or loss of power restores the settings in the flash.
 ///
-/// HARD_ERR and FLASH_ERR in DIAG_STAT are refused; other bits are only reported.  Another product
-/// identifier is only reported too.
+/// HARD_ERR and FLASH_ERR in DIAG_STAT are refused; other bits are only reported.  The read clears
+/// the register.  After such a bit, or a lost answer, the device is therefore reset: its start-up
+/// tests it again, and the next handshake refuses it as long as the fault is there.  Another
+/// product identifier is only reported.
 ///
 /// An object is for one attempt and for one thread at a time.
 class Handshake {
@@ -164,6 +166,7 @@ private:
     void queue_read();
     void retry(std::string reason);
     void fail(std::string reason);
+    void test_again(std::string reason);
 
     void take_answer(std::span<const std::byte> answer);
     void take_mode(std::uint16_t value);
