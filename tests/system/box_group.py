@@ -20,6 +20,11 @@ def spread_s(instants):
     return (max(times) - min(times)).total_seconds()
 
 
+def last_sample(session):
+    """Returns the time of the last sample, None if there is none."""
+    return (session.status().get("sample") or {}).get("utc")
+
+
 class Boxes:
     """Boxes on the host's clock, so that their times can be compared.  Their page is at http://127.0.0.1:PORT."""
 
@@ -47,8 +52,10 @@ class Boxes:
         session.daemon.wait(timeout=30)
 
     def revive(self, session):
+        """Starts a daemon again and waits for two seconds of samples, because the first ones have no time yet."""
+        since = datetime.datetime.now(datetime.timezone.utc) + datetime.timedelta(seconds=2)
         session.daemon = session.start_daemon()
-        wait_for("the daemon has samples again", lambda: (session.status().get("counters") or {}).get("frames", 0) > 100)
+        wait_for("the daemon has samples again", lambda: (last := last_sample(session)) and instant(last) > since)
 
     def ctl(self, *arguments):
         """Runs a351ctl for all boxes."""

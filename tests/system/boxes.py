@@ -9,10 +9,12 @@ import time
 import urllib.error
 import urllib.request
 
-from box_group import SAMPLE_S, Boxes, spread_s
+from box_group import SAMPLE_S, Boxes, last_sample, spread_s
 from programs import Scratch, demand
 
 
+# After this time received samples are on the disk, so that a killed daemon has them: 0.1 s, and more if the disk stalls.
+JOURNALED_S = 3.0
 STRANGER = "http://evil.example"
 
 
@@ -49,7 +51,8 @@ def repeat_instant(boxes, said):
 def orders(boxes):
     """All stays by the terminal, with one box dead at the start and at the stop."""
     count, dead, alive = len(boxes.sessions), boxes.sessions[-1], boxes.sessions[:-1]
-    before = min(session.status()["sample"]["utc"] for session in boxes.sessions)
+    before = min(last_sample(session) for session in boxes.sessions)
+    time.sleep(JOURNALED_S)
     boxes.kill(dead)
     said = boxes.ctl("start", "No.1", "--operator", "Ito", "--at", before)
     again = repeat_instant(boxes, said)

@@ -13,7 +13,8 @@ from stopped_host import stop
 RUNNER = [sys.executable, str(TOP / "tests" / "system" / "steady_host.py")]
 STOPPED_S = 1.0
 
-# Counts its runs, leaves a process in another session that holds the port, and fails if it was delayed.
+# Counts its runs, leaves a process in another session that holds the port, and fails if it was delayed.  It runs for 3 s, so
+# that on a busy host it is still running when it is stopped.
 DELICATE = """import os, socket, sys, time
 port, result_of_steady = int(sys.argv[1]), int(sys.argv[2])
 held = socket.create_server(("127.0.0.1", port))
@@ -22,7 +23,7 @@ if os.fork() == 0:
     time.sleep(1000)
 held.close()
 open("runs", "a").write("run\\n")
-for _ in range(100):
+for _ in range(300):
     before = time.monotonic()
     time.sleep(0.01)
     if time.monotonic() - before > 0.5:
@@ -32,7 +33,7 @@ sys.exit(result_of_steady)
 # Does not fail when it is delayed.
 STURDY = """import time
 open("runs", "a").write("run\\n")
-time.sleep(1)
+time.sleep(3)
 """
 HANGING = """import time
 open("runs", "a").write("run\\n")

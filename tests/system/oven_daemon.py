@@ -138,12 +138,13 @@ def play_all(scratch, session):
            and session.oven()["port"].startswith(str((scratch / "oven").readlink()) + ","))
 
     (scratch / "second").mkdir()
+    port = unused_port()
     (scratch / "second" / "a351d.toml").write_text(
-        daemon_config(session.port + 1) + '[oven]\nenabled = true\nport = "../oven"\nparity = "N"\n')
+        daemon_config(port) + '[oven]\nenabled = true\nport = "../oven"\nparity = "N"\n')
     second = subprocess.Popen([BIN / "a351d", "--config", "second/a351d.toml"], cwd=scratch,
                               stderr=subprocess.PIPE)
     wait_for("a second daemon reports that the port is in use", lambda: "in use by another process" in
-             (daemon_status(session.port + 1) or {"oven": {"trouble": ""}})["oven"]["trouble"])
+             (daemon_status(port) or {"oven": {"trouble": ""}})["oven"]["trouble"])
     second.terminate()
     second.communicate(timeout=30)
     demand("the second daemon does not disturb the oven of the first one", session.is_well())
