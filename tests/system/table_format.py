@@ -81,6 +81,10 @@ with Scratch() as scratch:
     for model in ("day", "t-rate-drift-axes", "paper", "robust", "network", "reduced"):
         for check in (check_names, check_formulas, check_json):
             check(model, scratch / "day" / model)
+    so_far = json.loads(run(BIN / "a351-correct", "survey", scratch / "day",
+                             "--sites", scratch / "day" / "sites.csv", "--json").stdout)
+    demand(f"the gravity so far has {len(so_far['stays'])} stays", so_far["stays"])
+    demand_named("gravity so far", keys(so_far), PAGE)
     run(BIN / "a351-correct", "record", scratch / "day", "--ensemble", 4, "--out", scratch / "record")
     written = json.loads((scratch / "record" / "result.json").read_text()).keys()
     demand_named("record", written | columns(scratch / "record", "record", "response"), RECORD_PAGE)
