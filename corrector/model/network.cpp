@@ -152,9 +152,13 @@ Refusal refusal_of(const NetworkAdjustment& network, const NetworkReadings& read
     std::vector<std::string> names;
     bool has_drift = false;
     for (const std::size_t k : open) {
-        const bool is_term = k >= network.stations.size();
-        names.push_back(is_term ? network.terms[k - network.stations.size()] : network.stations[k]);
-        has_drift = has_drift || (is_term && names.back().starts_with("time"));
+        if (k < network.stations.size()) {
+            names.push_back(network.stations[k]);
+            continue;
+        }
+        const NetworkTerm& term = network.terms[k - network.stations.size()];
+        names.push_back(term.name);
+        has_drift = has_drift || term.kind == TermKind::drift;
     }
     return {fmt::format("the readings do not determine {}: {}", text::joined(names),
                         has_repeat(readings)
@@ -210,6 +214,12 @@ std::optional<double> NetworkAdjustment::studentised(std::size_t reading) const 
 double NetworkAdjustment::effect_mgal(std::size_t row, std::size_t term) const {
     return term_columns(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(term)) *
            unknowns(static_cast<Eigen::Index>(stations.size() + term));
+}
+
+const NetworkRow* NetworkAdjustment::datum_of(std::string_view site) const {
+    const auto row = std::ranges::find_if(
+        rows, [&](const NetworkRow& one) { return one.held && stations[*one.held] == site; });
+    return row == rows.end() ? nullptr : &*row;
 }
 
 NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,

@@ -72,12 +72,23 @@ inline constexpr double kLeastRedundancy = 1e-9;
 /// drift at most; a higher degree follows the readings.
 inline constexpr int kGreatestDriftDegree = 3;
 
-/// Name of the effect of the air pressure among the terms.
-inline constexpr std::string_view kAdmittanceTerm = "admittance_mgal_per_hpa";
-
 /// Number of adjustments, each linearised about the one before.  The first has no approximate gravity.
 /// Reason: the error of a round is that of the one before squared, times 1e-2 at most.
 inline constexpr int kScaleRounds = 5;
+
+/// Effect that a term of the instrument describes.
+enum class TermKind { constant, drift, temperature, rate, admittance, step, scale };
+
+/// A term of the instrument.
+struct NetworkTerm {
+    TermKind kind = TermKind::constant;
+    /// Name with unit; from the second loop on with a suffix `_loop2`, and the scales from the second
+    /// instrument on with `_instrument2`.
+    std::string name;
+    /// Prior of its unknown; the drifts of all loops have the same.  Absent for a scale, whose prior is
+    /// in NetworkScale.
+    std::optional<Prior> prior;
+};
 
 /// Scale of an instrument in an adjustment.
 struct NetworkScale {
@@ -109,14 +120,14 @@ struct NetworkRow {
     double residual = 0.0;    ///< v = A x - y, in the unit of the row.
     double sd = 1.0;          ///< Standard deviation a priori, in the unit of the row.
     double redundancy = 0.0;  ///< 0: uncontrolled, 1: fully controlled.
+    /// Number of the station that a datum holds; absent for a reading or a prior.
+    std::optional<std::size_t> held = {};
 };
 
 /// An adjusted network: s stations, m terms of the instrument, n survey rows.
 struct NetworkAdjustment {
     std::vector<std::string> stations;  ///< (s) Names, in order of the first reading in use.
-    /// (m) Terms of the instrument, with units; from the second loop on with a suffix `_loop2`, and
-    /// the scales from the second instrument on with `_instrument2`.
-    std::vector<std::string> terms;
+    std::vector<NetworkTerm> terms;     ///< (m) Terms of the instrument.
     std::vector<NetworkScale>
         scales;                ///< One per instrument, in order of its first row in a loop in use.
     MilliGal origin;           ///< Gravity of a station = origin + its unknown.
@@ -153,6 +164,8 @@ struct NetworkAdjustment {
     /// @param row   number of the survey row, in use or not.
     /// @param term  number in `terms`.
     [[nodiscard]] double effect_mgal(std::size_t row, std::size_t term) const;
+    /// Returns the row that holds a station; null if none does.  The pointer is into this object.
+    [[nodiscard]] const NetworkRow* datum_of(std::string_view site) const;
 };
 
 /// The adjustment, or the reason why there is none.

@@ -34,6 +34,30 @@ Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     return score;
 }
 
+/// Effects of the terms of a network on a row, by what they are called in a corrected survey, mGal.
+struct Effects {
+    double constant = 0.0, drift = 0.0, temperature = 0.0, rate = 0.0, pressure = 0.0, scale = 0.0;
+
+    double& of(TermKind kind) {
+        switch (kind) {
+            case TermKind::constant:
+                return constant;
+            case TermKind::drift:
+            case TermKind::step:
+                return drift;
+            case TermKind::temperature:
+                return temperature;
+            case TermKind::rate:
+                return rate;
+            case TermKind::admittance:
+                return pressure;
+            case TermKind::scale:
+                return scale;
+        }
+        return constant;
+    }
+};
+
 /// Returns the variance (mGal^2 a priori) of the terms' effect on a row, or on a mean of rows.
 /// @param line  the row's regressors, or their mean.
 double effect_variance(const NetworkAdjustment& network, const Eigen::RowVectorXd& line) {
@@ -47,26 +71,17 @@ void set_rows(Fit& result, const NetworkAdjustment& network, const std::vector<b
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
         out.is_used = in_use[i];
-        double constant = 0.0, drift = 0.0, temperature = 0.0, rate = 0.0, pressure = 0.0,
-               scale = 0.0;
-        for (std::size_t k = 0; k < network.terms.size(); ++k) {
-            const double effect = network.effect_mgal(i, k);
-            const std::string& name = network.terms[k];
-            (name.starts_with("constant")      ? constant
-             : name.starts_with("time")        ? drift
-             : name.starts_with("step")        ? drift
-             : name.starts_with(kScale)        ? scale
-             : name.starts_with("temperature") ? temperature
-             : name == kAdmittanceTerm         ? pressure
-                                               : rate) += effect;
-        }
-        out.temperature_correction = MilliGal(-constant - temperature);
-        out.rate_correction = MilliGal(-rate);
-        out.drift_correction = MilliGal(-drift);
-        out.scale_correction = MilliGal(-scale);
+        Effects effects;
+        for (std::size_t k = 0; k < network.terms.size(); ++k)
+            effects.of(network.terms[k].kind) += network.effect_mgal(i, k);
+        out.temperature_correction = MilliGal(-effects.constant - effects.temperature);
+        out.rate_correction = MilliGal(-effects.rate);
+        out.drift_correction = MilliGal(-effects.drift);
+        out.scale_correction = MilliGal(-effects.scale);
         if (out.row.pressure_correction) {
-            out.row.acceleration = out.row.acceleration - MilliGal(pressure);
-            *out.row.pressure_correction = *out.row.pressure_correction - MilliGal(pressure);
+            const MilliGal pressure(effects.pressure);
+            out.row.acceleration = out.row.acceleration - pressure;
+            *out.row.pressure_correction = *out.row.pressure_correction - pressure;
         }
         out.corrected = out.row.acceleration - out.row.tide + out.temperature_correction +
                         out.rate_correction + out.drift_correction + *out.scale_correction;
@@ -103,12 +118,14 @@ double pressure_correlation(const std::vector<CorrectedRow>& rows,
 }
 
 /// Returns the fitted admittance in words, and if the readings can distinguish it from gravity.
-text::Message admittance_remark(const Fit& result, const std::vector<bool>& in_use) {
+text::Message admittance_remark(const Fit& result, const NetworkAdjustment& network,
+                                const std::vector<bool>& in_use) {
     // Real admittances are -0.0002 to -0.0004 mGal/hPa: a value whose error is larger than half
     // this range is not better than the usual one.
     constexpr double kUsual_mgal_per_hpa = -0.0003, kGoodError_mgal_per_hpa = 0.0001;
-    const Coefficient& admittance =
-        *std::ranges::find(result.coefficients, kAdmittanceTerm, &Coefficient::name);
+    const auto term = std::ranges::find(network.terms, TermKind::admittance, &NetworkTerm::kind) -
+                      network.terms.begin();
+    const Coefficient& admittance = result.coefficients[static_cast<std::size_t>(term)];
     const double u = admittance.standard_error.value();
     return text::message(
         "admittance {:.5f} +- {:.5f} mGal/hPa, fitted; pressure and readings correlate by {:.3f}{}",
@@ -135,8 +152,8 @@ StationValue adjusted_station(const Fit& result, const NetworkAdjustment& networ
         ++station.row_count;
         *station.redundancy += 1.0 - row.leverage.value();
     }
-    for (const NetworkRow& row : network.rows)
-        if (row.label == "datum " + station.site) *station.redundancy += row.redundancy;
+    if (const NetworkRow* const datum = network.datum_of(station.site))
+        *station.redundancy += datum->redundancy;
     return station;
 }
 
@@ -214,16 +231,15 @@ void set_station_errors(Fit& result, const NetworkAdjustment& network) {
         places.push_back(at - network.stations.begin());
         station.left_out = station.gravity;
         station.u_left_out = station.u_gravity;
-        for (const NetworkRow& row : network.rows) {
-            if (row.label != "datum " + station.site) continue;
-            // The prediction without the row: reference + v / r, with the variance sd^2 (1 - r) / r.
-            station.left_out.reset();
-            station.u_left_out.reset();
-            if (row.redundancy < kLeastRedundancy) continue;
-            station.left_out = *station.reference + MilliGal(row.residual / row.redundancy);
-            station.u_left_out =
-                MilliGal(row.sd * std::sqrt((1.0 - row.redundancy) / row.redundancy));
-        }
+        const NetworkRow* const datum = network.datum_of(station.site);
+        if (datum == nullptr) continue;
+        // The prediction without the row: reference + v / r, with the variance sd^2 (1 - r) / r.
+        station.left_out.reset();
+        station.u_left_out.reset();
+        if (datum->redundancy < kLeastRedundancy) continue;
+        station.left_out = *station.reference + MilliGal(datum->residual / datum->redundancy);
+        station.u_left_out =
+            MilliGal(datum->sd * std::sqrt((1.0 - datum->redundancy) / datum->redundancy));
     }
     covariance.mgal2 = network.covariance(places, places);
     for (std::size_t b = 0; b < covariance.sites.size(); ++b) {
@@ -261,7 +277,7 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(network.stations.size() + k);
         result.coefficients.push_back(
-            {network.terms[k], network.unknowns(at), std::sqrt(network.covariance(at, at))});
+            {network.terms[k].name, network.unknowns(at), std::sqrt(network.covariance(at, at))});
     }
     for (const NetworkScale& scale : network.scales) {
         Coefficient& coefficient = result.coefficients[scale.term];
@@ -271,7 +287,7 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     }
     set_rows(result, network, choice.accepted, options.priors);
     if (options.network.fits_admittance)
-        result.remarks.push_back(admittance_remark(result, choice.accepted));
+        result.remarks.push_back(admittance_remark(result, network, choice.accepted));
     set_stations(result, network, sd);
     set_station_errors(result, network);
     leave_out_untied(result, network);

@@ -107,19 +107,25 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
                const NetworkOptions& options) {
     const int drift_degree = options.drift_degree;
     const Loops loops = find_loops(rows, in_use);
+    const auto add = [&](TermKind kind, const std::string& coefficient,
+                         const std::string& suffix = "") {
+        const Prior* const prior = priors.find(coefficient);
+        network.terms.push_back(
+            {kind, coefficient + suffix, prior == nullptr ? std::nullopt : std::optional(*prior)});
+    };
     for (std::size_t loop = 0; loop < loops.count; ++loop) {
         // From the second loop on, the names have the number of the loop.
         const std::string suffix = loop == 0 ? "" : fmt::format("_loop{}", loop + 1);
-        network.terms.push_back("constant_mgal" + suffix);
-        if (drift_degree >= 1) network.terms.push_back("time_mgal_per_h" + suffix);
+        add(TermKind::constant, "constant_mgal", suffix);
+        if (drift_degree >= 1) add(TermKind::drift, "time_mgal_per_h", suffix);
         for (int k = 2; k <= drift_degree; ++k)
-            network.terms.push_back(fmt::format("time{0}_mgal_per_h{0}{1}", k, suffix));
+            add(TermKind::drift, fmt::format("time{0}_mgal_per_h{0}", k), suffix);
     }
     const bool has_temperature =
         temperature_varies(rows, in_use) || priors.find("temperature_mgal_per_degc") != nullptr;
     const bool has_rate = priors.find("rate_mgal_per_degc_per_h") != nullptr;
     if (has_temperature)
-        network.terms.emplace_back("temperature_mgal_per_degc");
+        add(TermKind::temperature, "temperature_mgal_per_degc");
     else
         network.remarks.push_back(
             rows.front().has_temperature
@@ -128,13 +134,13 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
                       "be separated from the constant and is left out")
                 : text::message("no temperature is given: the readings are taken as corrected for "
                                 "it"));
-    if (has_rate) network.terms.emplace_back("rate_mgal_per_degc_per_h");
-    if (options.fits_admittance) network.terms.emplace_back(kAdmittanceTerm);
+    if (has_rate) add(TermKind::rate, "rate_mgal_per_degc_per_h");
+    if (options.fits_admittance) add(TermKind::admittance, "admittance_mgal_per_hpa");
     std::vector<Eigen::VectorXd> steps;
     for (std::size_t k = 0; k < options.steps.size(); ++k) {
         Eigen::VectorXd column = step_column(rows, in_use, loops, options.steps[k]);
         if (column.isZero()) continue;
-        network.terms.push_back(fmt::format("step_{}_mgal", k + 1));
+        add(TermKind::step, fmt::format("step_{}_mgal", k + 1));
         steps.push_back(std::move(column));
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -142,8 +148,10 @@ void set_terms(NetworkAdjustment& network, const std::vector<reading::SurveyRow>
         const Prior prior = priors.scale_of(rows[i].instrument);
         const std::size_t count = network.scales.size();
         network.scales.push_back({rows[i].instrument, prior, network.terms.size(), prior.mean});
-        network.terms.push_back(count == 0 ? std::string(kScale)
-                                           : fmt::format("{}_instrument{}", kScale, count + 1));
+        network.terms.push_back(
+            {TermKind::scale,
+             count == 0 ? std::string(kScale) : fmt::format("{}_instrument{}", kScale, count + 1),
+             std::nullopt});
     }
 
     const auto degree = static_cast<Eigen::Index>(drift_degree);
@@ -257,19 +265,19 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<reading
         auto line = add_row(system, network, "datum " + network.stations[k],
                             std::max(u.value(), kLeastSd_mgal),
                             (readings.references[k] - network.origin).value());
+        network.rows.back().held = k;
         line(static_cast<Eigen::Index>(k)) = 1.0;
     }
     for (const NetworkScale& scale : network.scales) {
-        auto line = add_row(system, network, "prior " + network.terms[scale.term], scale.prior.sd,
-                            scale.prior.mean - 1.0);
+        auto line = add_row(system, network, "prior " + network.terms[scale.term].name,
+                            scale.prior.sd, scale.prior.mean - 1.0);
         line(station_count + static_cast<Eigen::Index>(scale.term)) = 1.0;
     }
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
-        // The drifts of all loops have the same prior.
-        const std::string& term = network.terms[k];
-        const Prior* const prior = priors.find(term.substr(0, term.find("_loop")));
-        if (prior == nullptr || term.starts_with(kScale)) continue;
-        auto line = add_row(system, network, "prior " + term, prior->sd, prior->mean);
+        const NetworkTerm& term = network.terms[k];
+        if (!term.prior) continue;
+        auto line =
+            add_row(system, network, "prior " + term.name, term.prior->sd, term.prior->mean);
         line(station_count + static_cast<Eigen::Index>(k)) = 1.0;
     }
     return system;

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -25,10 +24,9 @@ ReferenceCheck check_references(const model::SurveyCorrection& result,
     ReferenceCheck check;
     double squares = 0.0;
     for (const model::StationValue& station : result.stations) {
-        const bool is_held = std::ranges::any_of(network.rows, [&](const model::NetworkRow& row) {
-            return row.label == "datum " + station.site;
-        });
-        if (is_held || station.is_flagged_only || !station.residual) continue;
+        if (network.datum_of(station.site) != nullptr || station.is_flagged_only ||
+            !station.residual)
+            continue;
         ++check.station_count;
         squares += station.residual->value() * station.residual->value();
     }

@@ -38,7 +38,7 @@ NetworkResult adjust(const std::vector<SurveyRow>& rows, const NetworkOptions& o
 
 double value_of(const NetworkAdjustment& network, const std::string& term) {
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
-        if (network.terms[k] == term) {
+        if (network.terms[k].name == term) {
             return network.unknowns(static_cast<Eigen::Index>(network.stations.size() + k));
         }
     }
