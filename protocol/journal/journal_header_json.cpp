@@ -1,7 +1,7 @@
+#include "protocol/journal/journal_header_json.hpp"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "protocol/journal/journal_codec.hpp"
 
 namespace a351::journal {
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "protocol/files/file_bytes.hpp"
+#include "protocol/journal/chunk_payload.hpp"
 #include "protocol/journal/journal_compression.hpp"
 
 namespace a351::journal {

@@ -4,6 +4,8 @@
 #include <vector>
 #include "tests/support/catch.hpp"
 
+#include "protocol/journal/chunk_payload.hpp"
+#include "protocol/journal/journal_header_json.hpp"
 #include "tests/unit/journal/journal_samples.hpp"
 
 namespace a351::journal {
