@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "corrector/whole_day/search_grid.hpp"
-#include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
 #include "protocol/signal/median.hpp"
@@ -15,14 +14,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
-
 // fit_day() lists the priors; corrector/methods.md gives their origin.
 constexpr LogNormalPrior kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
 constexpr double kWhiteFactor = 2.0;
-// Assumed, because nobody has measured a double oven: the wall hardly acts, or up to as much as the sensor's
-// own slow response (two deviations are 27 mGal/degC).
-constexpr LogNormalPrior kOuterSize_mgal_per_degc{3.0, 3.0};
 
 /// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
 /// at least 1e-3.  It is the median of the white noise's prior.
@@ -40,164 +34,10 @@ double bin_scatter_mgal(const std::vector<reading::DayBin>& bins) {
 
 DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
                        const DayPriors& priors, const std::vector<double>& rough_mgal)
-    : record_(record),
-      stations_(stations),
+    : DayRegression(record, stations, priors, rough_mgal),
       priors_(priors),
-      means_(record.temperature.series, record.bins),
       whitening_(record.bins),
-      white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {
-    set_states();
-    set_gravities();
-    set_readings(rough_mgal);
-    set_fixed_columns();
-}
-
-void DayProblem::set_states() {
-    const double fast_lag_s = lag_s({}, kFastLag), slow_lag_s = lag_s({}, kSlowLag);
-    states_ = lag_states(record_.temperature, fast_lag_s, slow_lag_s);
-    // Root of the mean square of a slope, by its prior.
-    const auto size = [this](DayTerm term) {
-        const Index place = DayPriors::place_of(term);
-        return std::hypot(priors_.mean(place), priors_.factor.row(place).norm());
-    };
-    const double of_fast = size(DayTerm::fast) * kSecondsPerHour / fast_lag_s;
-    // Short gaps have no effect that matters, and each state is one more column.
-    constexpr double kLeastEffect_mgal = 0.05;
-    std::erase_if(states_, [&](const LagStates& state) {
-        return of_fast * state.fast_sd_degc < kLeastEffect_mgal &&
-               size(DayTerm::slow) * state.slow_sd_degc < kLeastEffect_mgal;
-    });
-    states_sd_mgal_.resize(2 * static_cast<Index>(states_.size()));
-    for (std::size_t k = 0; k < states_.size(); ++k)
-        states_sd_mgal_.segment<2>(2 * static_cast<Index>(k)) << of_fast * states_[k].fast_sd_degc,
-            size(DayTerm::slow) * states_[k].slow_sd_degc;
-}
-
-void DayProblem::set_gravities() {
-    std::size_t numbers = 0;
-    for (const DayStation& station : stations_) numbers = std::max(numbers, station.number + 1);
-    std::vector<double> deviations(numbers, kFreeGravity_mgal);
-    base_mgal_.resize(numbers);
-    is_held_.resize(numbers);
-    for (const DayStation& station : stations_) {
-        if (!station.gravity) continue;
-        is_held_[station.number] = true;
-        base_mgal_[station.number] = station.gravity->value();
-        deviations[station.number] = station.u_gravity.value();
-    }
-    std::vector<double> estimated;
-    for (const double deviation : deviations) {
-        places_.push_back(deviation > 0.0 ? kTerms + std::ssize(estimated) : -1);
-        if (deviation > 0.0) estimated.push_back(deviation);
-    }
-    for (const DayStation& station : stations_)
-        step_count_ = std::max(step_count_, static_cast<Index>(station.steps));
-    estimated.insert(estimated.end(), static_cast<std::size_t>(step_count_), kFreeGravity_mgal);
-    gravity_sd_mgal_ = Eigen::Map<const Eigen::VectorXd>(estimated.data(), std::ssize(estimated));
-}
-
-void DayProblem::set_readings(const std::vector<double>& rough_mgal) {
-    const auto count = static_cast<Index>(record_.bins.size());
-    readings_mgal_.resize(count);
-    double held_sum = 0.0, held_count = 0.0;
-    std::vector<double> sums(places_.size()), counts(sums.size());
-    for (Index i = 0; i < count; ++i) {
-        const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
-        const DayStation& station = stations_[bin.set_up];
-        readings_mgal_(i) = (bin.reading - bin.tide).value();
-        if (is_held_[station.number]) {
-            held_sum += readings_mgal_(i) - base_mgal_[station.number];
-            held_count += 1.0;
-        } else {
-            sums[station.number] += readings_mgal_(i);
-            counts[station.number] += 1.0;
-        }
-    }
-    for (std::size_t k = 0; k < sums.size(); ++k)
-        if (!rough_mgal.empty() && !is_held_[k])
-            base_mgal_[k] = rough_mgal[k];
-        else if (counts[k] > 0.0)
-            base_mgal_[k] = sums[k] / counts[k] - held_sum / held_count;
-    for (Index i = 0; i < count; ++i)
-        readings_mgal_(i) -=
-            base_mgal_[stations_[record_.bins[static_cast<std::size_t>(i)].set_up].number];
-}
-
-void DayProblem::set_fixed_columns() {
-    const auto count = static_cast<Index>(record_.bins.size());
-    fixed_ = Eigen::MatrixXd::Zero(count, estimated());
-    const auto column = [this](DayTerm term) { return fixed_.col(static_cast<Index>(term)); };
-    column(DayTerm::constant).setOnes();
-    column(DayTerm::level) =
-        means_.of(record_.temperature.series.values()).array() - kReferenceTemperature_degc;
-    const UtcTime begin = record_.temperature.series.start();
-    const UtcTime middle =
-        record_.bins.front().time + (record_.bins.back().time - record_.bins.front().time) / 2;
-    const auto first_held = std::ranges::find_if(record_.bins, [this](const reading::DayBin& bin) {
-        return is_held_[stations_[bin.set_up].number];
-    });
-    const reading::DayBin& zero =
-        first_held == record_.bins.end() ? record_.bins.front() : *first_held;
-    const double zero_mgal = base_mgal_[stations_[zero.set_up].number];
-    for (Index i = 0; i < count; ++i) {
-        const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
-        column(DayTerm::scale)(i) = base_mgal_[stations_[bin.set_up].number] - zero_mgal;
-        column(DayTerm::drift)(i) = seconds_between(middle, bin.time) / kSecondsPerHour;
-        column(DayTerm::warm_up)(i) = std::exp(-seconds_between(begin, bin.time) / kSecondsPerHour /
-                                               unit::kTypicalUnit.warm_up_h);
-        column(DayTerm::x)(i) = bin.x.value();
-        column(DayTerm::y)(i) = bin.y.value();
-        const Index place = place_of(stations_[bin.set_up].number);
-        if (place >= 0) fixed_(i, place) = 1.0;
-        fixed_.row(i)
-            .segment(steps_begin(), static_cast<Index>(stations_[bin.set_up].steps))
-            .setOnes();
-    }
-}
-
-Eigen::VectorXd DayProblem::fast_column(double lag_s) const {
-    return means_.of(unit::fast_rate_degc_per_h(record_.temperature.series, lag_s));
-}
-
-Eigen::VectorXd DayProblem::slow_column(double lag_s) const {
-    return means_.of(unit::lagged(record_.temperature.series, lag_s)).array() -
-           kReferenceTemperature_degc;
-}
-
-Eigen::MatrixXd DayProblem::outer_columns(const Point& u) const {
-    Eigen::MatrixXd columns(readings_mgal_.size(), kOuterSlopes);
-    columns << means_.of(record_.outer->values()),
-        means_.of(unit::lagged(*record_.outer, kOuterLag_s.at(u[kOuterLag])));
-    return columns.rowwise() - columns.colwise().mean();
-}
-
-Eigen::VectorXd DayProblem::unscaled(const Point& u, const Eigen::VectorXd& scaled) const {
-    Eigen::VectorXd all(estimated() + kLags);
-    all << scaled, u[kFastLag], u[kSlowLag];
-    Eigen::VectorXd values = unscaling(u) * all;
-    values.head(kTerms) += priors_.mean.tail<kTerms>();
-    return values;
-}
-
-DayPriors::Matrix DayProblem::prior_factor(const Point& u) const {
-    DayPriors::Matrix factor = priors_.factor;
-    for (const DayTerm axis : {DayTerm::x, DayTerm::y})
-        factor.row(DayPriors::place_of(axis)) *= std::pow(priors_.bias_factor, u[kBiasSize]);
-    return factor;
-}
-
-Eigen::MatrixXd DayProblem::unscaling(const Point& u) const {
-    const DayPriors::Matrix factor = prior_factor(u);
-    Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(estimated(), estimated() + kLags);
-    derivative.topLeftCorner(kTerms, kTerms) = factor.bottomRightCorner<kTerms, kTerms>();
-    derivative.diagonal().segment(kTerms, gravity_sd_mgal_.size()) = gravity_sd_mgal_;
-    derivative.diagonal().segment(states_begin(), states_sd_mgal_.size()) = states_sd_mgal_;
-    derivative.diagonal()
-        .segment(outer_begin(), estimated() - outer_begin())
-        .setConstant(kOuterSize_mgal_per_degc.at(u[kOuterSize]));
-    derivative.topRightCorner(kTerms, kLags) = factor.bottomLeftCorner<kTerms, kLags>();
-    return derivative;
-}
+      white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {}
 
 DayNoise DayProblem::noise(const Point& u) const {
     return {priors_.placement_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
@@ -210,6 +50,34 @@ DayProblem::Point DayProblem::point_of(const DayNoise& noise) const {
     u[kFlicker] = kFlickerPrior_mgal.place_of(noise.flicker_mgal);
     u[kWhite] = white_mgal_.place_of(noise.white_mgal);
     return u;
+}
+
+double DayProblem::cost(const Point& u, Eigen::MatrixXd columns) const {
+    const double log_determinant = whitening_.whiten(noise(u), columns);
+    const auto y = columns.col(0);
+    const auto x = columns.rightCols(estimated());
+    const linear_algebra::Cholesky factor(linear_algebra::normal_matrix(x));
+    if (!factor.is_positive_definite()) return HUGE_VAL;  // overflow, far from the priors
+    const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
+    // 2 cost = ln det C + ln det(X'C^-1 X + 1) + y'C^-1 y - |L^-1 X'C^-1 y|^2 + |u|^2,
+    // with L L' = X'C^-1 X + 1
+    double sum = log_determinant + factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
+    for (const double value : u) sum += value * value;
+    return 0.5 * sum;
+}
+
+DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) const {
+    Point start = nearby.value_or(Point{});
+    // From small biases the search may end where large ones are taken for a placement of 30 mGal.
+    for (const double bias_size : {2.0, 4.0}) {
+        Point other{};
+        other[kBiasSize] = bias_size;
+        if (!nearby && cost(other) < cost(start)) start = other;
+    }
+    LagColumns lagged;
+    return least_cost_point(
+        [&](const Point& u) { return cost(u, scaled(u, lagged)); }, start, nearby.has_value(),
+        {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000}, searched());
 }
 
 DayProblem::Point DayProblem::expected(const Point& u) const {
@@ -245,94 +113,6 @@ double DayProblem::log_factor(DayHyper part) const {
     }
 }
 
-double DayProblem::lag_s(const Point& u, DayHyper lag) const {
-    const auto place = static_cast<Index>(lag);
-    return std::exp(priors_.mean(place) + priors_.factor(place, kFastLag) * u[kFastLag] +
-                    priors_.factor(place, kSlowLag) * u[kSlowLag]);
-}
-
-Eigen::MatrixXd DayProblem::design(const Point& u, LagColumns& lagged) const {
-    if (const double fast_s = lag_s(u, kFastLag); fast_s != lagged.fast_s) {
-        lagged.fast_s = fast_s;
-        lagged.fast = fast_column(fast_s);
-    }
-    if (const double slow_s = lag_s(u, kSlowLag); slow_s != lagged.slow_s) {
-        lagged.slow_s = slow_s;
-        lagged.slow = slow_column(slow_s);
-    }
-    Eigen::MatrixXd columns = fixed_;
-    columns.col(static_cast<Index>(DayTerm::fast)) = lagged.fast;
-    columns.col(static_cast<Index>(DayTerm::slow)) = lagged.slow;
-    for (std::size_t k = 0; k < states_.size(); ++k)
-        for (const DayHyper lag : {kFastLag, kSlowLag}) {
-            auto column =
-                columns.col(states_begin() + 2 * static_cast<Index>(k) + static_cast<Index>(lag));
-            for (Index i = 0; i < column.size(); ++i)
-                column(i) = remaining(record_.bins[static_cast<std::size_t>(i)], states_[k].from,
-                                      lag_s(u, lag));
-        }
-    if (has_outer()) columns.rightCols(kOuterSlopes) = outer_columns(u);
-    return columns;
-}
-
-Eigen::MatrixXd DayProblem::design(const Point& u) const {
-    LagColumns lagged;
-    return design(u, lagged);
-}
-
-Eigen::MatrixXd DayProblem::scaled(const Point& u) const {
-    LagColumns lagged;
-    return scaled(u, lagged);
-}
-
-Eigen::MatrixXd DayProblem::scaled(const Point& u, LagColumns& lagged) const {
-    const Eigen::MatrixXd x = design(u, lagged);
-    Eigen::MatrixXd columns(x.rows(), x.cols() + 1);
-    columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
-    columns.middleCols(1, kTerms) =
-        x.leftCols(kTerms) * prior_factor(u).bottomRightCorner<kTerms, kTerms>();
-    columns.middleCols(1 + kTerms, gravity_sd_mgal_.size()) =
-        x.middleCols(kTerms, gravity_sd_mgal_.size()) * gravity_sd_mgal_.asDiagonal();
-    columns.middleCols(1 + states_begin(), states_sd_mgal_.size()) =
-        x.middleCols(states_begin(), states_sd_mgal_.size()) * states_sd_mgal_.asDiagonal();
-    const Index outer = estimated() - outer_begin();
-    columns.rightCols(outer) = kOuterSize_mgal_per_degc.at(u[kOuterSize]) * x.rightCols(outer);
-    return columns;
-}
-
-Eigen::MatrixXd DayProblem::lag_columns(const Point& u, const Eigen::VectorXd& values) const {
-    constexpr double kStep = 0.1;
-    const auto lagged_effects = [&](const Point& at) -> Eigen::VectorXd {
-        return values(static_cast<Index>(DayTerm::fast)) * fast_column(lag_s(at, kFastLag)) +
-               values(static_cast<Index>(DayTerm::slow)) * slow_column(lag_s(at, kSlowLag));
-    };
-    Eigen::MatrixXd columns = design(u) * unscaling(u).rightCols(kLags);
-    for (const DayHyper lag : {kFastLag, kSlowLag}) {
-        Point more = u, less = u;
-        more.at(lag) += kStep;
-        less.at(lag) -= kStep;
-        columns.col(static_cast<Index>(lag)) +=
-            (lagged_effects(more) - lagged_effects(less)) / (2.0 * kStep);
-    }
-    return columns;
-}
-
-std::optional<OuterResponse> DayProblem::outer_response(const Point& u,
-                                                        const Eigen::VectorXd& values,
-                                                        const Eigen::VectorXd& errors) const {
-    if (!has_outer()) return std::nullopt;
-    const Index level = outer_begin(), slow = level + 1;
-    return OuterResponse{{{{values(level), errors(level)}, {values(slow), errors(slow)}}},
-                         kOuterLag_s.at(u[kOuterLag])};
-}
-
-Eigen::MatrixXd DayProblem::linearised(const Point& expected, const Eigen::VectorXd& values) const {
-    Eigen::MatrixXd columns(readings_mgal_.size(), estimated() + kLags);
-    columns << scaled(expected).rightCols(estimated()), lag_columns(expected, values);
-    whitening_.whiten(noise(expected), columns);
-    return columns;
-}
-
 std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u) const {
     constexpr double kStep = 0.25;
     constexpr std::array<DayHyper, 3> kParts{kPlacement, kFlicker, kWhite};
@@ -363,32 +143,11 @@ std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u
     return errors;
 }
 
-double DayProblem::cost(const Point& u, Eigen::MatrixXd columns) const {
-    const double log_determinant = whitening_.whiten(noise(u), columns);
-    const auto y = columns.col(0);
-    const auto x = columns.rightCols(estimated());
-    const linear_algebra::Cholesky factor(linear_algebra::normal_matrix(x));
-    if (!factor.is_positive_definite()) return HUGE_VAL;  // overflow, far from the priors
-    const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
-    // 2 cost = ln det C + ln det(X'C^-1 X + 1) + y'C^-1 y - |L^-1 X'C^-1 y|^2 + |u|^2,
-    // with L L' = X'C^-1 X + 1
-    double sum = log_determinant + factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
-    for (const double value : u) sum += value * value;
-    return 0.5 * sum;
-}
-
-DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) const {
-    Point start = nearby.value_or(Point{});
-    // From small biases the search may end where large ones are taken for a placement of 30 mGal.
-    for (const double bias_size : {2.0, 4.0}) {
-        Point other{};
-        other[kBiasSize] = bias_size;
-        if (!nearby && cost(other) < cost(start)) start = other;
-    }
-    LagColumns lagged;
-    return least_cost_point(
-        [&](const Point& u) { return cost(u, scaled(u, lagged)); }, start, nearby.has_value(),
-        {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000}, searched());
+Eigen::MatrixXd DayProblem::linearised(const Point& expected, const Eigen::VectorXd& values) const {
+    Eigen::MatrixXd columns(readings_mgal().size(), estimated() + kLags);
+    columns << scaled(expected).rightCols(estimated()), lag_columns(expected, values);
+    whitening_.whiten(noise(expected), columns);
+    return columns;
 }
 
 }  // namespace a351::corrector::whole_day

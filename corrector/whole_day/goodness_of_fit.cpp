@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "corrector/whole_day/day_problem.hpp"
+#include "corrector/whole_day/day_regression.hpp"
 #include "corrector/whole_day/set_up_residuals.hpp"
 
 namespace a351::corrector::whole_day {
@@ -76,7 +76,7 @@ Statistic worst_quarter(std::vector<Direction> directions, const Residuals& r) {
 std::vector<FitTest> goodness_of_fit(const reading::DayRecord& record,
                                      const std::vector<DayStation>& stations, const DayFit& fit,
                                      const DayPriors& priors) {
-    const DayProblem problem(record, stations, priors);
+    const DayRegression problem(record, stations, priors);
     const Eigen::MatrixXd mean = averaging(record, stations.size());
     const residual::Residuals residuals = set_up_residuals(record, stations, fit, priors);
     const Index set_ups = mean.rows();
