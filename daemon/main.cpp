@@ -1,12 +1,9 @@
-#include <fcntl.h>
 #include <signal.h>
 #include <spdlog/async.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -17,15 +14,18 @@
 #include <utility>
 
 #include "daemon/config/config.hpp"
+#include "daemon/config/verdict_config.hpp"
 #include "daemon/gravity/gravity_so_far.hpp"
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/server.hpp"
+#include "daemon/service/process_setup.hpp"
 #include "daemon/service/service_notice.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/oven_link.hpp"
 #include "daemon/source/port.hpp"
 #include "daemon/source/read_queue.hpp"
 #include "daemon/source/sensor_link.hpp"
+#include "daemon/status/recovery_log.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/status/status_log.hpp"
 #include "daemon/store/store.hpp"
@@ -37,10 +37,6 @@ namespace {
 
 using namespace a351;
 using namespace a351::daemon;
-
-// Age of the last sample from which the verdict is "no data": instrument time, and least real time.
-constexpr std::chrono::seconds kStale{3};
-constexpr std::chrono::milliseconds kShortestRealStale{500};
 
 enum ExitStatus { kDone = 0, kFailed = 1, kBadUsage = 2, kAlreadyRunning = 3 };
 
@@ -127,70 +123,6 @@ status::Status snapshot(const config::Config& config, const source::HostClock& c
     return status;
 }
 
-void log_recovery(spdlog::logger& log, const archive::RecoveryReport& report) {
-    if (report.journal) {
-        log.warn("recovery: {} bytes removed from {} from offset {} on: {}",
-                 report.journal->byte_count, report.journal->file.string(), report.journal->offset,
-                 report.journal->reason);
-    }
-    for (const journal::Damage& damage : report.damage) {
-        log.error("recovery: {} bytes of {} at offset {} are damaged and skipped: {}",
-                  damage.byte_count, damage.file.string(), damage.offset, damage.reason);
-    }
-    for (const archive::TornTail& tail : report.archive) {
-        log.warn("recovery: {} bytes removed from {} from offset {} on", tail.byte_count,
-                 tail.file.string(), tail.offset);
-    }
-    log.info("recovery: {} records added to the archive, {} were already there",
-             report.records_added, report.records_confirmed);
-    if (report.chunks_lost > 0) {
-        log.error(
-            "recovery: {} chunks of the journal could not be processed and are missing from the "
-            "archive",
-            report.chunks_lost);
-    }
-    if (report.records_conflicting > 0) {
-        log.error(
-            "recovery: {} records of the archive differ from the journal; those of the archive are "
-            "kept",
-            report.records_conflicting);
-    }
-}
-
-/// Opens standard streams that the shell closed, so that the log is not written to a data file.
-void open_standard_streams() {
-    while (true) {
-        const int descriptor = open("/dev/null", O_RDWR | O_CLOEXEC);
-        if (descriptor > STDERR_FILENO) close(descriptor);
-        if (descriptor < 0 || descriptor > STDERR_FILENO) return;
-    }
-}
-
-/// Blocks the signals in this thread and all threads that it starts, so that run() can wait for
-/// them.  SIGPIPE is ignored, because a closed log pipe must not end the acquisition.
-sigset_t block_signals() {
-    std::signal(SIGPIPE, SIG_IGN);
-    sigset_t signals;
-    sigemptyset(&signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    return signals;
-}
-
-std::string brief(const status::Status& status) {
-    return status.reasons.empty() ? status.link_state
-                                  : status.link_state + "; " + status.reasons.front().english();
-}
-
-/// Returns the thresholds of the verdict.  gap_s is instrument time and must not be shorter than a
-/// pause of the host.
-verdict::Options thresholds_of(const config::Config& config, const source::HostClock& clock) {
-    verdict::Options options = config.verdict;
-    const std::chrono::duration<double> shortest = clock.instrument_span(kShortestRealStale);
-    options.gap_s = std::max(options.gap_s, shortest.count());
-    return options;
-}
-
 survey::OccupationOptions occupation_options(const config::Config& config) {
     return {.planned = config.survey.planned,
             .planned_set_ups = config.survey.set_ups,
@@ -201,27 +133,16 @@ survey::OccupationOptions occupation_options(const config::Config& config) {
 /// Returns what computes the gravity so far: the corrector beside this program, on its data root.
 gravity::GravityOptions gravity_options(const config::Config& config, spdlog::logger& log) {
     const config::SurveyConfig& survey = config.survey;
-    gravity::GravityOptions options;
-    options.every = survey.gravity_every;
+    const auto self = std::filesystem::read_symlink("/proc/self/exe");
+    gravity::GravityOptions options = gravity::options_for(
+        self.parent_path() / "a351-correct",
+        {config.storage.root, survey.sites_file, survey.calibration_file}, survey.gravity_every);
     options.failed = [&log](const std::string& reason, const std::string& cause) {
         log.warn("no gravity so far: {}: {}", reason, cause);
     };
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     options.limits.memory_bytes = 0;  // sanitizers reserve terabytes
 #endif
-    options.reason = survey.gravity_every.count() == 0 ? "off"
-                     : survey.sites_file.empty()       ? "no_sites"
-                                                       : "";
-    if (!options.reason.empty()) return options;
-    const auto self = std::filesystem::read_symlink("/proc/self/exe");
-    options.command = {self.parent_path() / "a351-correct",
-                       "survey",
-                       config.storage.root,
-                       "--sites",
-                       survey.sites_file,
-                       "--json"};
-    if (!survey.calibration_file.empty())
-        options.command.insert(options.command.end(), {"--calibration", survey.calibration_file});
     return options;
 }
 
@@ -232,7 +153,7 @@ void reload(const std::filesystem::path& config_file, const source::HostClock& c
             page::Server& page) {
     try {
         const config::Config fresh = config::read_config(config_file);
-        live.judge_by(thresholds_of(fresh, clock));
+        live.judge_by(config::thresholds_by(clock, fresh.verdict));
         page.post([&occupations, sites = fresh.survey.sites, options = occupation_options(fresh)] {
             occupations.use(sites, options);
         });
@@ -259,7 +180,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     service::ServiceNotice notice = service::ServiceNotice::from_environment();
     source::ReadQueue reads;
     live::Record live(*config.sensor.profile, config.station.output_rate_hz,
-                      thresholds_of(config, clock));
+                      config::thresholds_by(clock, config.verdict));
     std::atomic<bool> is_recovered{false};
     const auto files = files::files_below(config.storage.root);
     store::Store store(*files,
@@ -268,7 +189,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                         .keeper = {.keep_days = config.storage.journal_keep_days},
                         .recovered =
                             [&](const auto& report) {
-                                log_recovery(log, report);
+                                status::log_recovery(log, report);
                                 is_recovered = true;
                             },
                         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
@@ -292,22 +213,21 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     gravity::GravitySoFar gravity(gravity_options(config, log));
     const auto note_change = [&] { gravity.note_change(occupations.running().has_value()); };
     if (occupations.running() || !occupations.list().empty()) note_change();
-    page::Server page(
-        {.listen = config.page.listen,
-         .hosts = config.page.hosts,
-         .token = config.page.token,
-         .boxes = config.page.boxes},
-        {.status = [&] { return snapshot(config, clock, link, ovens, store, live); },
-         .occupations = occupations,
-         .live = live,
-         .latitude = config.station.latitude,
-         .longitude = config.station.longitude,
-         .events = [&] { return events::read_events(events).events; },
-         .gravity_so_far = [&] { return gravity.document(); },
-         .changed = note_change,
-         .assets = config.page.assets,
-         .boxes = config.page.boxes,
-         .stale_after = std::max<Nanoseconds>(kStale, clock.instrument_span(kShortestRealStale))});
+    page::Server page({.listen = config.page.listen,
+                       .hosts = config.page.hosts,
+                       .token = config.page.token,
+                       .boxes = config.page.boxes},
+                      {.status = [&] { return snapshot(config, clock, link, ovens, store, live); },
+                       .occupations = occupations,
+                       .live = live,
+                       .latitude = config.station.latitude,
+                       .longitude = config.station.longitude,
+                       .events = [&] { return events::read_events(events).events; },
+                       .gravity_so_far = [&] { return gravity.document(); },
+                       .changed = note_change,
+                       .assets = config.page.assets,
+                       .boxes = config.page.boxes,
+                       .stale_after = config::stale_after(clock)});
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
     if (page.is_exposed())
         log.warn("the page can be reached from other hosts; changes need the token");
@@ -330,7 +250,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         const status::Status status = snapshot(config, clock, link, ovens, store, live);
         status_log.note(status, std::chrono::steady_clock::now());
         log_verdict(store, status, lasting_verdict);
-        notice.beat(store.is_alive(), brief(status));
+        notice.beat(store.is_alive(), status::brief(status));
         if (signal == SIGHUP) reload(config.file, clock, log, live, occupations, page);
         if (signal == SIGINT || signal == SIGTERM) break;
     }
@@ -360,7 +280,7 @@ int complain_and_end(ExitStatus status, const std::string& trouble) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    open_standard_streams();
+    service::open_standard_streams();
     CLI::App app("Records data from an M-A351 accelerometer and reports its state to the operator.",
                  "a351d");
     app.set_version_flag("--version", std::string("a351d ") + A351_VERSION);
@@ -404,7 +324,7 @@ int main(int argc, char** argv) {
             std::puts("ok");
             return kDone;
         }
-        const sigset_t signals = block_signals();
+        const sigset_t signals = service::block_signals();
         const auto log = make_log();
         const LogEnd end;
         status::StatusLog status_log(log);

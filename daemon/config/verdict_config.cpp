@@ -1,5 +1,7 @@
 #include "daemon/config/verdict_config.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace a351::daemon::config {
@@ -50,6 +52,9 @@ constexpr Key kKeys[] = {
     {"stuck_s", &verdict::Options::stuck_s, 10.0, 3600.0},
 };
 
+/// Longest pause of the host that must not look like a lack of data, real time.
+constexpr std::chrono::milliseconds kPauseOfHost{500};
+
 }  // namespace
 
 verdict::Options thresholds_for(const unit::Calibration& unit) {
@@ -68,6 +73,17 @@ verdict::Options thresholds_for(const unit::Calibration& unit) {
                             std::log(options.warm_up_mgal / unit.warm_up->within_mgal);
     }
     return options;
+}
+
+verdict::Options thresholds_by(const source::HostClock& clock, verdict::Options options) {
+    const std::chrono::duration<double> shortest = clock.instrument_span(kPauseOfHost);
+    options.gap_s = std::max(options.gap_s, shortest.count());
+    return options;
+}
+
+Nanoseconds stale_after(const source::HostClock& clock) {
+    constexpr std::chrono::seconds kStale{3};
+    return std::max<Nanoseconds>(kStale, clock.instrument_span(kPauseOfHost));
 }
 
 verdict::Options read_verdict(text::TomlTable table, const verdict::Options& defaults) {

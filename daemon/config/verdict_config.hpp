@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/source/host_clock.hpp"
 #include "daemon/verdict/verdict_options.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/unit/calibration.hpp"
@@ -14,5 +15,14 @@ namespace a351::daemon::config {
 /// @throws InputError  a value out of its range, or an unknown key.
 [[nodiscard]] verdict::Options read_verdict(text::TomlTable table,
                                             const verdict::Options& defaults);
+
+/// Returns the thresholds for instrument time by this clock: the time without a sample is at least
+/// half a second of real time, a pause of the host.
+[[nodiscard]] verdict::Options thresholds_by(const source::HostClock& clock,
+                                             verdict::Options options);
+
+/// Returns the age of the last sample, in instrument time, from which the page has no data: 3 s, and
+/// at least half a second of real time.
+[[nodiscard]] Nanoseconds stale_after(const source::HostClock& clock);
 
 }  // namespace a351::daemon::config

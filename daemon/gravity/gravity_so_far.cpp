@@ -26,6 +26,18 @@ bool is_object(const std::string& text) {
 
 }  // namespace
 
+GravityOptions options_for(const std::filesystem::path& corrector, const SurveyFiles& files,
+                           std::chrono::milliseconds every) {
+    GravityOptions options;
+    options.every = every;
+    options.reason = every.count() == 0 ? "off" : files.sites.empty() ? "no_sites" : "";
+    if (!options.reason.empty()) return options;
+    options.command = {corrector, "survey", files.root, "--sites", files.sites, "--json"};
+    if (!files.calibration.empty())
+        options.command.insert(options.command.end(), {"--calibration", files.calibration});
+    return options;
+}
+
 GravitySoFar::GravitySoFar(GravityOptions options) : options_(std::move(options)) {
     if (options_.command.empty()) reason_ = options_.reason;
 }

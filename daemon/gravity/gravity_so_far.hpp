@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -29,6 +30,19 @@ struct GravityOptions {
     /// Receives code and cause of a failure, once until another one or a success follows.
     std::function<void(const std::string& reason, const std::string& cause)> failed{};
 };
+
+/// The files of a survey from which the gravity so far is computed.
+struct SurveyFiles {
+    std::filesystem::path root;         ///< Data root.
+    std::filesystem::path sites;        ///< List of sites; empty: there is none.
+    std::filesystem::path calibration;  ///< Calibration of the unit; empty: there is none.
+};
+
+/// Returns the options for a survey.  Without a list of sites (`no_sites`), or if `every` is 0
+/// (`off`), they have no command but this reason.
+/// @param corrector  path of the program a351-correct.
+[[nodiscard]] GravityOptions options_for(const std::filesystem::path& corrector,
+                                         const SurveyFiles& files, std::chrono::milliseconds every);
 
 /// Runs the corrector after each change of the occupations, again a little later, and regularly
 /// while a stay runs; never twice at a time.

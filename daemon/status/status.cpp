@@ -110,6 +110,11 @@ void assess_clock(Status& status) {
 
 }  // namespace
 
+std::string brief(const Status& status) {
+    return status.reasons.empty() ? status.link_state
+                                  : status.link_state + "; " + status.reasons.front().english();
+}
+
 void fill(Status& status, const source::LinkStatus& link) {
     status.link_state = source::to_text(link.state);
     status.link_trouble = link.trouble;

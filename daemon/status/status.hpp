@@ -84,6 +84,9 @@ struct Status {
     std::chrono::milliseconds longest_sync{0};     ///< Longest sync or write of the journal.
 };
 
+/// Returns the state in one short line, for the service manager: the link's and the first reason.
+[[nodiscard]] std::string brief(const Status& status);
+
 /// Copies the state of the sensor's link into the status, and adds its reasons.
 void fill(Status& status, const source::LinkStatus& link);
 

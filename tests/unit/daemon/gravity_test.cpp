@@ -193,3 +193,21 @@ TEST_CASE("without a command the document has the reason", "[gravity]") {
     CHECK(parsed(gravity).at("reason") == "no_sites");
     CHECK(parsed(gravity).at("stays").empty());
 }
+
+TEST_CASE("the command has the files of the survey, and the reason says why there is none",
+          "[gravity]") {
+    const auto command = options_for("/usr/bin/a351-correct", {"data", "sites.csv", {}}, 3min);
+    CHECK(command.every == 3min);
+    CHECK(command.reason.empty());
+    CHECK(command.command == std::vector<std::string>{"/usr/bin/a351-correct", "survey", "data",
+                                                      "--sites", "sites.csv", "--json"});
+    const auto calibrated =
+        options_for("/usr/bin/a351-correct", {"data", "sites.csv", "unit.toml"}, 3min).command;
+    REQUIRE(calibrated.size() == command.command.size() + 2);
+    CHECK(calibrated[6] == "--calibration");
+    CHECK(calibrated[7] == "unit.toml");
+    const auto off = options_for("a351-correct", {"data", "sites.csv", "unit.toml"}, 0ms);
+    CHECK(off.reason == "off");
+    CHECK(off.command.empty());
+    CHECK(options_for("a351-correct", {"data", {}, {}}, 3min).reason == "no_sites");
+}
