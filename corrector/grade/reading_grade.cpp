@@ -117,10 +117,12 @@ void add_findings(ReadingGrade& reading, const reading::SurveyRow& row,
     for (const reading::Finding& finding : findings) {
         if (finding.site != row.site || finding.occupation != row.occupation) continue;
         // Those that have a note or a reason of their own.
-        if (finding.kind == "moved_box" || finding.code == "never_at_rest" ||
-            finding.kind == "no_stop" || finding.kind == "temperature_moving")
+        if (finding.kind == reading::FindingKind::moved_box || finding.code == "never_at_rest" ||
+            finding.kind == reading::FindingKind::no_stop ||
+            finding.kind == reading::FindingKind::temperature_moving)
             continue;
-        add(reading, finding.kind == "bad_reading" ? Grade::repeat : Grade::care,
+        add(reading,
+            finding.kind == reading::FindingKind::bad_reading ? Grade::repeat : Grade::care,
             {finding.code, {}, finding.text});
     }
 }

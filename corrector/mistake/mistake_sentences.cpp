@@ -13,6 +13,7 @@ namespace a351::corrector::mistake {
 namespace {
 
 using reading::Finding;
+using reading::FindingKind;
 using reading::SurveyRow;
 
 /// Greatest p of a headline.  Reason: one clean day in a thousand may be told something false in its
@@ -56,9 +57,9 @@ private:
         return rows_[mistake.readings.front()];
     }
 
-    [[nodiscard]] Finding finding_of(const Mistake& mistake, std::string kind, std::string code,
+    [[nodiscard]] Finding finding_of(const Mistake& mistake, FindingKind kind, std::string code,
                                      const SurveyRow& row) const {
-        Finding finding{.kind = std::move(kind), .code = std::move(code)};
+        Finding finding{.kind = kind, .code = std::move(code)};
         set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
         finding.size_mgal = mistake.size_mgal;
         finding.u_mgal = mistake.u_mgal;
@@ -169,7 +170,7 @@ private:
 
     [[nodiscard]] Finding step(const Mistake& mistake) const {
         const std::size_t after = mistake.readings.front();
-        Finding finding{.kind = "step", .code = "step"};
+        Finding finding{.kind = FindingKind::step, .code = "step"};
         finding.time = time_before(rows_, after);
         finding.size_mgal = mistake.size_mgal;
         finding.u_mgal = mistake.u_mgal;
@@ -199,7 +200,7 @@ private:
                                   const std::vector<std::size_t>& others, double size_mgal) const {
         const SurveyRow& row = rows_[own.front()];
         const SurveyRow& other = rows_[others.front()];
-        Finding finding = finding_of(mistake, "other_name", "swapped", row);
+        Finding finding = finding_of(mistake, FindingKind::other_name, "swapped", row);
         finding.size_mgal = size_mgal;
         finding.u_mgal.reset();
         finding.other_site = other.site;
@@ -214,7 +215,7 @@ private:
         constexpr std::size_t kMostNames = 3;
         const SurveyRow& row = first(mistake);
         const text::Site& other = *others.front().site;
-        Finding finding = finding_of(mistake, "other_name", "other_name", row);
+        Finding finding = finding_of(mistake, FindingKind::other_name, "other_name", row);
         finding.other_site = other.name;
         text::Message names;
         for (std::size_t i = 0; i < std::min(kMostNames, others.size()); ++i) {
@@ -235,7 +236,7 @@ private:
 
     [[nodiscard]] Finding reference(const Mistake& mistake) const {
         const SurveyRow& row = first(mistake);
-        Finding finding = finding_of(mistake, "reference", "reference", row);
+        Finding finding = finding_of(mistake, FindingKind::reference, "reference", row);
         finding.size_mgal = -mistake.size_mgal;
         finding.text = text::message("the reference of {} is {}", row.site,
                                      off_by(-mistake.size_mgal, mistake.u_mgal));
@@ -254,7 +255,7 @@ private:
 
     [[nodiscard]] Finding bad_stay(const Mistake& mistake) const {
         const SurveyRow& row = first(mistake);
-        Finding finding = finding_of(mistake, "bad_reading", "stay_disagrees", row);
+        Finding finding = finding_of(mistake, FindingKind::bad_reading, "stay_disagrees", row);
         finding.text =
             text::message("{} is {}, unlike the other readings of {}: repeat it", name_of(row),
                           off_by(mistake.size_mgal, mistake.u_mgal), row.site);
@@ -267,7 +268,7 @@ private:
     [[nodiscard]] Finding bad_set_up(const Mistake& mistake) const {
         const std::size_t i = mistake.readings.front();
         const SurveyRow& row = rows_[i];
-        Finding finding = finding_of(mistake, "bad_reading", "set_up_disagrees", row);
+        Finding finding = finding_of(mistake, FindingKind::bad_reading, "set_up_disagrees", row);
         const auto is_same_stay = [&](const SurveyRow& other) {
             return other.site == row.site && other.occupation == row.occupation;
         };

@@ -18,6 +18,7 @@ namespace a351::corrector::mistake {
 namespace {
 
 using reading::Finding;
+using reading::FindingKind;
 using reading::SurveyRow;
 
 /// A day is unusable if stations left out are predicted this much worse than with the mistakes put
@@ -87,7 +88,8 @@ void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& fi
     if (day == nullptr) return;
     for (const whole_day::FitTest& test : day->fit_tests) {
         if (test.p >= kMisfitP || test.misfit == whole_day::Misfit::tails) continue;
-        Finding& finding = findings.emplace_back(Finding{.kind = "misfit", .code = "curvature"});
+        Finding& finding =
+            findings.emplace_back(Finding{.kind = FindingKind::misfit, .code = "curvature"});
         if (test.misfit == whole_day::Misfit::curvature) {
             finding.text = text::message(
                 "the model does not fit this day: the residuals follow the square of the {}",
@@ -108,7 +110,7 @@ void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& fi
 int rank_of(const Finding& finding) {
     if (finding.is_headline) return 0;
     if (!reading::is_remark(finding)) return 1;
-    return finding.kind == "not_visited" ? 3 : 2;
+    return finding.kind == FindingKind::not_visited ? 3 : 2;
 }
 
 /// Says that the day is not usable, if so.
@@ -120,7 +122,7 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
         *loso < kUnusableRatio * *amended_loso_mgal)
         return std::nullopt;
     return Finding{
-        .kind = "unusable_day",
+        .kind = FindingKind::unusable_day,
         .code = "unusable_day",
         .text = text::message("this day is not usable as it is: stations left out are predicted "
                               "with an error of {} mGal, {} with the mistakes below put right",
@@ -177,7 +179,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     // A mistake that was found is a misfit of its own.
     if (!right) say_misfits(result, findings);
     const auto is_said = [&](const Finding& remark) {  // the sentence has the temperature too
-        return remark.kind == "temperature_moving" &&
+        return remark.kind == FindingKind::temperature_moving &&
                std::ranges::any_of(findings, [&](const Finding& one) {
                    return !reading::is_remark(one) && one.site == remark.site &&
                           one.occupation == remark.occupation;

@@ -13,6 +13,7 @@ namespace a351::corrector::mistake {
 namespace {
 
 using reading::Finding;
+using reading::FindingKind;
 
 /// Returns the middle value; of an even number the upper one.
 double middle_of(std::vector<double> values) {
@@ -43,7 +44,7 @@ std::vector<Finding> moving_temperatures(const model::SurveyCorrection& result) 
         if (corrects_rate && row.is_used && !is_uncertain) continue;
         if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
         Finding& finding = findings.emplace_back(
-            Finding{.kind = "temperature_moving", .code = "temperature_moving"});
+            Finding{.kind = FindingKind::temperature_moving, .code = "temperature_moving"});
         set_stay(finding, row.row.site, row.row.occupation, row.row.key, row.row.time);
         finding.text = text::message(
             "{} ({}): its temperature was still moving ({}; limits: {} degC/h, {} degC), {}",
@@ -69,7 +70,8 @@ std::optional<Finding> base_not_revisited(const model::SurveyCorrection& result)
     const auto is_base = [&](const auto& stay) { return stay.first == base; };
     if (stays.size() < kFewestStays || std::ranges::count_if(stays, is_base) != 1)
         return std::nullopt;
-    Finding finding{.kind = "base_not_revisited", .code = "base_not_revisited", .site = base};
+    Finding finding{
+        .kind = FindingKind::base_not_revisited, .code = "base_not_revisited", .site = base};
     finding.text = text::message(
         "the base {} has 1 stay of {}, at least 2 show a drift without the references", base,
         stays.size());
@@ -84,7 +86,7 @@ std::optional<Finding> not_visited(const std::vector<reading::SurveyRow>& rows,
         if (std::ranges::find(rows, site.name, &reading::SurveyRow::site) == rows.end())
             names.push_back(site.name);
     if (names.empty()) return std::nullopt;
-    Finding finding{.kind = "not_visited", .code = "not_visited"};
+    Finding finding{.kind = FindingKind::not_visited, .code = "not_visited"};
     const std::size_t more = names.size() - std::min(names.size(), kMostNames);
     names.resize(names.size() - more);
     finding.text = text::message("without a reading in this day: {}{}", text::joined(names),

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -19,13 +18,29 @@ nlohmann::ordered_json json_or_null(const Value& value, bool is_there) {
 
 }  // namespace
 
-bool is_remark(const Finding& finding) {
-    constexpr std::array<std::string_view, 8> kRemarks{
-        "no_stop",    "early_start",        "missed_set_up",
-        "short_stay", "base_not_revisited", "temperature_moving",
-        "clock",      "not_visited"};
-    return std::ranges::count(kRemarks, finding.kind) > 0;
+std::string_view to_text(FindingKind kind) {
+    // In the order of the enumerators.
+    constexpr std::array<std::string_view, 15> kTexts{
+        "moved_box",
+        "other_name",
+        "reference",
+        "step",
+        "bad_reading",
+        "misfit",
+        "unusable_day",
+        "not_visited",
+        "no_stop",
+        "early_start",
+        "missed_set_up",
+        "short_stay",
+        "base_not_revisited",
+        "temperature_moving",
+        "clock",
+    };
+    return kTexts.at(static_cast<std::size_t>(kind));
 }
+
+bool is_remark(const Finding& finding) { return finding.kind >= FindingKind::not_visited; }
 
 std::string in_minutes(Nanoseconds time) {
     return fmt::format("{:.1f} min", std::chrono::duration<double, std::ratio<60>>(time).count());
@@ -49,7 +64,7 @@ nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
     auto list = nlohmann::ordered_json::array();
     for (const Finding& finding : findings) {
         nlohmann::ordered_json one;
-        one["kind"] = finding.kind;
+        one["kind"] = to_text(finding.kind);
         one["code"] = finding.code;
         one["is_headline"] = finding.is_headline;
         one["site"] = json_or_null(finding.site, !finding.site.empty());

@@ -12,7 +12,7 @@
 
 namespace a351::corrector::reading {
 
-/// A mistake or a fault that was found in a day.
+/// Kind of a mistake or a fault that was found in a day.
 ///
 /// - moved_box: the box was moved while a stay ran.
 /// - other_name: the reading is that of other_site.
@@ -21,10 +21,10 @@ namespace a351::corrector::reading {
 /// - bad_reading: the reading is off by size_mgal, positive if it is too high; or it has no size.
 /// - misfit: the model does not fit.
 /// - unusable_day: the day is not usable as it is.
+///
+/// From here on they are remarks, which are never headlines:
+///
 /// - not_visited: benchmarks of the list have no reading.
-///
-/// Remarks, which are never headlines:
-///
 /// - no_stop: the stay was not stopped.
 /// - early_start: the box was still moved when the stay was started.
 /// - missed_set_up: the box was lifted and set down during the stay, and no set-up was entered.
@@ -32,8 +32,30 @@ namespace a351::corrector::reading {
 /// - base_not_revisited: the base has one stay only.
 /// - temperature_moving: the temperature moved by more than the model corrects.
 /// - clock: times are uncertain, or the host's clock was set back.
+enum class FindingKind {
+    moved_box,
+    other_name,
+    reference,
+    step,
+    bad_reading,
+    misfit,
+    unusable_day,
+    not_visited,
+    no_stop,
+    early_start,
+    missed_set_up,
+    short_stay,
+    base_not_revisited,
+    temperature_moving,
+    clock,
+};
+
+/// Returns the name of a kind, as above.
+[[nodiscard]] std::string_view to_text(FindingKind kind);
+
+/// A mistake or a fault that was found in a day.
 struct Finding {
-    std::string kind = {};               ///< One of those above.
+    FindingKind kind = FindingKind::moved_box;
     std::string code = {};               ///< Which sentence the text is.
     std::string site = {};               ///< Site; empty if it concerns the whole day.
     std::optional<int> occupation = {};  ///< Number of the stay at this site.
@@ -46,7 +68,7 @@ struct Finding {
     bool is_headline = false;    ///< So certain that it belongs to the first line.
 };
 
-/// Returns true for the remarks above, and for not_visited.
+/// Returns true for the remarks above.
 [[nodiscard]] bool is_remark(const Finding& finding);
 
 /// Returns a duration as "12.3 min".

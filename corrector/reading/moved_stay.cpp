@@ -48,7 +48,7 @@ std::vector<signal::MotionSample> motion_of(const OccupationRecord& record,
 Finding missed_set_up(const OccupationWindow& window,
                       const std::vector<signal::MotionSample>& samples,
                       const std::vector<signal::BoxMove>& moves) {
-    Finding finding{.kind = "missed_set_up", .code = "missed_set_up"};
+    Finding finding{.kind = FindingKind::missed_set_up, .code = "missed_set_up"};
     const auto time_of = [&](const signal::BoxMove& move) {
         const UtcTime before = samples[move.before].time;
         return before + (samples[move.after].time - before) / 2;
@@ -84,7 +84,7 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     if (part.first == part.behind) {
         still.notes.emplace_back("shaken");
         moved.finding = {
-            .kind = "bad_reading",
+            .kind = FindingKind::bad_reading,
             .code = "never_at_rest",
             .text = text::message("{} ({}): the box was never at rest: repeat the reading",
                                   window.site, window.number),
@@ -104,19 +104,20 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
         finding = missed_set_up(window, samples, moves);
         return moved;
     }
-    finding = {.kind = "moved_box", .code = "moved_at_end", .is_headline = true};
+    finding = {.kind = FindingKind::moved_box, .code = "moved_at_end", .is_headline = true};
     set_stay(finding, window.site, window.number, window.key, still.end);
     text::Message what;
     if (still.start != window.start) {
         finding.time = still.start;
-        finding.kind = finding.code = "early_start";
+        finding.kind = FindingKind::early_start;
+        finding.code = "early_start";
         finding.is_headline = false;
         what = text::message("moved until {}, {} after its start; the stay begins there",
                              to_rfc3339(still.start), in_minutes(still.start - window.start));
     }
     if (still.end != window.end) {
         finding.time = still.end;
-        finding.kind = "moved_box";
+        finding.kind = FindingKind::moved_box;
         finding.is_headline = true;
         finding.code = what.empty() ? "moved_at_end" : "moved_at_both_ends";
         if (!what.empty()) what += "; ";

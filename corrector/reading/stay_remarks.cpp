@@ -25,8 +25,8 @@ bool has_note(const OccupationWindow& window, const char* note) {
     return std::ranges::count(window.notes, note) > 0;
 }
 
-Finding remark(const char* kind, const OccupationWindow& window, UtcTime time) {
-    Finding finding{.kind = kind, .code = kind};
+Finding remark(FindingKind kind, const OccupationWindow& window, UtcTime time) {
+    Finding finding{.kind = kind, .code = std::string(to_text(kind))};
     set_stay(finding, window.site, window.number, window.key, time);
     return finding;
 }
@@ -39,7 +39,7 @@ void add_missing_stops(std::vector<Finding>& findings,
                 return note == "moved" || note == "retimed" || note == "excluded";
             }))
             continue;
-        Finding& finding = findings.emplace_back(remark("no_stop", window, window.end));
+        Finding& finding = findings.emplace_back(remark(FindingKind::no_stop, window, window.end));
         if (window.is_last) finding.code = "no_stop_last";
         finding.text = text::message(
             "{} ({}) has no stop: it lasts until the {}, at {}", window.site, window.number,
@@ -74,7 +74,7 @@ void add_short_stays(std::vector<Finding>& findings, const std::vector<Occupatio
     for (const Stay& stay : stays) {
         if (stay.length >= std::min<Nanoseconds>(kLongEnough, median / kShortDivisor)) continue;
         Finding& finding =
-            findings.emplace_back(remark("short_stay", *stay.first, stay.first->start));
+            findings.emplace_back(remark(FindingKind::short_stay, *stay.first, stay.first->start));
         finding.text = text::message(
             "{} ({}) has {}, less than half the day's median of {}: its noise is averaged less",
             stay.first->site, stay.first->number, in_minutes(stay.length), in_minutes(median));
@@ -107,7 +107,7 @@ std::optional<Finding> uncertain_times(const std::vector<OccupationWindow>& wind
         worst_percent = std::min(worst_percent, percent);
     }
     if (uncertain == 0) return std::nullopt;
-    Finding finding{.kind = "clock", .code = "clock_uncertain"};
+    Finding finding{.kind = FindingKind::clock, .code = "clock_uncertain"};
     finding.text = text::message(
         "the times of {} of {} set-ups are uncertain by up to {:.0f} s: the host's clock was not "
         "synchronised",
@@ -122,7 +122,7 @@ void add_steps_back(std::vector<Finding>& findings, const archive::ChannelData& 
         const UtcTime start = segment.anchors.front().time;
         if (start <= end - kLeastError) {
             Finding& finding = findings.emplace_back(
-                Finding{.kind = "clock", .code = "clock_set_back", .time = start});
+                Finding{.kind = FindingKind::clock, .code = "clock_set_back", .time = start});
             finding.text =
                 text::message("the host's clock was set back by {:.1f} s: two records are of {}",
                               seconds_between(start, end), to_rfc3339(start));

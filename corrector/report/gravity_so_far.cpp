@@ -32,7 +32,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kRefusals
 }};
 
 /// Findings that say what is still to be done in the day; they mean nothing before its end.
-constexpr std::array<std::string_view, 2> kOfWholeDay{"not_visited", "base_not_revisited"};
+constexpr std::array kOfWholeDay{reading::FindingKind::not_visited,
+                                 reading::FindingKind::base_not_revisited};
 
 /// A stay, and the places of its set-ups in the lists of the survey.
 struct Stay {

@@ -88,7 +88,8 @@ void add_scores(pugi::xml_node parent, const model::SurveyCorrection& result) {
 }
 
 bool is_unusable(const model::SurveyCorrection& result) {
-    return std::ranges::count(result.findings, "unusable_day", &reading::Finding::kind) > 0;
+    return std::ranges::count(result.findings, reading::FindingKind::unusable_day,
+                              &reading::Finding::kind) > 0;
 }
 
 std::string headline(const model::SurveyCorrection& result) {

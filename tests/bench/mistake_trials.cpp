@@ -26,6 +26,7 @@ namespace {
 
 using namespace a351;
 using corrector::reading::Finding;
+using corrector::reading::FindingKind;
 using corrector::reading::OccupationRows;
 using corrector::reading::SurveyRow;
 
@@ -38,7 +39,8 @@ std::vector<Finding> all_findings_of(const corrector::job::SurveyFile& survey,
                                      OccupationRows read) {
     auto findings = corrector::job::correct_survey_day(survey, read).findings;
     std::erase_if(findings, [](const Finding& finding) {
-        return finding.kind == "not_visited" || finding.kind == "unusable_day";
+        return finding.kind == FindingKind::not_visited ||
+               finding.kind == FindingKind::unusable_day;
     });
     return findings;
 }
@@ -127,7 +129,7 @@ public:
             count(total, findings_of(survey_, std::move(read)), 1, [&](const Finding& finding) {
                 if (finding.site != site || !finding.size_mgal) return false;
                 // The size of another kind is that of the reading.
-                const double off = finding.kind == "reference" ? size : -size;
+                const double off = finding.kind == FindingKind::reference ? size : -size;
                 return std::abs(*finding.size_mgal - off) < 3.0 * finding.u_mgal.value_or(1.0);
             });
         }
@@ -195,7 +197,7 @@ public:
             std::swap(read.rows[a].occupation, read.rows[b].occupation);
             std::swap(read.rows[a].reference, read.rows[b].reference);
             count(total, findings_of(survey_, std::move(read)), 2, [&](const Finding& finding) {
-                return finding.kind == "other_name" &&
+                return finding.kind == FindingKind::other_name &&
                        ((finding.site == read_.rows[a].site &&
                          finding.other_site == read_.rows[b].site) ||
                         (finding.site == read_.rows[b].site &&
@@ -218,7 +220,8 @@ public:
             set_site(read, i, read_.sites[k]);
             const std::string& right = read_.rows[i].site;
             const auto is_of_stay = [&](const Finding& finding) {
-                return finding.kind == "other_name" && finding.site == read_.sites[k].name;
+                return finding.kind == FindingKind::other_name &&
+                       finding.site == read_.sites[k].name;
             };
             const auto findings = findings_of(survey_, std::move(read));
             likeliest +=
@@ -254,7 +257,8 @@ public:
                 // At an end of the day one reading off and a step are the same.
                 if (finding.code.ends_with("_or_step"))
                     return finding.site == read_.rows[place == 1 ? 0 : place].site;
-                return finding.kind == "step" && *finding.time > read_.rows[place - 1].time &&
+                return finding.kind == FindingKind::step &&
+                       *finding.time > read_.rows[place - 1].time &&
                        *finding.time < read_.rows[place].time;
             };
             count(total, findings, 1, is_right);

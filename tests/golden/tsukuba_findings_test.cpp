@@ -23,7 +23,7 @@ std::vector<Finding> findings_of(const std::string& model, bool use_flags) {
 std::vector<std::string> moving(const std::vector<Finding>& findings) {
     std::vector<std::string> stays;
     for (const Finding& finding : findings)
-        if (finding.kind == "temperature_moving")
+        if (finding.kind == reading::FindingKind::temperature_moving)
             stays.push_back(finding.site + " " + std::to_string(*finding.occupation));
     return stays;
 }
@@ -54,7 +54,7 @@ TEST_CASE("with all published rows a model without the rate names the worst of t
     for (const std::string model : {"t", "t-drift", "network"}) {
         const auto findings = findings_of(model, false);
         CHECK(moving(findings).size() + 1 == findings.size());
-        CHECK(findings[0].kind == "bad_reading");
+        CHECK(findings[0].kind == reading::FindingKind::bad_reading);
         CHECK(findings[0].site == "No.2");
         CHECK(findings[0].occupation == 1);
         CHECK_THAT(findings[0].text.english(),

@@ -217,7 +217,7 @@ TEST_CASE("a finding about a gravimeter has a size that can be read", "[golden][
     const auto result = mistake::correct_and_search({rows, {}, nullptr}, options);
     REQUIRE(!result.findings.empty());
     for (const reading::Finding& finding : result.findings) std::cout << finding.text.english() << '\n';
-    CHECK(result.findings[0].kind == "step");
+    CHECK(result.findings[0].kind == reading::FindingKind::step);
     CHECK_THAT(result.findings[0].text.english(),
                ContainsSubstring("the readings are 0.06") && !ContainsSubstring("0.0 +- 0.0"));
 }

@@ -12,6 +12,7 @@
 using namespace a351;
 using namespace a351::corrector;
 using reading::Finding;
+using reading::FindingKind;
 
 namespace {
 
@@ -49,7 +50,8 @@ struct Day {
 std::vector<std::string> kinds(const std::vector<Finding>& findings) {
     std::vector<std::string> list;
     for (const Finding& finding : findings)
-        if (finding.kind != "temperature_moving") list.push_back(finding.kind);
+        if (finding.kind != FindingKind::temperature_moving)
+            list.emplace_back(to_text(finding.kind));
     return list;
 }
 
@@ -102,7 +104,9 @@ TEST_CASE("swapped names are two findings, a step has its time", "[mistake]") {
     std::swap(swapped.rows[1].reference, swapped.rows[8].reference);
     const auto names = swapped.findings();
     REQUIRE(names.size() >= 2);
-    const auto is_name = [](const Finding& finding) { return finding.kind == "other_name"; };
+    const auto is_name = [](const Finding& finding) {
+        return finding.kind == FindingKind::other_name;
+    };
     CHECK(std::ranges::count_if(names, is_name) == 2);
     // One proposal renames both: half of it would make two stays of one site.
     const auto first = std::ranges::find_if(names, is_name);
@@ -115,7 +119,7 @@ TEST_CASE("swapped names are two findings, a step has its time", "[mistake]") {
     for (std::size_t i = 6; i < stepped.rows.size(); ++i) stepped.off(i, -30.0);
     for (const std::string model : {"t-rate-drift", "network", "robust"}) {
         const auto found = stepped.findings(model);
-        const auto step = std::ranges::find(found, "step", &Finding::kind);
+        const auto step = std::ranges::find(found, FindingKind::step, &Finding::kind);
         REQUIRE(step != found.end());
         CHECK(std::abs(*step->size_mgal + 30.0) < 3.0);
         CHECK(*step->time > stepped.rows[5].time);
@@ -129,7 +133,7 @@ TEST_CASE("a bad reading of a station with others is to be repeated", "[mistake]
     Day day;
     day.off(9, 25.0);  // the second stay at S2
     const auto findings = day.findings();
-    const auto bad = std::ranges::find(findings, "bad_reading", &Finding::kind);
+    const auto bad = std::ranges::find(findings, FindingKind::bad_reading, &Finding::kind);
     REQUIRE(bad != findings.end());
     CHECK(bad->site == "S2");
     CHECK(bad->occupation == 2);
@@ -144,8 +148,8 @@ TEST_CASE("a temperature that moved is named if the model does not correct it", 
     const auto of_row = [&](const std::string& model) {
         const auto findings = day.findings(model);
         const auto found = std::ranges::find_if(findings, [&](const Finding& finding) {
-            return finding.kind == "temperature_moving" && finding.site == day.rows[3].site &&
-                   finding.occupation == day.rows[3].occupation;
+            return finding.kind == FindingKind::temperature_moving &&
+                   finding.site == day.rows[3].site && finding.occupation == day.rows[3].occupation;
         });
         return found == findings.end() ? Finding() : *found;
     };
@@ -198,8 +202,8 @@ TEST_CASE("a day that the model does not fit is named, with the reading after th
     CHECK_FALSE(step.is_headline);
     CHECK(said({Misfit::curvature, 0.007, 1}).text.english() ==
           "the model does not fit this day: the residuals follow the square of the time");
-    CHECK(said({Misfit::step, 0.009, 4}).kind != "misfit");
-    CHECK(said({Misfit::tails, 0.001, 4}).kind != "misfit");
+    CHECK(said({Misfit::step, 0.009, 4}).kind != FindingKind::misfit);
+    CHECK(said({Misfit::tails, 0.001, 4}).kind != FindingKind::misfit);
 }
 
 TEST_CASE("a table has findings, but no amendments", "[mistake]") {
@@ -210,8 +214,8 @@ TEST_CASE("a table has findings, but no amendments", "[mistake]") {
 }
 
 TEST_CASE("findings have all keys, and null for what does not apply", "[mistake]") {
-    const auto json =
-        reading::findings_json({{.kind = "not_visited", .code = "not_visited", .text = "x"}});
+    const auto json = reading::findings_json(
+        {{.kind = FindingKind::not_visited, .code = "not_visited", .text = "x"}});
     CHECK(
         json.dump() ==
         R"([{"kind":"not_visited","code":"not_visited","is_headline":false,"site":null,"occupation":null,)"
@@ -237,7 +241,8 @@ TEST_CASE("a mistake does not decide which model is chosen", "[mistake]") {
     // A model that is asked for is kept, and what is known already stays.
     model::SurveyOptions options;
     options.model = "t";
-    const Finding known{.kind = "no_stop", .code = "no_stop", .text = "S1 (1) has no stop"};
+    const Finding known{
+        .kind = FindingKind::no_stop, .code = "no_stop", .text = "S1 (1) has no stop"};
     const auto kept = mistake::correct_and_search({day.rows, day.sites, nullptr}, options, {known});
     CHECK(kept.model == "t");
     CHECK(std::ranges::count(kept.findings, known.text, &Finding::text) == 1);

@@ -126,7 +126,7 @@ TEST_CASE("the last stay of a log without a stop lasts until the end of the reco
     CHECK(std::ranges::count(result.rows.back().notes, "gap") == 0);
     REQUIRE(result.findings.size() == 1);
     const Finding& finding = result.findings[0];
-    CHECK(finding.kind == "no_stop");
+    CHECK(finding.kind == FindingKind::no_stop);
     CHECK(finding.code == "no_stop_last");
     CHECK(finding.site == kMorningSites.back());
     CHECK(finding.key == "20200502T000220Z");

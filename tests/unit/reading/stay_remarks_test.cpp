@@ -46,7 +46,7 @@ TEST_CASE("a stay without a stop is named, unless its move or an amendment ends 
     windows[1].key = "20200501T063000Z";
     const auto findings = stay_remarks(windows, record());
     REQUIRE(findings.size() == 1);
-    CHECK(findings[0].kind == "no_stop");
+    CHECK(findings[0].kind == FindingKind::no_stop);
     CHECK(findings[0].key == "20200501T063000Z");
     CHECK(findings[0].text ==
           "B (1) has no stop: it lasts until the next start, at 2020-05-01T06:42:00Z");
@@ -62,7 +62,7 @@ TEST_CASE("a stay much shorter than the others is named with both lengths", "[su
     windows[3].end = windows[3].start + 4min;
     const auto findings = stay_remarks(windows, record());
     REQUIRE(findings.size() == 1);
-    CHECK(findings[0].kind == "short_stay");
+    CHECK(findings[0].kind == FindingKind::short_stay);
     CHECK(findings[0].site == "D");
     CHECK(findings[0].text ==
           "D (1) has 4.0 min, less than half the day's median of 12.0 min: its noise is averaged "
@@ -83,7 +83,7 @@ TEST_CASE("uncertain times and a clock that was set back are named", "[survey][r
     }
     auto findings = stay_remarks(day(), uncertain);
     REQUIRE(findings.size() == 1);
-    CHECK(findings[0].kind == "clock");
+    CHECK(findings[0].kind == FindingKind::clock);
     CHECK(findings[0].text ==
           "the times of 2 of 6 set-ups are uncertain by up to 10 s: the host's clock was not "
           "synchronised");
