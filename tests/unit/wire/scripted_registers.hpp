@@ -29,11 +29,7 @@ public:
     Bytes half_sent;                      ///< Command that a former host left unfinished.
     std::vector<Bytes> received;          ///< Received commands, including window selections.
 
-    ScriptedRegisters() {
-        for (const Register& reg : kRegisters) {
-            values[{reg.window, reg.address}] = reg.default_value;
-        }
-    }
+    ScriptedRegisters() { set_defaults(); }
 
     std::map<Key, std::uint16_t> values;
 
@@ -61,6 +57,11 @@ public:
     }
 
 private:
+    void set_defaults() {
+        for (const Register& reg : kRegisters)
+            values[{reg.window, reg.address}] = reg.default_value;
+    }
+
     void obey(std::uint8_t first, std::uint8_t value) {
         if (first == 0xFE) {
             window_ = static_cast<Window>(value);
@@ -84,7 +85,7 @@ private:
                                                                     : (old & 0xFF00) | value);
         if (where == key(kFilterCtrl)) busy_reads_left_ = filter_busy_reads;
         if (where == key(kGlobCmd) && (value & kGlobSoftReset) != 0) {
-            values[where] = 0;
+            set_defaults();
             set(kDiagStat, test_result);
         }
     }
