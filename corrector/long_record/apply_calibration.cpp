@@ -25,13 +25,14 @@ constexpr double kLeastRatioToError = 2.0;  // least ratio of a part to its erro
 /// Returns the response with the parameters that are applied; the others are 0.
 unit::ThermalEffect effect_of(const unit::ThermalResponse& thermal,
                               std::vector<text::Message>& remarks) {
-    using Vector = Eigen::Matrix<double, 5, 1>;
-    using Matrix = Eigen::Matrix<double, 5, 5>;
+    constexpr int kTerms = static_cast<int>(unit::kThermalTerms);
+    using Vector = Eigen::Matrix<double, kTerms, 1>;
+    using Matrix = Eigen::Matrix<double, kTerms, kTerms>;
     // Calibration and priors: inverse covariances and weighted values are added.
     const Matrix information = linear_algebra::Cholesky(thermal.covariance).inverse();
     Matrix together = information;
     Vector weighted = information * thermal.values;
-    for (Eigen::Index k = 0; k < 5; ++k) {
+    for (Eigen::Index k = 0; k < kTerms; ++k) {
         const unit::ThermalPrior prior = unit::record_prior(static_cast<unit::ThermalTerm>(k));
         together(k, k) += 1.0 / (prior.deviation * prior.deviation);
         weighted(k) += prior.mean / (prior.deviation * prior.deviation);

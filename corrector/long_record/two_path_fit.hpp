@@ -42,9 +42,10 @@ enum class TwoPathTerm { drift, warm_up, level, fast, slow, fast_lag, slow_lag, 
 inline constexpr std::size_t kTwoPathTerms = 8;
 
 /// Parameters that a calibration keeps, in the order of ThermalTerm.
-inline constexpr std::array<TwoPathTerm, unit::kThermalTerms> kThermalOfTwoPath{
-    TwoPathTerm::level, TwoPathTerm::slow, TwoPathTerm::fast, TwoPathTerm::fast_lag,
-    TwoPathTerm::slow_lag};
+inline constexpr std::array kThermalOfTwoPath{TwoPathTerm::level, TwoPathTerm::slow,
+                                              TwoPathTerm::fast, TwoPathTerm::fast_lag,
+                                              TwoPathTerm::slow_lag};
+static_assert(kThermalOfTwoPath.size() == unit::kThermalTerms);
 
 /// Greatest standard error of a determined parameter, in deviations of its prior.  Reason: the
 /// record then halves the uncertainty that there was before.

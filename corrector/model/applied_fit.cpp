@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "corrector/model/linear_terms.hpp"
 #include "corrector/model/outlier_tests.hpp"
 #include "corrector/model/paper_correction.hpp"
 
@@ -122,7 +123,8 @@ void set_uncertainty(CorrectedRow& out, const AppliedFit& applied, std::size_t r
 void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& applied,
                   const Priors& priors) {
     const LinearFit& fit = applied.fit;
-    const auto steps = static_cast<std::size_t>(fit.coefficients.size()) - model.parameter_count();
+    const std::vector<LinearTerm> terms = terms_of(model);
+    const auto steps = static_cast<std::size_t>(fit.coefficients.size()) - 1 - terms.size();
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         CorrectedRow& out = result.rows[i];
         const Eigen::VectorXd x = applied.regressors_of(i);
@@ -131,15 +133,7 @@ void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& appli
         };
         Eigen::Index k = 0;
         out.temperature_correction = -MilliGal(fit.coefficients(0));
-        if (model.has_temperature)
-            out.temperature_correction = -(MilliGal(fit.coefficients(0)) + effect(k++));
-        if (model.has_rate) out.rate_correction = -effect(k++);
-        if (model.has_time) out.drift_correction = -effect(k++);
-        if (model.has_axes) {
-            out.tilt_correction = -(effect(k) + effect(k + 1));
-            k += 2;
-        }
-        if (model.has_scale) out.scale_correction = -effect(k++);
+        for (const LinearTerm& term : terms) term.correct(out, effect(k++));
         while (k < x.size()) out.drift_correction = out.drift_correction - effect(k++);
         out.corrected = out.row.acceleration - out.row.tide - MilliGal(fit.at(x));
         if (out.row.reference) out.residual = *out.row.reference - out.corrected;

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "corrector/model/linear_terms.hpp"
 #include "corrector/model/paper_correction.hpp"
 #include "protocol/core/units.hpp"
 
@@ -114,29 +115,17 @@ LinearModel with_scale(LinearModel model, const Priors& priors) {
     return model;
 }
 
+std::size_t LinearModel::parameter_count() const { return 1 + terms_of(*this).size(); }
+
 Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<reading::SurveyRow>& rows,
                               const TimeOrigin& origin) {
-    Eigen::MatrixXd columns(
-        static_cast<Eigen::Index>(rows.size()),
-        static_cast<Eigen::Index>(model.parameter_count()) - 1 + std::ssize(origin.steps));
+    const std::vector<LinearTerm> terms = terms_of(model);
+    Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()),
+                            std::ssize(terms) + std::ssize(origin.steps));
     for (Eigen::Index i = 0; i < columns.rows(); ++i) {
         const reading::SurveyRow& row = rows[static_cast<std::size_t>(i)];
         Eigen::Index k = 0;
-        if (model.has_temperature)
-            columns(i, k++) = (row.temperature - kReferenceTemperature).value();
-        if (model.has_rate) columns(i, k++) = row.rate_degc_per_h;
-        if (model.has_time)
-            columns(i, k++) =
-                seconds_between(origin.time, row.time) / kSecondsPerHour - kReferenceTime_h;
-        if (model.has_axes) {
-            const reading::RecordSummary& axes =
-                row.axes_for(fmt::format("model = {}", model.name));
-            columns(i, k++) = axes.x.mean.value();
-            columns(i, k++) = axes.y.mean.value();
-        }
-        if (model.has_scale)
-            columns(i, k++) = row.reference.value_or(row.acceleration - row.tide).value() -
-                              kMilliGalPerStandardGravity;
+        for (const LinearTerm& term : terms) columns(i, k++) = term.column(model, row, origin);
         for (const UtcTime step : origin.steps) columns(i, k++) = row.time > step ? 1.0 : 0.0;
     }
     return columns;
@@ -144,11 +133,7 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<readin
 
 std::vector<std::string> coefficient_names(const LinearModel& model, std::size_t steps) {
     std::vector<std::string> names{"constant_mgal"};
-    if (model.has_temperature) names.emplace_back("temperature_mgal_per_degc");
-    if (model.has_rate) names.emplace_back("rate_mgal_per_degc_per_h");
-    if (model.has_time) names.emplace_back("time_mgal_per_h");
-    if (model.has_axes) names.insert(names.end(), {"x_mgal_per_g", "y_mgal_per_g"});
-    if (model.has_scale) names.emplace_back(kScale);
+    for (const LinearTerm& term : terms_of(model)) names.emplace_back(term.name);
     for (std::size_t k = 1; k <= steps; ++k) names.push_back(fmt::format("step_{}_mgal", k));
     return names;
 }

@@ -56,7 +56,7 @@ struct TimeOrigin {
     TimeOrigin(UtcTime at, std::vector<UtcTime> steps_at) : time(at), steps(std::move(steps_at)) {}
 };
 
-/// A linear model: its name and its terms besides the constant.
+/// A linear model: its name and its terms besides the constant (linear_terms.hpp).
 struct LinearModel {
     std::string_view name;         ///< Name in options and tables.
     bool has_temperature = false;  ///< Term bT (T - T0).
@@ -66,10 +66,7 @@ struct LinearModel {
     bool has_scale = false;        ///< Term k (g - g0), always with a prior.
 
     /// Returns the number of coefficients p, the constant included.
-    [[nodiscard]] std::size_t parameter_count() const {
-        return 1U + (has_temperature ? 1U : 0U) + (has_rate ? 1U : 0U) + (has_time ? 1U : 0U) +
-               (has_axes ? 2U : 0U) + (has_scale ? 1U : 0U);
-    }
+    [[nodiscard]] std::size_t parameter_count() const;
 };
 
 /// Models from which `auto` chooses.  The list was fixed before any data were fitted.

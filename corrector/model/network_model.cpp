@@ -34,7 +34,7 @@ Score score_of(const NetworkAdjustment& network, double reading_sd_mgal) {
     return score;
 }
 
-/// Effects of the terms of a network on a row, by what they are called in a corrected survey, mGal.
+/// Sums of the effects of a network's terms on a row, one sum for each correction, mGal.
 struct Effects {
     double constant = 0.0, drift = 0.0, temperature = 0.0, rate = 0.0, pressure = 0.0, scale = 0.0;
 

@@ -31,8 +31,7 @@ constexpr std::array<Range, 2> kAxisBiasRanges{kBiasRange, kBiasRange};
 /// Ranges of slopes, mGal/degC or mGal/(degC/h), a thousand times the observed values; and of
 /// logarithms of lags in seconds, from 1 s to two days.
 constexpr Range kSlopeRange{-1e4, 1e4}, kLagRange{0.0, 12.0};
-constexpr std::array<Range, kThermalTerms> kThermalRanges{kSlopeRange, kSlopeRange, kSlopeRange,
-                                                          kLagRange, kLagRange};
+constexpr std::array kThermalRanges{kSlopeRange, kSlopeRange, kSlopeRange, kLagRange, kLagRange};
 
 std::string required(text::TomlTable& table, std::string_view key) {
     std::string value = table.string_or(key, "");
@@ -121,8 +120,7 @@ std::optional<Scale> scale_of(text::TomlTable& document) {
     text::TomlTable table = document.table("scale");
     const double value =
         required_number(table, "value", 1.0 - kGreatestError, 1.0 + kGreatestError);
-    const double error =
-        required_number(table, "standard_error", kLeastDeviation, kGreatestError);
+    const double error = required_number(table, "standard_error", kLeastDeviation, kGreatestError);
     table.require_all_read();
     return Scale{value, error};
 }
@@ -159,7 +157,8 @@ Calibration parse_calibration(std::string_view text, std::filesystem::path origi
     calibration.data = data_of(document);
     calibration.axis_bias =
         coefficients_of<2>(document, "axis_bias", kAxisBiasNames, kAxisBiasRanges);
-    calibration.thermal = coefficients_of<5>(document, "thermal", kThermalNames, kThermalRanges);
+    calibration.thermal =
+        coefficients_of<kThermalTerms>(document, "thermal", kThermalNames, kThermalRanges);
     if (document.has("warm_up")) {
         text::TomlTable table = document.table("warm_up");
         calibration.warm_up = {required_number(table, "within_mgal", 1e-3, 1e3),

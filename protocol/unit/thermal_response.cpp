@@ -11,9 +11,6 @@ namespace {
 
 constexpr double kDayLagFactor = 1.5;
 
-/// Priors in the order of ThermalTerm.
-using Priors = std::array<ThermalPrior, kThermalTerms>;
-
 ThermalPrior of_lag(double median_s, double factor) {
     return {std::log(median_s), std::log(factor)};
 }
@@ -42,20 +39,22 @@ std::array<double, 4> powers_after_lag(double h) {
 }  // namespace
 
 ThermalPrior day_prior(ThermalTerm term) {
-    static const Priors priors{within_60_percent(kTypicalUnit.level_mgal_per_degc),
-                               within_60_percent(kTypicalUnit.slow_mgal_per_degc),
-                               within_60_percent(kTypicalUnit.fast_mgal_per_degc_per_h),
-                               of_lag(kTypicalUnit.fast_lag_s, kDayLagFactor),
-                               of_lag(kTypicalUnit.slow_lag_s, kDayLagFactor)};
+    static const std::array priors{within_60_percent(kTypicalUnit.level_mgal_per_degc),
+                                   within_60_percent(kTypicalUnit.slow_mgal_per_degc),
+                                   within_60_percent(kTypicalUnit.fast_mgal_per_degc_per_h),
+                                   of_lag(kTypicalUnit.fast_lag_s, kDayLagFactor),
+                                   of_lag(kTypicalUnit.slow_lag_s, kDayLagFactor)};
+    static_assert(priors.size() == kThermalTerms);
     return priors.at(static_cast<std::size_t>(term));
 }
 
 ThermalPrior record_prior(ThermalTerm term) {
-    static const Priors priors{ThermalPrior{0.0, kRecordSlopeDeviation_mgal_per_degc},
-                               {0.0, kRecordSlopeDeviation_mgal_per_degc},
-                               {0.0, kRecordFastDeviation_mgal_per_degc_per_h},
-                               of_lag(kTypicalUnit.fast_lag_s, kRecordLagFactor),
-                               of_lag(kTypicalUnit.slow_lag_s, kRecordLagFactor)};
+    static const std::array priors{ThermalPrior{0.0, kRecordSlopeDeviation_mgal_per_degc},
+                                   ThermalPrior{0.0, kRecordSlopeDeviation_mgal_per_degc},
+                                   ThermalPrior{0.0, kRecordFastDeviation_mgal_per_degc_per_h},
+                                   of_lag(kTypicalUnit.fast_lag_s, kRecordLagFactor),
+                                   of_lag(kTypicalUnit.slow_lag_s, kRecordLagFactor)};
+    static_assert(priors.size() == kThermalTerms);
     return priors.at(static_cast<std::size_t>(term));
 }
 

@@ -42,12 +42,12 @@ namespace a351::unit {
 /// level and slow are in mGal/degC, fast is in mGal/(degC/h), both lags are ln(s).  The values are
 /// indices from 0 for kThermalNames.
 enum class ThermalTerm { level, slow, fast, fast_lag, slow_lag };
-/// Number of parameters.
-inline constexpr std::size_t kThermalTerms = 5;
 /// Names with units, in the order of ThermalTerm; lags as natural logarithms of seconds.
-inline constexpr std::array<std::string_view, kThermalTerms> kThermalNames{
-    "temperature_mgal_per_degc", "slow_temperature_mgal_per_degc", "rate_mgal_per_degc_per_h",
-    "fast_lag_ln_s", "slow_lag_ln_s"};
+inline constexpr auto kThermalNames =
+    std::to_array<std::string_view>({"temperature_mgal_per_degc", "slow_temperature_mgal_per_degc",
+                                     "rate_mgal_per_degc_per_h", "fast_lag_ln_s", "slow_lag_ln_s"});
+/// Number of parameters.  Other lists of them have this length, or do not compile.
+inline constexpr std::size_t kThermalTerms = kThermalNames.size();
 
 /// A unit of this type, as the published records show it.
 ///

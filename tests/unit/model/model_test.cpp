@@ -1,6 +1,7 @@
 #include "corrector/model/model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include "tests/support/catch.hpp"
 
@@ -62,9 +63,30 @@ TEST_CASE("every model of averages gives rows whose corrections add up to the co
             CHECK(sum.value() == Approx(row.corrected.value()).epsilon(0).margin(1e-8));
         }
         CHECK(fit.score.model == model.name);
+        CHECK(fit.stations.size() == station_names(rows).size());
         CHECK((fit.rows.front().as<PaperRow>() != nullptr) == (model.name == kPaper));
         CHECK((fit.rows.front().as<RobustRow>() != nullptr) == (model.name == "robust"));
         CHECK((fit.as<NetworkAdjustment>() != nullptr) == (model.name == "network"));
+    }
+}
+
+TEST_CASE("a linear model corrects for its own terms only", "[survey][model]") {
+    const auto rows = made_up::day();
+    const SurveyOptions options = options_for(rows);
+    const SurveyProblem problem{rows, options, nullptr};
+    for (const char* const name : {"t", "t-rate", "t-drift", "t-rate-drift", "drift"}) {
+        CAPTURE(name);
+        const LinearModel& terms = *find_linear_model(name);
+        const auto fit = std::get<model::Fit>(find_model(name)->fit(problem, all_of(rows)));
+        const auto has_correction = [&](MilliGal CorrectedRow::*correction) {
+            return std::ranges::any_of(fit.rows, [&](const CorrectedRow& row) {
+                return std::abs((row.*correction).value()) > 1e-9;
+            });
+        };
+        CHECK(has_correction(&CorrectedRow::rate_correction) == terms.has_rate);
+        CHECK(has_correction(&CorrectedRow::drift_correction) == terms.has_time);
+        CHECK_FALSE(fit.rows.front().tilt_correction);
+        CHECK_FALSE(fit.rows.front().scale_correction);
     }
 }
 
