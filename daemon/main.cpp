@@ -133,7 +133,8 @@ survey::OccupationOptions occupation_options(const config::Config& config) {
 /// Returns what computes the gravity so far: the corrector beside this program, on its data root.
 gravity::GravityOptions gravity_options(const config::Config& config, spdlog::logger& log) {
     const config::SurveyConfig& survey = config.survey;
-    const auto self = std::filesystem::read_symlink("/proc/self/exe");
+    std::error_code no_proc;  // Without /proc the corrector is not found, and the page says so.
+    const auto self = std::filesystem::read_symlink("/proc/self/exe", no_proc);
     gravity::GravityOptions options = gravity::options_for(
         self.parent_path() / "a351-correct",
         {config.storage.root, survey.sites_file, survey.calibration_file}, survey.gravity_every);

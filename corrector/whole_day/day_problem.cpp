@@ -35,18 +35,17 @@ double bin_scatter_mgal(const std::vector<reading::DayBin>& bins) {
 DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
                        const DayPriors& priors, const std::vector<double>& rough_mgal)
     : DayRegression(record, stations, priors, rough_mgal),
-      priors_(priors),
       whitening_(record.bins),
       white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {}
 
 DayNoise DayProblem::noise(const Point& u) const {
-    return {priors_.placement_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
+    return {priors().placement_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
             white_mgal_.at(u[kWhite])};
 }
 
 DayProblem::Point DayProblem::point_of(const DayNoise& noise) const {
     Point u{};
-    u[kPlacement] = priors_.placement_mgal.place_of(noise.placement_mgal);
+    u[kPlacement] = priors().placement_mgal.place_of(noise.placement_mgal);
     u[kFlicker] = kFlickerPrior_mgal.place_of(noise.flicker_mgal);
     u[kWhite] = white_mgal_.place_of(noise.white_mgal);
     return u;
@@ -103,13 +102,13 @@ DayProblem::Point DayProblem::expected(const Point& u) const {
 double DayProblem::log_factor(DayHyper part) const {
     switch (part) {
         case kPlacement:
-            return std::log(priors_.placement_mgal.factor);
+            return std::log(priors().placement_mgal.factor);
         case kFlicker:
             return std::log(kFlickerPrior_mgal.factor);
         case kOuterSize:
             return std::log(kOuterSize_mgal_per_degc.factor);
         default:
-            return std::log(priors_.bias_factor);
+            return std::log(priors().bias_factor);
     }
 }
 
@@ -134,7 +133,7 @@ std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u
     const linear_algebra::Cholesky factor(curvature);
     if (!factor.is_positive_definite()) return std::nullopt;
     const Eigen::MatrixXd covariance = factor.inverse();
-    const std::array<double, 3> factors{priors_.placement_mgal.factor, kFlickerPrior_mgal.factor,
+    const std::array<double, 3> factors{priors().placement_mgal.factor, kFlickerPrior_mgal.factor,
                                         kWhiteFactor};
     std::array<double, 3> errors{};
     for (std::size_t i = 0; i < errors.size(); ++i)

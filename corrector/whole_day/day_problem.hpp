@@ -87,7 +87,6 @@ private:
     /// Returns cost(u) from the scaled() columns of a point that differs from `u` in its noise only.
     [[nodiscard]] double cost(const Point& u, Eigen::MatrixXd columns) const;
 
-    const DayPriors& priors_;
     Whitening whitening_;
     LogNormalPrior white_mgal_;
 };

@@ -155,6 +155,8 @@ protected:
     /// scaled(); columns of other lags are computed and kept in `lagged`.
     [[nodiscard]] Eigen::MatrixXd scaled(const Point& u, LagColumns& lagged) const;
 
+    [[nodiscard]] const DayPriors& priors() const { return priors_; }
+
 private:
     void set_gravities();
     void set_readings(const std::vector<double>& rough_mgal);

@@ -10,11 +10,10 @@ import urllib.error
 import urllib.request
 
 from box_group import SAMPLE_S, Boxes, last_sample, spread_s
+from emulated_session import wait_for
 from programs import Scratch, demand
 
 
-# After this time received samples are on the disk, so that a killed daemon has them: 0.1 s, and more if the disk stalls.
-JOURNALED_S = 3.0
 STRANGER = "http://evil.example"
 
 
@@ -52,7 +51,8 @@ def orders(boxes):
     """All stays by the terminal, with one box dead at the start and at the stop."""
     count, dead, alive = len(boxes.sessions), boxes.sessions[-1], boxes.sessions[:-1]
     before = min(last_sample(session) for session in boxes.sessions)
-    time.sleep(JOURNALED_S)
+    received = dead.status()["received"]
+    wait_for("the journal has what was received", lambda: dead.status()["journaled"] >= received)
     boxes.kill(dead)
     said = boxes.ctl("start", "No.1", "--operator", "Ito", "--at", before)
     again = repeat_instant(boxes, said)

@@ -16,7 +16,7 @@ from programs import IS_SANITIZED, Scratch, daemon_config, daemon_status, unused
 SPEED = 2  # At this speed the silence that ends a session, 2 s of signal, is its minimum of 1 s of real time.
 OWN, OTHER = "00000001", "87654321"
 HARD_ERR = 0x00E0
-SEATS = 32  # Connections that the daemon serves at the same time; one is needed for the question below.
+SEATS = 32  # Connections that the daemon serves at the same time.
 table = FaultTable()
 
 
@@ -162,7 +162,8 @@ def answer(client):
 def many_tabs(session):
     def act():
         clients = [connect(session) for _ in range(100)]
-        # The daemon accepts them before it answers this request; later it could answer each one before it accepts the next.
+        # The daemon accepts them before it answers this request, which takes one seat; later it could answer each one before it
+        # accepts the next.
         wait_for("all connections are accepted", lambda: daemon_status(session.port) is not None)
         for client in clients:
             try:

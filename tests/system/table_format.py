@@ -22,8 +22,10 @@ def keys(value):
     return value.keys() | set().union(*(keys(part) for name, part in value.items() if name not in ASIDE))
 
 
-def demand_named(title, written, page):
-    lacking = sorted(written - set(re.findall(r"`([a-z0-9_]+)`", page.read_text())))
+def demand_named(title, written, page, heading=""):
+    """Demands that a page names all these columns and keys, after a heading if one is given."""
+    described = page.read_text().partition(heading)[2] if heading else page.read_text()
+    lacking = sorted(written - set(re.findall(r"`([a-z0-9_]+)`", described)))
     demand(f"{title}: of {len(written)} columns and keys {page.name} describes all but {lacking or 'none'}", not lacking)
 
 
@@ -84,7 +86,7 @@ with Scratch() as scratch:
     so_far = json.loads(run(BIN / "a351-correct", "survey", scratch / "day",
                              "--sites", scratch / "day" / "sites.csv", "--json").stdout)
     demand(f"the gravity so far has {len(so_far['stays'])} stays", so_far["stays"])
-    demand_named("gravity so far", keys(so_far), PAGE)
+    demand_named("gravity so far", keys(so_far), PAGE, "## Gravity so far")
     run(BIN / "a351-correct", "record", scratch / "day", "--ensemble", 4, "--out", scratch / "record")
     written = json.loads((scratch / "record" / "result.json").read_text()).keys()
     demand_named("record", written | columns(scratch / "record", "record", "response"), RECORD_PAGE)
