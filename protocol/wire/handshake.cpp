@@ -18,7 +18,6 @@ constexpr int kWrites = 2;  // the write and one retry
 // A device just powered is ready after 0.9 s, one just reset after 0.97 s (data sheet table 2.2).
 constexpr milliseconds kStartUpPoll{50};
 constexpr milliseconds kStartUpLimit{3000};
-constexpr milliseconds kResetTime{1000};
 
 // Setting a filter takes 4 ms for a built-in one, 100 ms for a user filter (data sheet table 2.2).
 constexpr milliseconds kFilterPoll{5};
@@ -30,11 +29,6 @@ constexpr DrainUntilSilent kShortDrain{.quiet = milliseconds(20), .limit = milli
 constexpr std::uint8_t kFirstIdentityAddress = 0x6A;  // PROD_ID1-4, VERSION, SERIAL_NUM1-4
 constexpr std::size_t kIdentityRegisters = 9;
 constexpr std::size_t kVersionIndex = 4;
-
-std::string unanswered(const Register& reg) {
-    return fmt::format("{}: expected an answer of 4 bytes, found none in {} tries", reg.name,
-                       kTries);
-}
 
 std::string mismatch(const Register& reg, std::uint16_t expected, std::uint16_t found,
                      std::uint16_t mask) {
@@ -76,7 +70,6 @@ Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings,
         {&kUartCtrl, kUartAuto, kUartAutoStart | kUartAuto},
         {&kBurstCtrl, settings.layout.burst_ctrl(), kBurstCtrl.defined_bits},
     };
-    diagnoses_left_ = kTries;
     silence();
     queue_.push_back(Transmit{{kEndByte}});  // completes an interrupted command
     silence();
@@ -140,33 +133,16 @@ void Handshake::fail(std::string reason) {
     queue_.push_back(HandshakeFailure{std::move(reason), !has_answered_});
 }
 
-/// Reason: reading has cleared DIAG_STAT, and only a start-up sets it again.
-void Handshake::reset_device() {
-    send(config_->write(kGlobCmd, kGlobSoftReset, kLowByte));
-    config_.reset();
-    wait(kResetTime);
-    silence();  // With AUTO_START in its flash it sends frames now.
-}
-
-/// The lost answer may have named a fault.
-void Handshake::diagnose_again() {
-    if (--diagnoses_left_ == 0) return fail(unanswered(kDiagStat));
-    reset_device();
-    ask(&Handshake::take_mode, kModeCtrl);
-}
-
-void Handshake::refuse(const std::string& found, std::string_view meaning) {
-    reset_device();
-    fail(fmt::format("{}: {}; it is reset and tested again", found, meaning));
-}
-
 void Handshake::take_answer(std::span<const std::byte> answer) {
     const auto value = parse_answer(*asked_, answer);
     if (asked_ == &kId) {  // not required: Epson's other devices answer 0x5345
         if (!value) queue_.push_back(kShortDrain);
         return ask_target();
     }
-    if (!value) return asked_ == &kDiagStat ? diagnose_again() : retry(unanswered(*asked_));
+    if (!value) {
+        return retry(fmt::format("{}: expected an answer of 4 bytes, found none in {} tries",
+                                 asked_->name, kTries));
+    }
     has_answered_ = true;
     (this->*take_)(*value);
 }
@@ -179,7 +155,7 @@ void Handshake::take_mode(std::uint16_t value) {
 }
 
 void Handshake::take_start_up(std::uint16_t value) {
-    if ((value & kGlobNotReady) == 0) return ask_identity();
+    if ((value & kGlobNotReady) == 0) return ask(&Handshake::take_diagnosis, kDiagStat);
     if (--polls_left_ == 0) {
         return fail(fmt::format("{}: not ready after {} ms",
                                 mismatch(kGlobCmd, 0, value, kGlobNotReady),
@@ -189,10 +165,13 @@ void Handshake::take_start_up(std::uint16_t value) {
     ask(&Handshake::take_start_up, kGlobCmd);
 }
 
-void Handshake::ask_identity() {
-    if (identity_index_ == kIdentityRegisters) return ask(&Handshake::take_diagnosis, kDiagStat);
-    const auto address = static_cast<std::uint8_t>(kFirstIdentityAddress + 2 * identity_index_);
-    ask(&Handshake::take_identity, *register_at(Window::w1, address));
+void Handshake::take_diagnosis(std::uint16_t value) {
+    identity_.diag_stat = value;
+    const std::string found = mismatch(kDiagStat, 0, value, kDiagHardError | kDiagFlashError);
+    if ((value & kDiagHardError) != 0) return fail(found + ": HARD_ERR, the sensor is faulty");
+    if ((value & kDiagFlashError) != 0)
+        return fail(found + ": FLASH_ERR, the sensor could not read its calibration");
+    ask(&Handshake::take_identity, *register_at(Window::w1, kFirstIdentityAddress));
 }
 
 void Handshake::take_identity(std::uint16_t value) {
@@ -203,22 +182,16 @@ void Handshake::take_identity(std::uint16_t value) {
     } else {
         append_characters(value, identity_.serial_number);
     }
-    if (++identity_index_ < kIdentityRegisters) return ask_identity();
+    if (++identity_index_ < kIdentityRegisters) {
+        const auto address = static_cast<std::uint8_t>(kFirstIdentityAddress + 2 * identity_index_);
+        return ask(&Handshake::take_identity, *register_at(Window::w1, address));
+    }
     identity_.has_expected_product_id =
         identity_.product_id.starts_with(profile_->product_id_prefix);
     if (!expected_serial_number_.empty() && identity_.serial_number != expected_serial_number_) {
         return fail(fmt::format("another instrument: serial number {}, expected {}",
                                 identity_.serial_number, expected_serial_number_));
     }
-    ask_identity();
-}
-
-void Handshake::take_diagnosis(std::uint16_t value) {
-    identity_.diag_stat = value;
-    const std::string found = mismatch(kDiagStat, 0, value, kDiagHardError | kDiagFlashError);
-    if ((value & kDiagHardError) != 0) return refuse(found, "HARD_ERR, the sensor is faulty");
-    if ((value & kDiagFlashError) != 0)
-        return refuse(found, "FLASH_ERR, the sensor could not read its calibration");
     ask(nullptr, kId);
 }
 

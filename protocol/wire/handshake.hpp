@@ -108,23 +108,22 @@ struct HandshakeFailure {
 /// One step; exactly one alternative.
 using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling, HandshakeFailure>;
 
-/// Sequence: stop and drain twice, check configuration mode, wait for start-up, read identity,
-/// check diagnosis, set registers (only those that differ are written), check rate against filter,
-/// check window, start.  Flash is never written and the baud rate is never changed.
+/// Sequence: stop and drain twice, check configuration mode, wait for start-up, check diagnosis,
+/// read identity, set registers (only those that differ are written), check rate against filter,
+/// check window, start.  A read without a valid answer is repeated.  Flash is never written and the
+/// baud rate is never changed.
 ///
 /// A read is tried three times, a setting is written twice at most; then the handshake fails and
 /// names the register.  It recovers from a device that is sampling and from a command that another
 /// program left half sent.
 ///
 /// These are set: new-data bits, acceleration instead of tilt, internal timer, pin DRDY on and
-/// active high, rate, filter, UART_AUTO without AUTO_START, and the layout.  Thermal stabilisation,
-/// noise mode, offsets, alarm limits and long-term filter are neither read nor changed, unless the
-/// device is reset.  Nothing is saved: a reset or loss of power restores the settings in the flash.
+/// active high, rate, filter, UART_AUTO without AUTO_START, and the layout.  Thermal stabilisation
+/// and noise mode are left as found.  Offsets, alarm limits and long-term filter are neither read
+/// nor changed.  Nothing is saved: a reset or loss of power restores the settings in the flash.
 ///
-/// HARD_ERR and FLASH_ERR in DIAG_STAT are refused; other bits are only reported.  The read clears
-/// the register.  After such a bit, or a lost answer, the device is therefore reset (SOFT_RST), and
-/// its start-up sets the bit again.  So a device is refused as long as its start-up finds the fault.
-/// Another product identifier is only reported.
+/// HARD_ERR and FLASH_ERR in DIAG_STAT are refused; other bits are only reported.  Another product
+/// identifier is only reported too.
 ///
 /// An object is for one attempt and for one thread at a time.
 class Handshake {
@@ -133,7 +132,7 @@ public:
     /// @param profile        must outlive this object.
     /// @param settings       copied; the layout is valid by its type.
     /// @param serial_number  only this instrument is configured; empty: any.  Another one has then
-    ///                       been stopped, but no setting is changed.
+    ///                       been stopped and its DIAG_STAT read, but no setting is changed.
     /// @throws std::invalid_argument  the profile lacks the rate or the filter.
     Handshake(const DeviceProfile& profile, SensorSettings settings,
               std::string serial_number = {});
@@ -165,9 +164,6 @@ private:
     void queue_read();
     void retry(std::string reason);
     void fail(std::string reason);
-    void reset_device();
-    void diagnose_again();
-    void refuse(const std::string& found, std::string_view meaning);
 
     void take_answer(std::span<const std::byte> answer);
     void take_mode(std::uint16_t value);
@@ -177,7 +173,6 @@ private:
     void take_configuration(std::uint16_t value);
     void take_aliasing(std::uint16_t value);
     void take_window(std::uint16_t value);
-    void ask_identity();
     void ask_target();
 
     const DeviceProfile* profile_;
@@ -191,7 +186,6 @@ private:
     bool has_answered_ = false;
     int tries_left_ = 0;
     int polls_left_ = 0;
-    int diagnoses_left_ = 0;
     int writes_left_ = 0;
     std::size_t identity_index_ = 0;
     std::size_t target_index_ = 0;

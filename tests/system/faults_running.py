@@ -28,10 +28,6 @@ def is_sampling(session):
     return session.status()["device"]["state"] == "sampling"
 
 
-def refusals(session):
-    return session.status()["counters"]["handshake_failures"]
-
-
 def seconds_until(claim, is_true):
     begin = time.monotonic()
     wait_for(claim, is_true)
@@ -92,17 +88,26 @@ def error_flags(session):
 
 
 def failing_tests(session):
+    """The daemon shows the failed test for a second of real time only.  If a busy host misses it, the device fails again."""
     session.order(f"failing_tests diag_stat={HARD_ERR}")
-    session.order("power_cycle")
-    wait_for("the failed test is reported", lambda: "HARD_ERR" in reasons(session))
-    said, level = reasons(session), session.status()["level"]
-    refused = refusals(session)
-    wait_for("the device is tested and refused again", lambda: refusals(session) >= refused + 2)
+    shown = []
+
+    def is_over():
+        shown.extend(status for status in [session.status()] if "HARD_ERR" in "; ".join(status.get("reasons", [])))
+        return shown or len(session.emulated()["runs"]) > runs
+
+    for _ in range(3):
+        runs = len(session.emulated()["runs"])
+        session.order("power_cycle")
+        wait_for("the failed test is shown, or the device samples again", is_over)
+        if shown:
+            break
+    level, said = (shown[0]["level"], "; ".join(shown[0]["reasons"])) if shown else ("none", "not shown")
     session.order("failing_tests diag_stat=0")
     session.order("power_cycle")
     wait_for("it samples again", lambda: is_sampling(session))
     session.settled()  # The next fault must not follow a single frame, because no second frame would confirm it.
-    table.note(24, "device fails its start-up test", f"{level}: {said}; refused until repaired, then it samples", level == "fault")
+    table.note(24, "device fails its start-up test", f"{level}: {said}; repaired, it samples", level == "fault")
 
 
 def other_device(session):

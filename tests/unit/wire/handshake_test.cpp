@@ -199,47 +199,10 @@ TEST_CASE("a faulty device is refused with its reason", "[wire][handshake]") {
     hard.set(kDiagStat, 0x0020);
     CHECK(run_with(hard).reason() ==
           "DIAG_STAT: expected 0x0000, found 0x0020 (bits compared: 0x00E4): HARD_ERR, the sensor "
-          "is faulty; it is reset and tested again");
+          "is faulty");
     ScriptedRegisters flash;
     flash.set(kDiagStat, 0x0004);
     CHECK_THAT(run_with(flash).reason(), ContainsSubstring("FLASH_ERR"));
-}
-
-TEST_CASE("a faulty device is refused until its start-up finds no fault", "[wire][handshake]") {
-    for (const auto& [bits, name] :
-         {std::pair(0x0020, "HARD_ERR"), std::pair(0x0004, "FLASH_ERR")}) {
-        ScriptedRegisters device;
-        device.test_result = static_cast<std::uint16_t>(bits);
-        device.set(kDiagStat, device.test_result);
-        for (int attempts = 0; attempts < 3; ++attempts)
-            CHECK_THAT(run_with(device).reason(), ContainsSubstring(name));
-        device.test_result = 0;
-        CHECK_THAT(run_with(device).reason(), ContainsSubstring(name));
-        check_sampling_as_asked(run_with(device), device);
-    }
-}
-
-TEST_CASE("after a lost answer to DIAG_STAT a faulty device is refused and another one is set",
-          "[wire][handshake]") {
-    ScriptedRegisters faulty;
-    faulty.test_result = 0x0020;
-    faulty.set(kDiagStat, faulty.test_result);
-    faulty.lost_answers[ScriptedRegisters::key(kDiagStat)] = 2;
-    CHECK_THAT(run_with(faulty).reason(), ContainsSubstring("HARD_ERR"));
-    ScriptedRegisters well;
-    well.lost_answers[ScriptedRegisters::key(kDiagStat)] = 2;
-    check_sampling_as_asked(run_with(well), well);
-    well.lost_answers[ScriptedRegisters::key(kDiagStat)] = 3;
-    CHECK(run_with(well).reason() ==
-          "DIAG_STAT: expected an answer of 4 bytes, found none in 3 tries");
-}
-
-TEST_CASE("another instrument is not reset, whatever its fault", "[wire][handshake]") {
-    ScriptedRegisters device;
-    device.set(kDiagStat, 0x0020);
-    Handshake handshake(kProfile, SensorSettings{}, "00000002");
-    CHECK_THAT(run_handshake(handshake, device).reason(), ContainsSubstring("another instrument"));
-    CHECK(device.get(kDiagStat) == 0x0020);
 }
 
 TEST_CASE("a write that is lost once is repeated", "[wire][handshake]") {

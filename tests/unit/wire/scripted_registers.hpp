@@ -19,17 +19,19 @@ public:
     using Key = std::pair<Window, std::uint8_t>;
 
     bool is_sampling = false;
-    std::uint16_t test_result = 0;        ///< Bits of DIAG_STAT that a reset raises.
     int not_ready_reads = 0;              ///< Number of reads for which GLOB_CMD reports NOT_READY.
     int filter_busy_reads = 0;            ///< Number of reads with FILTER_STAT busy after a write.
     std::map<Key, int> unanswered;        ///< Number of reads that get no answer, by register.
-    std::map<Key, int> lost_answers;      ///< Number of reads whose answer gets lost, by register.
     std::map<Key, int> lost_writes;       ///< Number of writes that have no effect, by register.
     std::map<Key, std::uint16_t> forced;  ///< Value that reads always return, by register.
     Bytes half_sent;                      ///< Command that a former host left unfinished.
     std::vector<Bytes> received;          ///< Received commands, including window selections.
 
-    ScriptedRegisters() { set_defaults(); }
+    ScriptedRegisters() {
+        for (const Register& reg : kRegisters) {
+            values[{reg.window, reg.address}] = reg.default_value;
+        }
+    }
 
     std::map<Key, std::uint16_t> values;
 
@@ -57,11 +59,6 @@ public:
     }
 
 private:
-    void set_defaults() {
-        for (const Register& reg : kRegisters)
-            values[{reg.window, reg.address}] = reg.default_value;
-    }
-
     void obey(std::uint8_t first, std::uint8_t value) {
         if (first == 0xFE) {
             window_ = static_cast<Window>(value);
@@ -84,10 +81,6 @@ private:
         values[where] = static_cast<std::uint16_t>(address % 2 == 1 ? (old & 0x00FF) | (value << 8)
                                                                     : (old & 0xFF00) | value);
         if (where == key(kFilterCtrl)) busy_reads_left_ = filter_busy_reads;
-        if (where == key(kGlobCmd) && (value & kGlobSoftReset) != 0) {
-            set_defaults();
-            set(kDiagStat, test_result);
-        }
     }
 
     void read(std::uint8_t address) {
@@ -98,12 +91,11 @@ private:
         if (where == key(kGlobCmd) && not_ready_reads-- > 0) value |= kGlobNotReady;
         if (where == key(kFilterCtrl) && busy_reads_left_-- > 0) value |= kFilterBusy;
         if (forced.contains(where)) value = forced.at(where);
-        if (where == key(kDiagStat)) values[where] = 0;
-        if (lost_answers[where]-- > 0) return;
         output.push_back(static_cast<std::byte>(address));
         output.push_back(static_cast<std::byte>(value >> 8));
         output.push_back(static_cast<std::byte>(value & 0xFF));
         output.push_back(kEndByte);
+        if (where == key(kDiagStat)) values[where] = 0;
     }
 
     Window window_ = Window::w1;  ///< Window that a former host selected.
