@@ -93,7 +93,9 @@ def failing_tests(session):
     shown = []
 
     def is_over():
-        shown.extend(status for status in [session.status()] if "HARD_ERR" in "; ".join(status.get("reasons", [])))
+        status = session.status()
+        if "HARD_ERR" in "; ".join(status.get("reasons", [])):
+            shown.append(status)
         return shown or len(session.emulated()["runs"]) > runs
 
     for _ in range(3):
