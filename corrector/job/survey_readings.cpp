@@ -69,15 +69,15 @@ reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Pro
 namespace {
 
 /// Returns the steps of the amendments that divide the readings; a warning says which do not.
-std::vector<UtcTime> steps_between(reading::OccupationRows& read) {
-    std::vector<UtcTime> steps;
+std::vector<model::Step> steps_between(reading::OccupationRows& read) {
+    std::vector<model::Step> steps;
     std::ptrdiff_t last = 0;  // readings before the last step
     const auto count = std::ranges::count(read.rows, false, &reading::SurveyRow::is_excluded);
     for (const UtcTime step : read.amendments.steps) {
         const auto before = std::ranges::count_if(
             read.rows, [step](const auto& row) { return !row.is_excluded && row.time <= step; });
         if (before > last && before < count) {
-            steps.push_back(step);
+            steps.push_back({step});
             last = before;
             continue;
         }

@@ -1,6 +1,8 @@
 #include "corrector/mistake/mistake_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "corrector/mistake/mistake_trial.hpp"
 
@@ -50,6 +52,12 @@ double share_of_level(const Mistake& mistake, double alpha) {
     return mistake.p / (mistake.needed_trial ? kTrialShare * alpha : alpha);
 }
 
+/// Returns true for a mistake that is unlikely without one, and large enough to be read.
+bool is_clear(const Mistake& mistake, double alpha) {
+    return share_of_level(mistake, alpha) <= 1.0 &&
+           std::abs(mistake.size_mgal) >= kLeastSize_u * mistake.u_mgal;
+}
+
 std::vector<Mistake> without(std::vector<Mistake> mistakes, std::size_t k) {
     mistakes.erase(mistakes.begin() + static_cast<std::ptrdiff_t>(k));
     return mistakes;
@@ -82,7 +90,7 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
         auto found = next_mistake(readings, residuals_of, mistakes, is_known_sure);
         if (!found) break;
         found->needed_trial = !is_known_sure;
-        const bool is_sure = share_of_level(*found, alpha) <= 1.0;
+        const bool is_sure = is_clear(*found, alpha);
         mistakes.push_back(std::move(*found));
         if (mistakes.size() > 1) refine(mistakes, readings, residuals_of);
         if (!is_sure) continue;
@@ -93,22 +101,29 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
     mistakes = std::move(sure);
     // A mistake that is no longer clear with the others put right is dropped, the least clear first.
     while (!mistakes.empty()) {
-        for (std::size_t k = 0; k < mistakes.size(); ++k) {
-            const std::vector<Mistake> others = without(mistakes, k);
-            auto residuals = residuals_of(others, mistakes);
-            if (!residuals) return {};
-            Mistake mistake = mistakes[k];
-            Trial(std::move(*residuals), readings, others).measure(mistake);
-            mistakes[k].p = mistake.p;
-            mistakes[k].size_mgal = mistake.size_mgal;
-            mistakes[k].u_mgal = mistake.u_mgal;
-        }
-        const auto worst = std::ranges::max_element(
-            mistakes, {}, [&](const Mistake& one) { return share_of_level(one, alpha); });
-        if (share_of_level(*worst, alpha) <= 1.0) break;
+        measure_again(mistakes, readings, residuals_of);
+        const auto worst = std::ranges::max_element(mistakes, {}, [&](const Mistake& one) {
+            return std::pair(!is_clear(one, alpha), share_of_level(one, alpha));
+        });
+        if (is_clear(*worst, alpha)) break;
         mistakes.erase(worst);
     }
     return mistakes;
+}
+
+void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
+                   const ResidualsOf& residuals_of) {
+    for (std::size_t k = 0; k < mistakes.size(); ++k) {
+        const std::vector<Mistake> others = without(mistakes, k);
+        auto residuals = residuals_of(others, mistakes);
+        mistakes[k].p = 1.0;
+        if (!residuals) continue;
+        Mistake mistake = mistakes[k];
+        Trial(std::move(*residuals), readings, others).measure(mistake);
+        mistakes[k].p = mistake.p;
+        mistakes[k].size_mgal = mistake.size_mgal;
+        mistakes[k].u_mgal = mistake.u_mgal;
+    }
 }
 
 }  // namespace a351::corrector::mistake

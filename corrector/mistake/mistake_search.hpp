@@ -29,15 +29,16 @@ namespace a351::corrector::mistake {
 ///
 /// - set_up: one set-up of a stay is off.
 /// - stay: all set-ups of a stay are off, and the station has another stay.
-/// - station: all readings of a station are off: its reference, its name, or its only stay.
+/// - station: all readings of a station with a reference are off: its reference, its name, or its
+///   only stay.
 /// - swap: two stays have each other's name.
-/// - step: all readings from one on are off.
+/// - step: all readings of a loop from one on are off.
 enum class MistakeKind { set_up, stay, station, swap, step };
 
 /// A mistake that was found.
 struct Mistake {
     MistakeKind kind = MistakeKind::stay;
-    /// Numbers of the readings that are off; for a step all from it on.
+    /// Numbers of the readings that are off; for a step all of its loop from it on.
     std::vector<std::size_t> readings;
     std::vector<std::size_t> others;  ///< Swap: readings of the other stay.
     /// Reading minus what the others expect, mGal: positive if the readings are too high.  Swap: the
@@ -59,7 +60,11 @@ struct SearchedReading {
     /// Reference that the fit holds, mGal; absent: the station is unknown.
     std::optional<double> reference_mgal;
     bool is_accepted = true;  ///< False: it is outside the fit, and no mistake.
+    std::size_t loop = 0;     ///< Readings of one loop have a constant in common.
 };
+
+/// Least size of a mistake that is reported, in its standard uncertainties.
+inline constexpr double kLeastSize_u = 3.0;
 
 /// Returns the residuals of the survey with the mistakes `known` put right, at the noise of the
 /// survey with those of `quiet` put right; std::nullopt if there is none.
@@ -88,5 +93,10 @@ inline constexpr double kTrialShare = 0.1;
 [[nodiscard]] std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
                                                    const ResidualsOf& residuals_of,
                                                    double alpha = kMistakeAlpha);
+
+/// Sets sizes and uncertainties of mistakes again, each from the residuals with the others put right.
+/// @param mistakes  from search_mistakes().
+void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
+                   const ResidualsOf& residuals_of);
 
 }  // namespace a351::corrector::mistake

@@ -81,8 +81,11 @@ private:
         return text::fixed(size_mgal, u_mgal < kFine_mgal ? 4 : 1);
     }
 
+    /// Returns "No.5 (2)", with the gravimeter if there is one.
     static std::string name_of(const SurveyRow& row) {
-        return fmt::format("{} ({})", row.site, row.occupation);
+        return row.instrument.empty()
+                   ? fmt::format("{} ({})", row.site, row.occupation)
+                   : fmt::format("{} ({}, {})", row.site, row.occupation, row.instrument);
     }
 
     /// Returns an amendment of the stay of a row; empty if there can be none.
@@ -144,21 +147,24 @@ private:
         if (!after) return;
         finding.code += "_or_step";
         finding.text += text::message("; or the instrument stepped between {} and {}",
-                                      name_of(rows_[*after - 1]), name_of(rows_[*after]));
+                                      name_of(rows_[reading_before(rows_, *after)]),
+                                      name_of(rows_[*after]));
     }
 
     /// Returns the first reading after a step that would look like this mistake, if there is one.
     [[nodiscard]] std::optional<std::size_t> step_beside(const Mistake& mistake) const {
         const std::size_t from = mistake.readings.front(), to = mistake.readings.back();
-        const auto are_accepted = [&](std::size_t first, std::size_t behind) {
-            return std::count(choice_.accepted.begin() + static_cast<std::ptrdiff_t>(first),
-                              choice_.accepted.begin() + static_cast<std::ptrdiff_t>(behind), true);
-        };
-        if (are_accepted(from, to + 1) != std::ssize(mistake.readings)) return std::nullopt;
-        const bool is_first = are_accepted(0, from) == 0,
-                   is_last = are_accepted(to + 1, rows_.size()) == 0;
-        if (is_first == is_last) return std::nullopt;
-        return is_first ? to + 1 : from;
+        const std::vector<std::size_t> loops = model::loop_numbers(rows_);
+        std::ptrdiff_t before = 0, within = 0, after = 0;
+        std::size_t next = 0;
+        for (std::size_t i = rows_.size(); i-- > 0;) {
+            if (!choice_.accepted[i] || loops[i] != loops[from]) continue;
+            ++(i < from ? before : i > to ? after : within);
+            if (i > to) next = i;
+        }
+        if (within != std::ssize(mistake.readings)) return std::nullopt;
+        if ((before == 0) == (after == 0)) return std::nullopt;
+        return before == 0 ? next : from;
     }
 
     /// Returns true if an amendment refuses the reference of a site.
@@ -177,7 +183,7 @@ private:
         finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
         finding.text = text::message(
             "between {} and {} the instrument stepped: from then on the readings are {}",
-            name_of(rows_[after - 1]), name_of(rows_[after]),
+            name_of(rows_[reading_before(rows_, after)]), name_of(rows_[after]),
             off_by(mistake.size_mgal, mistake.u_mgal));
         if (!rows_[after].listed.site.empty())
             finding.amendment = fmt::format(
@@ -292,8 +298,15 @@ private:
 
 }  // namespace
 
+std::size_t reading_before(const std::vector<SurveyRow>& rows, std::size_t after) {
+    const std::vector<std::size_t> loops = model::loop_numbers(rows);
+    const auto later = loops.rend() - static_cast<std::ptrdiff_t>(after);
+    return static_cast<std::size_t>(loops.rend() - std::find(later, loops.rend(), loops[after])) - 1;
+}
+
 UtcTime time_before(const std::vector<SurveyRow>& rows, std::size_t after) {
-    const UtcTime end = rows[after - 1].end.value_or(rows[after - 1].time);
+    const SurveyRow& before = rows[reading_before(rows, after)];
+    const UtcTime end = before.end.value_or(before.time);
     const UtcTime start = rows[after].start.value_or(rows[after].time);
     return end + (start - end) / 2;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <random>
 
 namespace a351::corrector::mistake {
@@ -75,7 +74,9 @@ std::vector<Mistake> possible_mistakes(const std::vector<SearchedReading>& readi
     }
     for (const Stay& stay : stays)
         if (stay_counts[stay.site] > 1) add(MistakeKind::stay, stay.readings);
-    for (const auto& [site, numbers] : stations) add(MistakeKind::station, numbers);
+    // Without a reference all readings of a station are off by nothing that anybody could notice.
+    for (const auto& [site, numbers] : stations)
+        if (readings[numbers.front()].reference_mgal) add(MistakeKind::station, numbers);
     for (std::size_t a = 0; a < stays.size(); ++a)
         for (std::size_t b = a + 1; b < stays.size(); ++b) {
             if (!stays[a].reference_mgal || !stays[b].reference_mgal) continue;
@@ -84,15 +85,21 @@ std::vector<Mistake> possible_mistakes(const std::vector<SearchedReading>& readi
             list.back().others = stays[b].readings;
             list.back().size_mgal = *stays[b].reference_mgal - *stays[a].reference_mgal;
         }
-    // A step with one stay before or after it is the same as this stay being off.
-    if (stays.size() < 4) return list;
-    const std::size_t first = stays[2].readings.front(),
-                      last = stays[stays.size() - 2].readings.front();
-    for (std::size_t i = first; i <= last; ++i) {
-        if (!readings[i].is_accepted) continue;
-        std::vector<std::size_t> after(readings.size() - i);
-        std::iota(after.begin(), after.end(), i);
-        add(MistakeKind::step, std::move(after));
+    std::map<std::size_t, std::vector<std::size_t>> stays_of_loops;
+    for (std::size_t k = 0; k < stays.size(); ++k)
+        stays_of_loops[readings[stays[k].readings.front()].loop].push_back(k);
+    for (const auto& [loop, numbers] : stays_of_loops) {
+        // A step with one stay before or after it is the same as this stay being off.
+        if (numbers.size() < 4) continue;
+        const std::size_t first = stays[numbers[2]].readings.front(),
+                          last = stays[numbers[numbers.size() - 2]].readings.front();
+        for (std::size_t i = first; i <= last; ++i) {
+            if (!readings[i].is_accepted || readings[i].loop != loop) continue;
+            std::vector<std::size_t> after;
+            for (std::size_t k = i; k < readings.size(); ++k)
+                if (readings[k].loop == loop) after.push_back(k);
+            add(MistakeKind::step, std::move(after));
+        }
     }
     return list;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/mistake/far_terms.hpp"
 #include "corrector/mistake/mistake_search.hpp"
 #include "corrector/mistake/mistake_sentences.hpp"
 #include "corrector/mistake/survey_remarks.hpp"
@@ -60,10 +61,11 @@ AmendedSurvey amended(const std::vector<SurveyRow>& rows, const model::SurveyOpt
                 take_name(mistake.others, mistake.readings.front());
                 break;
             case MistakeKind::step:
-                survey.options.steps.push_back(time_before(rows, mistake.readings.front()));
+                survey.options.steps.push_back({time_before(rows, mistake.readings.front()),
+                                                rows[mistake.readings.front()].instrument});
                 break;
         }
-    std::ranges::sort(survey.options.steps);
+    std::ranges::sort(survey.options.steps, {}, &model::Step::time);
     survey.choice = model::choose_rows(survey.rows, survey.options.datum, options.use_flags);
     return survey;
 }
@@ -71,8 +73,10 @@ AmendedSurvey amended(const std::vector<SurveyRow>& rows, const model::SurveyOpt
 std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
                                       const model::RowChoice& choice) {
     std::vector<SearchedReading> readings;
+    const std::vector<std::size_t> loops = model::loop_numbers(rows);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         SearchedReading& reading = readings.emplace_back();
+        reading.loop = loops[i];
         reading.site = rows[i].site;
         reading.occupation = rows[i].occupation;
         reading.is_accepted = choice.accepted[i];
@@ -133,11 +137,35 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
 /// Findings of a survey, and the survey without its mistakes.
 struct Search {
     std::vector<Finding> findings;
+    std::vector<text::Message> remarks;
     std::optional<AmendedSurvey> amended;  ///< Absent if there are no mistakes.
 };
 
-Search search(const model::SurveyCorrection& result, const SearchedSurvey& survey) {
+/// Says which coefficients are far from their priors also without the mistakes, and which are not.
+void say_far_terms(Search& found, const model::Model& model, const SearchedSurvey& survey,
+                   const model::Fit& fit, const std::vector<model::Coefficient>& far) {
+    std::optional<model::FitResult> right;
+    if (found.amended)
+        right = model.fit({found.amended->rows, found.amended->options, survey.day},
+                          found.amended->choice);
+    const auto* const amended = right ? std::get_if<model::Fit>(&*right) : &fit;
+    const std::vector<model::Coefficient> still =
+        amended == nullptr ? std::vector<model::Coefficient>() : far_terms(*amended);
+    for (const model::Coefficient& term : far) {
+        const auto at = std::ranges::find(still, term.name, &model::Coefficient::name);
+        if (at == still.end())
+            found.remarks.push_back(held_term(fit, term));
+        else
+            found.findings.push_back(far_term(*amended, *at));
+    }
+}
+
+/// @param far  coefficients far from their priors.  They are free while mistakes are searched, so
+///             that nothing is a mistake that a scale explains; sizes are those with the priors.
+Search search(const model::SurveyCorrection& result, const SearchedSurvey& survey,
+              const std::vector<model::Coefficient>& far = {}) {
     std::vector<Finding> findings = result.findings;
+    Search found;
     std::optional<AmendedSurvey> right;
     const model::Model& model = *model::find_model(result.model);
     const std::vector<SurveyRow> rows =
@@ -147,11 +175,13 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
             model::choose_rows(rows, result.options.datum, result.options.use_flags);
         std::optional<model::Noise> nearby, of_quiet;
         std::vector<Mistake> last_quiet;
+        model::SurveyOptions options = result.options;
+        options.priors = freed(std::move(options.priors), far);
         const auto residuals_of =
             [&](const std::vector<Mistake>& known,
                 const std::vector<Mistake>& quiet) -> std::optional<residual::Residuals> {
             if (!of_quiet || quiet != last_quiet) {
-                const AmendedSurvey without = amended(rows, result.options, quiet);
+                const AmendedSurvey without = amended(rows, options, quiet);
                 of_quiet =
                     model.noise({{without.rows, without.options, survey.day}, without.choice},
                                 nearby ? &*nearby : nullptr);
@@ -159,12 +189,18 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
                 if (!nearby) nearby = of_quiet;
             }
             if (!of_quiet) return std::nullopt;
-            const AmendedSurvey with = amended(rows, result.options, known);
+            const AmendedSurvey with = amended(rows, options, known);
             return model.residuals({{with.rows, with.options, survey.day}, with.choice}, *of_quiet);
         };
-        const std::vector<Mistake> mistakes = search_mistakes(
-            searched(rows, choice), residuals_of,
+        const std::vector<SearchedReading> readings = searched(rows, choice);
+        std::vector<Mistake> mistakes = search_mistakes(
+            readings, residuals_of,
             result.model == model::kWholeDay ? kWholeDayMistakeAlpha : kMistakeAlpha);
+        if (!far.empty()) {
+            options.priors = result.options.priors;
+            of_quiet.reset();
+            measure_again(mistakes, readings, residuals_of);
+        }
         for (const Mistake& mistake : mistakes)
             for (Finding& finding : findings_of(mistake, rows, choice, survey.sites))
                 findings.push_back(std::move(finding));
@@ -187,8 +223,11 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     };
     for (Finding& remark : survey_remarks(result, survey.rows, survey.sites))
         if (!is_said(remark)) findings.push_back(std::move(remark));
-    std::ranges::stable_sort(findings, {}, rank_of);
-    return {std::move(findings), std::move(right)};
+    found.findings = std::move(findings);
+    found.amended = std::move(right);
+    say_far_terms(found, model, survey, result, far);
+    std::ranges::stable_sort(found.findings, {}, rank_of);
+    return found;
 }
 
 /// Returns the model that `auto` chooses without the mistakes; `present` if there is none.
@@ -217,8 +256,24 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         result.findings = known;
         return result;
     };
+    const auto search_and_hold = [&](model::SurveyCorrection& result) {
+        const std::vector<model::Coefficient> far = far_terms(result);
+        Search found = search(result, survey, far);
+        if (far.empty()) return found;
+        model::SurveyOptions with_held = options;
+        with_held.model = result.model;
+        with_held.priors = held(result.options.priors, far);
+        model::SurveyCorrection fit =
+            model::correct_with_calibration(survey.rows, with_held, survey.day);
+        fit.remarks = std::move(result.remarks);
+        fit.remarks.insert(fit.remarks.end(), found.remarks.begin(), found.remarks.end());
+        fit.choice = result.choice;
+        fit.choice_loso_mgal = result.choice_loso_mgal;
+        result = std::move(fit);
+        return found;
+    };
     model::SurveyCorrection result = correct();
-    Search found = search(result, survey);
+    Search found = search_and_hold(result);
     if (options.model == model::kAutomatic && result.model != model::kWholeDay) {
         // The mistakes may be the reason why the whole-day model looks worse; it sees more of them.
         model::SurveyCorrection of_day = result;
@@ -233,7 +288,7 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
             result = correct();
             result.remarks.push_back(text::message(
                 "{} is chosen from the readings without the mistakes that were found", chosen));
-            found = search(result, survey);
+            found = search_and_hold(result);
         }
     }
     result.findings = std::move(found.findings);

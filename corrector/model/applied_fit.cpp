@@ -43,6 +43,7 @@ void set_scale(Fit& result, const LinearModel& model, const Priors& priors) {
     const Prior prior = priors.scale_of("");
     Coefficient& coefficient = result.coefficients.at(at);
     coefficient.value += 1.0;
+    coefficient.prior = prior;
     result.scales.push_back(
         {"", coefficient.value, coefficient.standard_error.value_or(prior.sd), prior});
 }
@@ -93,14 +94,16 @@ std::optional<residual::Residuals> linear_residuals(const LinearModel& model,
     // Rows of the readings, then rows of the priors; their constant is 0.
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(columns.rows() + prior_count, columns.cols() + 1);
     Eigen::VectorXd y = Eigen::VectorXd::Zero(a.rows());
+    // The noise is that of the readings: priors keep their standard deviations.
+    const double of_prior = s_mgal / slopes.row_sd;
     a.col(0).head(columns.rows()).setOnes();
     a.topRightCorner(columns.rows(), columns.cols()) = columns;
     const std::vector<double> differences = differences_mgal(used);
     std::ranges::copy(differences, y.begin());
     for (Eigen::Index k = 0, row = columns.rows(); k < slopes.weights.size(); ++k) {
         if (!(slopes.weights(k) > 0.0)) continue;
-        a(row, k + 1) = slopes.weights(k);
-        y(row++) = slopes.weights(k) * slopes.values(k);
+        a(row, k + 1) = of_prior * slopes.weights(k);
+        y(row++) = of_prior * slopes.weights(k) * slopes.values(k);
     }
     std::vector<std::size_t> readings;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -148,6 +151,8 @@ void correct_rows(Fit& result, const LinearModel& model, const AppliedFit& appli
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(k);
         result.coefficients.push_back({names[k], fit.coefficients(at), std::nullopt});
+        if (const Prior* const prior = priors.find(names[k]))
+            result.coefficients.back().prior = *prior;
         if (variances) result.coefficients.back().standard_error = std::sqrt((*variances)(at));
     }
     if (model.has_scale) set_scale(result, model, priors);

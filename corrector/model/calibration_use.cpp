@@ -77,6 +77,11 @@ whole_day::DayPriors day_priors_of(const SurveyOptions& options) {
     whole_day::DayPriors priors = day_priors_of(options.calibration);
     if (const Prior* const scale = options.priors.find(kScale))
         priors.set_scale(scale->mean, scale->sd);
+    for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
+        if (const auto factor = options.priors.factors.find(whole_day::kDayTermNames.at(k));
+            factor != options.priors.factors.end())
+            priors.factor.row(whole_day::DayPriors::place_of(static_cast<whole_day::DayTerm>(k))) *=
+                factor->second;
     return priors;
 }
 

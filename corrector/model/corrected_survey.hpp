@@ -49,8 +49,7 @@ struct SurveyOptions {
     std::string base;            ///< Station of the drift step; empty: that of the first row.
     /// Stations whose reference is held; empty: all that have one.
     std::vector<std::string> datum;
-    /// Instants after which all readings have an unknown offset, ascending; `paper` ignores them.
-    std::vector<UtcTime> steps;
+    std::vector<Step> steps;  ///< In order of time; `paper` ignores them.
     /// True: flagged rows are not in the fit.  Excluded rows never are.
     bool use_flags = true;
     NetworkOptions network;  ///< Options of `network`.
@@ -185,7 +184,8 @@ struct StationValue {
     /// of `paper` and `robust`, and for a station that alone is held.
     std::optional<MilliGal> left_out, u_left_out;
     /// Effective degrees of freedom of u_gravity, and the factor of a coverage of 95 %.  Absent
-    /// without u_gravity; the degrees are absent for `network`, whose u is a priori.
+    /// without u_gravity.  `network`: degrees of freedom of the adjustment, and 2, because u is a
+    /// priori; absent if the global test fails.
     std::optional<double> dof, coverage_factor;
     std::optional<StationErrors> errors;  ///< `day` only.
     /// Errors of left_out; for the only station that is held, those of its reference.  `day` only.
@@ -225,6 +225,12 @@ struct Coefficient {
     std::string name;  ///< Name with its unit.
     double value = 0.0;
     std::optional<double> standard_error;  ///< Absent if not estimated, or if dof is 0.
+    std::optional<Prior> prior = {};       ///< As given; absent without one.
+
+    /// Returns the distance from the prior's mean, in its standard deviations; 0 without a prior.
+    [[nodiscard]] double deviations() const {
+        return prior ? std::abs(value - prior->mean) / prior->sd : 0.0;
+    }
 };
 
 /// The scale factor of an instrument: change of the reading divided by that of gravity.

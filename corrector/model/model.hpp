@@ -16,6 +16,7 @@
 /// them.  Equal arguments give equal results.
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,9 +67,16 @@ struct ChosenSurvey {
     const RowChoice& choice;
 };
 
-/// Noise of a survey: standard deviation of a reading, mGal (network: s0), or the fit of a day, which
-/// has noise and lags.
-using Noise = std::variant<double, whole_day::DayFit>;
+/// Noise of a network, and the gravities at which its residuals are linearised.
+struct NetworkNoise {
+    double s0 = 1.0;
+    std::map<std::string, double> above_origin_mgal;  ///< By station.
+    MilliGal origin;
+};
+
+/// Noise of a survey: standard deviation of a reading, mGal, or that of a network, or the fit of a
+/// day, which has noise and lags.
+using Noise = std::variant<double, NetworkNoise, whole_day::DayFit>;
 
 /// A fit, or the reason why the rows do not allow one.
 using FitResult = std::variant<Fit, Refusal>;

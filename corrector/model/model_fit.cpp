@@ -126,7 +126,7 @@ Eigen::MatrixXd model_columns(const LinearModel& model, const std::vector<readin
         const reading::SurveyRow& row = rows[static_cast<std::size_t>(i)];
         Eigen::Index k = 0;
         for (const LinearTerm& term : terms) columns(i, k++) = term.column(model, row, origin);
-        for (const UtcTime step : origin.steps) columns(i, k++) = row.time > step ? 1.0 : 0.0;
+        for (const Step& step : origin.steps) columns(i, k++) = step.is_before(row) ? 1.0 : 0.0;
     }
     return columns;
 }
@@ -146,10 +146,10 @@ SlopePriors slope_priors(const LinearModel& model, const Priors& priors, std::si
     for (Eigen::Index k = 0; k < slope_count; ++k) {
         const Prior* const prior = priors.find(names[static_cast<std::size_t>(k) + 1]);
         if (prior == nullptr) continue;
+        const std::string& name = names[static_cast<std::size_t>(k) + 1];
         // The slope of the scale is k.
-        slopes.values(k) =
-            names[static_cast<std::size_t>(k) + 1] == kScale ? prior->mean - 1.0 : prior->mean;
-        slopes.weights(k) = priors.reading_sd_mgal / prior->sd;
+        slopes.values(k) = name == kScale ? prior->mean - 1.0 : prior->mean;
+        slopes.weights(k) = priors.reading_sd_mgal / priors.in_use(name, *prior).sd;
     }
     return slopes;
 }

@@ -44,16 +44,26 @@ inline constexpr DegC kReferenceTemperature{42.6};
 /// t0, h after the origin, which is the first row of a survey.  Reason: middle of a survey day.
 inline constexpr double kReferenceTime_h = 5.0;
 
+/// A step: an unknown offset of all readings of an instrument after an instant, for example after a
+/// knock.
+struct Step {
+    UtcTime time;
+    std::string instrument = {};  ///< SurveyRow::instrument; empty for the sensor.
+
+    /// Returns true for a reading with the offset.
+    [[nodiscard]] bool is_before(const reading::SurveyRow& row) const {
+        return row.instrument == instrument && row.time > time;
+    }
+};
+
 /// Where the times of a survey count from, and where its readings step.
-///
-/// A step is an unknown offset of all readings after an instant, for example after a knock.
 struct TimeOrigin {
-    UtcTime time;                ///< Instant at which t = 0.
-    std::vector<UtcTime> steps;  ///< Ascending.
+    UtcTime time;             ///< Instant at which t = 0.
+    std::vector<Step> steps;  ///< In order of time.
 
     /// A survey without steps.
     TimeOrigin(UtcTime at) : time(at) {}  // NOLINT(google-explicit-constructor)
-    TimeOrigin(UtcTime at, std::vector<UtcTime> steps_at) : time(at), steps(std::move(steps_at)) {}
+    TimeOrigin(UtcTime at, std::vector<Step> steps_at) : time(at), steps(std::move(steps_at)) {}
 };
 
 /// A linear model: its name and its terms besides the constant (linear_terms.hpp).

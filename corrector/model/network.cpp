@@ -140,9 +140,9 @@ void solve(NetworkAdjustment& network, const NetworkSystem& system) {
     network.dof = static_cast<std::size_t>(n - p);
     if (network.dof > 0) {
         const boost::math::chi_squared distribution(static_cast<double>(network.dof));
-        network.chi_square_low = boost::math::quantile(distribution, kGlobalTestAlpha / 2.0);
+        network.chi_square_low = boost::math::quantile(distribution, kGlobalTestAlpha);
         network.chi_square_high =
-            boost::math::quantile(boost::math::complement(distribution, kGlobalTestAlpha / 2.0));
+            boost::math::quantile(boost::math::complement(distribution, kGlobalTestAlpha));
     }
 }
 
@@ -198,7 +198,7 @@ std::optional<double> NetworkAdjustment::s0() const {
 
 std::optional<bool> NetworkAdjustment::passes_global_test() const {
     if (dof == 0) return std::nullopt;
-    return weighted_square >= chi_square_low && weighted_square <= chi_square_high;
+    return weighted_square <= chi_square_high;
 }
 
 std::optional<double> NetworkAdjustment::studentised(std::size_t reading) const {

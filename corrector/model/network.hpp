@@ -46,6 +46,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corrector/model/model_fit.hpp"
 #include "corrector/model/prior.hpp"
 #include "corrector/model/refusal.hpp"
 #include "corrector/reading/survey_row.hpp"
@@ -57,9 +58,9 @@ namespace a351::corrector::model {
 /// pause; after it the instrument was switched off and on again and has a new constant.
 inline constexpr double kLoopPause_h = 6.0;
 
-/// Significance of the two-sided global test: probability that it fails although all standard
-/// deviations are right.  Reason: the usual 5 %.
-inline constexpr double kGlobalTestAlpha = 0.05;
+/// Probability of v^T W v above the upper limit of the global test, or below the lower one, although
+/// all standard deviations are right.  Reason: the usual 5 % on both sides together.
+inline constexpr double kGlobalTestAlpha = 0.025;
 
 /// Least redundancy of a controlled row.  Below it, less than a tenth of a blunder shows in the
 /// row's own residual.
@@ -75,6 +76,9 @@ inline constexpr int kGreatestDriftDegree = 3;
 /// Number of adjustments, each linearised about the one before.  The first has no approximate gravity.
 /// Reason: the error of a round is that of the one before squared, times 1e-2 at most.
 inline constexpr int kScaleRounds = 5;
+
+/// Returns the number of the loop of each row, from 0 in order of their first row.
+[[nodiscard]] std::vector<std::size_t> loop_numbers(const std::vector<reading::SurveyRow>& rows);
 
 /// Effect that a term of the instrument describes.
 enum class TermKind { constant, drift, temperature, rate, admittance, step, scale };
@@ -106,8 +110,7 @@ struct NetworkOptions {
     /// True: the admittance of the air pressure is an unknown; the readings are not reduced for it.
     bool fits_admittance = false;
     int drift_degree = 1;  ///< 0 to kGreatestDriftDegree; column k is (t - t0)^k, t in h.
-    /// Instants after which the readings of the same loop have an unknown offset, ascending.
-    std::vector<UtcTime> steps;
+    std::vector<Step> steps;  ///< Offsets of the readings of the same loop, in order of time.
 };
 
 /// A row of the system: a reading, a datum or a prior.
@@ -152,8 +155,12 @@ struct NetworkAdjustment {
     /// About 1: the standard deviations agree with the residuals.  Far above 1: they are too small,
     /// or there is a blunder.  Far below 1: they are too large.
     [[nodiscard]] std::optional<double> s0() const;
-    /// Returns true if v^T W v is within the limits of the global test; absent if dof = 0.
+    /// Returns true if v^T W v is at most the upper limit; absent if dof = 0.
     [[nodiscard]] std::optional<bool> passes_global_test() const;
+    /// Returns true if v^T W v is below the lower limit: readings scatter less than stated.
+    [[nodiscard]] bool scatters_less_than_stated() const {
+        return dof > 0 && weighted_square < chi_square_low;
+    }
     /// Returns the external studentised residual v / (sd s_i sqrt(r)) of a reading, where
     /// s_i^2 = (v^T W v - (v / sd)^2 / r) / (dof - 1) comes from the other rows.  Positive: the
     /// reading is too low.  Absent if r < kLeastRedundancy, if dof < 2, or if s_i is not positive.
@@ -176,8 +183,8 @@ struct NetworkResult {
 
 /// Adjusts a network.
 ///
-/// The global test compares v^T W v with the chi-square distribution of `dof` degrees of freedom,
-/// two-sided at kGlobalTestAlpha.  If the test fails, nothing is scaled.
+/// The global test compares v^T W v with the chi-square distribution of `dof` degrees of freedom.
+/// It fails above the upper limit only (kGlobalTestAlpha); nothing is scaled then.
 ///
 /// A temperature that does not vary between the rows in use, and has no prior, is left out with a
 /// remark.  Remarks also name stations that only the drift connects with a datum, and readings with

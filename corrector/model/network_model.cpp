@@ -224,7 +224,10 @@ void set_station_errors(Fit& result, const NetworkAdjustment& network) {
     StationCovariance covariance;
     std::vector<Eigen::Index> places;
     for (StationValue& station : result.stations) {
-        if (network.passes_global_test().value_or(true)) station.coverage_factor = kCoverageFactor;
+        if (network.passes_global_test().value_or(true)) {
+            station.coverage_factor = kCoverageFactor;
+            station.dof = static_cast<double>(network.dof);
+        }
         const auto at = std::ranges::find(network.stations, station.site);
         if (at == network.stations.end()) continue;
         covariance.sites.push_back(station.site);
@@ -276,12 +279,14 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     result.score = score_of(network, sd);
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(network.stations.size() + k);
-        result.coefficients.push_back(
-            {network.terms[k].name, network.unknowns(at), std::sqrt(network.covariance(at, at))});
+        result.coefficients.push_back({network.terms[k].name, network.unknowns(at),
+                                       std::sqrt(network.covariance(at, at)),
+                                       network.terms[k].prior});
     }
     for (const NetworkScale& scale : network.scales) {
         Coefficient& coefficient = result.coefficients[scale.term];
         coefficient.value += 1.0;
+        coefficient.prior = scale.prior;
         result.scales.push_back(
             {scale.instrument, coefficient.value, coefficient.standard_error.value(), scale.prior});
     }
@@ -325,7 +330,11 @@ std::optional<NetworkAdjustment> adjusted(const ChosenSurvey& survey) {
 std::optional<Noise> network_noise(const ChosenSurvey& survey, const Noise* /*nearby*/) {
     const auto network = adjusted(survey);
     if (!network || !network->s0() || !(*network->s0() > 0.0)) return std::nullopt;
-    return *network->s0();
+    NetworkNoise noise{*network->s0(), {}, network->origin};
+    for (std::size_t k = 0; k < network->stations.size(); ++k)
+        noise.above_origin_mgal[network->stations[k]] =
+            network->unknowns(static_cast<Eigen::Index>(k));
+    return noise;
 }
 
 std::optional<residual::Residuals> network_residuals(const ChosenSurvey& survey,
@@ -333,6 +342,18 @@ std::optional<residual::Residuals> network_residuals(const ChosenSurvey& survey,
     auto network = adjusted(survey);
     if (!network) return std::nullopt;
     const SurveyOptions& options = survey.problem.options;
+    // A mistake can move gravities and scales far away.  The system is therefore linearised at the
+    // gravities without the mistakes, and at the means of the priors.
+    const auto& of_network = std::get<NetworkNoise>(noise);
+    for (std::size_t k = 0; k < network->stations.size(); ++k)
+        if (const auto known = of_network.above_origin_mgal.find(network->stations[k]);
+            known != of_network.above_origin_mgal.end())
+            network->unknowns(static_cast<Eigen::Index>(k)) =
+                known->second + (of_network.origin - network->origin).value();
+    for (const NetworkScale& scale : network->scales)
+        network->unknowns(static_cast<Eigen::Index>(network->stations.size() + scale.term)) =
+            scale.prior.mean - 1.0;
+    set_scale_columns(*network, survey.problem.rows);
     const std::vector<reading::SurveyRow>& rows = survey.problem.rows;
     const NetworkSystem system =
         build_system(*network, rows, survey.choice.accepted,
@@ -343,9 +364,12 @@ std::optional<residual::Residuals> network_residuals(const ChosenSurvey& survey,
         if (survey.choice.accepted[i]) readings.push_back(i);
     readings.resize(network->rows.size(), rows.size());
     Eigen::VectorXd weights(system.y.size());
-    for (Eigen::Index i = 0; i < weights.size(); ++i)
-        weights(i) =
-            1.0 / (std::get<double>(noise) * network->rows[static_cast<std::size_t>(i)].sd);
+    // The noise is that of the readings: datum and priors keep their standard deviations.
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        weights(i) = 1.0 / ((at < network->reading_count ? of_network.s0 : 1.0) *
+                            network->rows[at].sd);
+    }
     return residual::residuals_of(weights.asDiagonal() * system.a, weights.asDiagonal() * system.y,
                                   readings, weights, rows.size());
 }

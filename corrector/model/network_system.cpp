@@ -22,23 +22,10 @@ struct Loops {
 };
 
 Loops find_loops(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use) {
-    // First the loops of all rows, by the last row of each instrument; then those in use, numbered.
-    std::map<std::string, std::size_t> last_of;
-    std::vector<std::size_t> all;
-    std::vector<bool> is_used;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const auto last = last_of.find(rows[i].instrument);
-        if (last != last_of.end() && rows[last->second].loop == rows[i].loop &&
-            seconds_between(rows[last->second].time, rows[i].time) <=
-                kLoopPause_h * kSecondsPerHour) {
-            all.push_back(all[last->second]);
-        } else {
-            all.push_back(is_used.size());
-            is_used.push_back(false);
-        }
-        if (in_use[i]) is_used[all.back()] = true;
-        last_of[rows[i].instrument] = i;
-    }
+    const std::vector<std::size_t> all = loop_numbers(rows);
+    std::vector<bool> is_used(rows.size(), false);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (in_use[i]) is_used[all[i]] = true;
     Loops loops;
     std::vector<std::optional<std::size_t>> number;
     for (const bool one : is_used)
@@ -61,18 +48,18 @@ bool temperature_varies(const std::vector<reading::SurveyRow>& rows,
 /// Returns the column of a step: 1 for the rows of its loop after it.  It is 0 if the loop has no
 /// reading in use before or after it.
 Eigen::VectorXd step_column(const std::vector<reading::SurveyRow>& rows,
-                            const std::vector<bool>& in_use, const Loops& loops, UtcTime step) {
+                            const std::vector<bool>& in_use, const Loops& loops, const Step& step) {
     Eigen::VectorXd column = Eigen::VectorXd::Zero(std::ssize(rows));
-    const auto after = static_cast<std::size_t>(
-        std::ranges::find_if(rows, [&](const auto& row) { return row.time > step; }) -
-        rows.begin());
-    if (after == 0 || after == rows.size() || loops.of[after] != loops.of[after - 1]) return column;
-    const auto loop = loops.of[after];
+    const auto after =
+        std::ranges::find_if(rows, [&](const auto& row) { return step.is_before(row); });
+    if (after == rows.end()) return column;
+    const auto loop = loops.of[static_cast<std::size_t>(after - rows.begin())];
     bool is_seen_before = false, is_seen_after = false;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (loops.of[i] != loop) continue;
-        if (i >= after) column(static_cast<Eigen::Index>(i)) = 1.0;
-        if (in_use[i]) (i < after ? is_seen_before : is_seen_after) = true;
+        const bool is_after = step.is_before(rows[i]);
+        if (is_after) column(static_cast<Eigen::Index>(i)) = 1.0;
+        if (in_use[i]) (is_after ? is_seen_after : is_seen_before) = true;
     }
     if (!is_seen_before || !is_seen_after) column.setZero();
     return column;
@@ -97,6 +84,21 @@ Eigen::MatrixXd::RowXpr add_row(NetworkSystem& system, NetworkAdjustment& networ
 }
 
 }  // namespace
+
+std::vector<std::size_t> loop_numbers(const std::vector<reading::SurveyRow>& rows) {
+    std::map<std::string, std::size_t> last_of;
+    std::vector<std::size_t> loops;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto last = last_of.find(rows[i].instrument);
+        const bool continues = last != last_of.end() && rows[last->second].loop == rows[i].loop &&
+                               seconds_between(rows[last->second].time, rows[i].time) <=
+                                   kLoopPause_h * kSecondsPerHour;
+        loops.push_back(continues ? loops[last->second] : count++);
+        last_of[rows[i].instrument] = i;
+    }
+    return loops;
+}
 
 double sd_mgal_of(const reading::SurveyRow& row, const Priors& priors) {
     return std::hypot(priors.reading_sd_mgal, row.u_average.value());
@@ -270,14 +272,16 @@ NetworkSystem build_system(NetworkAdjustment& network, const std::vector<reading
     }
     for (const NetworkScale& scale : network.scales) {
         auto line = add_row(system, network, "prior " + network.terms[scale.term].name,
-                            scale.prior.sd, scale.prior.mean - 1.0);
+                            priors.in_use(network.terms[scale.term].name, scale.prior).sd,
+                            scale.prior.mean - 1.0);
         line(station_count + static_cast<Eigen::Index>(scale.term)) = 1.0;
     }
     for (std::size_t k = 0; k < network.terms.size(); ++k) {
         const NetworkTerm& term = network.terms[k];
         if (!term.prior) continue;
         auto line =
-            add_row(system, network, "prior " + term.name, term.prior->sd, term.prior->mean);
+            add_row(system, network, "prior " + term.name,
+                    priors.in_use(term.name, *term.prior).sd, term.prior->mean);
         line(station_count + static_cast<Eigen::Index>(k)) = 1.0;
     }
     return system;

@@ -38,6 +38,11 @@ const Prior* Priors::find(std::string_view name) const {
     return value ? &*value : nullptr;
 }
 
+Prior Priors::in_use(std::string_view name, Prior prior) const {
+    if (const auto factor = factors.find(name); factor != factors.end()) prior.sd *= factor->second;
+    return prior;
+}
+
 Prior Priors::scale_of(std::string_view instrument) const {
     if (const Prior* const given = find(kScale)) return *given;
     return instrument.empty() ? kSensorScale : kGravimeterScale;

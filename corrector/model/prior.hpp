@@ -15,6 +15,8 @@
 /// has priors of its own (day_model.hpp) and takes only that of the scale from here.
 
 #include <array>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,6 +74,13 @@ struct Priors {
     /// datum.  Default: the scatter of the published survey about its known stations.  It must be
     /// above 0; this is not checked.
     double reading_sd_mgal = 2.0;
+
+    /// Factors of standard deviations, by the name of the coefficient (`scale_instrument2` too): a
+    /// large one frees a coefficient, a small one holds it.
+    std::map<std::string, double, std::less<>> factors;
+
+    /// Returns a prior with the factor of its coefficient.
+    [[nodiscard]] Prior in_use(std::string_view name, Prior prior) const;
 
     /// Returns the prior of a coefficient; null if it has none, or if there is no such coefficient.
     /// The pointer is into this object.

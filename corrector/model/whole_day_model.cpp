@@ -259,6 +259,14 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
         averaged[bin.set_up].insert(averaged[bin.set_up].end(), bin.times.begin(), bin.times.end());
     for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
     result.coefficients = coefficients_of(fits.all.fit);
+    for (const auto term : {whole_day::DayTerm::level, whole_day::DayTerm::slow,
+                            whole_day::DayTerm::fast, whole_day::DayTerm::drift,
+                            whole_day::DayTerm::warm_up, whole_day::DayTerm::scale}) {
+        const auto at = whole_day::DayPriors::place_of(term);
+        result.coefficients[static_cast<std::size_t>(term)].prior =
+            Prior{priors.mean(at) + (term == whole_day::DayTerm::scale ? 1.0 : 0.0),
+                  priors.factor.row(at).norm()};
+    }
     const auto place = whole_day::DayPriors::place_of(whole_day::DayTerm::scale);
     const whole_day::Estimate& scale =
         fits.all.fit.coefficients.at(static_cast<std::size_t>(whole_day::DayTerm::scale));

@@ -20,7 +20,7 @@ nlohmann::ordered_json json_or_null(const Value& value, bool is_there) {
 
 std::string_view to_text(FindingKind kind) {
     // In the order of the enumerators.
-    constexpr std::array<std::string_view, 15> kTexts{
+    constexpr std::array<std::string_view, 16> kTexts{
         "moved_box",
         "other_name",
         "reference",
@@ -28,6 +28,7 @@ std::string_view to_text(FindingKind kind) {
         "bad_reading",
         "misfit",
         "unusable_day",
+        "scale",
         "not_visited",
         "no_stop",
         "early_start",

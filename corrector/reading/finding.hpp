@@ -21,6 +21,7 @@ namespace a351::corrector::reading {
 /// - bad_reading: the reading is off by size_mgal, positive if it is too high; or it has no size.
 /// - misfit: the model does not fit.
 /// - unusable_day: the day is not usable as it is.
+/// - scale: a coefficient is far from its prior, and is held there.
 ///
 /// From here on they are remarks, which are never headlines:
 ///
@@ -40,6 +41,7 @@ enum class FindingKind {
     bad_reading,
     misfit,
     unusable_day,
+    scale,
     not_visited,
     no_stop,
     early_start,

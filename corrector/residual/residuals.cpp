@@ -9,7 +9,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kNothing = 1e-6;  // relative length that is left by rounding
+/// Least length of an effect that is left, relative to the whole effect.  Reason: below it the
+/// uncertainty of its size is 1000 times that of the readings: nothing can be said about it.
+constexpr double kLeastLeft = 1e-3;
 
 /// Returns a vector of independent normal numbers of variance 1 (Box and Muller).
 Eigen::VectorXd normal_vector(std::mt19937_64& generator, Index size) {
@@ -34,7 +36,7 @@ Eigen::VectorXd Residuals::projected(const Eigen::VectorXd& effect_mgal) const {
     Eigen::VectorXd whitened = whitening * effect_mgal;
     const double length = whitened.norm();
     project(whitened);
-    if (whitened.norm() < kNothing * length) whitened.setZero();
+    if (whitened.norm() < kLeastLeft * length) whitened.setZero();
     return whitened;
 }
 

@@ -48,17 +48,20 @@ std::string network_text(const model::SurveyCorrection& result) {
     const std::string sd = text::shortest(result.options.priors.reading_sd_mgal);
     if (const auto passes = network.passes_global_test()) {
         text += fmt::format(
-            "global test at 5 %: v'Wv = {} within {} to {}: {}; s0 = {} for readings of sd {} "
-            "mGal\n",
-            text::fixed(network.weighted_square, 2), text::fixed(network.chi_square_low, 2),
-            text::fixed(network.chi_square_high, 2), *passes ? "passed" : "FAILED",
-            text::fixed(*network.s0(), 3), sd);
-        if (!*passes) {
+            "global test: v'Wv = {}, at most {}: {}; s0 = {} for readings of sd {} mGal\n",
+            text::fixed(network.weighted_square, 2), text::fixed(network.chi_square_high, 2),
+            *passes ? "passed" : "FAILED", text::fixed(*network.s0(), 3), sd);
+        const std::string scatter = fmt::format("{:.2g}", result.score.s_mgal.value());
+        if (!*passes)
             text += fmt::format(
                 "  the scatter of the readings agrees with reading_sd_mgal = {}; first look for a "
                 "fault\n",
-                text::fixed(result.score.s_mgal.value(), 3));
-        }
+                scatter);
+        if (network.scatters_less_than_stated())
+            text += fmt::format(
+                "  the readings scatter less than stated (v'Wv below {}): their scatter agrees with "
+                "reading_sd_mgal = {}\n",
+                text::fixed(network.chi_square_low, 2), scatter);
     }
     text += fmt::format(
         "u of the stations: a priori (readings of sd {} mGal); times s0, a posteriori: "

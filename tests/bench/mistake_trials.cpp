@@ -273,7 +273,7 @@ private:
     [[nodiscard]] double step_error_mgal(const OccupationRows& read, std::size_t place) const {
         auto options = survey_.survey;
         const UtcTime before = read.rows[place - 1].time;
-        options.steps = {before + (read.rows[place].time - before) / 2};
+        options.steps = {{before + (read.rows[place].time - before) / 2}};
         const auto result =
             corrector::model::correct_with_calibration(read.rows, options, &*read.day);
         for (const auto& coefficient : result.coefficients)

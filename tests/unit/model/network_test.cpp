@@ -204,7 +204,7 @@ TEST_CASE("readings of stations occupied once are reported as uncontrolled", "[s
                    !ContainsSubstring("B (2)") && !ContainsSubstring("S2"));
 }
 
-TEST_CASE("the global test fails on a blunder and on weights that are too small",
+TEST_CASE("the global test fails on a blunder, and readings better than stated are no failure",
           "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     const double alternating[] = {1, -1, 1, 1, -1, -1, 1, -1, 1, 1, -1, 1};
@@ -219,7 +219,9 @@ TEST_CASE("the global test fails on a blunder and on weights that are too small"
     CHECK(network.chi_square_high == Approx(7.3778).margin(0.0001));
     model::Priors wide;
     wide.reading_sd_mgal = 200.0;
-    CHECK_FALSE(adjust(rows, {}, wide).adjustment->passes_global_test().value());
+    CHECK(adjust(rows, {}, wide).adjustment->passes_global_test().value());
+    CHECK(adjust(rows, {}, wide).adjustment->scatters_less_than_stated());
+    CHECK_FALSE(network.scatters_less_than_stated());
     rows[4].acceleration = rows[4].acceleration + MilliGal(30.0);
     CHECK_FALSE(adjust(rows).adjustment->passes_global_test().value());
 }

@@ -24,7 +24,7 @@ SurveyOptions options_of(const std::string& model, const std::vector<UtcTime>& s
     SurveyOptions options;
     options.model = model;
     options.robust_terms = "t-rate-drift";
-    options.steps = steps;
+    for (const UtcTime step : steps) options.steps.push_back({step});
     return options;
 }
 
