@@ -1,10 +1,16 @@
 /// @file
 /// a351-correct: from records and averages to gravity.
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
+#include <span>
+#include <string_view>
+#include <utility>
 
 #include "corrector/command/commands.hpp"
 #include "protocol/core/input_error.hpp"
@@ -15,6 +21,20 @@ namespace {
 constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
+
+/// Options and subcommands that earlier versions had, with what replaced them.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kRemoved{
+    {{"--robust-terms", "every model but paper is searched for bad readings"}}};
+
+/// Returns what replaced the removed words of the command line; empty if there are none.
+std::string about_removed(int argc, char** argv) {
+    std::string text;
+    for (const std::string_view word : std::span(argv, static_cast<std::size_t>(argc)))
+        for (const auto& [removed, instead] : kRemoved)
+            if (word.substr(0, word.find('=')) == removed)
+                text += fmt::format("; {} is unknown: {}", removed, instead);
+    return text;
+}
 
 int report(std::string message, int status) {
     std::replace(message.begin(), message.end(), '\n', ' ');
@@ -58,7 +78,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& help_or_version) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        return report(std::string(error.what()) + "; see --help", kBadUsage);
+        return report(error.what() + about_removed(argc, argv) + "; see --help", kBadUsage);
     } catch (const InputError& error) {
         return report(error.what(), kBadUsage);
     } catch (const std::exception& error) {

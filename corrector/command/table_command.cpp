@@ -156,13 +156,6 @@ void add_table_command(CLI::App& program) {
     add_with_default(command, "--drift-degree", "N", options->survey.network.drift_degree,
                      "network: degree of the polynomial in time that describes the drift, 0-3")
         ->check(CLI::Range(0, model::kGreatestDriftDegree));
-    std::vector<std::string> linear_models;
-    linear_models.reserve(model::kLinearModels.size());
-    for (const model::LinearModel& model : model::kLinearModels)
-        linear_models.emplace_back(model.name);
-    add_with_default(command, "--robust-terms", "NAME", options->survey.robust_terms,
-                     "robust: linear model that is fitted")
-        ->check(CLI::IsMember(linear_models));
     add_with_default(command, "--out", "DIR", options->out, "Folder of the result");
     add_figures_option(command, options->figures);
     command.callback([options] { correct_table(*options); });

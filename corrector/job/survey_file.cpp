@@ -66,6 +66,13 @@ void read_pressure_channel(SurveyFile& survey, text::TomlTable& table) {
     survey.reduction.pressure_channel->counts_per_hpa = counts_per_hpa;
 }
 
+/// Refuses keys that earlier versions had, and says what replaced them.
+void refuse_removed_keys(const text::TomlTable& table) {
+    if (table.has("robust_terms"))
+        table.refuse("robust_terms", "unknown key",
+                     "no such key, because every model but paper is searched for bad readings");
+}
+
 }  // namespace
 
 SurveyFile read_survey_file(const std::filesystem::path& file) {
@@ -135,12 +142,8 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
                         model::kGreatestSd_mgal);
     survey.survey.network.drift_degree = static_cast<int>(table.integer_or(
         "drift_degree", survey.survey.network.drift_degree, 0, model::kGreatestDriftDegree));
-    std::vector<std::string> linear_models;
-    for (const model::LinearModel& model : model::kLinearModels)
-        linear_models.emplace_back(model.name);
-    survey.survey.robust_terms =
-        table.choice_or("robust_terms", survey.survey.robust_terms, linear_models);
     survey.survey.seed = survey.seed;
+    refuse_removed_keys(table);
     table.require_all_read();
     model::read_priors(survey.survey.priors, document.table("prior"));
     if (document.has("reference")) survey.reference = read_reference(document.table("reference"));

@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// A linear fit, applied to every row of a survey: what `paper`, `robust` and the linear models
-/// share.
+/// A linear fit, applied to every row of a survey: what `paper` and the linear models share.
 ///
 /// It is for models only; programs call correct_survey().  The order of calls matters, because each
 /// one uses what the calls before it have set:
@@ -26,8 +25,7 @@ namespace a351::corrector::model {
 
 /// A fit with the regressors of all rows, in use or not.
 ///
-/// `robust` replaces `fit` and `s_mgal` by its own; `paper` uses only the regressors, leverages and
-/// the error of the slope.
+/// `paper` uses only the regressors, leverages and the error of the slope.
 struct AppliedFit {
     LinearFit fit;                 ///< Fit to the rows in use, in mGal.
     Eigen::MatrixXd columns;       ///< (n, p - 1) Regressors of all rows.

@@ -53,11 +53,8 @@ struct SurveyOptions {
     /// True: flagged rows are not in the fit.  Excluded rows never are.
     bool use_flags = true;
     NetworkOptions network;  ///< Options of `network`.
-    /// Linear model that `robust` fits.  The name must be one of find_linear_model(); not checked.
-    std::string robust_terms = "t-rate";
     std::uint64_t seed = 1;  ///< Seed of the bootstrap over stations.
-    /// Priors of the linear models, `robust` and the network; `paper` uses none, and `day` refuses
-    /// them.
+    /// Priors of the linear models and the network; `paper` uses none, and `day` refuses them.
     Priors priors;
     /// Calibration of the unit.  correct_survey() uses it only as prior of `day`; for other models
     /// call correct_with_calibration().
@@ -68,11 +65,6 @@ struct SurveyOptions {
 struct PaperRow {
     MilliGal corrected1;                ///< Corrected (1), before the drift step.
     std::optional<MilliGal> residual1;  ///< reference - corrected1, the publication's Error (1).
-};
-
-/// Values of a row that only `robust` gives: in the rows in use.
-struct RobustRow {
-    double weight = 0.0;  ///< 1 counts fully, 0 not at all.
 };
 
 /// Values of a row that only `day` gives: in every row.
@@ -109,19 +101,18 @@ struct CorrectedRow {
     /// Uncertainty as if the station were unknown: sqrt(s^2 + variance of the fit).  `network` and
     /// `day`: see network_model() and whole_day_model().  Absent for the other models if dof is 0.
     std::optional<MilliGal> u_corrected;
-    /// Studentised residual: external, except `robust` (scale of the robust fit); absent for
-    /// `paper`.
+    /// External studentised residual; absent for `paper`.
     std::optional<double> studentised_residual;
     /// Reasons from outlier_tests.hpp; empty if there are none.  No row is left out because of
     /// them.
     std::string doubt_physical;
     std::string doubt_statistical;
     /// Values of one model only.
-    std::variant<std::monostate, PaperRow, RobustRow, WholeDayRow> own;
+    std::variant<std::monostate, PaperRow, WholeDayRow> own;
 
     /// Returns the values of one model; null if another model was fitted.  The pointer is into this
     /// object.
-    /// @tparam Part  PaperRow, RobustRow or WholeDayRow.
+    /// @tparam Part  PaperRow or WholeDayRow.
     template <class Part>
     [[nodiscard]] const Part* as() const {
         return std::get_if<Part>(&own);
@@ -181,7 +172,7 @@ struct StationValue {
     std::optional<double> redundancy;
     /// Value with the station's own reference hidden, and its standard uncertainty.  A station
     /// without a reference in the fit has gravity and its uncertainty.  Absent for the other stations
-    /// of `paper` and `robust`, and for a station that alone is held.
+    /// of `paper`, and for a station that alone is held.
     std::optional<MilliGal> left_out, u_left_out;
     /// Effective degrees of freedom of u_gravity, and the factor of a coverage of 95 %.  Absent
     /// without u_gravity.  `network`: degrees of freedom of the adjustment, and 2, because u is a
@@ -276,10 +267,6 @@ struct CalibrationUse {
 struct LinearPart {
     std::optional<Interval> loo_interval_mgal;  ///< 95 % limits of LOO.
 };
-/// Values that only `robust` gives.
-struct RobustPart {
-    std::string terms;  ///< Linear model that was fitted.
-};
 /// Marks a fit of `paper`, whose own values are in the rows.
 struct PaperPart {};
 /// Values that only `day` gives, besides those in the rows.
@@ -299,8 +286,8 @@ struct Fit {
     std::vector<reading::LeftOut> left_out;
     std::vector<reading::Finding> findings;  ///< What is wrong with the survey, the worst first.
     std::vector<StationValue> stations;      ///< In order of their first row.
-    /// Differences of all pairs of stations, in the order of the stations; none for `paper` and
-    /// `robust`.  A station with flagged rows only is in none.
+    /// Differences of all pairs of stations, in the order of the stations; none for `paper`.  A
+    /// station with flagged rows only is in none.
     std::vector<StationDifference> differences;
     /// Present if there are differences.
     std::optional<StationCovariance> covariance;
@@ -312,8 +299,7 @@ struct Fit {
     /// correct_with_calibration().
     std::optional<CalibrationUse> calibration;
     /// Values that only one model gives.
-    std::variant<std::monostate, LinearPart, PaperPart, RobustPart, NetworkAdjustment, WholeDayPart>
-        own;
+    std::variant<std::monostate, LinearPart, PaperPart, NetworkAdjustment, WholeDayPart> own;
 
     /// Returns the values of one model; null if another model was fitted.  The pointer is into this
     /// object.

@@ -3,7 +3,7 @@
 /// Ordinary least squares with a constant, in centred form, and the quantities derived from a fit.
 ///
 /// Use it for few columns and rows of equal weight.  For rows of different weight divide them by
-/// their standard deviation and use PivotedQr; for bad rows use robust_fit.hpp.
+/// their standard deviation and use PivotedQr.
 ///
 ///     const auto fit = fit_linear(columns, y);
 ///     if (!fit) return;                                // the rows do not determine the slopes

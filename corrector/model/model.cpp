@@ -10,7 +10,7 @@ const std::vector<Model>& models() {
     static const std::vector<Model> all = [] {
         std::vector<Model> list{paper_model(), whole_day_model()};
         for (Model& model : linear_models()) list.push_back(std::move(model));
-        list.insert(list.end(), {network_model(), robust_model()});
+        list.push_back(network_model());
         return list;
     }();
     return all;

@@ -101,7 +101,7 @@ struct Model {
     std::function<std::optional<Score>(const SurveyProblem&, const RowChoice&)> score;
 
     /// Returns the noise of a survey; nullopt if the model does not fit it.  This and residuals() are
-    /// empty for `paper`; those of `robust` are of least squares with its terms.
+    /// empty for `paper`.
     /// @param nearby  noise of a similar survey as start of a search, which is then faster; or null.
     std::function<std::optional<Noise>(const ChosenSurvey& survey, const Noise* nearby)> noise = {};
 
@@ -149,16 +149,6 @@ inline constexpr std::string_view kPaper = "paper", kWholeDay = "day", kNetwork 
 /// Those of kLinearModels are always scored.  They refuse rows that do not determine the
 /// coefficients.  Priors count: with a prior on a slope, fewer rows are enough.
 [[nodiscard]] std::vector<Model> linear_models();
-
-/// The MM estimate (robust_fit.hpp) of the linear model SurveyOptions::robust_terms.
-///
-/// A row's studentised residual is the residual divided by s sqrt(1 - h), or by s sqrt(1 + h)
-/// outside the fit, with the robust s.  A row of the fit with h >= 1 has none.  It refuses rows that do not
-/// determine the coefficients.
-///
-/// The statistical doubts come from least squares of the same terms, doubt_by_linear_fit().  The
-/// weights of the robust fit are in RobustRow; a weight near 0 marks a bad row as well.
-[[nodiscard]] Model robust_model();
 
 /// The network adjustment (network.hpp).
 ///

@@ -172,8 +172,8 @@ struct Score {
     std::string model;                ///< Name of the model.
     std::size_t row_count = 0;        ///< Number of rows n.
     std::size_t parameter_count = 0;  ///< Number of coefficients p, steps included.
-    /// Degrees of freedom of the residuals: n + rows of priors and datum - p.  `paper`, `robust`
-    /// and `day` have n - p, at least 0.
+    /// Degrees of freedom of the residuals: n + rows of priors and datum - p.  `paper` and
+    /// `day` have n - p, at least 0.
     std::size_t dof = 0;
     std::optional<double> rms_mgal;   ///< In sample, sqrt(RSS / n).
     std::optional<double> s_mgal;     ///< In sample, divisor dof instead of n.

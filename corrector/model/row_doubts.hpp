@@ -43,7 +43,7 @@ using Refit = std::function<std::optional<StudentisedRows>(
 /// Then rows that were not in use from the start are
 /// tested against the last fit, with dof.  The search ends early if a fit is undetermined or has
 /// fewer than two degrees of freedom; the doubts found until then remain.  Two bad rows of equal
-/// size may hide each other; the robust fit does not have this weakness.
+/// size may hide each other.
 ///
 /// Cost: one fit, and another for each row that is doubted.  At the limit itself there is no doubt.
 /// @param rows   rows of the fit; doubt_statistical is set, and not cleared where there is none.

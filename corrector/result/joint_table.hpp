@@ -70,7 +70,7 @@ struct DayValue {
 /// Fit::covariance, which the day's drift, response, scale and references make; stations of different
 /// days have covariance_mgal2().  A station is in no pair if a day has no u of it, or only flagged
 /// rows; or if the covariance of its day is not that of values without the own reference (`network`),
-/// or absent (`paper`, `robust`).
+/// or absent (`paper`).
 [[nodiscard]] std::vector<model::StationDifference> joint_differences(
     const std::vector<model::SurveyCorrection>& days);
 

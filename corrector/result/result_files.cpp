@@ -129,8 +129,6 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
         json["reference_time_h_after_first_row"] = model::kReferenceTime_h;
     }
     json["priors"] = priors_json(result);
-    if (const auto* const robust = result.as<model::RobustPart>())
-        json["robust_terms"] = robust->terms;
     json["coefficients"] = Json::array();
     for (const model::Coefficient& c : result.coefficients) {
         json["coefficients"].push_back(

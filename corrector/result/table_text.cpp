@@ -80,18 +80,6 @@ std::string summary_text(const model::SurveyCorrection& result) {
     return text;
 }
 
-std::string weights_text(const model::SurveyCorrection& result) {
-    const auto* const robust = result.as<model::RobustPart>();
-    if (robust == nullptr) return {};
-    std::vector<std::string> weights;
-    for (const model::CorrectedRow& row : result.rows)
-        if (const auto* const own = row.as<model::RobustRow>())
-            weights.push_back(fmt::format("{} ({}) {}", row.row.site, row.row.occupation,
-                                          text::fixed(own->weight, 2)));
-    return fmt::format("weights of the robust fit of {}: {}\n", robust->terms,
-                       text::joined(weights));
-}
-
 }  // namespace
 
 std::string choice_text(const model::SurveyCorrection& result) {
@@ -180,7 +168,7 @@ std::string survey_text(const model::SurveyCorrection& result) {
                        '\n' + aligned_text(models_table(result)) +
                        "LOO: leave-one-out. LOSO: leave-one-station-out.\n\n" +
                        summary_text(result) + coefficients_text(result) + network_text(result) +
-                       weights_text(result) + model::doubts_text(result);
+                       model::doubts_text(result);
     for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
     for (const std::string& sentence : side_by_side_sentences(result)) text += sentence + '\n';
     for (const text::Message& remark : result.remarks) text += text::in_words(remark) + '\n';

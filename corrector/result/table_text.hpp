@@ -69,8 +69,8 @@ struct ScoreRow {
 /// in sample or cross-validated (result_files_test.cpp).
 ///
 /// A summary of the applied model follows the tables, then its coefficients, the network's test, the
-/// weights of the robust fit, the doubtful rows and the remarks.  Parts that the model does not
-/// have are absent.  Each line ends with LF.
+/// doubtful rows and the remarks.  Parts that the model does not have are absent.  Each line ends
+/// with LF.
 /// @param result  at least one row; order as for in_order_of_time().
 [[nodiscard]] std::string survey_text(const model::SurveyCorrection& result);
 

@@ -209,24 +209,6 @@ TEST_CASE("the leave-one-out error of the published rows has an interval around 
     CHECK(interval.high < result.score.loo_mgal.value() + 1.2);
 }
 
-TEST_CASE("the robust temperature line gives the publication's three the least weights",
-          "[golden][tsukuba]") {
-    SurveyOptions options;
-    options.model = "robust";
-    options.robust_terms = "t";
-    options.use_flags = false;
-    const SurveyCorrection result = correct_survey(tsukuba::observations(), options);
-    double largest_flagged = 0.0;
-    double smallest_other = 1.0;
-    for (const CorrectedRow& row : result.rows) {
-        double& extreme = row.row.is_flagged ? largest_flagged : smallest_other;
-        const double weight = row.as<RobustRow>()->weight;
-        extreme = row.row.is_flagged ? std::max(extreme, weight) : std::min(extreme, weight);
-    }
-    CHECK(largest_flagged < smallest_other);
-    CHECK(coefficient(result, "temperature_mgal_per_degc").value == Approx(-29.2).margin(2.2));
-}
-
 TEST_CASE("with one known station auto takes the network with weak priors, and is honest",
           "[golden][models]") {
     SurveyOptions options;

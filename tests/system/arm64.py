@@ -21,8 +21,8 @@ from programs import IS_LONG, IS_SANITIZED, TOP, Scratch, demand, run, skip
 
 QEMU = "qemu-aarch64-static"
 CATCH2 = {"bookworm": "catch2", "trixie": "libcatch2-dev:arm64"}
-SURVEY_MODELS = ["auto", "paper", "t-rate-drift-axes", "network", "robust", "day"]
-TABLE_MODELS = ["auto", "paper", "t-rate-drift", "network", "robust"]  # A table has neither horizontal axes nor a whole day.
+SURVEY_MODELS = ["auto", "paper", "t-rate-drift-axes", "network", "day"]
+TABLE_MODELS = ["auto", "paper", "t-rate-drift", "network"]  # A table has neither horizontal axes nor a whole day.
 GOLDEN = "/a351/tests/golden/tsukuba"
 
 # Largest relative differences between arm64 and amd64.  All other numbers are equal to the byte on processors with FMA, where

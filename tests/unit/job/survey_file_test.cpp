@@ -137,7 +137,8 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\ndatum=['No.0','No.9']\n", "survey.datum"},
         {"[survey]\nmodel='kriging'\n",
          "allowed: auto, paper, day, t, t-rate, t-drift, t-rate-drift, "
-         "t-rate-drift-axes, drift, network, robust"},
+         "t-rate-drift-axes, drift, network"},
+        {"[survey]\nrobust_terms='t'\n", "every model but paper is searched for bad readings"},
         {"[survey]\ntide='moon'\n", ":2: survey.tide = 'moon': neither a source nor a file"},
         {"[survey]\nroot='nowhere'\n", "no such directory"},
         {"[survey]\ncalibration='unit.toml'\n", "survey.calibration"},

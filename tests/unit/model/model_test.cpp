@@ -65,7 +65,6 @@ TEST_CASE("every model of averages gives rows whose corrections add up to the co
         CHECK(fit.score.model == model.name);
         CHECK(fit.stations.size() == station_names(rows).size());
         CHECK((fit.rows.front().as<PaperRow>() != nullptr) == (model.name == kPaper));
-        CHECK((fit.rows.front().as<RobustRow>() != nullptr) == (model.name == "robust"));
         CHECK((fit.as<NetworkAdjustment>() != nullptr) == (model.name == "network"));
     }
 }
@@ -141,11 +140,11 @@ TEST_CASE("a model without a scale says that it does not use the prior of the sc
     const auto rows = made_up::day();
     SurveyOptions options = options_for(rows);
     set_prior(options.priors, "test", "scale", {1.0, 0.002});
-    for (const std::string name : {"robust", "network", "t-rate-drift"}) {
+    for (const std::string name : {"paper", "network", "t-rate-drift"}) {
         options.model = name;
         const std::string remark = text::in_words(correct_survey(rows, options).remarks, "; ");
         CHECK((remark.find("has no scale: its prior is not used") != std::string::npos) ==
-              (name == "robust"));
+              (name == "paper"));
     }
 }
 

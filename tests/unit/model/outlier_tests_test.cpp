@@ -66,7 +66,6 @@ TEST_CASE("the limit of the test divides the risk by the number of rows",
     CHECK(studentised_limit(10, 20.0) == Approx(3.153).margin(0.001));
 }
 
-// Two blunders of equal size may mask each other; the robust fit is made for that case.
 TEST_CASE("two blunders are found one after the other, and clean rows are not doubted",
           "[survey][outlier_tests]") {
     auto rows = scattered_day();

@@ -18,7 +18,7 @@ const std::string kOfRecords =
     "temperature_is_monotone,temperature_is_half_wave,valid_samples,partial_samples,"
     "missing_samples,mean_x_g,rms_x_mgal,mean_y_g,rms_y_mgal,mean_z_g,rms_z_mgal,"
     "rectification_mgal,eemd_mgal,smoother_mgal,u_smoother_mgal,smoother_minus_eemd_mgal,";
-const std::string kTail = "weight,doubt_physical,doubt_statistical,grade,grade_reason\n";
+const std::string kTail = "doubt_physical,doubt_statistical,grade,grade_reason\n";
 
 SurveyCorrection one_row() {
     SurveyCorrection result;
@@ -77,11 +77,9 @@ TEST_CASE("values of one model are in its columns, which are empty for others",
     const auto of_paper = json_object(occupation_columns(result), result.rows.front());
     CHECK(of_paper["corrected1_mgal"] == 979859.533);
     CHECK(of_paper["residual1_mgal"] == 0.677);
-    CHECK(of_paper["weight"].is_null());
-    result.rows.front().own = RobustRow{0.25};
-    const auto of_robust = json_object(occupation_columns(result), result.rows.front());
-    CHECK(of_robust["corrected1_mgal"].is_null());
-    CHECK(of_robust["weight"] == 0.25);
+    result.rows.front().own = {};
+    const auto of_other = json_object(occupation_columns(result), result.rows.front());
+    CHECK(of_other["corrected1_mgal"].is_null());
 }
 
 TEST_CASE("a table for people has headings, decimals, and only columns with a value",
