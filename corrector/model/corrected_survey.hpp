@@ -103,10 +103,8 @@ struct CorrectedRow {
     std::optional<MilliGal> u_corrected;
     /// External studentised residual; absent for `paper`.
     std::optional<double> studentised_residual;
-    /// Reasons from outlier_tests.hpp; empty if there are none.  No row is left out because of
-    /// them.
+    /// Reasons from physical_doubt(); empty if there are none.  No row is left out because of them.
     std::string doubt_physical;
-    std::string doubt_statistical;
     /// Values of one model only.
     std::variant<std::monostate, PaperRow, WholeDayRow> own;
 

@@ -3,7 +3,6 @@
 
 #include "corrector/model/applied_fit.hpp"
 #include "corrector/model/model.hpp"
-#include "corrector/model/row_doubts.hpp"
 
 namespace a351::corrector::model {
 namespace {
@@ -155,7 +154,6 @@ FitResult fit(const LinearModel& given, const SurveyProblem& problem, const RowC
     result.own = LinearPart{loo_interval(result, problem.options.seed)};
     result.stations = average_stations(result, choice.accepted, linear, result.score.s_mgal);
     set_left_out_stations(result, terms, problem, choice, linear.columns);
-    doubt_by_linear_fit(result.rows, terms, problem.origin(), priors);
     return result;
 }
 

@@ -86,8 +86,7 @@ struct Model {
     std::string_view name;          ///< Name in options and tables; unique in models().
     bool is_always_scored = false;  ///< True: scored in every survey, whichever model is applied.
 
-    /// Fits the model and corrects all rows.  The studentised residuals are tested row by row
-    /// (row_doubts.hpp); physical doubts are not set.
+    /// Fits the model and corrects all rows.  Physical doubts are not set.
     ///
     /// The score is that of score() for the same rows.  Fit::calibration is set by `day` only.
     /// @throws InputError  the model needs the means of the axes and a row has none.
@@ -141,7 +140,7 @@ inline constexpr std::string_view kPaper = "paper", kWholeDay = "day", kNetwork 
 /// determine the line, and if find_end_point_drift() does.
 ///
 /// Use it to reproduce the publication.  Its drift depends on two readings only, which makes the
-/// result of the published rows worse.  No row has a studentised residual or a statistical doubt.
+/// result of the published rows worse.  No row has a studentised residual.
 [[nodiscard]] Model paper_model();
 
 /// The models of kLinearModels and kModelsOnRequest (model_fit.hpp), in this order.

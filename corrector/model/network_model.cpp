@@ -5,7 +5,6 @@
 
 #include "corrector/model/model.hpp"
 #include "corrector/model/network_system.hpp"
-#include "corrector/model/row_doubts.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::model {
@@ -297,19 +296,6 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     set_station_errors(result, network);
     leave_out_untied(result, network);
     result.remarks.insert(result.remarks.end(), network.remarks.begin(), network.remarks.end());
-    doubt_in_turn(result.rows,
-                  [&](const std::vector<reading::SurveyRow>& rows,
-                      const std::vector<bool>& in_use) -> std::optional<StudentisedRows> {
-                      const NetworkResult other = adjust(rows, in_use, options);
-                      if (!other.adjustment) return std::nullopt;
-                      StudentisedRows studentised{{}, other.adjustment->dof};
-                      studentised.values.resize(rows.size());
-                      std::size_t reading = 0;
-                      for (std::size_t i = 0; i < rows.size(); ++i)
-                          if (in_use[i])
-                              studentised.values[i] = other.adjustment->studentised(reading++);
-                      return studentised;
-                  });
     result.own = std::move(*adjusted.adjustment);
     return result;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "protocol/text/aligned_text.hpp"
@@ -43,12 +42,6 @@ std::optional<double> studentised_residual(double residual, double leverage, boo
     }
     if (!(variance > 0.0)) return std::nullopt;
     return residual / std::sqrt(variance);
-}
-
-double studentised_limit(std::size_t n, double dof) {
-    const boost::math::students_t distribution(dof);
-    return boost::math::quantile(
-        boost::math::complement(distribution, kOutlierAlpha / (2.0 * static_cast<double>(n))));
 }
 
 }  // namespace a351::corrector::model

@@ -1,13 +1,7 @@
 #pragma once
 /// @file
-/// Two independent criteria for bad rows, a physical and a statistical one.  Both are reported;
+/// Reasons to doubt a row that need no gravity, and the studentised residual.  Both are reported;
 /// neither removes a row from the fit.  Methods: corrector/methods.md, "Bad rows".
-///
-/// The physical criterion needs no fit and no gravity.  The statistical one compares a residual
-/// with the scatter of the other rows; row_doubts.hpp applies it to a survey.
-///
-///     const auto t = studentised_residual(residual, leverage, true, fit);
-///     const bool is_doubtful = t && std::abs(*t) > studentised_limit(n, fit.dof() - 1);
 ///
 /// All functions are pure.
 
@@ -18,9 +12,6 @@
 #include "corrector/reading/survey_row.hpp"
 
 namespace a351::corrector::model {
-
-/// Probability that at least one row of a clean survey is doubted.  Reason: the usual 5 %.
-inline constexpr double kOutlierAlpha = 0.05;
 
 /// Greatest rate of the temperature without doubt, degC/h.  Reason: at about 10 mGal/(degC/h), the
 /// sensor's coefficient, it changes the reading by 2 mGal, the scatter of a reading.
@@ -65,15 +56,5 @@ inline constexpr double kGreatestRange_degc = 0.05;
 /// Source: N. R. Draper and H. Smith, Applied Regression Analysis, 3rd ed., Wiley 1998, ch. 8.
 [[nodiscard]] std::optional<double> studentised_residual(double residual, double leverage,
                                                          bool is_in_fit, const LinearFit& fit);
-
-/// Returns the limit of |studentised residual|: the quantile of Student's t that is exceeded with
-/// the probability kOutlierAlpha / (2 n).
-///
-/// The test is two-sided for n rows.  Without the division by n, one clean row in twenty would be
-/// doubted.  The limit is in standard deviations: 3.2 for ten rows and 20 degrees of freedom.
-/// Two values from tables agree within 0.001 (outlier_tests_test.cpp).
-/// @param n    number of rows, >= 1.
-/// @param dof  degrees of freedom of the variance, > 0.
-[[nodiscard]] double studentised_limit(std::size_t n, double dof);
 
 }  // namespace a351::corrector::model

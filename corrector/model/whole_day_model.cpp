@@ -7,7 +7,6 @@
 
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/day_fits.hpp"
-#include "corrector/model/row_doubts.hpp"
 #include "corrector/whole_day/day_model.hpp"
 #include "corrector/whole_day/goodness_of_fit.hpp"
 #include "corrector/whole_day/set_up_residuals.hpp"
@@ -290,7 +289,6 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
             text::message("the temperature record begins {} min before the first occupation; its "
                           "slow effect needs two hours",
                           std::lround(lead_s / 60.0)));
-    doubt_by_prediction(result);
     remark_misfit(result, whole_day::goodness_of_fit(day, fits.all.stations, fits.all.fit, priors));
     return result;
 }

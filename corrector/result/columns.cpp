@@ -205,8 +205,7 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         append(columns, columns_of_day());
     else if (first.tilt_correction)
         columns.push_back(tilt_column());
-    append(columns, {{"doubt_physical", of(&model::CorrectedRow::doubt_physical)},
-                     {"doubt_statistical", of(&model::CorrectedRow::doubt_statistical)}});
+    columns.push_back({"doubt_physical", of(&model::CorrectedRow::doubt_physical)});
     append(columns, columns_of_grades(result));
     return columns;
 }

@@ -12,6 +12,9 @@ using namespace a351::corrector::reading;
 
 namespace {
 
+/// Student's t with 7 degrees of freedom (12 rows less 4 coefficients less 1) at 0.05 / 24.
+constexpr double kStudentLimit = 4.17;
+
 /// Returns the made-up day with a scatter of 1 mGal.
 std::vector<SurveyRow> scattered_day() {
     auto rows = made_up::day();
@@ -22,16 +25,16 @@ std::vector<SurveyRow> scattered_day() {
     return rows;
 }
 
-std::vector<std::string> statistical_doubts(const std::vector<SurveyRow>& rows,
-                                            const std::string& model = "t-rate-drift") {
+/// Returns the rows whose studentised residual is beyond a limit.
+std::vector<std::string> beyond(const std::vector<SurveyRow>& rows, double limit,
+                                const std::string& model = "t-rate-drift") {
     SurveyOptions options;
     options.model = model;
-    std::vector<std::string> doubts;
-    for (const CorrectedRow& row : correct_survey(rows, options).rows) {
-        if (row.doubt_statistical.empty()) continue;
-        doubts.push_back(row.row.site + " (" + std::to_string(row.row.occupation) + ')');
-    }
-    return doubts;
+    std::vector<std::string> names;
+    for (const CorrectedRow& row : correct_survey(rows, options).rows)
+        if (std::abs(row.studentised_residual.value_or(0.0)) > limit)
+            names.push_back(row.row.site + " (" + std::to_string(row.row.occupation) + ')');
+    return names;
 }
 
 }  // namespace
@@ -59,53 +62,29 @@ TEST_CASE("rate, shape with range, fallback and pulse give physical doubts that 
     CHECK(physical_doubt(shaped).empty());
 }
 
-TEST_CASE("the limit of the test divides the risk by the number of rows",
-          "[survey][outlier_tests]") {
-    // Table of Student-t: 0.025 / 1 at 10 degrees of freedom, and 0.0025 (n = 10) at 20.
-    CHECK(studentised_limit(1, 10.0) == Approx(2.228).margin(0.001));
-    CHECK(studentised_limit(10, 20.0) == Approx(3.153).margin(0.001));
-}
-
-TEST_CASE("two blunders are found one after the other, and clean rows are not doubted",
+TEST_CASE("a blunder alone has a large studentised residual, in the fit or not",
           "[survey][outlier_tests]") {
     auto rows = scattered_day();
-    CHECK(statistical_doubts(rows).empty());
+    CHECK(beyond(rows, kStudentLimit).empty());
     rows[2].acceleration = rows[2].acceleration + MilliGal(60.0);
-    rows[8].acceleration = rows[8].acceleration - MilliGal(12.0);
-    CHECK(statistical_doubts(rows) == std::vector<std::string>{"S2 (1)", "S7 (1)"});
-}
-
-TEST_CASE("a row that is not in the fit is tested against it", "[survey][outlier_tests]") {
-    auto rows = scattered_day();
-    rows[2].acceleration = rows[2].acceleration + MilliGal(60.0);
+    CHECK(beyond(rows, kStudentLimit) == std::vector<std::string>{"S2 (1)"});
     rows[2].is_flagged = true;
     rows[3].is_flagged = true;
-    CHECK(statistical_doubts(rows) == std::vector<std::string>{"S2 (1)"});
+    CHECK(beyond(rows, kStudentLimit) == std::vector<std::string>{"S2 (1)"});
 }
 
-TEST_CASE("a network finds a blunder at a station that was read twice or more",
+TEST_CASE("a network shows a blunder at a station that was read several times",
           "[survey][outlier_tests]") {
-    auto rows = scattered_day();
-    std::vector<SurveyRow> twice;  // every station again, so that the network is controlled
-    for (const SurveyRow& row : rows) {
+    std::vector<SurveyRow> thrice;  // every station again, so that the network is controlled
+    for (const SurveyRow& row : scattered_day()) {
         for (const int shift_min : {0, 5, 10}) {
-            twice.push_back(row);
-            twice.back().time = row.time + std::chrono::minutes(shift_min);
-            twice.back().acceleration = row.acceleration + MilliGal(0.1 * shift_min);
+            thrice.push_back(row);
+            thrice.back().time = row.time + std::chrono::minutes(shift_min);
+            thrice.back().acceleration = row.acceleration + MilliGal(0.1 * shift_min);
         }
     }
-    CHECK(statistical_doubts(twice, "network").empty());
-    twice[10].acceleration = twice[10].acceleration + MilliGal(40.0);
-    CHECK(statistical_doubts(twice, "network") == std::vector<std::string>{"S3 (1)"});
-}
-
-TEST_CASE("doubtful rows stay in the fit", "[survey][outlier_tests]") {
-    auto rows = scattered_day();
-    rows[2].acceleration = rows[2].acceleration + MilliGal(60.0);
-    SurveyOptions options;
-    options.model = "t-rate-drift";
-    const SurveyCorrection result = correct_survey(rows, options);
-    CHECK_FALSE(result.rows[2].doubt_statistical.empty());
-    CHECK(result.rows[2].is_used);
-    CHECK(result.score.row_count == 12);
+    constexpr double kLimit = 3.6;  // Student's t with many degrees of freedom at 0.05 / 72
+    CHECK(beyond(thrice, kLimit, "network").empty());
+    thrice[10].acceleration = thrice[10].acceleration + MilliGal(40.0);
+    CHECK(beyond(thrice, kLimit, "network") == std::vector<std::string>{"S3 (1)"});
 }

@@ -59,7 +59,6 @@ TEST_CASE("the tables have the documented columns and one line per item", "[surv
         "leverage,u_corrected_mgal,studentised_residual"));
     REQUIRE(occupations.row_count() == 12);
     CHECK(occupations.cell(3, "doubt_physical").find("fallback") != std::string::npos);
-    CHECK(occupations.has_column("doubt_statistical"));
     CHECK(occupations.cell(3, "flags") == "outlier;fallback");
     CHECK(occupations.cell(3, "used") == "0");
     CHECK(occupations.cell(3, "grade") == "repeat");
