@@ -32,7 +32,7 @@ void hold_level_of_sensor(std::vector<reading::SurveyRow>& rows,
         double sum = 0.0, count = 0.0;
         for (const reading::SurveyRow& ours : read.rows) {
             if (ours.site != first.site) continue;
-            sum += (ours.acceleration - ours.tide).value();
+            sum += ours.reduced().value();
             count += 1.0;
         }
         if (count == 0.0) continue;

@@ -41,7 +41,7 @@ FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
         PaperRow& own = out.own.emplace<PaperRow>(PaperRow{first, std::nullopt});
         if (rows[i].reference) own.residual1 = *rows[i].reference - first;
         out.corrected = MilliGal(corrected2[i]);
-        out.temperature_correction = first - (rows[i].acceleration - rows[i].tide);
+        out.temperature_correction = first - rows[i].reduced();
         out.drift_correction = step.drift->at(rows[i].time);
         if (rows[i].reference) out.residual = *rows[i].reference - out.corrected;
         set_uncertainty(out, applied, i, result.score.s_mgal);
@@ -93,7 +93,7 @@ std::vector<double> temperature_corrected_mgal(const std::vector<reading::Survey
         // Equation (3), with the reading where the publication prints the reference.
         const double temperature_effect =
             line.slope_mgal_per_degc * row.temperature.value() + line.intercept.value();
-        corrected.push_back((row.acceleration - row.tide).value() - temperature_effect);
+        corrected.push_back(row.reduced().value() - temperature_effect);
     }
     return corrected;
 }

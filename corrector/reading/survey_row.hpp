@@ -77,6 +77,9 @@ struct SurveyRow {
     /// averages.
     std::optional<RecordSummary> record;
 
+    /// Returns the mean without the effect of the tide.
+    [[nodiscard]] MilliGal reduced() const { return acceleration - tide; }
+
     /// Returns the mean without the reductions, as the instrument showed it.
     [[nodiscard]] MilliGal measured() const {
         const MilliGal none(0.0);

@@ -94,7 +94,7 @@ std::string gsadjust_csv(const model::SurveyCorrection& result,
         const MilliGal u = row.u_corrected.value_or(kUnknownScatter);
         const bool is_kept_out =
             row.row.is_excluded || (row.row.is_flagged && result.options.use_flags);
-        const MilliGal gravity = row.row.acceleration - row.row.tide + row.temperature_correction +
+        const MilliGal gravity = row.row.reduced() + row.temperature_correction +
                                  row.rate_correction + row.tilt_correction_or_zero();
         for (const MilliGal value : {gravity - u, gravity + u}) {
             csv += fmt::format(

@@ -141,7 +141,7 @@ TEST_CASE("R2 of the temperature line from the recovered temperatures", "[golden
     CHECK(own_line(rows).r_squared == within(0.926355, 2e-6));
     const auto corrected1 = tsukuba::printed("corrected1_mgal");
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const double effect_mgal = (rows[i].acceleration - rows[i].tide).value() - corrected1[i];
+        const double effect_mgal = rows[i].reduced().value() - corrected1[i];
         const DegC recovered((effect_mgal - kPrintedLine.intercept.value()) /
                              kPrintedLine.slope_mgal_per_degc);
         CHECK(recovered.value() == within(rows[i].temperature.value(), 0.0000051));

@@ -35,8 +35,8 @@ SurveyCorrection survey() {
         out.temperature_correction = MilliGal(temperature_mgal[i]);
         out.rate_correction = MilliGal(rate_mgal[i]);
         out.drift_correction = MilliGal(drift_mgal[i]);
-        out.corrected = out.row.acceleration - out.row.tide + out.temperature_correction +
-                        out.rate_correction + out.drift_correction;
+        out.corrected = out.row.reduced() + out.temperature_correction + out.rate_correction +
+                        out.drift_correction;
     }
     for (const char* const site : {"B", "S"}) {
         StationValue station;

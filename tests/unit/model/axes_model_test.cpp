@@ -57,9 +57,8 @@ TEST_CASE("the fit finds the biases of the horizontal axes with temperature, rat
     }
     for (const CorrectedRow& row : result.rows) {
         CHECK(row.residual->value() == Approx(0.0).margin(1e-8));
-        const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
-                             row.rate_correction + row.drift_correction +
-                             row.tilt_correction.value();
+        const MilliGal sum = row.row.reduced() + row.temperature_correction + row.rate_correction +
+                             row.drift_correction + row.tilt_correction.value();
         CHECK(sum.value() == Approx(row.corrected.value()).epsilon(0).margin(1e-8));
     }
     for (const ScoredRowSet& set : result.row_sets) {

@@ -233,8 +233,8 @@ TEST_CASE("fitted and calibrated axis biases together give one tilt correction",
         correct_with_calibration(rows, with(calibration(), "t-rate-drift-axes"), nullptr);
     for (const CorrectedRow& row : result.rows) {
         REQUIRE(row.tilt_correction);
-        const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
-                             row.rate_correction + row.drift_correction + *row.tilt_correction;
+        const MilliGal sum = row.row.reduced() + row.temperature_correction + row.rate_correction +
+                             row.drift_correction + *row.tilt_correction;
         CHECK(sum.value() == Approx(row.corrected.value()).epsilon(1e-12));
     }
 }

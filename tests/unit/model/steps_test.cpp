@@ -31,9 +31,8 @@ double largest_residual_mgal(const SurveyCorrection& result) {
     double largest = 0.0;
     for (const CorrectedRow& row : result.rows) {
         if (row.residual) largest = std::max(largest, std::abs(row.residual->value()));
-        const MilliGal sum = row.row.acceleration - row.row.tide + row.temperature_correction +
-                             row.rate_correction + row.drift_correction +
-                             row.scale_correction.value_or(MilliGal(0.0));
+        const MilliGal sum = row.row.reduced() + row.temperature_correction + row.rate_correction +
+                             row.drift_correction + row.scale_correction.value_or(MilliGal(0.0));
         CHECK(std::abs((sum - row.corrected).value()) < 1e-8);
     }
     return largest;

@@ -42,8 +42,8 @@ TEST_CASE("corrections of the whole-day model add up to the corrected value of e
     const DayRecord day = kScattered.record();
     const auto result = correct_survey(rows_of(day), by_model("day"), &day);
     for (const CorrectedRow& row : result.rows) {
-        double sum = (row.row.acceleration - row.row.tide + row.temperature_correction +
-                      row.rate_correction + row.drift_correction)
+        double sum = (row.row.reduced() + row.temperature_correction + row.rate_correction +
+                      row.drift_correction)
                          .value();
         sum += row.tilt_correction.value().value() +
                row.as<WholeDayRow>()->flicker_correction.value() +
