@@ -23,8 +23,11 @@ constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
 /// Options and subcommands that earlier versions had, with what replaced them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kRemoved{
-    {{"--robust-terms", "every model but paper is searched for bad readings"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kRemoved{
+    {{"--curve",
+      "the curve follows from the model, that of the publication for paper and the slow one for all "
+      "others"},
+     {"--robust-terms", "every model but paper is searched for bad readings"}}};
 
 /// Returns what replaced the removed words of the command line; empty if there are none.
 std::string about_removed(int argc, char** argv) {

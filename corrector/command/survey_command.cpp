@@ -42,7 +42,6 @@ struct SurveyCommandOptions {
     std::string flags;
     std::string tide;
     std::string trend;
-    std::string curve;
     std::string calibration;
     std::string from, to;
     std::vector<std::string> figures;
@@ -65,9 +64,6 @@ job::SurveyFile with_overrides(job::SurveyFile survey, const SurveyCommandOption
     if (!options.trend.empty())
         survey.trend =
             options.trend == "eemd" ? reading::TrendMethod::eemd : reading::TrendMethod::smoother;
-    if (!options.curve.empty())
-        survey.curve =
-            options.curve == "paper" ? reading::TrendCurve::paper : reading::TrendCurve::slow;
     if (!options.calibration.empty()) job::use_calibration(survey, options.calibration);
     if (!options.from.empty()) survey.from = instant_option("--from", options.from);
     if (!options.to.empty()) survey.to = instant_option("--to", options.to);
@@ -276,9 +272,6 @@ void add_survey_command(CLI::App& program) {
     add_option(command, "--trend", "NAME", options->trend,
                "Trend that is averaged; the model paper always uses eemd")
         ->check(CLI::IsMember({"eemd", "smoother"}));
-    add_option(command, "--curve", "NAME", options->curve,
-               "Components that make the EEMD trend; the model paper always uses paper")
-        ->check(CLI::IsMember({"paper", "slow"}));
     add_option(command, "--calibration", "FILE", options->calibration,
                "Calibration of the unit, made by a351-correct calibrate");
     add_option(command, "--from", "UTC", options->from,

@@ -68,6 +68,10 @@ void read_pressure_channel(SurveyFile& survey, text::TomlTable& table) {
 
 /// Refuses keys that earlier versions had, and says what replaced them.
 void refuse_removed_keys(const text::TomlTable& table) {
+    if (table.has("curve"))
+        table.refuse("curve", "unknown key",
+                     "no such key, because the curve follows from the model: that of the "
+                     "publication for paper, the slow one for all others");
     if (table.has("robust_terms"))
         table.refuse("robust_terms", "unknown key",
                      "no such key, because every model but paper is searched for bad readings");
@@ -114,9 +118,6 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.bouguer_density_kg_per_m3 =
         table.number("bouguer_density_kg_per_m3", reduction::kLeastDensity_kg_per_m3,
                      reduction::kGreatestDensity_kg_per_m3);
-    const std::string curve = table.choice_or("curve", "", {"", "paper", "slow"});
-    if (!curve.empty())
-        survey.curve = curve == "paper" ? reading::TrendCurve::paper : reading::TrendCurve::slow;
     survey.trend = table.choice_or("trend", "eemd", {"eemd", "smoother"}) == "eemd"
                        ? reading::TrendMethod::eemd
                        : reading::TrendMethod::smoother;
@@ -175,9 +176,9 @@ reading::TrendMethod trend_method_of(const SurveyFile& survey) noexcept {
     return survey.survey.model == model::kPaper ? reading::TrendMethod::eemd : survey.trend;
 }
 
-reading::TrendCurve trend_curve_of(const SurveyFile& survey) {
-    if (survey.survey.model == model::kPaper) return reading::TrendCurve::paper;
-    return survey.curve.value_or(reading::RepresentativeOptions().curve);
+reading::TrendCurve trend_curve_of(const SurveyFile& survey) noexcept {
+    return survey.survey.model == model::kPaper ? reading::TrendCurve::paper
+                                                : reading::TrendCurve::slow;
 }
 
 }  // namespace a351::corrector::job

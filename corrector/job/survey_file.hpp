@@ -39,8 +39,8 @@ inline constexpr double kReferenceReadingSd_mgal = 0.01;
 ///   `survey.calibration` belong together; use_calibration() sets both.
 /// - `tide`: source of the tide; a file is relative to the survey file.
 /// - `reduction`: heights and air pressure of the readings.
-/// - `trend`, `curve`: as written in the file.  What is used depends on the model too: see
-///   trend_method_of() and trend_curve_of().
+/// - `trend`: as written in the file.  What is used depends on the model too: see
+///   trend_method_of().
 /// - `cutoff_s`: kShortestCutoff_s to kLongestCutoff_s; it has an effect with any `trend`, because
 ///   the other trend is computed for comparison.
 /// - `norm`: order of norm and decimation.
@@ -54,8 +54,6 @@ struct SurveyFile : reading::SurveySource {
     tide::Choice tide;
     reduction::ReductionChoice reduction;
     std::optional<double> bouguer_density_kg_per_m3;  ///< Absent: no anomalies.
-    std::optional<reading::TrendCurve>
-        curve;  ///< Absent: the default of RepresentativeOptions, or of `paper`.
     reading::TrendMethod trend = reading::TrendMethod::eemd;
     double cutoff_s = 300.0;  ///< Cut-off period of the smoother's trend, s.
     reading::NormOrder norm = reading::NormOrder::decimate_first;
@@ -91,9 +89,9 @@ void use_calibration(SurveyFile& survey, const std::filesystem::path& file);
 /// the file.  Use it instead of SurveyFile::trend in every output.
 [[nodiscard]] reading::TrendMethod trend_method_of(const SurveyFile& survey) noexcept;
 
-/// Returns the trend curve that is used: the publication's for model `paper`, else that of the file
-/// or the default.  With the smoother as trend it changes only eemd_mgal and the difference from
-/// it, which are for comparison.
-[[nodiscard]] reading::TrendCurve trend_curve_of(const SurveyFile& survey);
+/// Returns the trend curve of the decomposition: the publication's for model `paper`, else the slow
+/// one.  With the smoother as trend it changes only eemd_mgal and the difference from it, which are
+/// for comparison.
+[[nodiscard]] reading::TrendCurve trend_curve_of(const SurveyFile& survey) noexcept;
 
 }  // namespace a351::corrector::job

@@ -162,6 +162,7 @@ TEST_CASE("bad usage ends with status 2 and one line on standard error, and noth
         {sites + "short.csv", "short.csv"},
         {sites + "missing.csv", "missing.csv: cannot be read"},
         {kTsukuba + "--model kriging", "t-rate-drift"},
+        {"survey day.toml --curve=slow", "--curve is unknown: the curve follows from the model"},
         {kTsukuba + "--robust-terms t", "--robust-terms is unknown: every model but paper"},
         {kTsukuba + "--tide tide.csv", "longman"},
         {kTsukuba + "--figures gif", "pdf,png"},

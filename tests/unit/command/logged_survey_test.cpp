@@ -127,8 +127,8 @@ TEST_CASE("an option overrides the survey file, and the result records the setti
         "day.toml", "[survey]\noccupations = 'occupations.csv'\nmodel = 't'\ntrend = 'smoother'\n");
     for (const auto& [options, trend, curve] :
          std::vector<std::array<std::string, 3>>{{"", "smoother", "slow"},
-                                                 {" --trend eemd --curve paper", "eemd", "paper"},
-                                                 {" --trend eemd --curve slow", "eemd", "slow"}}) {
+                                                 {" --trend eemd", "eemd", "slow"},
+                                                 {" --model paper", "eemd", "paper"}}) {
         CAPTURE(options);
         const Outcome outcome = run(morning.folder(), "survey day.toml" + options);
         CAPTURE(outcome.errors);

@@ -75,7 +75,7 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
     const SurveyFile survey = desk.read(
         "[survey]\nname='first'\nroot='data'\nsites='sites.csv'\noccupations='o.csv'\n"
         "base='No.0'\ndatum=['No.0','No.1']\nmodel='t-rate'\nflags='ignore'\ntide='longman'\n"
-        "delta2=1.2\ndelta3=1.2\ncurve='slow'\ncalibration=''\nseed=9\nnorm='as-published'\n"
+        "delta2=1.2\ndelta3=1.2\ncalibration=''\nseed=9\nnorm='as-published'\n"
         "trend='smoother'\ncutoff_s=240\n"
         "pressure_channel='XX.BARO..LDI'\npressure_counts_per_hpa=10\n");
     CHECK(survey.name == "first");
@@ -89,7 +89,6 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
     CHECK_FALSE(survey.survey.use_flags);
     CHECK(survey.tide.source == "longman");
     CHECK(survey.tide.factors.delta2 == 1.2);
-    CHECK(survey.curve == TrendCurve::slow);
     CHECK(survey.seed == 9);
     CHECK(survey.trend == TrendMethod::smoother);
     CHECK(survey.cutoff_s == 240.0);
@@ -111,9 +110,8 @@ TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_f
 TEST_CASE("the model paper uses the publication's trend and curve, whatever is configured",
           "[survey][survey_file]") {
     const Desk desk;
-    CHECK(trend_curve_of(desk.read("[survey]\nmodel='paper'\ncurve='slow'\n")) ==
-          TrendCurve::paper);
-    CHECK(trend_curve_of(desk.read("[survey]\nmodel='t'\ncurve='slow'\n")) == TrendCurve::slow);
+    CHECK(trend_curve_of(desk.read("[survey]\nmodel='paper'\n")) == TrendCurve::paper);
+    CHECK(trend_curve_of(desk.read("[survey]\nmodel='t'\n")) == TrendCurve::slow);
     CHECK(trend_method_of(desk.read("[survey]\nmodel='paper'\ntrend='smoother'\n")) ==
           TrendMethod::eemd);
     CHECK(trend_method_of(desk.read("[survey]\nmodel='t'\ntrend='smoother'\n")) ==
@@ -138,6 +136,7 @@ TEST_CASE("a bad survey file is refused with line, key and value", "[survey][sur
         {"[survey]\nmodel='kriging'\n",
          "allowed: auto, paper, day, t, t-rate, t-drift, t-rate-drift, "
          "t-rate-drift-axes, drift, network"},
+        {"[survey]\ncurve='slow'\n", "the curve follows from the model"},
         {"[survey]\nrobust_terms='t'\n", "every model but paper is searched for bad readings"},
         {"[survey]\ntide='moon'\n", ":2: survey.tide = 'moon': neither a source nor a file"},
         {"[survey]\nroot='nowhere'\n", "no such directory"},
