@@ -61,12 +61,12 @@ void correct_table(TableOptions options) {
                       reduction::kGreatestDensity_kg_per_m3);
     options.survey.use_flags = options.flags == "use";
     for (const auto& [name, mean, sd] : options.priors) {
-        model::set_prior(options.survey.priors, "--prior", name, {mean, sd});
+        adjustment::set_prior(options.survey.priors, "--prior", name, {mean, sd});
     }
-    number_option("--datum-sd", options.survey.network.datum_sd_mgal, model::kLeastSd_mgal,
-                  model::kGreatestSd_mgal);
-    number_option("--reading-sd", options.survey.priors.reading_sd_mgal, model::kLeastSd_mgal,
-                  model::kGreatestSd_mgal);
+    number_option("--datum-sd", options.survey.network.datum_sd_mgal, adjustment::kLeastSd_mgal,
+                  adjustment::kGreatestSd_mgal);
+    number_option("--reading-sd", options.survey.priors.reading_sd_mgal, adjustment::kLeastSd_mgal,
+                  adjustment::kGreatestSd_mgal);
     model::SurveyCorrection result =
         mistake::correct_and_search({rows, sites, nullptr}, options.survey);
     if (density) result::add_anomalies(result.stations, sites, *density);

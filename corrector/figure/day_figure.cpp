@@ -205,7 +205,7 @@ std::string caption_of(const model::SurveyCorrection& result, bool has_records, 
         result.as<model::WholeDayPart>() != nullptr
             ? tr("The day. Above: reference minus the value of the reading if its station is left "
                  "out (cross-validated); bars: standard uncertainty u of this value.")
-        : result.as<model::NetworkAdjustment>() != nullptr
+        : result.as<model::NetworkPart>() != nullptr
             ? tr("The day. Above: residuals, reference minus corrected value (in sample); bars: "
                  "standard uncertainty u of a single reading, a priori.")
             : tr("The day. Above: residuals, reference minus corrected value (in sample); bars: "

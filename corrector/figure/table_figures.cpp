@@ -7,7 +7,7 @@
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/row_marks.hpp"
 #include "corrector/figure/survey_figures.hpp"
-#include "corrector/model/linear_fit.hpp"
+#include "corrector/model/paper_correction.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
@@ -23,7 +23,7 @@ using PointOf = std::function<std::optional<Point>(const model::CorrectedRow&)>;
 
 /// The line y = intercept + slope x through the rows in the fit.
 struct Line {
-    model::LinearFit fit;
+    model::Line fit;
     double least_x = 0.0;
     double greatest_x = 0.0;
 };
@@ -38,24 +38,22 @@ std::optional<Line> line_through(const model::SurveyCorrection& result, const Po
         x.push_back(point->x);
         y.push_back(point->y);
     }
-    const auto n = static_cast<Eigen::Index>(x.size());
-    const Eigen::MatrixXd columns = Eigen::Map<const Eigen::VectorXd>(x.data(), n);
-    auto fit = model::fit_linear(columns, Eigen::Map<const Eigen::VectorXd>(y.data(), n));
-    if (!fit || n < 3) return std::nullopt;
+    const auto fit = model::fit_line(x, y);
+    if (!fit || fit->count < 3) return std::nullopt;
     const auto [least, greatest] = std::ranges::minmax(all_x);
-    return Line{std::move(*fit), least, greatest};
+    return Line{*fit, least, greatest};
 }
 
 std::string line_lines(const Line& line) {
     std::string lines;
     for (const double x : {line.least_x, line.greatest_x})
-        lines += datum(x, 4) + datum(line.fit.at(Eigen::VectorXd::Constant(1, x)), 4) + '\n';
+        lines += datum(x, 4) + datum(line.fit.at(x), 4) + '\n';
     return lines;
 }
 
 std::string line_title(const Line& line) {
-    const double intercept = line.fit.coefficients(0);
-    return fmt::format("y = {} x {} {}, R² = {}", text::fixed(line.fit.coefficients(1), 4),
+    const double intercept = line.fit.intercept;
+    return fmt::format("y = {} x {} {}, R² = {}", text::fixed(line.fit.slope, 4),
                        intercept < 0.0 ? "-" : "+", text::fixed(std::abs(intercept), 1),
                        text::fixed(line.fit.r_squared, 4));
 }

@@ -5,25 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/model/network.hpp"
 #include "corrector/reduction/row_reduction.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::corrector::job {
 namespace {
-
-/// Value of a station in the gravimeters' network.
-struct ReferenceValue {
-    MilliGal gravity, u;
-};
-
-std::optional<ReferenceValue> value_of(const model::NetworkAdjustment& network,
-                                       const std::string& site) {
-    const auto found = std::ranges::find(network.stations, site);
-    if (found == network.stations.end()) return std::nullopt;
-    const auto at = found - network.stations.begin();
-    return ReferenceValue{network.origin + MilliGal(network.unknowns(at)),
-                          MilliGal(std::sqrt(network.covariance(at, at)))};
-}
 
 /// Gives the first common station the mean reading of the sensor there as its reference.
 void hold_level_of_sensor(std::vector<reading::SurveyRow>& rows,
@@ -39,7 +26,7 @@ void hold_level_of_sensor(std::vector<reading::SurveyRow>& rows,
         for (reading::SurveyRow& row : rows) {
             if (row.site != first.site) continue;
             row.reference = MilliGal(sum / count);
-            row.u_reference = MilliGal(model::kLeastSd_mgal);
+            row.u_reference = MilliGal(adjustment::kLeastSd_mgal);
         }
         return;
     }
@@ -54,8 +41,8 @@ bool has_published_gravity(const std::vector<reading::SurveyRow>& rows) {
 
 }  // namespace
 
-model::NetworkAdjustment hold_reference_values(const SurveyFile& survey,
-                                               reading::OccupationRows& read) {
+ReferenceNetwork hold_reference_values(const SurveyFile& survey,
+                                       reading::OccupationRows& read) {
     const ReferenceSurvey& reference = survey.reference.value();
     const std::string origin = reference.observations.string();
     std::vector<reading::SurveyRow> rows =
@@ -74,50 +61,62 @@ model::NetworkAdjustment hold_reference_values(const SurveyFile& survey,
     if (!is_level_known) hold_level_of_sensor(rows, read, origin);
     std::vector<bool> in_use;
     for (const reading::SurveyRow& row : rows) in_use.push_back(!row.is_flagged);
-    model::NetworkResult adjusted =
+    const model::NetworkResult adjusted =
         model::adjust_network(rows, in_use, {}, reference.priors, reference.network);
-    if (!adjusted.adjustment)
+    if (!adjusted.adjusted)
         throw InputError(fmt::format("{}: {}; allowed: {}", origin, adjusted.refusal.trouble,
                                      adjusted.refusal.allowed));
+    const adjustment::AdjustedSurvey& network = *adjusted.adjusted;
+    ReferenceNetwork result;
+    for (std::size_t k = 0; k < network.survey.stations().size(); ++k)
+        result.values[network.survey.stations()[k].site] = {
+            network.gravity(k), MilliGal(std::sqrt(network.adjustment.covariance(k, k)))};
+    for (std::size_t k = 0; k < network.survey.terms().size(); ++k) {
+        const adjustment::SurveyTerm& term = network.survey.terms()[k];
+        const std::size_t at = network.survey.unknown_of_term(k);
+        if (term.is_scale)
+            result.scales.push_back({term.instrument, network.coefficient(k),
+                                     std::sqrt(network.adjustment.covariance(at, at)),
+                                     *term.prior});
+    }
+    result.reading_count = adjusted.part.reading_count;
+    result.s0 = adjusted.part.s0();
+    result.is_level_known = is_level_known;
     for (reading::SurveyRow& row : read.rows)
-        if (const auto value = value_of(*adjusted.adjustment, row.site)) {
-            row.reference = value->gravity;
-            row.u_reference = value->u;
+        if (const auto value = result.values.find(row.site); value != result.values.end()) {
+            row.reference = value->second.gravity;
+            row.u_reference = value->second.u;
         }
     for (text::Site& site : read.sites)
-        if (const auto value = value_of(*adjusted.adjustment, site.name)) {
-            site.gravity = value->gravity;
-            site.u_gravity = value->u;
+        if (const auto value = result.values.find(site.name); value != result.values.end()) {
+            site.gravity = value->second.gravity;
+            site.u_gravity = value->second.u;
         }
-    adjusted.adjustment->is_level_known = is_level_known;
-    return std::move(*adjusted.adjustment);
+    return result;
 }
 
-void compare_with_reference(model::SurveyCorrection& result,
-                            const model::NetworkAdjustment& reference) {
+void compare_with_reference(model::SurveyCorrection& result, const ReferenceNetwork& reference) {
     model::SideBySide side_by_side;
     side_by_side.is_level_known = reference.is_level_known;
     side_by_side.reading_count = reference.reading_count;
-    side_by_side.s0 = reference.s0();
-    double relative = 0.0;
-    for (const model::NetworkScale& scale : reference.scales) {
-        const auto at = std::ssize(reference.stations) + static_cast<Eigen::Index>(scale.term);
-        const model::ScaleEstimate estimate{scale.instrument, 1.0 + reference.unknowns(at),
-                                            std::sqrt(reference.covariance(at, at)), scale.prior};
-        // Several gravimeters: the best one determines what is not known of their common scale.
-        relative = side_by_side.scales.empty() ? estimate.u : std::min(relative, estimate.u);
-        side_by_side.scales.push_back(estimate);
-    }
+    side_by_side.s0 = reference.s0;
+    side_by_side.scales = reference.scales;
+    // Several gravimeters: the best one determines what is not known of their common scale.
+    double relative = HUGE_VAL;
+    for (const model::ScaleEstimate& scale : reference.scales)
+        relative = std::min(relative, scale.u);
+    if (reference.scales.empty()) relative = 0.0;
     for (model::ScaleEstimate& scale : result.scales) scale.u = std::hypot(scale.u, relative);
     const auto constant =
         std::ranges::find(result.coefficients, "constant_mgal", &model::Coefficient::name);
     if (side_by_side.is_level_known && constant != result.coefficients.end())
         side_by_side.bias = *constant;
     for (const model::StationValue& station : result.stations) {
-        const auto theirs = value_of(reference, station.site);
-        if (!theirs || !station.left_out || !station.u_left_out) continue;
+        const auto theirs = reference.values.find(station.site);
+        if (theirs == reference.values.end() || !station.left_out || !station.u_left_out) continue;
         side_by_side.stations.push_back(
-            {station.site, *station.left_out, *station.u_left_out, theirs->gravity, theirs->u});
+            {station.site, *station.left_out, *station.u_left_out,
+                                         theirs->second.gravity, theirs->second.u});
     }
     result.side_by_side = std::move(side_by_side);
 }

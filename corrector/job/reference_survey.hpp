@@ -5,7 +5,7 @@
 /// The gravimeters are adjusted as a network, each with constant, drift and scale of its own.  Their
 /// values with their uncertainties are then the references of the sensor's survey.
 ///
-///     const NetworkAdjustment reference = hold_reference_values(survey, read);
+///     const ReferenceNetwork reference = hold_reference_values(survey, read);
 ///     SurveyCorrection result = ...  // of `read`
 ///     compare_with_reference(result, reference);
 ///
@@ -16,11 +16,30 @@
 ///   common are those of the level and of the gravimeters' scale.  compare_with_reference() adds
 ///   the latter.
 
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "corrector/job/survey_file.hpp"
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/occupation_rows.hpp"
 
 namespace a351::corrector::job {
+
+/// Value of a station in the gravimeters' network.
+struct ReferenceValue {
+    MilliGal gravity, u;
+};
+
+/// The gravimeters' network.
+struct ReferenceNetwork {
+    std::map<std::string, ReferenceValue> values;  ///< One per station.
+    std::vector<model::ScaleEstimate> scales;      ///< One per instrument.
+    std::size_t reading_count = 0;
+    std::optional<double> s0;    ///< A posteriori factor of the adjustment.
+    bool is_level_known = true;  ///< False: the gravity that is held is not a published one.
+};
 
 /// Adjusts the gravimeters of a survey and makes their values the references of its rows and sites.
 ///
@@ -30,15 +49,14 @@ namespace a351::corrector::job {
 /// @param survey  with `reference`.
 /// @throws InputError  the table cannot be read or has no gravimeter, or the network refuses.  No
 ///                     common station is an error only if none of the sites has a reference.
-[[nodiscard]] model::NetworkAdjustment hold_reference_values(const SurveyFile& survey,
-                                                             reading::OccupationRows& read);
+[[nodiscard]] ReferenceNetwork hold_reference_values(const SurveyFile& survey,
+                                                     reading::OccupationRows& read);
 
 /// Sets SurveyCorrection::side_by_side, and adds the relative error of the gravimeter's scale to
 /// that of the sensor's scale, as an independent error.  With several gravimeters the smallest of
 /// their errors counts.
 /// @param result     of the rows with these references.
 /// @param reference  from hold_reference_values().
-void compare_with_reference(model::SurveyCorrection& result,
-                            const model::NetworkAdjustment& reference);
+void compare_with_reference(model::SurveyCorrection& result, const ReferenceNetwork& reference);
 
 }  // namespace a351::corrector::job

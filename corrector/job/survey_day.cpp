@@ -25,7 +25,7 @@ model::SurveyCorrection correct_survey_day(const SurveyFile& survey,
                                            reading::OccupationRows& read) {
     const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
     try {
-        std::optional<model::NetworkAdjustment> reference;
+        std::optional<ReferenceNetwork> reference;
         if (survey.reference) reference = hold_reference_values(survey, read);
         model::SurveyCorrection result = mistake::correct_and_search(
             {read.rows, read.sites, day}, with_sites_of(read, survey.survey), read.findings);

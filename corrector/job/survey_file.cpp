@@ -37,14 +37,14 @@ ReferenceSurvey read_reference(text::TomlTable table) {
         table.refuse("observations", "no such file: " + reference.observations.string(),
                      "a table as a351-correct import writes it");
     reference.priors.reading_sd_mgal = table.number_or(
-        "reading_sd_mgal", kReferenceReadingSd_mgal, model::kLeastSd_mgal, model::kGreatestSd_mgal);
+        "reading_sd_mgal", kReferenceReadingSd_mgal, adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
     reference.network.drift_degree = static_cast<int>(table.integer_or(
         "drift_degree", reference.network.drift_degree, 0, model::kGreatestDriftDegree));
     const std::vector<double> scale = table.numbers("scale", -1.0, 2.0);
     if (table.has("scale")) {
         if (scale.size() != 2)
             table.refuse("scale", fmt::format("{} numbers", scale.size()), "[mean, sd]");
-        model::set_prior(reference.priors, "reference.scale", model::kScale, {scale[0], scale[1]});
+        adjustment::set_prior(reference.priors, "reference.scale", adjustment::kScale, {scale[0], scale[1]});
     }
     table.require_all_read();
     return reference;
@@ -137,16 +137,16 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     }
     survey.survey.priors.reading_sd_mgal =
         table.number_or("reading_sd_mgal", survey.survey.priors.reading_sd_mgal,
-                        model::kLeastSd_mgal, model::kGreatestSd_mgal);
+                        adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
     survey.survey.network.datum_sd_mgal =
-        table.number_or("datum_sd_mgal", survey.survey.network.datum_sd_mgal, model::kLeastSd_mgal,
-                        model::kGreatestSd_mgal);
+        table.number_or("datum_sd_mgal", survey.survey.network.datum_sd_mgal, adjustment::kLeastSd_mgal,
+                        adjustment::kGreatestSd_mgal);
     survey.survey.network.drift_degree = static_cast<int>(table.integer_or(
         "drift_degree", survey.survey.network.drift_degree, 0, model::kGreatestDriftDegree));
     survey.survey.seed = survey.seed;
     refuse_removed_keys(table);
     table.require_all_read();
-    model::read_priors(survey.survey.priors, document.table("prior"));
+    adjustment::read_priors(survey.survey.priors, document.table("prior"));
     if (document.has("reference")) survey.reference = read_reference(document.table("reference"));
     document.require_all_read();
 

@@ -24,7 +24,7 @@ namespace a351::corrector::job {
 /// Readings of reference gravimeters at the stations of a survey, from table [reference].
 struct ReferenceSurvey {
     std::filesystem::path observations;  ///< Table as `a351-correct import` writes it.
-    model::Priors priors;                ///< Standard deviation of a reading, and the scale.
+    adjustment::Priors priors;                ///< Standard deviation of a reading, and the scale.
     model::NetworkOptions network;       ///< Drift of each loop.
 };
 

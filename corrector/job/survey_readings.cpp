@@ -69,8 +69,8 @@ reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Pro
 namespace {
 
 /// Returns the steps of the amendments that divide the readings; a warning says which do not.
-std::vector<model::Step> steps_between(reading::OccupationRows& read) {
-    std::vector<model::Step> steps;
+std::vector<adjustment::Step> steps_between(reading::OccupationRows& read) {
+    std::vector<adjustment::Step> steps;
     std::ptrdiff_t last = 0;  // readings before the last step
     const auto count = std::ranges::count(read.rows, false, &reading::SurveyRow::is_excluded);
     for (const UtcTime step : read.amendments.steps) {

@@ -13,7 +13,7 @@ namespace {
 /// deviations away, and one that is held moves by less than the last digit that is printed.
 constexpr double kFree = 1e4, kHeld = 1e-3;
 
-model::Priors with_factor(model::Priors priors, const std::vector<model::Coefficient>& terms,
+adjustment::Priors with_factor(adjustment::Priors priors, const std::vector<model::Coefficient>& terms,
                           double factor) {
     for (const model::Coefficient& term : terms) priors.factors[term.name] = factor;
     return priors;
@@ -21,11 +21,11 @@ model::Priors with_factor(model::Priors priors, const std::vector<model::Coeffic
 
 /// Returns "the scale of CG-5 40888", or the name of another coefficient.
 text::Message name_of(const model::Fit& fit, const model::Coefficient& term) {
-    if (!term.name.starts_with(model::kScale)) return text::Message(term.name);
+    if (!term.name.starts_with(adjustment::kScale)) return text::Message(term.name);
     std::size_t number = 0;
     for (const model::Coefficient& one : fit.coefficients) {
         if (one.name == term.name) break;
-        if (one.name.starts_with(model::kScale)) ++number;
+        if (one.name.starts_with(adjustment::kScale)) ++number;
     }
     const std::string& instrument = fit.scales.at(number).instrument;
     return instrument.empty() ? text::message("the scale of the sensor")
@@ -42,17 +42,17 @@ std::vector<model::Coefficient> far_terms(const model::Fit& fit) {
     return terms;
 }
 
-model::Priors freed(model::Priors priors, const std::vector<model::Coefficient>& terms) {
+adjustment::Priors freed(adjustment::Priors priors, const std::vector<model::Coefficient>& terms) {
     std::vector<model::Coefficient> believable;
     std::ranges::copy_if(
         terms, std::back_inserter(believable), [](const model::Coefficient& term) {
-            return !term.name.starts_with(model::kScale) ||
-                   std::abs(term.value - 1.0) <= model::kGreatestScaleError;
+            return !term.name.starts_with(adjustment::kScale) ||
+                   std::abs(term.value - 1.0) <= adjustment::kGreatestScaleError;
         });
     return with_factor(std::move(priors), believable, kFree);
 }
 
-model::Priors held(model::Priors priors, const std::vector<model::Coefficient>& terms) {
+adjustment::Priors held(adjustment::Priors priors, const std::vector<model::Coefficient>& terms) {
     return with_factor(std::move(priors), terms, kHeld);
 }
 

@@ -19,12 +19,12 @@ inline constexpr double kFarTerm = 4.0;
 [[nodiscard]] std::vector<model::Coefficient> far_terms(const model::Fit& fit);
 
 /// Returns the priors with the coefficients free, so that the readings alone decide.  A scale farther
-/// from 1 than model::kGreatestScaleError keeps its prior: it is no scale.
-[[nodiscard]] model::Priors freed(model::Priors priors,
+/// from 1 than adjustment::kGreatestScaleError keeps its prior: it is no scale.
+[[nodiscard]] adjustment::Priors freed(adjustment::Priors priors,
                                   const std::vector<model::Coefficient>& terms);
 
 /// Returns the priors with the coefficients held at their means.
-[[nodiscard]] model::Priors held(model::Priors priors,
+[[nodiscard]] adjustment::Priors held(adjustment::Priors priors,
                                  const std::vector<model::Coefficient>& terms);
 
 /// Returns a finding of the kind `scale`.

@@ -3,10 +3,8 @@
 /// Search for mistakes of the field in the residuals of a survey: readings that are off, references
 /// that are wrong, names that were swapped, steps of the instrument.
 ///
-///     std::vector<SearchedReading> readings = ...;         // in order of time
-///     const auto mistakes = search_mistakes(readings, [&](const auto& known, const auto& quiet) {
-///         return residuals_of_survey(known, quiet);         // of the survey without `known`
-///     });
+///     std::vector<SearchedReading> readings = ...;      // in order of time
+///     const auto mistakes = search_mistakes(readings, *trials);
 ///
 /// The search takes one mistake after another, each time the one that explains most.  It compares
 /// them by the scatter that is left, with a penalty for an unknown size and for the number of its
@@ -16,41 +14,21 @@
 /// Method, false alarms and power: corrector/methods.md, "Search for mistakes".
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "corrector/residual/residuals.hpp"
+#include "corrector/adjustment/trials.hpp"
 
 namespace a351::corrector::mistake {
 
-/// Kinds of mistakes.
-///
-/// - set_up: one set-up of a stay is off.
-/// - stay: all set-ups of a stay are off, and the station has another stay.
-/// - station: all readings of a station with a reference are off: its reference, its name, or its
-///   only stay.
-/// - swap: two stays have each other's name.
-/// - step: all readings of a loop from one on are off.
-enum class MistakeKind { set_up, stay, station, swap, step };
-
-/// A mistake that was found.
-struct Mistake {
-    MistakeKind kind = MistakeKind::stay;
-    /// Numbers of the readings that are off; for a step all of its loop from it on.
-    std::vector<std::size_t> readings;
-    std::vector<std::size_t> others;  ///< Swap: readings of the other stay.
-    /// Reading minus what the others expect, mGal: positive if the readings are too high.  Swap: the
-    /// difference of both references.
-    double size_mgal = 0.0;
+/// A mistake that was found: an alternative to the survey, with its size.
+struct Mistake : adjustment::Alternative {
     double u_mgal = 0.0;  ///< Standard uncertainty; 0 for a swap.
     /// Probability that a survey without a mistake shows one of any kind as clear as this.
     double p = 1.0;
     /// It was sure only when another one was put right on trial; then `p` is somewhat too small.
     bool needed_trial = false;
-
-    [[nodiscard]] bool operator==(const Mistake&) const = default;
 };
 
 /// A reading of the survey, as the search sees it.
@@ -65,11 +43,6 @@ struct SearchedReading {
 
 /// Least size of a mistake that is reported, in its standard uncertainties.
 inline constexpr double kLeastSize_u = 3.0;
-
-/// Returns the residuals of the survey with the mistakes `known` put right, at the noise of the
-/// survey with those of `quiet` put right; std::nullopt if there is none.
-using ResidualsOf = std::function<std::optional<residual::Residuals>(
-    const std::vector<Mistake>& known, const std::vector<Mistake>& quiet)>;
 
 /// Probability that a mistake is found where there is none.
 inline constexpr double kMistakeAlpha = 0.02;
@@ -88,15 +61,15 @@ inline constexpr double kTrialShare = 0.1;
 /// third as many mistakes as readings.  A mistake that is no longer visible when the others are put
 /// right is dropped.  The simulations have a fixed seed.
 /// @param readings     in order of time.
-/// @param residuals_of called about ten times for each mistake.
+/// @param trials    of the survey; asked about ten times for each mistake.
 /// @param alpha        probability that a mistake is found where there is none.
 [[nodiscard]] std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
-                                                   const ResidualsOf& residuals_of,
+                                                   adjustment::Trials& trials,
                                                    double alpha = kMistakeAlpha);
 
 /// Sets sizes and uncertainties of mistakes again, each from the residuals with the others put right.
 /// @param mistakes  from search_mistakes().
 void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
-                   const ResidualsOf& residuals_of);
+                   adjustment::Trials& trials, double alpha = kMistakeAlpha);
 
 }  // namespace a351::corrector::mistake

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/model/amended_survey.hpp"
 #include "corrector/model/outlier_tests.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/strict_toml.hpp"
@@ -34,18 +35,18 @@ public:
         : rows_(rows), choice_(choice), sites_(sites) {}
 
     [[nodiscard]] std::vector<Finding> told(const Mistake& mistake) const {
-        if (mistake.kind == MistakeKind::step) return {step(mistake)};
-        if (mistake.kind == MistakeKind::swap) return swapped_names(mistake);
-        if (mistake.kind == MistakeKind::set_up) return {bad_set_up(mistake)};
+        if (mistake.kind == adjustment::AlternativeKind::step) return {step(mistake)};
+        if (mistake.kind == adjustment::AlternativeKind::swap) return swapped_names(mistake);
+        if (mistake.kind == adjustment::AlternativeKind::set_up) return {bad_set_up(mistake)};
         const bool is_one_stay = std::ranges::all_of(mistake.readings, [&](std::size_t i) {
             return rows_[i].occupation == rows_[mistake.readings.front()].occupation;
         });
         // At an end of the day a step is as likely as a name.
         const bool is_name_likely =
-            is_one_stay && (mistake.kind == MistakeKind::station || !step_beside(mistake));
+            is_one_stay && (mistake.kind == adjustment::AlternativeKind::station || !step_beside(mistake));
         const auto others = is_name_likely ? read_sites(mistake) : std::vector<Candidate>();
         Finding finding = !others.empty()                        ? other_name(mistake, others)
-                          : mistake.kind == MistakeKind::station ? reference(mistake)
+                          : mistake.kind == adjustment::AlternativeKind::station ? reference(mistake)
                                                                  : bad_stay(mistake);
         add_temperature(finding, mistake);
         add_step(finding, mistake);
@@ -147,14 +148,14 @@ private:
         if (!after) return;
         finding.code += "_or_step";
         finding.text += text::message("; or the instrument stepped between {} and {}",
-                                      name_of(rows_[reading_before(rows_, *after)]),
+                                      name_of(rows_[model::reading_before(rows_, *after)]),
                                       name_of(rows_[*after]));
     }
 
     /// Returns the first reading after a step that would look like this mistake, if there is one.
     [[nodiscard]] std::optional<std::size_t> step_beside(const Mistake& mistake) const {
         const std::size_t from = mistake.readings.front(), to = mistake.readings.back();
-        const std::vector<std::size_t> loops = model::loop_numbers(rows_);
+        const std::vector<std::size_t> loops = adjustment::loop_numbers(rows_);
         std::ptrdiff_t before = 0, within = 0, after = 0;
         std::size_t next = 0;
         for (std::size_t i = rows_.size(); i-- > 0;) {
@@ -177,13 +178,13 @@ private:
     [[nodiscard]] Finding step(const Mistake& mistake) const {
         const std::size_t after = mistake.readings.front();
         Finding finding{.kind = FindingKind::step, .code = "step"};
-        finding.time = time_before(rows_, after);
+        finding.time = model::time_before(rows_, after);
         finding.size_mgal = mistake.size_mgal;
         finding.u_mgal = mistake.u_mgal;
         finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
         finding.text = text::message(
             "between {} and {} the instrument stepped: from then on the readings are {}",
-            name_of(rows_[reading_before(rows_, after)]), name_of(rows_[after]),
+            name_of(rows_[model::reading_before(rows_, after)]), name_of(rows_[after]),
             off_by(mistake.size_mgal, mistake.u_mgal));
         if (!rows_[after].listed.site.empty())
             finding.amendment = fmt::format(
@@ -231,7 +232,7 @@ private:
         }
         finding.text = text::message("{} is {}; it reads like {}", name_of(row),
                                      off_by(mistake.size_mgal, mistake.u_mgal), names);
-        if (mistake.kind == MistakeKind::station) {
+        if (mistake.kind == adjustment::AlternativeKind::station) {
             finding.code = "other_name_or_reference";
             finding.text += text::message("; if the name is right, the reference of {} is {}",
                                           row.site, off_by(-mistake.size_mgal, mistake.u_mgal));
@@ -297,19 +298,6 @@ private:
 };
 
 }  // namespace
-
-std::size_t reading_before(const std::vector<SurveyRow>& rows, std::size_t after) {
-    const std::vector<std::size_t> loops = model::loop_numbers(rows);
-    const auto later = loops.rend() - static_cast<std::ptrdiff_t>(after);
-    return static_cast<std::size_t>(loops.rend() - std::find(later, loops.rend(), loops[after])) - 1;
-}
-
-UtcTime time_before(const std::vector<SurveyRow>& rows, std::size_t after) {
-    const SurveyRow& before = rows[reading_before(rows, after)];
-    const UtcTime end = before.end.value_or(before.time);
-    const UtcTime start = rows[after].start.value_or(rows[after].time);
-    return end + (start - end) / 2;
-}
 
 std::vector<Finding> findings_of(const Mistake& mistake, const std::vector<SurveyRow>& rows,
                                  const model::RowChoice& choice,

@@ -12,13 +12,6 @@
 
 namespace a351::corrector::mistake {
 
-/// Returns the number of the reading of the same loop before a reading, which there must be.
-[[nodiscard]] std::size_t reading_before(const std::vector<reading::SurveyRow>& rows,
-                                         std::size_t after);
-
-/// Returns the instant between a reading and the one of the same loop before it: that of a step.
-[[nodiscard]] UtcTime time_before(const std::vector<reading::SurveyRow>& rows, std::size_t after);
-
 /// Returns what is said about a mistake: one finding, or two for swapped names.
 ///
 /// A stay that is off is said to be of another site if the reading is within two and a half standard

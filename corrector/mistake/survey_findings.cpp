@@ -9,6 +9,7 @@
 #include "corrector/mistake/mistake_search.hpp"
 #include "corrector/mistake/mistake_sentences.hpp"
 #include "corrector/mistake/survey_remarks.hpp"
+#include "corrector/model/amended_survey.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
@@ -30,50 +31,10 @@ constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
 /// false on one day in 20; the test of the step alone is false on half as many as a remark.
 constexpr double kMisfitP = 0.008;
 
-/// A survey with mistakes put right.
-struct AmendedSurvey {
-    std::vector<SurveyRow> rows;
-    model::SurveyOptions options;
-    model::RowChoice choice;
-};
-
-AmendedSurvey amended(const std::vector<SurveyRow>& rows, const model::SurveyOptions& options,
-                      const std::vector<Mistake>& mistakes) {
-    AmendedSurvey survey{rows, options, {}};
-    const auto take_name = [&](const std::vector<std::size_t>& from, std::size_t other) {
-        for (const std::size_t i : from) {
-            survey.rows[i].site = rows[other].site;
-            survey.rows[i].reference = rows[other].reference;
-            survey.rows[i].u_reference = rows[other].u_reference;
-        }
-    };
-    for (const Mistake& mistake : mistakes) switch (mistake.kind) {
-            case MistakeKind::set_up:
-            case MistakeKind::stay:
-                for (const std::size_t i : mistake.readings) survey.rows[i].is_excluded = true;
-                break;
-            case MistakeKind::station:
-                for (const std::size_t i : mistake.readings)
-                    survey.rows[i].is_reference_refused = true;
-                break;
-            case MistakeKind::swap:
-                take_name(mistake.readings, mistake.others.front());
-                take_name(mistake.others, mistake.readings.front());
-                break;
-            case MistakeKind::step:
-                survey.options.steps.push_back({time_before(rows, mistake.readings.front()),
-                                                rows[mistake.readings.front()].instrument});
-                break;
-        }
-    std::ranges::sort(survey.options.steps, {}, &model::Step::time);
-    survey.choice = model::choose_rows(survey.rows, survey.options.datum, options.use_flags);
-    return survey;
-}
-
 std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
                                       const model::RowChoice& choice) {
     std::vector<SearchedReading> readings;
-    const std::vector<std::size_t> loops = model::loop_numbers(rows);
+    const std::vector<std::size_t> loops = adjustment::loop_numbers(rows);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         SearchedReading& reading = readings.emplace_back();
         reading.loop = loops[i];
@@ -138,7 +99,7 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
 struct Search {
     std::vector<Finding> findings;
     std::vector<text::Message> remarks;
-    std::optional<AmendedSurvey> amended;  ///< Absent if there are no mistakes.
+    std::optional<model::AmendedSurvey> amended;  ///< Absent if there are no mistakes.
 };
 
 /// Says which coefficients are far from their priors also without the mistakes, and which are not.
@@ -166,46 +127,29 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
               const std::vector<model::Coefficient>& far = {}) {
     std::vector<Finding> findings = result.findings;
     Search found;
-    std::optional<AmendedSurvey> right;
+    std::optional<model::AmendedSurvey> right;
     const model::Model& model = *model::find_model(result.model);
     const std::vector<SurveyRow> rows =
         model::without_known_tilt(survey.rows, result.options.calibration);
-    if (model.residuals) {
+    if (model.trials) {
         const model::RowChoice choice =
             model::choose_rows(rows, result.options.datum, result.options.use_flags);
-        std::optional<model::Noise> nearby, of_quiet;
-        std::vector<Mistake> last_quiet;
+        const std::vector<SearchedReading> readings = searched(rows, choice);
         model::SurveyOptions options = result.options;
         options.priors = freed(std::move(options.priors), far);
-        const auto residuals_of =
-            [&](const std::vector<Mistake>& known,
-                const std::vector<Mistake>& quiet) -> std::optional<residual::Residuals> {
-            if (!of_quiet || quiet != last_quiet) {
-                const AmendedSurvey without = amended(rows, options, quiet);
-                of_quiet =
-                    model.noise({{without.rows, without.options, survey.day}, without.choice},
-                                nearby ? &*nearby : nullptr);
-                last_quiet = quiet;
-                if (!nearby) nearby = of_quiet;
-            }
-            if (!of_quiet) return std::nullopt;
-            const AmendedSurvey with = amended(rows, options, known);
-            return model.residuals({{with.rows, with.options, survey.day}, with.choice}, *of_quiet);
-        };
-        const std::vector<SearchedReading> readings = searched(rows, choice);
-        std::vector<Mistake> mistakes = search_mistakes(
-            readings, residuals_of,
-            result.model == model::kWholeDay ? kWholeDayMistakeAlpha : kMistakeAlpha);
-        if (!far.empty()) {
-            options.priors = result.options.priors;
-            of_quiet.reset();
-            measure_again(mistakes, readings, residuals_of);
-        }
+        std::vector<Mistake> mistakes;
+        if (const auto trials = model.trials({rows, options, survey.day}, choice))
+            mistakes = search_mistakes(
+                readings, *trials,
+                result.model == model::kWholeDay ? kWholeDayMistakeAlpha : kMistakeAlpha);
+        if (!far.empty() && !mistakes.empty())
+            if (const auto trials = model.trials({rows, result.options, survey.day}, choice))
+                measure_again(mistakes, readings, *trials);
         for (const Mistake& mistake : mistakes)
             for (Finding& finding : findings_of(mistake, rows, choice, survey.sites))
                 findings.push_back(std::move(finding));
         if (!mistakes.empty()) {
-            right = amended(rows, result.options, mistakes);
+            right = model::amended(rows, result.options, {mistakes.begin(), mistakes.end()});
             const auto score =
                 model.score({right->rows, right->options, survey.day}, right->choice);
             if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
@@ -231,7 +175,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
 }
 
 /// Returns the model that `auto` chooses without the mistakes; `present` if there is none.
-std::string model_without_mistakes(const AmendedSurvey& right, const SearchedSurvey& survey,
+std::string model_without_mistakes(const model::AmendedSurvey& right, const SearchedSurvey& survey,
                                    const std::string& present) {
     try {
         // The tilt of a calibration is subtracted from the amended rows already.
@@ -278,7 +222,7 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         // The mistakes may be the reason why the whole-day model looks worse; it sees more of them.
         model::SurveyCorrection of_day = result;
         of_day.model = model::kWholeDay;
-        std::optional<AmendedSurvey> right;
+        std::optional<model::AmendedSurvey> right;
         if (survey.day != nullptr) right = search(of_day, survey).amended;
         if (!right) right = found.amended;
         const std::string chosen =

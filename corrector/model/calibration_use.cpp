@@ -75,7 +75,7 @@ bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration) {
 
 whole_day::DayPriors day_priors_of(const SurveyOptions& options) {
     whole_day::DayPriors priors = day_priors_of(options.calibration);
-    if (const Prior* const scale = options.priors.find(kScale))
+    if (const adjustment::Prior* const scale = options.priors.find(adjustment::kScale))
         priors.set_scale(scale->mean, scale->sd);
     for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
         if (const auto factor = options.priors.factors.find(whole_day::kDayTermNames.at(k));
@@ -191,8 +191,8 @@ SurveyCorrection correct_with_calibration(const std::vector<reading::SurveyRow>&
     if (!options.calibration) return correct_survey(rows, options, day);
     const unit::Calibration& calibration = *options.calibration;
     SurveyOptions with_scale = options;
-    if (calibration.scale && options.priors.find(kScale) == nullptr)
-        set_prior(with_scale.priors, "calibration", kScale,
+    if (calibration.scale && options.priors.find(adjustment::kScale) == nullptr)
+        adjustment::set_prior(with_scale.priors, "calibration", adjustment::kScale,
                   {calibration.scale->value, calibration.scale->standard_error});
     SurveyCorrection result =
         correct_survey(without_known_tilt(rows, options.calibration), with_scale, day);

@@ -14,7 +14,7 @@
 /// Values that only one model gives are in a variant, which as() reads:
 ///
 ///     if (const auto* const day = row.as<WholeDayRow>()) day->flicker_correction;
-///     if (const auto* const network = fit.as<NetworkAdjustment>()) network->s0();
+///     if (const auto* const network = fit.as<NetworkPart>()) network->s0();
 ///
 /// An absent value means that it is not defined for this row or model; it never means 0.  All types
 /// own their content and have no references to the input.
@@ -29,8 +29,9 @@
 #include <variant>
 #include <vector>
 
-#include "corrector/model/model_fit.hpp"
-#include "corrector/model/network.hpp"
+#include "corrector/adjustment/prior.hpp"
+#include "corrector/adjustment/term.hpp"
+#include "corrector/model/score.hpp"
 #include "corrector/reading/finding.hpp"
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/whole_day/day_model.hpp"
@@ -41,6 +42,20 @@
 
 namespace a351::corrector::model {
 
+/// Greatest degree of the drift of a loop.  Reason: spring gravimeters are adjusted with a cubic
+/// drift at most; a higher degree follows the readings.
+inline constexpr int kGreatestDriftDegree = 3;
+
+/// Options of a network.
+struct NetworkOptions {
+    /// Standard deviation of a reference that has none of its own, mGal.  Default: typical of gravity
+    /// networks, and a hundredth of what this sensor can achieve.  It must be above 0; this is not checked.
+    double datum_sd_mgal = 0.01;
+    /// True: the admittance of the air pressure is an unknown; the readings are not reduced for it.
+    bool fits_admittance = false;
+    int drift_degree = 1;  ///< 0 to kGreatestDriftDegree; powers of t - t0.
+};
+
 /// Options of a correction.
 ///
 /// correct_survey() checks `model`, `base` and `datum`.  The other members are not checked.
@@ -49,13 +64,13 @@ struct SurveyOptions {
     std::string base;            ///< Station of the drift step; empty: that of the first row.
     /// Stations whose reference is held; empty: all that have one.
     std::vector<std::string> datum;
-    std::vector<Step> steps;  ///< In order of time; `paper` ignores them.
+    std::vector<adjustment::Step> steps;  ///< In order of time; `paper` ignores them.
     /// True: flagged rows are not in the fit.  Excluded rows never are.
     bool use_flags = true;
     NetworkOptions network;  ///< Options of `network`.
     std::uint64_t seed = 1;  ///< Seed of the bootstrap over stations.
     /// Priors of the linear models and the network; `paper` uses none, and `day` refuses them.
-    Priors priors;
+    adjustment::Priors priors;
     /// Calibration of the unit.  correct_survey() uses it only as prior of `day`; for other models
     /// call correct_with_calibration().
     std::optional<unit::Calibration> calibration;
@@ -95,7 +110,7 @@ struct CorrectedRow {
     std::optional<MilliGal> scale_correction;
     MilliGal corrected;                ///< acceleration - tide + all corrections.
     std::optional<MilliGal> residual;  ///< reference - corrected.
-    /// Leverage; for a row outside the fit, LinearFit::leverage_at() of it.  Absent for `day`.
+    /// Leverage; for a row outside the fit, the variance of its correction / s^2.  Absent for `day`.
     /// It is at most 1 for a row in the fit, and has no limit for another row.
     std::optional<double> leverage;
     /// Uncertainty as if the station were unknown: sqrt(s^2 + variance of the fit).  `network` and
@@ -214,7 +229,7 @@ struct Coefficient {
     std::string name;  ///< Name with its unit.
     double value = 0.0;
     std::optional<double> standard_error;  ///< Absent if not estimated, or if dof is 0.
-    std::optional<Prior> prior = {};       ///< As given; absent without one.
+    std::optional<adjustment::Prior> prior = {};  ///< As given; absent without one.
 
     /// Returns the distance from the prior's mean, in its standard deviations; 0 without a prior.
     [[nodiscard]] double deviations() const {
@@ -227,7 +242,7 @@ struct ScaleEstimate {
     std::string instrument;  ///< Name of the gravimeter; empty for the sensor.
     double value = 1.0;
     double u = 0.0;  ///< Standard uncertainty, at most that of the prior.
-    Prior prior;
+    adjustment::Prior prior;
 
     /// Returns the share of the prior's variance that is left: 1 if the readings contain nothing about
     /// the scale.
@@ -261,12 +276,53 @@ struct CalibrationUse {
     std::optional<double> loso_without_mgal;
 };
 
-/// Values that only the linear models give.
-struct LinearPart {
-    std::optional<Interval> loo_interval_mgal;  ///< 95 % limits of LOO.
+/// Probability of v^T W v above the upper limit of the global test, or below the lower one, although
+/// all standard deviations are right.  Reason: the usual 5 % on both sides together.
+inline constexpr double kGlobalTestAlpha = 0.025;
+
+/// Least redundancy of a controlled row.  Below it, less than a tenth of a blunder shows in the
+/// row's own residual.
+inline constexpr double kControlledRedundancy = 0.1;
+
+/// A row of a network: a reading, a datum or a prior, in mGal or in the unit of the coefficient.
+struct NetworkRow {
+    /// Name of the row: `S2 (1)` for a reading (site and stay), `datum S2`, `prior` and the coefficient.
+    std::string label;
+    double residual = 0.0;    ///< v = A x - y.
+    double sd = 1.0;          ///< Standard deviation a priori.
+    double redundancy = 0.0;  ///< 0: uncontrolled, 1: fully controlled.
 };
-/// Marks a fit of `paper`, whose own values are in the rows.
-struct PaperPart {};
+
+/// Values that only `network` gives.
+struct NetworkPart {
+    std::vector<NetworkRow> rows;   ///< Readings in use in order of time; datum; priors.
+    std::size_t reading_count = 0;  ///< Number of readings in use.
+    std::vector<std::string> held_sites;  ///< Stations whose reference is held.
+    std::size_t unknown_count = 0;
+    std::size_t dof = 0;           ///< Degrees of freedom: rows - unknowns.
+    double weighted_square = 0.0;  ///< v^T W v
+    double chi_square_low = 0.0, chi_square_high = 0.0;  ///< Limits of the global test; 0 if dof = 0.
+
+    /// Returns s0 = sqrt(v^T W v / dof), the ratio of the standard deviations a posteriori and a
+    /// priori; absent if dof = 0.
+    ///
+    /// About 1: the standard deviations agree with the residuals.  Far above 1: they are too small,
+    /// or there is a blunder.  Far below 1: they are too large.
+    [[nodiscard]] std::optional<double> s0() const {
+        if (dof == 0) return std::nullopt;
+        return std::sqrt(weighted_square / static_cast<double>(dof));
+    }
+    /// Returns true if v^T W v is at most the upper limit; absent if dof = 0.
+    [[nodiscard]] std::optional<bool> passes_global_test() const {
+        if (dof == 0) return std::nullopt;
+        return weighted_square <= chi_square_high;
+    }
+    /// Returns true if v^T W v is below the lower limit: readings scatter less than stated.
+    [[nodiscard]] bool scatters_less_than_stated() const {
+        return dof > 0 && weighted_square < chi_square_low;
+    }
+};
+
 /// Values that only `day` gives, besides those in the rows.
 struct WholeDayPart {
     std::vector<whole_day::FitTest> fit_tests;  ///< Empty: there are too few readings to test.
@@ -292,12 +348,13 @@ struct Fit {
     std::vector<Coefficient> coefficients;  ///< In the order of the model.
     std::vector<ScaleEstimate> scales;   ///< One per instrument; empty: a model without this term.
     Score score;                         ///< Score on the rows of the fit.
+    std::optional<Interval> loo_interval_mgal;  ///< 95 % limits of LOO; linear models only.
     std::vector<text::Message> remarks;  ///< Further facts for the user, in sentences.
     /// Present if the options have a calibration and the model is `day`, or the fit is that of
     /// correct_with_calibration().
     std::optional<CalibrationUse> calibration;
     /// Values that only one model gives.
-    std::variant<std::monostate, LinearPart, PaperPart, NetworkAdjustment, WholeDayPart> own;
+    std::variant<std::monostate, NetworkPart, WholeDayPart> own;
 
     /// Returns the values of one model; null if another model was fitted.  The pointer is into this
     /// object.
@@ -306,12 +363,6 @@ struct Fit {
         return std::get_if<Part>(&own);
     }
 };
-
-/// Returns the 95 % limits of LOO; absent unless a linear model was fitted.
-[[nodiscard]] inline std::optional<Interval> loo_interval_mgal(const Fit& result) {
-    const auto* const linear = result.as<LinearPart>();
-    return linear != nullptr ? linear->loo_interval_mgal : std::nullopt;
-}
 
 /// Scores of models on one set of rows.
 struct ScoredRowSet {

@@ -101,7 +101,7 @@ std::vector<whole_day::DayStation> stations_of(const SurveyProblem& problem,
                                       row.u_reference.value_or(MilliGal(0.0))};
         if (choice.in_use[i] && row.site != left_out) station.gravity = row.reference;
         station.steps = static_cast<std::size_t>(std::ranges::count_if(
-            problem.options.steps, [&row](const Step& step) { return step.is_before(row); }));
+            problem.options.steps, [&row](const adjustment::Step& step) { return step.is_before(row); }));
         stations.push_back(station);
     }
     return stations;

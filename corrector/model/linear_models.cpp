@@ -1,173 +1,236 @@
+#include "corrector/model/linear_models.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
+#include <utility>
 
-#include "corrector/model/applied_fit.hpp"
-#include "corrector/model/model.hpp"
+#include "corrector/model/adjusted_fit.hpp"
 
 namespace a351::corrector::model {
 namespace {
 
-/// Returns the 95 % interval of the LOO, from the leave-one-out errors r / (1 - h), which are exact
-/// for least squares.
-std::optional<Interval> loo_interval(const Fit& result, std::uint64_t seed) {
-    if (!result.score.loo_mgal) return std::nullopt;
-    std::vector<double> errors;
-    std::vector<std::string> stations;
-    for (const CorrectedRow& row : result.rows) {
-        if (!row.is_used) continue;
-        errors.push_back(row.residual->value() / (1.0 - row.leverage.value()));
-        stations.push_back(row.row.site);
+using adjustment::AdjustedSurvey;
+
+using ModelOf = std::function<const LinearModel*(const std::vector<bool>& in_use)>;
+
+std::vector<std::string> stations_in(const SurveyProblem& problem,
+                                     const std::vector<bool>& in_use) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < in_use.size(); ++i)
+        if (in_use[i] && std::ranges::find(names, problem.rows[i].site) == names.end())
+            names.push_back(problem.rows[i].site);
+    return names;
+}
+
+/// Returns reading - tide - effects - reference of a row, mGal: the error of its prediction, with the
+/// sign of the reading.
+double difference_left_mgal(const AdjustedSurvey& adjusted, std::size_t row) {
+    const reading::SurveyRow& of = adjusted.survey.rows()[row];
+    double left = (of.acceleration - *of.reference - of.tide).value();
+    for (const adjustment::Entry& part : adjusted.survey.effects(row))
+        left -= adjusted.effect_mgal(part);
+    return left;
+}
+
+/// Returns the errors of rows without their station; `model_of` chooses the model for the others.
+std::optional<std::vector<double>> station_left_out_mgal(const ModelOf& model_of,
+                                                         const SurveyProblem& problem,
+                                                         const std::vector<bool>& in_use) {
+    std::vector<double> errors(in_use.size());
+    for (const std::string& station : stations_in(problem, in_use)) {
+        std::vector<bool> others = in_use;
+        for (std::size_t i = 0; i < others.size(); ++i)
+            if (problem.rows[i].site == station) others[i] = false;
+        const LinearModel* const chosen = model_of(others);
+        if (chosen == nullptr) return std::nullopt;
+        const AdjustedSurvey adjusted = adjust_linear(*chosen, problem, others);
+        if (!adjusted.is_determined() || adjusted.survey.readings().empty()) return std::nullopt;
+        for (std::size_t i = 0; i < in_use.size(); ++i)
+            if (in_use[i] && problem.rows[i].site == station)
+                errors[i] = difference_left_mgal(adjusted, i);
     }
-    return bootstrap_rms_interval(errors, stations, seed);
+    std::vector<double> of_used;
+    for (std::size_t i = 0; i < in_use.size(); ++i)
+        if (in_use[i]) of_used.push_back(errors[i]);
+    return of_used;
 }
 
-/// Means of the accepted rows of a station.
-struct StationMean {
-    StationValue* value;
-    Eigen::VectorXd x;  ///< Regressors.
-    MilliGal reading;   ///< acceleration - tide
-    double count = 0.0;
-};
-
-std::vector<StationMean> means_of(Fit& result, const Eigen::MatrixXd& columns,
-                                  const RowChoice& choice) {
-    std::vector<StationMean> means;
-    for (StationValue& station : result.stations) {
-        if (station.is_flagged_only) continue;
-        StationMean mean{&station, Eigen::VectorXd::Zero(columns.cols()), MilliGal(0.0)};
-        const auto n = static_cast<double>(station.row_count);
-        for (std::size_t i = 0; i < result.rows.size(); ++i) {
-            const reading::SurveyRow& row = result.rows[i].row;
-            if (row.site != station.site || !choice.accepted[i]) continue;
-            mean.x += columns.row(static_cast<Eigen::Index>(i)).transpose() / n;
-            mean.reading = mean.reading + MilliGal((row.acceleration - row.tide).value() / n);
-            mean.count += 1.0;
-        }
-        means.push_back(std::move(mean));
-    }
-    return means;
+std::optional<double> rms_of(const std::optional<std::vector<double>>& errors) {
+    if (!errors) return std::nullopt;
+    double sum = 0.0;
+    for (const double error : *errors) sum += error * error;
+    return std::sqrt(sum / static_cast<double>(errors->size()));
 }
 
-/// Returns the fit without the rows of two stations, which may be the same.
-std::optional<LinearFit> fit_without(const LinearModel& terms, const SurveyProblem& problem,
-                                     const RowChoice& choice, const std::string& a,
-                                     const std::string& b) {
-    std::vector<reading::SurveyRow> rows = chosen_rows(problem.rows, choice.in_use);
-    std::erase_if(rows,
-                  [&](const reading::SurveyRow& row) { return row.site == a || row.site == b; });
-    return fit_model(terms, rows, problem.origin(), problem.options.priors);
+bool has_term(const LinearModel& model, const adjustment::Term& term) {
+    return std::ranges::find(model.terms, &term) != model.terms.end();
 }
 
-/// Returns the covariance V of the slopes b, mGal^2 over the units of two columns.
-Eigen::MatrixXd slope_covariance(const LinearFit& fit, double s_mgal) {
-    const Eigen::Index q = fit.column_means.size();
-    return fit.covariance(s_mgal).bottomRightCorner(q, q);
+bool takes_part(const LinearModel& model, const SurveyProblem& problem,
+                const std::vector<bool>& in_use) {
+    constexpr std::ptrdiff_t kEnoughRows = 12;
+    if (!(has_term(model, adjustment::kRate) && has_term(model, adjustment::kTime))) return true;
+    std::set<int> base_stays;
+    for (std::size_t i = 0; i < in_use.size(); ++i)
+        if (in_use[i] && problem.rows[i].site == problem.options.base)
+            base_stays.insert(problem.rows[i].occupation);
+    return base_stays.size() >= kFewestBaseStays ||
+           std::ranges::count(in_use, true) >= kEnoughRows;
 }
 
-StationCovariance covariance_of(const std::vector<StationMean>& means, const LinearFit& fit,
-                                double s_mgal) {
-    StationCovariance covariance;
-    const auto count = std::ssize(means);
-    const Eigen::MatrixXd slopes = slope_covariance(fit, s_mgal);
-    covariance.mgal2.resize(count, count);
-    for (Eigen::Index a = 0; a < count; ++a) {
-        const StationMean& mean = means[static_cast<std::size_t>(a)];
-        covariance.sites.push_back(mean.value->site);
-        for (Eigen::Index b = 0; b < count; ++b) {
-            const StationMean& other = means[static_cast<std::size_t>(b)];
-            covariance.mgal2(a, b) =
-                s_mgal * s_mgal *
-                    ((a == b ? 1.0 / mean.count : 0.0) +
-                     1.0 / static_cast<double>(fit.row_count())) +
-                (mean.x - fit.column_means).dot(slopes * (other.x - fit.column_means));
-        }
-    }
-    return covariance;
-}
-
-/// Sets left_out and u_left_out of the stations, all differences and the covariance.
-///
-/// A value is that of the fit to the rows of the other stations, a difference that of the fit
-/// without both stations: d = mean(D)_to - mean(D)_from - (x_to - x_from)' b, with
-/// u^2 = s^2 (1/n_from + 1/n_to) + (x_to - x_from)' V (x_to - x_from).  x are mean regressors, n
-/// numbers of rows, s is that of the fit to all rows, and V is the covariance of the slopes b.  The
-/// covariance is that of StationValue::gravity as if the stations were not in the fit.
-///
-/// A pair without which the rows do not determine the model is left out.  Cost: one fit for each
-/// pair.
-/// @param result   with corrected rows and stations.
-/// @param columns  AppliedFit::columns.
-void set_left_out_stations(Fit& result, const LinearModel& terms, const SurveyProblem& problem,
-                           const RowChoice& choice, const Eigen::MatrixXd& columns) {
-    const std::vector<StationMean> means = means_of(result, columns, choice);
-    const auto all = fit_without(terms, problem, choice, "", "");
-    if (!all || !all->residual_scale()) return;
-    const double s_mgal = *all->residual_scale();
-    for (std::size_t b = 0; b < means.size(); ++b) {
-        const StationMean& to = means[b];
-        if (const auto fit = fit_without(terms, problem, choice, to.value->site, "")) {
-            to.value->left_out = to.reading - MilliGal(fit->at(to.x));
-            to.value->u_left_out =
-                MilliGal(std::sqrt(s_mgal * s_mgal / to.count + fit->variance_at(to.x, s_mgal)));
-        }
-        for (std::size_t a = 0; a < b; ++a) {
-            const StationMean& from = means[a];
-            const auto fit = fit_without(terms, problem, choice, from.value->site, to.value->site);
-            if (!fit) continue;
-            const Eigen::VectorXd step = to.x - from.x;
-            result.differences.push_back(difference_of(
-                *from.value, *to.value,
-                to.reading - from.reading - MilliGal(fit->at(to.x) - fit->at(from.x)),
-                MilliGal(std::sqrt(s_mgal * s_mgal * (1.0 / from.count + 1.0 / to.count) +
-                                   step.dot(slope_covariance(*fit, s_mgal) * step)))));
-        }
-    }
-    result.covariance = covariance_of(means, *all, s_mgal);
-}
-
-Score score(const LinearModel& given, const SurveyProblem& problem, const RowChoice& choice) {
-    const Priors& priors = problem.options.priors;
-    return score_linear_model(with_scale(given, priors), chosen_rows(problem.rows, choice.in_use),
-                              problem.origin(), priors);
-}
-
-std::optional<Noise> noise(const LinearModel& given, const ChosenSurvey& survey,
-                           const Noise* nearby) {
-    return linear_noise(with_scale(given, survey.problem.options.priors), survey, nearby);
-}
-
-std::optional<residual::Residuals> residuals(const LinearModel& given, const ChosenSurvey& survey,
-                                             const Noise& of_survey) {
-    return linear_residuals(with_scale(given, survey.problem.options.priors), survey, of_survey);
-}
-
-FitResult fit(const LinearModel& given, const SurveyProblem& problem, const RowChoice& choice) {
-    const Priors& priors = problem.options.priors;
-    const LinearModel terms = with_scale(given, priors);
-    auto applied = apply_model(terms, problem, choice, priors);
-    if (auto* const refusal = std::get_if<Refusal>(&applied)) return std::move(*refusal);
-    const auto& linear = std::get<AppliedFit>(applied);
-    Fit result;
-    result.rows = uncorrected(problem, choice);
-    result.score = score(given, problem, choice);
-    correct_rows(result, terms, linear, priors);
-    result.own = LinearPart{loo_interval(result, problem.options.seed)};
-    result.stations = average_stations(result, choice.accepted, linear, result.score.s_mgal);
-    set_left_out_stations(result, terms, problem, choice, linear.columns);
+FitResult fit(const LinearModel& model, const SurveyProblem& problem, const RowChoice& choice) {
+    const AdjustedSurvey adjusted = adjust_linear(model, problem, choice.in_use);
+    if (!adjusted.is_determined())
+        return Refusal{
+            fmt::format("{} rows with a reference do not determine it",
+                        std::ranges::count(choice.in_use, true)),
+            fmt::format("at least {} rows between which temperature, rate and time vary "
+                        "independently{}",
+                        model.terms.size() + problem.options.steps.size(),
+                        problem.options.steps.empty() ? "" : ", some after each step")};
+    Fit result = fit_of(adjusted, problem, choice);
+    result.score = score_linear_model(model, problem, choice.in_use);
+    set_loo_interval(result, problem.options.seed);
+    const auto without = [&](const std::string& a, const std::string& b) {
+        std::vector<bool> others = choice.in_use;
+        for (std::size_t i = 0; i < others.size(); ++i)
+            if (problem.rows[i].site == a || problem.rows[i].site == b) others[i] = false;
+        return adjust_linear(model, problem, others);
+    };
+    set_left_out_stations(result, adjusted, choice, without);
     return result;
+}
+
+std::unique_ptr<adjustment::Trials> trials(const LinearModel& model, const SurveyProblem& problem,
+                                           const RowChoice& choice) {
+    AdjustedSurvey adjusted = adjust_linear(model, problem, choice.in_use);
+    if (!adjusted.is_determined()) return nullptr;
+    return adjustment::white_trials(std::move(adjusted));
 }
 
 }  // namespace
 
+const std::vector<LinearModel>& compared_models() {
+    using namespace adjustment;
+    static const std::vector<LinearModel> list{
+        {"t", {&kConstant, &kTemperature}},
+        {"t-rate", {&kConstant, &kTemperature, &kRate}},
+        {"t-drift", {&kConstant, &kTemperature, &kTime}},
+        {"t-rate-drift", {&kConstant, &kTemperature, &kRate, &kTime}}};
+    return list;
+}
+
+const std::vector<LinearModel>& models_on_request() {
+    using namespace adjustment;
+    static const std::vector<LinearModel> list{
+        {"t-rate-drift-axes", {&kConstant, &kTemperature, &kRate, &kTime, &kAxisX, &kAxisY}},
+        {"drift", {&kConstant, &kTime}}};
+    return list;
+}
+
+const LinearModel* find_linear_model(std::string_view name) {
+    for (const auto* const list : {&compared_models(), &models_on_request()})
+        for (const LinearModel& model : *list)
+            if (model.name == name) return &model;
+    return nullptr;
+}
+
+AdjustedSurvey adjust_linear(const LinearModel& model, const SurveyProblem& problem,
+                             const std::vector<bool>& in_use) {
+    adjustment::Design design{std::string(model.name), model.terms, false, true};
+    if (problem.options.priors.find(adjustment::kScale) != nullptr)
+        design.terms.push_back(&adjustment::kScaleTerm);
+    return adjustment::adjust(adjustment::SurveyEquations(
+        problem.rows, in_use, std::move(design),
+        {problem.options.datum, problem.options.priors, problem.options.steps, {}}));
+}
+
+Score score_linear_model(const LinearModel& model, const SurveyProblem& problem,
+                         const std::vector<bool>& in_use) {
+    const AdjustedSurvey adjusted = adjust_linear(model, problem, in_use);
+    const adjustment::Adjustment& solution = adjusted.adjustment;
+    Score score;
+    score.model = model.name;
+    score.row_count = adjusted.survey.readings().size();
+    score.parameter_count = adjusted.survey.terms().size();
+    if (!adjusted.is_determined() || score.row_count == 0) return score;
+
+    const auto n = static_cast<double>(score.row_count);
+    const auto k = static_cast<double>(score.parameter_count + 1);
+    double rss = 0.0, left_out = 0.0;
+    for (std::size_t i = 0; i < score.row_count; ++i) {
+        const double residual = solution.residual(i);
+        rss += residual * residual;
+        left_out += std::pow(residual / solution.redundancy(i), 2);
+    }
+    score.rms_mgal = std::sqrt(rss / n);
+    score.dof = solution.dof();
+    if (const auto s0 = solution.s0()) {
+        score.s_mgal = *s0 * problem.options.priors.reading_sd_mgal;
+        // Leave-one-out error r / (1 - h), exact for least squares.
+        score.loo_mgal = std::sqrt(left_out / n);
+        if (!std::isfinite(*score.loo_mgal)) score.loo_mgal.reset();
+    }
+    // AICc = n ln(RSS/n) + 2K + 2K(K+1)/(n-K-1)   (Hurvich and Tsai 1989)
+    const bool has_prior = solution.equations().rows.size() > score.row_count;
+    if (n - k - 1.0 > 0.0 && rss > 0.0 && !has_prior)
+        score.aicc = n * std::log(rss / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+    score.loso_mgal = rms_of(left_out_errors_mgal(model, problem, in_use));
+    return score;
+}
+
+std::optional<std::vector<double>> left_out_errors_mgal(const LinearModel& model,
+                                                        const SurveyProblem& problem,
+                                                        const std::vector<bool>& in_use) {
+    return station_left_out_mgal([&model](const auto&) { return &model; }, problem, in_use);
+}
+
+std::optional<Choice> choose_model(const SurveyProblem& problem, const std::vector<bool>& in_use) {
+    std::vector<Score> scores;
+    for (const LinearModel& model : compared_models()) {
+        if (!takes_part(model, problem, in_use)) continue;
+        Score score = score_linear_model(model, problem, in_use);
+        if (score.loso_mgal && score.row_count >= score.parameter_count + kFewestChoiceDof)
+            scores.push_back(score);
+    }
+    if (scores.empty()) return std::nullopt;
+    const Score& best = *std::ranges::min_element(scores, {}, &Score::loso_mgal);
+    // Limit: LOSO (1 + 1 / sqrt(2 (n - p))).
+    const auto dof = static_cast<double>(best.row_count - best.parameter_count);
+    const double limit = *best.loso_mgal * (1.0 + 1.0 / std::sqrt(2.0 * dof));
+    const auto rank = [](const Score& score) {
+        return std::pair(score.parameter_count, *score.loso_mgal);
+    };
+    const Score* chosen = &best;
+    for (const Score& score : scores)
+        if (*score.loso_mgal <= limit && rank(score) < rank(*chosen)) chosen = &score;
+    return Choice{chosen->model, limit};
+}
+
+std::optional<double> choice_loso_mgal(const SurveyProblem& problem,
+                                       const std::vector<bool>& in_use) {
+    const ModelOf chosen = [&](const std::vector<bool>& others) -> const LinearModel* {
+        const auto choice = choose_model(problem, others);
+        return choice ? find_linear_model(choice->model) : nullptr;
+    };
+    return rms_of(station_left_out_mgal(chosen, problem, in_use));
+}
+
 std::vector<Model> linear_models() {
     std::vector<Model> list;
-    const auto add = [&list](const LinearModel& terms, bool is_always_scored) {
-        list.push_back({terms.name, is_always_scored, std::bind_front(fit, terms),
-                        std::bind_front(score, terms), std::bind_front(noise, terms),
-                        std::bind_front(residuals, terms)});
+    const auto add = [&list](const LinearModel& model, bool is_always_scored) {
+        list.push_back({model.name, is_always_scored, std::bind_front(fit, model),
+                        [model](const SurveyProblem& problem, const RowChoice& choice) {
+                            return score_linear_model(model, problem, choice.in_use);
+                        },
+                        std::bind_front(trials, model)});
     };
-    for (const LinearModel& terms : kLinearModels) add(terms, true);
-    for (const LinearModel& terms : kModelsOnRequest) add(terms, false);
+    for (const LinearModel& model : compared_models()) add(model, true);
+    for (const LinearModel& model : models_on_request()) add(model, false);
     return list;
 }
 

@@ -39,6 +39,13 @@ std::vector<CorrectedRow> uncorrected(const SurveyProblem& problem, const RowCho
     return rows;
 }
 
+std::vector<std::string> station_names(const std::vector<reading::SurveyRow>& rows) {
+    std::vector<std::string> names;
+    for (const reading::SurveyRow& row : rows)
+        if (std::ranges::find(names, row.site) == names.end()) names.push_back(row.site);
+    return names;
+}
+
 RowChoice choose_rows(const std::vector<reading::SurveyRow>& rows,
                       const std::vector<std::string>& datum, bool use_flags) {
     RowChoice choice;

@@ -16,17 +16,17 @@
 /// them.  Equal arguments give equal results.
 
 #include <functional>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "corrector/adjustment/trials.hpp"
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/model/refusal.hpp"
 #include "corrector/reading/day_record.hpp"
-#include "corrector/residual/residuals.hpp"
 
 namespace a351::corrector::model {
 
@@ -37,12 +37,6 @@ struct SurveyProblem {
     const std::vector<reading::SurveyRow>& rows;  ///< (n) At least one, in strictly ascending time.
     const SurveyOptions& options;                 ///< `base` is filled in.
     const reading::DayRecord* day;  ///< Record of the rows; null: there are only averages.
-
-    /// Returns the instant at which t = 0, with the steps of the options.
-    ///
-    /// It is that of the first row, in use or not.  The same rows in use therefore have the same
-    /// coefficients, whichever rows are flagged.
-    [[nodiscard]] TimeOrigin origin() const { return {rows.front().time, options.steps}; }
 };
 
 /// The rows of one fit.
@@ -61,22 +55,8 @@ struct RowChoice {
 [[nodiscard]] RowChoice choose_rows(const std::vector<reading::SurveyRow>& rows,
                                     const std::vector<std::string>& datum, bool use_flags);
 
-/// A survey and the rows of its fit.
-struct ChosenSurvey {
-    SurveyProblem problem;
-    const RowChoice& choice;
-};
-
-/// Noise of a network, and the gravities at which its residuals are linearised.
-struct NetworkNoise {
-    double s0 = 1.0;
-    std::map<std::string, double> above_origin_mgal;  ///< By station.
-    MilliGal origin;
-};
-
-/// Noise of a survey: standard deviation of a reading, mGal, or that of a network, or the fit of a
-/// day, which has noise and lags.
-using Noise = std::variant<double, NetworkNoise, whole_day::DayFit>;
+/// Returns the names of the rows' stations, in order of their first row.
+[[nodiscard]] std::vector<std::string> station_names(const std::vector<reading::SurveyRow>& rows);
 
 /// A fit, or the reason why the rows do not allow one.
 using FitResult = std::variant<Fit, Refusal>;
@@ -99,18 +79,10 @@ struct Model {
     /// @throws InputError  as fit().
     std::function<std::optional<Score>(const SurveyProblem&, const RowChoice&)> score;
 
-    /// Returns the noise of a survey; nullopt if the model does not fit it.  This and residuals() are
-    /// empty for `paper`.
-    /// @param nearby  noise of a similar survey as start of a search, which is then faster; or null.
-    std::function<std::optional<Noise>(const ChosenSurvey& survey, const Noise* nearby)> noise = {};
-
-    /// Returns the residuals of all rows; rows outside the fit have no effect on them.
-    /// @param noise  of the same survey, or of one in which a mistake is put right, so that it does
-    ///               not enlarge the noise with which it is compared.
-    /// @return nullopt if the model does not fit the survey.
-    std::function<std::optional<residual::Residuals>(const ChosenSurvey& survey,
-                                                     const Noise& noise)>
-        residuals = {};
+    /// Returns the survey for the search of mistakes; null if the model does not fit it.  Empty for
+    /// `paper`.  The problem must exist as long as the result.
+    std::function<std::unique_ptr<adjustment::Trials>(const SurveyProblem&, const RowChoice&)>
+        trials = {};
 };
 
 /// Returns all models, in the order of model_names().
@@ -119,7 +91,7 @@ struct Model {
 /// Returns the model of this name; null if there is none.  kAutomatic is no model.
 [[nodiscard]] const Model* find_model(std::string_view name);
 
-/// Name of the choice between the whole-day model, kLinearModels and the network.
+/// Name of the choice between the whole-day model, compared_models() and the network.
 inline constexpr std::string_view kAutomatic = "auto";
 /// Names of the publication's correction, of the whole-day model and of the network.
 inline constexpr std::string_view kPaper = "paper", kWholeDay = "day", kNetwork = "network";
@@ -143,9 +115,9 @@ inline constexpr std::string_view kPaper = "paper", kWholeDay = "day", kNetwork 
 /// result of the published rows worse.  No row has a studentised residual.
 [[nodiscard]] Model paper_model();
 
-/// The models of kLinearModels and kModelsOnRequest (model_fit.hpp), in this order.
+/// The models of compared_models() and models_on_request() (linear_models.hpp), in this order.
 ///
-/// Those of kLinearModels are always scored.  They refuse rows that do not determine the
+/// Those of compared_models() are always scored.  They refuse rows that do not determine the
 /// coefficients.  Priors count: with a prior on a slope, fewer rows are enough.
 [[nodiscard]] std::vector<Model> linear_models();
 
@@ -165,8 +137,6 @@ inline constexpr std::string_view kPaper = "paper", kWholeDay = "day", kNetwork 
 ///   the scale; within 1e-5 if that is known (network_test.cpp).
 /// - Rows of a loop without a reading in the network cannot be corrected: they are in left_out,
 ///   with a remark.
-/// - NetworkAdjustment::term_columns and is_tied count all rows of the problem, also those in
-///   left_out, which Fit::rows does not have.
 ///
 /// It refuses as adjust_network().
 [[nodiscard]] Model network_model();

@@ -28,20 +28,4 @@ std::string physical_doubt(const reading::SurveyRow& row) {
     return reasons;
 }
 
-std::optional<double> studentised_residual(double residual, double leverage, bool is_in_fit,
-                                           const LinearFit& fit) {
-    const Eigen::Index dof = fit.dof() - 1;
-    const double rss = fit.rss + fit.prior_rss;
-    if (dof <= 0) return std::nullopt;
-    // s^2 (1 + h) for a row outside; s_i^2 (1 - h) for a row of the fit
-    double variance = rss / static_cast<double>(dof + 1) * (1.0 + leverage);
-    if (is_in_fit) {
-        if (leverage > 1.0 - 1e-9) return std::nullopt;
-        const double own = residual * residual / (1.0 - leverage);
-        variance = (rss - own) / static_cast<double>(dof) * (1.0 - leverage);
-    }
-    if (!(variance > 0.0)) return std::nullopt;
-    return residual / std::sqrt(variance);
-}
-
 }  // namespace a351::corrector::model

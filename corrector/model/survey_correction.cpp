@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "corrector/model/linear_models.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/outlier_tests.hpp"
 #include "corrector/model/row_doubts.hpp"
@@ -33,35 +35,38 @@ struct Chosen {
     FitResult fit;
     std::optional<Choice> choice;
     std::optional<double> choice_loso_mgal;
-    std::optional<Priors> priors;  ///< Priors that were fitted, if not those of the options.
+    std::optional<adjustment::Priors> priors;  ///< adjustment::Priors that were fitted, if not those of the options.
     std::vector<text::Message> remarks;
 };
 
-std::vector<reading::SurveyRow> used_rows(const SurveyProblem& problem, const RowChoice& rows) {
-    return chosen_rows(problem.rows, rows.in_use);
+/// Returns the number of stations with a row in use.
+std::size_t used_stations(const SurveyProblem& problem, const RowChoice& rows) {
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < problem.rows.size(); ++i)
+        if (rows.in_use[i]) names.insert(problem.rows[i].site);
+    return names.size();
 }
 
 /// Chooses one of the linear models; nullopt if the known stations are too few to compare them.
 std::optional<Choice> choose_linear(const SurveyProblem& problem, const RowChoice& rows) {
-    const std::vector<reading::SurveyRow> used = used_rows(problem, rows);
-    if (station_names(used).size() < kFewestComparedStations) return std::nullopt;
-    return choose_model(used, problem.origin(), problem.options.base, problem.options.priors);
+    if (used_stations(problem, rows) < kFewestComparedStations) return std::nullopt;
+    return choose_model(problem, rows.in_use);
 }
 
 /// Fits the chosen linear model; without a choice, the network with the published priors.
 void fit_without_record(Chosen& chosen, const SurveyProblem& problem, const RowChoice& rows) {
-    const std::vector<reading::SurveyRow> used = used_rows(problem, rows);
     SurveyOptions options = problem.options;
     if (chosen.choice) {
         chosen.model = find_model(chosen.choice->model);
         chosen.choice_loso_mgal =
-            choice_loso_mgal(used, problem.origin(), options.base, options.priors);
+            choice_loso_mgal(problem, rows.in_use);
     } else {
         chosen.model = find_model(kNetwork);
         chosen.remarks.push_back(text::message(
             "{} readings at {} known stations do not allow to compare models: network, with the "
             "priors {}",
-            used.size(), station_names(used).size(), add_published_priors(options.priors)));
+            std::ranges::count(rows.in_use, true), used_stations(problem, rows),
+            adjustment::add_published_priors(options.priors)));
         chosen.priors = options.priors;
     }
     chosen.fit = chosen.model->fit({problem.rows, options, problem.day}, rows);
@@ -84,8 +89,7 @@ std::optional<Comparison> compare_with_linear(const SurveyProblem& problem, cons
     const SurveyOptions& options = problem.options;
     if (!day.score.loso_mgal || !choice) return std::nullopt;
     const auto errors =
-        left_out_errors_mgal(*find_linear_model(choice->model), used_rows(problem, rows),
-                             problem.origin(), options.priors);
+        left_out_errors_mgal(*find_linear_model(choice->model), problem, rows.in_use);
     if (!errors) return std::nullopt;
     std::vector<double> differences;
     std::vector<std::string> stations;
@@ -150,10 +154,22 @@ void remark_unused_uncertainties(Fit& result, const Model& model) {
             model.name));
 }
 
-/// Says that a model has no scale, and so does not use the prior that is given for it.
-void remark_unused_scale(Fit& result, const Model& model, const Priors& priors) {
-    if (!result.scales.empty() || priors.find(kScale) == nullptr) return;
-    result.remarks.push_back(text::message("{} has no scale: its prior is not used", model.name));
+/// Says which priors and options of the user the model does not use.
+void remark_unused(Fit& result, const Model& model, const SurveyOptions& options) {
+    std::vector<std::string> used;
+    for (const Coefficient& coefficient : result.coefficients)
+        if (coefficient.prior) used.push_back(coefficient.name);
+    std::vector<std::string> unused = adjustment::unused_priors(options.priors, used);
+    for (std::string& name : unused) name = "prior " + name;
+    const NetworkOptions usual;
+    if (result.as<NetworkPart>() == nullptr) {
+        if (options.network.drift_degree != usual.drift_degree) unused.emplace_back("drift_degree");
+        if (options.network.datum_sd_mgal != usual.datum_sd_mgal)
+            unused.emplace_back("datum_sd_mgal");
+    }
+    if (!unused.empty())
+        result.remarks.push_back(
+            text::message("{} does not use: {}", model.name, text::joined(unused)));
 }
 
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
@@ -252,7 +268,7 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
     static_cast<Fit&>(result) = std::get<Fit>(std::move(chosen.fit));
     value_stations_outside(result);
     remark_unused_uncertainties(result, *chosen.model);
-    remark_unused_scale(result, *chosen.model, applied.priors);
+    remark_unused(result, *chosen.model, applied);
     if (text::Message remark = temperature_remark(result.rows, applied.datum); !remark.empty())
         result.remarks.insert(result.remarks.begin(), std::move(remark));
     if (chosen.model->name == kPaper && !applied.steps.empty())

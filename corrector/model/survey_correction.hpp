@@ -34,7 +34,7 @@ void add_left_out(SurveyCorrection& result, const std::vector<reading::LeftOut>&
 ///
 /// `auto` takes the whole-day model unless it refuses, or unless stations left out are predicted
 /// significantly worse than by a linear model; else choose_model(); without a choice the network,
-/// with add_published_priors().  `network` with a record is the whole-day model, unless that
+/// with adjustment::add_published_priors().  `network` with a record is the whole-day model, unless that
 /// refuses.  If there is a record, a remark says why the whole-day model is not used.
 ///
 /// The result has scores of each model that is always scored, and of the applied one.  They are for

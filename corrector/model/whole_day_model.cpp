@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/model/amended_survey.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/day_fits.hpp"
 #include "corrector/whole_day/day_model.hpp"
@@ -263,7 +264,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
                             whole_day::DayTerm::warm_up, whole_day::DayTerm::scale}) {
         const auto at = whole_day::DayPriors::place_of(term);
         result.coefficients[static_cast<std::size_t>(term)].prior =
-            Prior{priors.mean(at) + (term == whole_day::DayTerm::scale ? 1.0 : 0.0),
+            adjustment::Prior{priors.mean(at) + (term == whole_day::DayTerm::scale ? 1.0 : 0.0),
                   priors.factor.row(at).norm()};
     }
     const auto place = whole_day::DayPriors::place_of(whole_day::DayTerm::scale);
@@ -293,19 +294,52 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     return result;
 }
 
-std::optional<Noise> noise_of_day(const ChosenSurvey& survey, const Noise* nearby) {
-    if (refusal_of(survey.problem, survey.choice)) return std::nullopt;
-    return whole_day::fit_day(*survey.problem.day, stations_of(survey.problem, survey.choice),
-                              nearby != nullptr ? &std::get<whole_day::DayFit>(*nearby) : nullptr,
-                              day_priors_of(survey.problem.options));
-}
+/// Alternatives of a day: each is amended, and lags and noise are searched again.
+class DayTrials final : public adjustment::Trials {
+public:
+    DayTrials(const SurveyProblem& problem, const RowChoice& choice)
+        : problem_(problem), choice_(choice), priors_(day_priors_of(problem.options)) {}
 
-std::optional<residual::Residuals> residuals_of_day(const ChosenSurvey& survey,
-                                                    const Noise& noise) {
-    if (refusal_of(survey.problem, survey.choice)) return std::nullopt;
-    return whole_day::set_up_residuals(
-        *survey.problem.day, stations_of(survey.problem, survey.choice),
-        std::get<whole_day::DayFit>(noise), day_priors_of(survey.problem.options));
+    [[nodiscard]] std::shared_ptr<const adjustment::Residuals> residuals(
+        const std::vector<adjustment::Alternative>& known,
+        const std::vector<adjustment::Alternative>& quiet) override {
+        const auto is_same = [](const auto& a, const auto& b) { return a.is_same(b); };
+        if (!of_quiet_ || !std::ranges::equal(quiet, last_quiet_, is_same)) {
+            const AmendedSurvey without = amended(problem_.rows, problem_.options, quiet);
+            of_quiet_ = fit_of(without, nearby_ ? &*nearby_ : nullptr);
+            last_quiet_ = quiet;
+            if (!nearby_) nearby_ = of_quiet_;
+        }
+        const AmendedSurvey with = amended(problem_.rows, problem_.options, known);
+        if (!of_quiet_ || is_refused(with)) return nullptr;
+        return adjustment::dense_residuals(whole_day::set_up_residuals(
+            *problem_.day, stations_of({with.rows, with.options, problem_.day}, with.choice),
+            *of_quiet_, priors_));
+    }
+
+private:
+    [[nodiscard]] bool is_refused(const AmendedSurvey& survey) const {
+        return refusal_of({survey.rows, survey.options, problem_.day}, survey.choice).has_value();
+    }
+    [[nodiscard]] std::optional<whole_day::DayFit> fit_of(const AmendedSurvey& survey,
+                                                          const whole_day::DayFit* nearby) const {
+        if (is_refused(survey)) return std::nullopt;
+        return whole_day::fit_day(
+            *problem_.day, stations_of({survey.rows, survey.options, problem_.day}, survey.choice),
+            nearby, priors_);
+    }
+
+    SurveyProblem problem_;
+    RowChoice choice_;
+    whole_day::DayPriors priors_;
+    std::optional<whole_day::DayFit> nearby_, of_quiet_;
+    std::vector<adjustment::Alternative> last_quiet_;
+};
+
+std::unique_ptr<adjustment::Trials> day_trials(const SurveyProblem& problem,
+                                               const RowChoice& choice) {
+    if (refusal_of(problem, choice)) return nullptr;
+    return std::make_unique<DayTrials>(problem, choice);
 }
 
 }  // namespace
@@ -330,7 +364,7 @@ std::optional<text::Message> day_refusal(const std::vector<reading::SurveyRow>& 
 }
 
 Model whole_day_model() {
-    return {kWholeDay, false, fit_whole_day, score_day, noise_of_day, residuals_of_day};
+    return {kWholeDay, false, fit_whole_day, score_day, day_trials};
 }
 
 }  // namespace a351::corrector::model

@@ -56,7 +56,7 @@ std::string reading_caption(const model::SurveyCorrection& result) {
     const std::string text =
         tr("Gravity of the readings in mGal, with all corrections. Residual = reference - "
            "corrected, in sample where the reading is in the fit. ");
-    if (result.as<model::NetworkAdjustment>() != nullptr)
+    if (result.as<model::NetworkPart>() != nullptr)
         return text + tr("u: standard uncertainty of a single reading, a priori; t: studentised "
                          "residual.");
     if (result.as<model::WholeDayPart>() == nullptr)
@@ -80,7 +80,7 @@ std::string station_caption(const model::SurveyCorrection& result, const result:
                 : "") +
            (result.as<model::WholeDayPart>() != nullptr
                 ? tr(" u is a standard uncertainty, as if the station were unknown.")
-            : result.as<model::NetworkAdjustment>() != nullptr
+            : result.as<model::NetworkPart>() != nullptr
                 ? tr(" u is a standard uncertainty, a priori.")
                 : tr(" u is a standard uncertainty, from the scatter in sample.")) +
            (has("U 95 % mGal") ? tr(" Gravity of an unknown station is within ± U of the value "

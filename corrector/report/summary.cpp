@@ -9,7 +9,7 @@
 
 #include "corrector/grade/reading_name.hpp"
 #include "corrector/model/model.hpp"
-#include "corrector/model/model_fit.hpp"
+#include "corrector/model/linear_models.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/scale_report.hpp"
 #include "corrector/result/table_text.hpp"
@@ -93,7 +93,7 @@ bool is_unusable(const model::SurveyCorrection& result) {
 }
 
 std::string headline(const model::SurveyCorrection& result) {
-    const auto* const network = result.as<model::NetworkAdjustment>();
+    const auto* const network = result.as<model::NetworkPart>();
     const std::string day =
         tr("{} to {}. Readings: {}. Stations: {}, base {}. Model {}{}; readings in the fit: {}.",
            to_rfc3339(result.rows.front().row.time), to_rfc3339(result.rows.back().row.time),
@@ -103,7 +103,7 @@ std::string headline(const model::SurveyCorrection& result) {
         return day + tr(" Coefficients: {}, degrees of freedom: {}.", result.score.parameter_count,
                         result.score.dof);
     return day + tr(" Unknowns: {}, of which stations: {} ({} held); degrees of freedom: {}.",
-                    result.score.parameter_count, network->stations.size(), network->datum_count,
+                    result.score.parameter_count, result.stations.size(), network->held_sites.size(),
                     result.score.dof);
 }
 

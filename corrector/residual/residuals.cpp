@@ -13,8 +13,10 @@ using Index = Eigen::Index;
 /// uncertainty of its size is 1000 times that of the readings: nothing can be said about it.
 constexpr double kLeastLeft = 1e-3;
 
-/// Returns a vector of independent normal numbers of variance 1 (Box and Muller).
+}  // namespace
+
 Eigen::VectorXd normal_vector(std::mt19937_64& generator, Index size) {
+    // Box and Muller
     const auto uniform = [&generator] {  // in (0, 1]
         return (static_cast<double>(generator() >> 11) + 1.0) * 0x1p-53;
     };
@@ -25,8 +27,6 @@ Eigen::VectorXd normal_vector(std::mt19937_64& generator, Index size) {
     }
     return values;
 }
-
-}  // namespace
 
 void Residuals::project(Eigen::VectorXd& whitened) const {
     whitened -= unknown * (unknown.transpose() * whitened);

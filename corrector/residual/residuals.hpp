@@ -56,6 +56,9 @@ struct Residuals {
     [[nodiscard]] Eigen::VectorXd simulated(std::mt19937_64& generator) const;
 };
 
+/// Returns independent normal numbers of variance 1, the same for a seed on any machine.
+[[nodiscard]] Eigen::VectorXd normal_vector(std::mt19937_64& generator, Eigen::Index size);
+
 /// Returns an orthonormal basis of the columns' space (k, rank).
 [[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 

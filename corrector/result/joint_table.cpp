@@ -50,7 +50,7 @@ std::vector<Members> members_of(const std::vector<model::SurveyCorrection>& days
 /// without the own reference.
 std::optional<double> correlation(const model::SurveyCorrection& day, const std::string& a,
                                   const std::string& b) {
-    if (!day.covariance || day.as<model::NetworkAdjustment>() != nullptr) return std::nullopt;
+    if (!day.covariance || day.as<model::NetworkPart>() != nullptr) return std::nullopt;
     const auto& [sites, mgal2] = *day.covariance;
     const auto of_a = std::ranges::find(sites, a), of_b = std::ranges::find(sites, b);
     if (of_a == sites.end() || of_b == sites.end()) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -20,11 +21,11 @@ struct ReferenceCheck {
 };
 
 ReferenceCheck check_references(const model::SurveyCorrection& result,
-                                const model::NetworkAdjustment& network) {
+                                const model::NetworkPart& network) {
     ReferenceCheck check;
     double squares = 0.0;
     for (const model::StationValue& station : result.stations) {
-        if (network.datum_of(station.site) != nullptr || station.is_flagged_only ||
+        if (std::ranges::find(network.held_sites, station.site) != network.held_sites.end() || station.is_flagged_only ||
             !station.residual)
             continue;
         ++check.station_count;
@@ -38,13 +39,13 @@ ReferenceCheck check_references(const model::SurveyCorrection& result,
 }  // namespace
 
 std::string network_text(const model::SurveyCorrection& result) {
-    const auto* const adjusted = result.as<model::NetworkAdjustment>();
+    const auto* const adjusted = result.as<model::NetworkPart>();
     if (adjusted == nullptr) return {};
-    const model::NetworkAdjustment& network = *adjusted;
+    const model::NetworkPart& network = *adjusted;
     std::string text = fmt::format(
         "network: {} rows ({} readings, {} datum of sd {} mGal), {} unknowns, dof = {}\n",
-        network.rows.size(), network.reading_count, network.datum_count,
-        text::shortest(result.options.network.datum_sd_mgal), network.unknowns.size(), network.dof);
+        network.rows.size(), network.reading_count, network.held_sites.size(),
+        text::shortest(result.options.network.datum_sd_mgal), network.unknown_count, network.dof);
     const std::string sd = text::shortest(result.options.priors.reading_sd_mgal);
     if (const auto passes = network.passes_global_test()) {
         text += fmt::format(
@@ -78,16 +79,16 @@ std::string network_text(const model::SurveyCorrection& result) {
 }
 
 Json network_json(const model::SurveyCorrection& result) {
-    const auto* const adjusted = result.as<model::NetworkAdjustment>();
+    const auto* const adjusted = result.as<model::NetworkPart>();
     if (adjusted == nullptr) return nullptr;
-    const model::NetworkAdjustment& network = *adjusted;
+    const model::NetworkPart& network = *adjusted;
     const auto passes = network.passes_global_test();
     const auto s0 = network.s0();
     const ReferenceCheck check = check_references(result, network);
     Json json;
     json["datum_sd_mgal"] = result.options.network.datum_sd_mgal;
     json["drift_degree"] = result.options.network.drift_degree;
-    json["unknowns"] = network.unknowns.size();
+    json["unknowns"] = network.unknown_count;
     json["dof"] = network.dof;
     json["weighted_square"] = network.weighted_square;
     json["global_test"] = {{"alpha", model::kGlobalTestAlpha},

@@ -68,11 +68,9 @@ Json unit_json(const model::SurveyCorrection& result) {
 
 Json priors_json(const model::SurveyCorrection& result) {
     Json json{{"reading_sd_mgal", result.options.priors.reading_sd_mgal}};
-    for (const std::string_view name : model::kPriorNames) {
-        if (const model::Prior* const prior = result.options.priors.find(name)) {
-            json[std::string(name)] = {{"mean", prior->mean}, {"sd", prior->sd}};
-        }
-    }
+    for (const adjustment::Term* const term : adjustment::terms_with_prior())
+        if (const adjustment::Prior* const prior = result.options.priors.find(term->name))
+            json[std::string(term->name)] = {{"mean", prior->mean}, {"sd", prior->sd}};
     return json;
 }
 
@@ -125,8 +123,8 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
     json["model"] = result.model;
     json["base"] = result.options.base;
     if (result.as<model::WholeDayPart>() == nullptr) {
-        json["reference_temperature_degc"] = model::kReferenceTemperature.value();
-        json["reference_time_h_after_first_row"] = model::kReferenceTime_h;
+        json["reference_temperature_degc"] = adjustment::kReferenceTemperature.value();
+        json["reference_time_h_after_first_row"] = adjustment::kReferenceTime_h;
     }
     json["priors"] = priors_json(result);
     json["coefficients"] = Json::array();
@@ -144,7 +142,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
         {"loo_mgal", json_of(result.score.loo_mgal)},
         {"loso_mgal", json_of(result.score.loso_mgal)},
         {"choice_loso_mgal", json_of(result.choice_loso_mgal)},
-        {"loo_interval_95_mgal", interval_json(model::loo_interval_mgal(result))},
+        {"loo_interval_95_mgal", interval_json(result.loo_interval_mgal)},
         {"bootstrap_draws", model::kBootstrapDraws},
         {"bootstrap_seed", result.options.seed}};
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);

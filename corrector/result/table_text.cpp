@@ -46,8 +46,8 @@ std::string coefficients_text(const model::SurveyCorrection& result) {
     for (const model::Coefficient& c : result.coefficients) {
         text += fmt::format("  {} = {}", c.name, text::fixed(c.value, 4));
         if (c.standard_error) text += " +- " + text::fixed(*c.standard_error, 4);
-        if (const model::Prior* const prior = result.options.priors.find(c.name);
-            prior != nullptr && result.as<model::PaperPart>() == nullptr) {
+        if (const adjustment::Prior* const prior = result.options.priors.find(c.name);
+            prior != nullptr && c.prior) {
             text += fmt::format(" (prior {} +- {})", text::fixed(prior->mean, 4),
                                 text::fixed(prior->sd, 4));
         }
@@ -68,7 +68,7 @@ std::string summary_text(const model::SurveyCorrection& result) {
     add(", ", score.loo_mgal, "(leave-one-out)");
     add(", ", score.loso_mgal, "(leave-one-station-out)");
     text += '\n';
-    if (const auto interval = model::loo_interval_mgal(result)) {
+    if (const auto interval = result.loo_interval_mgal) {
         text += fmt::format("leave-one-out, 95 % interval by resampling stations: {} to {} mGal\n",
                             text::fixed(interval->low, 2), text::fixed(interval->high, 2));
     }

@@ -25,7 +25,7 @@ Approx near_printed(double value, double margin = 0.0005) {
 }
 
 SurveyCorrection correct(const std::string& model, bool use_flags,
-                         const model::Priors& priors = {}) {
+                         const adjustment::Priors& priors = {}) {
     SurveyOptions options;
     options.priors = priors;
     options.model = model;
@@ -134,7 +134,7 @@ TEST_CASE("choosing a model on the 16 rows costs: its own error is 2.3 to 2.7 mG
 TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-out error",
           "[golden][tsukuba]") {
     // 11.2 mGal/(degC/h) is not from these rows: 2.27 becomes 1.93, and 4.48 becomes 3.16.
-    model::Priors held;
+    adjustment::Priors held;
     set_prior(held, "test", "rate_mgal_per_degc_per_h", {11.2, 1e-4});
     const SurveyCorrection with_time = correct("t-rate-drift", true, held);
     CHECK(with_time.score.loo_mgal.value() == near_printed(1.93, 0.005));
@@ -142,7 +142,7 @@ TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-
     CHECK_FALSE(with_time.score.aicc.has_value());
     CHECK(correct("t-rate", false, held).score.loo_mgal.value() == near_printed(3.16, 0.005));
     // A wide prior changes nothing.
-    model::Priors wide;
+    adjustment::Priors wide;
     set_prior(wide, "test", "rate_mgal_per_degc_per_h", {0.0, 1e5});
     CHECK(correct("t-rate-drift", true, wide).score.loo_mgal.value() == near_printed(2.0817));
 }
@@ -213,7 +213,7 @@ TEST_CASE("the leave-one-out error of the published rows has an interval around 
           "[golden][tsukuba]") {
     // n = 16: a scatter of 2 mGal has itself a standard error of about 0.4.
     const SurveyCorrection result = correct("t", true);
-    const Interval interval = loo_interval_mgal(result).value();
+    const Interval interval = result.loo_interval_mgal.value();
     CHECK(interval.low < result.score.loo_mgal.value() - 0.4);
     CHECK(interval.low > result.score.loo_mgal.value() - 1.2);
     CHECK(interval.high > result.score.loo_mgal.value() + 0.4);

@@ -79,22 +79,31 @@ struct HoldOut {
     }
 };
 
+/// Adjusts a network and compares a station with a value.
+HoldOut value_of(const std::vector<reading::SurveyRow>& rows, const std::string& site,
+                 const std::vector<std::string>& datum, const adjustment::Priors& priors,
+                 const model::NetworkOptions& options, double gravity_mgal) {
+    const auto network =
+        model::adjust_network(rows, std::vector<bool>(rows.size(), true), datum, priors, options)
+            .adjusted.value();
+    const auto& stations = network.survey.stations();
+    const auto at = static_cast<std::size_t>(
+        std::ranges::find(stations, site, &adjustment::EquationStation::site) - stations.begin());
+    return {network.gravity(at).value() - gravity_mgal,
+            std::sqrt(network.adjustment.covariance(at, at))};
+}
+
 /// Predicts one absolute station from the others.
 HoldOut hold_out(const std::vector<reading::SurveyRow>& rows, const std::string& held,
                  const Absolute& value, int degree) {
     std::vector<std::string> datum;
     for (const reading::SurveyRow& row : rows)
         if (row.reference && row.site != held) datum.push_back(row.site);
-    model::Priors priors;
+    adjustment::Priors priors;
     priors.reading_sd_mgal = kReadingSd_mgal;
     model::NetworkOptions options;
     options.drift_degree = degree;
-    const auto network =
-        model::adjust_network(rows, std::vector<bool>(rows.size(), true), datum, priors, options)
-            .adjustment.value();
-    const auto at = std::ranges::find(network.stations, held) - network.stations.begin();
-    return {(network.origin + MilliGal(network.unknowns(at))).value() - value.gravity_mgal,
-            std::sqrt(network.covariance(at, at))};
+    return value_of(rows, held, datum, priors, options, value.gravity_mgal);
 }
 
 /// Predicts all absolute stations, prints the errors and returns them by station.
@@ -185,21 +194,16 @@ TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u 
         row.reference = *row.reference + MilliGal(kRange_mgal);
     }
     const double reference = std::ranges::find_if(rows, is_far)->reference->value();
-    const auto far_end = [&](std::optional<model::Prior> scale) {
-        model::Priors priors;
+    const auto far_end = [&](std::optional<adjustment::Prior> scale) {
+        adjustment::Priors priors;
         priors.reading_sd_mgal = kReadingSd_mgal;
-        if (scale) model::set_prior(priors, "test", "scale", *scale);
-        const auto network =
-            model::adjust_network(rows, std::vector<bool>(rows.size(), true), {"rg37"}, priors, {})
-                .adjustment.value();
-        const auto at = std::ranges::find(network.stations, "rg57") - network.stations.begin();
-        const HoldOut end{(network.origin + MilliGal(network.unknowns(at))).value() - reference,
-                          std::sqrt(network.covariance(at, at))};
+        if (scale) adjustment::set_prior(priors, "test", "scale", *scale);
+        const HoldOut end = value_of(rows, "rg57", {"rg37"}, priors, {}, reference);
         std::cout << fmt::format("far end off by {:+.4f} mGal, u {:.4f}\n", end.error_mgal,
                                  end.u_mgal);
         return end;
     };
-    const HoldOut held = far_end(model::Prior{1.0, 1e-6}), free = far_end(std::nullopt);
+    const HoldOut held = far_end(adjustment::Prior{1.0, 1e-6}), free = far_end(std::nullopt);
     const Absolute value{reference, absolute_values("2017-12").at("rg57").u_mgal};
     CHECK(held.u_mgal < 0.013);
     CHECK(free.u_mgal == Approx(std::hypot(held.u_mgal, 1e-4 * kRange_mgal)).epsilon(0.01));

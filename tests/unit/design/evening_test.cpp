@@ -67,6 +67,6 @@ TEST_CASE("there is no uncertainty in the evening without a running stay at an u
     day = corrected(made_up_plan("AB"), 3.0);
     CHECK(!u_in_the_evening(day, {}, "1"));
     CHECK(!u_in_the_evening(corrected(made_up_plan("AB", 1, 1.5), 3.0), made_up_sites(), "1"));
-    day.own = model::NetworkAdjustment{};
+    day.own = model::NetworkPart{};
     CHECK(!u_in_the_evening(day, made_up_sites(), "1"));
 }

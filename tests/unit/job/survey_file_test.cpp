@@ -97,7 +97,7 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
 
 TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_file]") {
     const Desk desk;
-    const model::Priors priors =
+    const adjustment::Priors priors =
         desk.read("[survey]\nreading_sd_mgal=1.5\n[prior]\nrate_mgal_per_degc_per_h=[10,6]\n")
             .survey.priors;
     REQUIRE(priors.find("rate_mgal_per_degc_per_h") != nullptr);

@@ -61,11 +61,11 @@ struct Line {
                 rows[i].acceleration = rows[i].acceleration + MilliGal(mgal);
     }
 
-    [[nodiscard]] model::SurveyCorrection corrected(std::optional<model::Prior> scale = {}) const {
+    [[nodiscard]] model::SurveyCorrection corrected(std::optional<adjustment::Prior> scale = {}) const {
         model::SurveyOptions options;
         options.model = "network";
         options.priors.reading_sd_mgal = kReadingSd_mgal;
-        if (scale) model::set_prior(options.priors, "test", "scale", *scale);
+        if (scale) adjustment::set_prior(options.priors, "test", "scale", *scale);
         return mistake::correct_and_search({rows, {}, nullptr}, options);
     }
 };
@@ -102,7 +102,7 @@ TEST_CASE("meters whose scales differ by more than their prior are named, and no
         CHECK(finding.kind == FindingKind::scale);
         CHECK(texts.insert(finding.text.english()).second);
     }
-    CHECK(mistakes(six.corrected(model::Prior{1.0, 0.001})).empty());
+    CHECK(mistakes(six.corrected(adjustment::Prior{1.0, 0.001})).empty());
 }
 
 TEST_CASE("a step is named with the uncertainty that the scale gives it, and the scale is not",
@@ -110,7 +110,7 @@ TEST_CASE("a step is named with the uncertainty that the scale gives it, and the
     constexpr double kStep_mgal = 97.67;
     Line line = day({1.0});
     line.step(6, "M0", kStep_mgal);
-    const auto result = line.corrected(model::Prior{1.0, 0.002});
+    const auto result = line.corrected(adjustment::Prior{1.0, 0.002});
     const auto found = mistakes(result);
     REQUIRE(found.size() == 1);
     CHECK(found[0].kind == FindingKind::step);
@@ -140,7 +140,7 @@ TEST_CASE("a step says what the prior of the scale leaves open", "[mistake][scal
     double hours = 0.0;
     for (const Place& place : {a, b, a, b, c, d, c, d}) line.visit(place, hours += 0.4, {1.0});
     line.step(4, "M0", 97.67);
-    const auto found = mistakes(line.corrected(model::Prior{1.0, 0.002}));
+    const auto found = mistakes(line.corrected(adjustment::Prior{1.0, 0.002}));
     const auto step = std::ranges::find(found, FindingKind::step, &Finding::kind);
     REQUIRE(step != found.end());
     CHECK(std::abs(*step->size_mgal - 97.67) < 3.0 * *step->u_mgal);

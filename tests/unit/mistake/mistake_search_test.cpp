@@ -7,7 +7,7 @@
 
 using namespace a351::corrector;
 using mistake::Mistake;
-using mistake::MistakeKind;
+using MistakeKind = adjustment::AlternativeKind;
 using mistake::SearchedReading;
 
 namespace {
@@ -30,7 +30,7 @@ std::vector<SearchedReading> readings() {
 }
 
 /// A survey with an unknown constant and drift; the noise is white.
-struct MadeUp {
+struct MadeUp final : adjustment::Trials {
     std::vector<SearchedReading> list = readings();
     Eigen::VectorXd errors_mgal;
 
@@ -49,12 +49,13 @@ struct MadeUp {
     }
 
     /// Returns the residuals without the readings of known mistakes; a step is one more unknown.
-    std::optional<residual::Residuals> residuals(const std::vector<Mistake>& known) const {
+    [[nodiscard]] residual::Residuals dense(
+        const std::vector<adjustment::Alternative>& known) const {
         const auto n = std::ssize(list);
         Eigen::MatrixXd a(n, 2);
         Eigen::VectorXd y = errors_mgal;
         for (Eigen::Index i = 0; i < n; ++i) a.row(i) << 1.0, static_cast<double>(i);
-        for (const Mistake& one : known) {
+        for (const adjustment::Alternative& one : known) {
             const auto unknown = [&](const std::vector<std::size_t>& numbers) {
                 a.conservativeResize(Eigen::NoChange, a.cols() + 1);
                 a.rightCols(1).setZero();
@@ -76,10 +77,13 @@ struct MadeUp {
                                       Eigen::VectorXd::Constant(n, 1.0 / kNoise_mgal), list.size());
     }
 
-    [[nodiscard]] std::vector<Mistake> search() const {
-        return mistake::search_mistakes(
-            list, [this](const auto& known, const auto& /*quiet*/) { return residuals(known); });
+    [[nodiscard]] std::shared_ptr<const adjustment::Residuals> residuals(
+        const std::vector<adjustment::Alternative>& known,
+        const std::vector<adjustment::Alternative>& /*quiet*/) override {
+        return adjustment::dense_residuals(dense(known));
     }
+
+    [[nodiscard]] std::vector<Mistake> search() { return mistake::search_mistakes(list, *this); }
 };
 
 using Numbers = std::vector<std::size_t>;
@@ -96,7 +100,7 @@ TEST_CASE("a reading, a reference, a swap and a step are found with their sizes"
     swap.add(11, 12, -36.0);
     step.add(7, 18, -11.0);
     const struct {
-        const MadeUp& survey;
+        MadeUp& survey;
         MistakeKind kind;
         Numbers readings, others;
         double size_mgal;
@@ -144,10 +148,10 @@ TEST_CASE("without a mistake the clearest one has any probability equally often"
     constexpr int kSurveys = 300;
     int below_tenth = 0, below_half = 0;
     for (int seed = 1; seed <= kSurveys; ++seed) {
-        const MadeUp survey(static_cast<std::uint64_t>(2000 + seed));
-        const mistake::Trial trial(survey.residuals({}).value(), survey.list, {});
+        MadeUp survey(static_cast<std::uint64_t>(2000 + seed));
+        const mistake::Trial trial(survey.residuals({}, {}), survey.list, {});
         Mistake clearest = trial.best(1).front().mistake;
-        trial.measure(clearest);
+        trial.measure(clearest, 1.0);
         below_tenth += clearest.p < 0.1 ? 1 : 0;
         below_half += clearest.p < 0.5 ? 1 : 0;
     }
@@ -181,10 +185,13 @@ TEST_CASE("nothing is searched with too few readings, or without residuals", "[m
     day.list.resize(5);
     day.errors_mgal.conservativeResize(5);
     CHECK(day.search().empty());
-    CHECK(mistake::search_mistakes(readings(), [](const auto&, const auto&) {
-              return std::optional<residual::Residuals>();
-          }).empty());
-    CHECK(mistake::search_mistakes({}, [](const auto&, const auto&) {
-              return std::optional<residual::Residuals>();
-          }).empty());
+    struct Nothing final : adjustment::Trials {
+        [[nodiscard]] std::shared_ptr<const adjustment::Residuals> residuals(
+            const std::vector<adjustment::Alternative>&,
+            const std::vector<adjustment::Alternative>&) override {
+            return nullptr;
+        }
+    } nothing;
+    CHECK(mistake::search_mistakes(readings(), nothing).empty());
+    CHECK(mistake::search_mistakes({}, nothing).empty());
 }

@@ -3,7 +3,7 @@
 #include <vector>
 #include "tests/support/catch.hpp"
 
-#include "corrector/model/model_fit.hpp"
+#include "corrector/model/linear_models.hpp"
 
 using namespace a351;
 using namespace a351::corrector::model;

@@ -5,6 +5,7 @@
 #include <set>
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/linear_models.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -65,7 +66,7 @@ TEST_CASE("every model of averages gives rows whose corrections add up to the co
         CHECK(fit.score.model == model.name);
         CHECK(fit.stations.size() == station_names(rows).size());
         CHECK((fit.rows.front().as<PaperRow>() != nullptr) == (model.name == kPaper));
-        CHECK((fit.as<NetworkAdjustment>() != nullptr) == (model.name == "network"));
+        CHECK((fit.as<NetworkPart>() != nullptr) == (model.name == "network"));
     }
 }
 
@@ -75,15 +76,18 @@ TEST_CASE("a linear model corrects for its own terms only", "[survey][model]") {
     const SurveyProblem problem{rows, options, nullptr};
     for (const char* const name : {"t", "t-rate", "t-drift", "t-rate-drift", "drift"}) {
         CAPTURE(name);
-        const LinearModel& terms = *find_linear_model(name);
+        const auto has_term = [&](const adjustment::Term& term) {
+            const auto& terms = find_linear_model(name)->terms;
+            return std::ranges::find(terms, &term) != terms.end();
+        };
         const auto fit = std::get<model::Fit>(find_model(name)->fit(problem, all_of(rows)));
         const auto has_correction = [&](MilliGal CorrectedRow::*correction) {
             return std::ranges::any_of(fit.rows, [&](const CorrectedRow& row) {
                 return std::abs((row.*correction).value()) > 1e-9;
             });
         };
-        CHECK(has_correction(&CorrectedRow::rate_correction) == terms.has_rate);
-        CHECK(has_correction(&CorrectedRow::drift_correction) == terms.has_time);
+        CHECK(has_correction(&CorrectedRow::rate_correction) == has_term(adjustment::kRate));
+        CHECK(has_correction(&CorrectedRow::drift_correction) == has_term(adjustment::kTime));
         CHECK_FALSE(fit.rows.front().tilt_correction);
         CHECK_FALSE(fit.rows.front().scale_correction);
     }
@@ -143,7 +147,7 @@ TEST_CASE("a model without a scale says that it does not use the prior of the sc
     for (const std::string name : {"paper", "network", "t-rate-drift"}) {
         options.model = name;
         const std::string remark = text::in_words(correct_survey(rows, options).remarks, "; ");
-        CHECK((remark.find("has no scale: its prior is not used") != std::string::npos) ==
+        CHECK((remark.find("does not use: prior scale") != std::string::npos) ==
               (name == "paper"));
     }
 }
@@ -171,12 +175,12 @@ TEST_CASE("a linear model with a prior of the scale finds a station whose gravit
     CHECK(without.scales.empty());
     CHECK((at_far(without).gravity - truth).value() > 1.0);
 
-    set_prior(options.priors, "test", kScale, {1.0 + kScaleError, kPriorSd});
+    set_prior(options.priors, "test", adjustment::kScale, {1.0 + kScaleError, kPriorSd});
     const auto with = correct_survey(rows, options);
     REQUIRE(with.scales.size() == 1);
     CHECK(with.scales[0].value == Approx(1.0 + kScaleError).epsilon(0).margin(1e-4));
     CHECK((at_far(with).gravity - truth).value() == Approx(0.0).margin(0.1));
-    CHECK(with.coefficients.back().name == kScale);
+    CHECK(with.coefficients.back().name == adjustment::kScale);
     CHECK(with.coefficients.back().value == with.scales[0].value);
     for (const CorrectedRow& row : with.rows) {
         CHECK(row.scale_correction);
@@ -187,9 +191,9 @@ TEST_CASE("a linear model with a prior of the scale finds a station whose gravit
 
     // The far station's error is mostly that of the scale.
     options.priors.reading_sd_mgal = 0.01;
-    set_prior(options.priors, "test", kScale, {1.0 + kScaleError, 1e-6});
+    set_prior(options.priors, "test", adjustment::kScale, {1.0 + kScaleError, 1e-6});
     const double held = at_far(correct_survey(rows, options)).u_gravity.value().value();
-    set_prior(options.priors, "test", kScale, {1.0 + kScaleError, kPriorSd});
+    set_prior(options.priors, "test", adjustment::kScale, {1.0 + kScaleError, kPriorSd});
     const double loose = at_far(correct_survey(rows, options)).u_gravity.value().value();
     CHECK(loose > 2.0 * held);
 }

@@ -181,7 +181,7 @@ TEST_CASE("the reason why auto does not use the whole-day model is reported", "[
     DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
     SurveyOptions options = by_model("day");
-    options.priors.values.front() = Prior{-30.0, 1.0};
+    set_prior(options.priors, "test", "temperature_mgal_per_degc", {-30.0, 1.0});
     CHECK_THROWS_WITH(correct_survey(rows, options, &day), ContainsSubstring("its own priors"));
     day.temperature.gaps = {{1000, 13000}};
     const auto result = correct_survey(rows, by_model("auto"), &day);

@@ -102,7 +102,7 @@ TEST_CASE("the uncertainty of a difference is that of the errors that make it", 
     CHECK(differences[0].difference.value() == Approx(10.0));
     CHECK(differences[0].u.value() == Approx((of_b - of_a).norm()));
     // The adjusted values of a network have another covariance than those without the own datum.
-    days[1].own = NetworkAdjustment{};
+    days[1].own = NetworkPart{};
     CHECK(joint_differences(days).empty());
 }
 

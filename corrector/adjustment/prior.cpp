@@ -1,4 +1,4 @@
-#include "corrector/model/prior.hpp"
+#include "corrector/adjustment/prior.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector::model {
+namespace a351::corrector::adjustment {
 namespace {
 
 std::string allowed_range(std::string_view name) {
@@ -29,13 +29,21 @@ bool is_in_range(std::string_view name, const Prior& prior) {
            prior.sd <= most;
 }
 
+std::vector<std::string> prior_names() {
+    std::vector<std::string> names;
+    for (const Term* const term : terms_with_prior()) names.emplace_back(term->name);
+    return names;
+}
+
+bool may_have_prior(std::string_view name) {
+    return std::ranges::find(terms_with_prior(), name, &Term::name) != terms_with_prior().end();
+}
+
 }  // namespace
 
 const Prior* Priors::find(std::string_view name) const {
-    const auto* const at = std::find(kPriorNames.begin(), kPriorNames.end(), name);
-    if (at == kPriorNames.end()) return nullptr;
-    const auto& value = values[static_cast<std::size_t>(at - kPriorNames.begin())];
-    return value ? &*value : nullptr;
+    const auto found = values.find(name);
+    return found == values.end() ? nullptr : &found->second;
 }
 
 Prior Priors::in_use(std::string_view name, Prior prior) const {
@@ -49,51 +57,50 @@ Prior Priors::scale_of(std::string_view instrument) const {
 }
 
 bool Priors::has_slope() const {
-    return std::ranges::any_of(kPriorNames, [this](std::string_view name) {
-        return name != kScale && find(name) != nullptr;
-    });
+    return std::ranges::any_of(values, [](const auto& one) { return one.first != kScale; });
+}
+
+std::vector<std::string> unused_priors(const Priors& priors,
+                                       const std::vector<std::string>& names) {
+    std::vector<std::string> unused;
+    for (const auto& [name, prior] : priors.values)
+        if (std::ranges::find(names, name) == names.end()) unused.push_back(name);
+    return unused;
 }
 
 void set_prior(Priors& priors, std::string_view origin, std::string_view name, Prior prior) {
-    const auto* const at = std::find(kPriorNames.begin(), kPriorNames.end(), name);
-    if (at == kPriorNames.end())
-        throw InputError(fmt::format(
-            "{} = {}: no such coefficient; allowed: {}", origin, name,
-            text::joined(std::vector<std::string>(kPriorNames.begin(), kPriorNames.end()))));
+    if (!may_have_prior(name))
+        throw InputError(fmt::format("{} = {}: no such coefficient; allowed: {}", origin, name,
+                                     text::joined(prior_names())));
     if (!is_in_range(name, prior))
         throw InputError(fmt::format("{} = {} {} {}: out of range; allowed: {}", origin, name,
                                      text::shortest(prior.mean), text::shortest(prior.sd),
                                      allowed_range(name)));
-    priors.values[static_cast<std::size_t>(at - kPriorNames.begin())] = prior;
+    priors.values[std::string(name)] = prior;
 }
 
 std::string add_published_priors(Priors& priors) {
-    // In the order of kPriorNames: temperature, its rate, time, scale.
-    constexpr std::array<std::optional<Prior>, kPriorNames.size()> kPublished{
-        Prior{-29.0, 10.0}, std::nullopt, Prior{0.0, 1.0}, std::nullopt};
+    priors.values.try_emplace(std::string(kTemperature.name), Prior{-29.0, 10.0});
+    priors.values.try_emplace(std::string(kTime.name), Prior{0.0, 1.0});
     std::vector<std::string> texts;
-    for (std::size_t k = 0; k < kPriorNames.size(); ++k) {
-        std::optional<Prior>& prior = priors.values[k];
-        if (!prior) prior = kPublished[k];
-        if (prior)
-            texts.push_back(fmt::format("{} {} +- {}", kPriorNames[k], text::shortest(prior->mean),
+    for (const std::string& name : prior_names())
+        if (const Prior* const prior = priors.find(name))
+            texts.push_back(fmt::format("{} {} +- {}", name, text::shortest(prior->mean),
                                         text::shortest(prior->sd)));
-    }
     return text::joined(texts);
 }
 
 void read_priors(Priors& priors, text::TomlTable table) {
-    for (std::size_t k = 0; k < kPriorNames.size(); ++k) {
-        const auto numbers = table.numbers(kPriorNames[k], -kGreatestPrior, kGreatestPrior);
-        if (!table.has(kPriorNames[k])) continue;
+    for (const std::string& name : prior_names()) {
+        const auto numbers = table.numbers(name, -kGreatestPrior, kGreatestPrior);
+        if (!table.has(name)) continue;
         if (numbers.size() != 2)
-            table.refuse(kPriorNames[k], fmt::format("{} numbers", numbers.size()), "[mean, sd]");
+            table.refuse(name, fmt::format("{} numbers", numbers.size()), "[mean, sd]");
         const Prior prior{numbers[0], numbers[1]};
-        if (!is_in_range(kPriorNames[k], prior))
-            table.refuse(kPriorNames[k], "out of range", allowed_range(kPriorNames[k]));
-        priors.values[k] = prior;
+        if (!is_in_range(name, prior)) table.refuse(name, "out of range", allowed_range(name));
+        priors.values[name] = prior;
     }
     table.require_all_read();
 }
 
-}  // namespace a351::corrector::model
+}  // namespace a351::corrector::adjustment

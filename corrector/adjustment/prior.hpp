@@ -14,17 +14,18 @@
 /// The scale always has a prior, because a few known stations hardly determine it.  The whole-day model
 /// has priors of its own (day_model.hpp) and takes only that of the scale from here.
 
-#include <array>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "corrector/adjustment/term.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/unit/calibration.hpp"
 
-namespace a351::corrector::model {
+namespace a351::corrector::adjustment {
 
 /// A normal prior, in the unit of its coefficient.
 struct Prior {
@@ -38,14 +39,6 @@ inline constexpr double kLeastPriorSd = 1e-6;
 /// Greatest mean (absolute value) and standard deviation of a prior, in the unit of its
 /// coefficient.  Reason: all coefficients of this sensor are far smaller.
 inline constexpr double kGreatestPrior = 1e6;
-
-/// Name of the scale factor: change of the reading divided by that of gravity, without a unit.
-inline constexpr std::string_view kScale = "scale";
-
-/// Coefficients that may have a prior, with their units.  The unit is part of the name, which is
-/// that of coefficient_names().  The constant and the axis biases have none.
-inline constexpr std::array<std::string_view, 4> kPriorNames{
-    "temperature_mgal_per_degc", "rate_mgal_per_degc_per_h", "time_mgal_per_h", kScale};
 
 /// Prior of the sensor's scale factor.
 inline constexpr Prior kSensorScale{1.0, unit::kUsualScaleDeviation};
@@ -65,10 +58,10 @@ inline constexpr double kGreatestSd_mgal = 1000.0;
 /// All priors of a survey, and the standard deviation against which they are weighted.
 ///
 /// A default-constructed object has no prior.  Priors of terms that a model does not have are
-/// ignored.
+/// not used; unused_priors() names them.
 struct Priors {
-    /// Priors in the order of kPriorNames.
-    std::array<std::optional<Prior>, kPriorNames.size()> values;
+    /// Priors by the name of the coefficient, one of terms_with_prior().
+    std::map<std::string, Prior, std::less<>> values;
 
     /// Standard deviation of a reading, mGal; it sets the weight of readings against priors and
     /// datum.  Default: the scatter of the published survey about its known stations.  It must be
@@ -94,6 +87,11 @@ struct Priors {
     [[nodiscard]] bool has_slope() const;
 };
 
+/// Returns the names of the priors that a model does not use.
+/// @param names  coefficients of the model.
+[[nodiscard]] std::vector<std::string> unused_priors(const Priors& priors,
+                                                     const std::vector<std::string>& names);
+
 /// Sets the prior of a coefficient by name.  It replaces an earlier one.
 /// @param origin  option or key that gives the prior, for messages.
 /// @throws InputError  if the name is unknown, or mean or standard deviation is out of range (or
@@ -108,9 +106,9 @@ void set_prior(Priors& priors, std::string_view origin, std::string_view name, P
 /// @return all priors in words, such as "temperature_mgal_per_degc -29 +- 10".
 std::string add_published_priors(Priors& priors);
 
-/// Reads `name = [mean, sd]` for each of kPriorNames; absent keys leave the prior as it is.
+/// Reads `name = [mean, sd]` for each of terms_with_prior(); absent keys leave the prior as it is.
 /// @param table  table `prior` of a survey file; may be empty.
 /// @throws InputError  if there is another key, not exactly two numbers, or a number out of range.
 void read_priors(Priors& priors, text::TomlTable table);
 
-}  // namespace a351::corrector::model
+}  // namespace a351::corrector::adjustment

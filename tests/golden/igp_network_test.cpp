@@ -1,0 +1,145 @@
+// A real campaign of two gravimeters beside the solution published with it: tests/golden/igp/README.md.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include "tests/support/catch.hpp"
+
+#include "corrector/mistake/survey_findings.hpp"
+#include "corrector/tide/tide_choice.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+
+namespace {
+
+/// Scatter of a reading of these meters on the road, mGal.
+constexpr double kReadingSd_mgal = 0.011;
+/// Absolute stations, mGal above one constant, with u 0.005.
+const std::map<std::string, double> kAbsolute{
+    {"11014121", 1110.54453}, {"13072402", 961.0019}, {"10114700", 868.0904}};
+constexpr double kConstant_mgal = 979000.0;
+
+std::vector<std::vector<std::string>> words_of(const std::string& file) {
+    std::ifstream in(A351_GOLDEN "/igp/" + file);
+    REQUIRE(in);
+    std::vector<std::vector<std::string>> lines;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream text(line);
+        std::vector<std::string> words;
+        for (std::string word; text >> word;) words.push_back(word);
+        lines.push_back(std::move(words));
+    }
+    return lines;
+}
+
+std::vector<text::Site> sites() {
+    std::vector<text::Site> list;
+    for (const std::string file : {"QSCW912018.DZJ", "SDQSX8.DZJ"})
+        for (const auto& words : words_of(file)) {
+            if (words.size() < 5 || text::find_site(list, words[0]) != nullptr) continue;
+            const std::size_t last = words.size() - 1;
+            list.push_back({words[0], Degrees(std::stod(words[last - 1])),
+                            Degrees(std::stod(words[last - 2])), Metres(std::stod(words[last])),
+                            std::nullopt});
+        }
+    return list;
+}
+
+/// Returns the readings with the scales of the published solution, and the references of `held`.
+std::vector<reading::SurveyRow> rows(const std::vector<std::string>& held) {
+    std::vector<reading::SurveyRow> list;
+    for (const auto& [file, scale] : std::map<std::string, double>{
+             {"QSCW201508p.098", 1.00009}, {"QSCW201508p.099", 1.000637}}) {
+        int loop = 1;
+        for (const auto& words : words_of(file)) {
+            if (!words.empty() && words[0] == "55555") ++loop;
+            if (words.size() < 7 || words[1] != "GCYM") continue;
+            reading::SurveyRow row;
+            const std::string& t = words[2];
+            row.time = parse_rfc3339(fmt::format("20{}-{}-{}T{}:{}:00+08:00", t.substr(0, 2),
+                                                 t.substr(2, 2), t.substr(4, 2), t.substr(6, 2),
+                                                 t.substr(8, 2)))
+                           .value();
+            row.instrument = words[0];
+            row.loop = loop;
+            row.site = words[3];
+            row.acceleration = MilliGal(scale * std::stod(words[4]));
+            row.has_temperature = false;
+            if (std::ranges::find(held, row.site) != held.end()) {
+                row.reference = MilliGal(kConstant_mgal + kAbsolute.at(row.site));
+                row.u_reference = MilliGal(0.005);
+            }
+            list.push_back(std::move(row));
+        }
+    }
+    std::ranges::stable_sort(list, {}, &reading::SurveyRow::time);
+    std::map<std::string, int> stays;
+    for (reading::SurveyRow& row : list) row.occupation = ++stays[row.site];
+    tide::apply_tide(list, sites(), {"direct", {}, {}});
+    return list;
+}
+
+model::SurveyCorrection corrected(const std::vector<std::string>& held) {
+    model::SurveyOptions options;
+    options.priors.reading_sd_mgal = kReadingSd_mgal;
+    return mistake::correct_and_search({rows(held), {}, nullptr}, options);
+}
+
+const model::StationValue& station(const model::SurveyCorrection& result, const std::string& site) {
+    return *std::ranges::find(result.stations, site, &model::StationValue::site);
+}
+
+}  // namespace
+
+TEST_CASE("a campaign of 112 stations agrees with the solution published with it", "[golden][igp]") {
+    const auto result = corrected({"11014121"});
+    REQUIRE(result.rows.size() == 548);
+    REQUIRE(result.stations.size() == 112);
+    const auto* const network = result.as<model::NetworkPart>();
+    REQUIRE(network != nullptr);
+    CHECK(network->passes_global_test().value());
+    CHECK(network->s0().value() == Approx(0.98).margin(0.01));
+
+    std::ifstream in(A351_GOLDEN "/igp/grav_baj.txt");
+    const auto published = nlohmann::json::parse(in);
+    std::map<std::string, double> theirs;
+    for (std::size_t k = 0; k < published["staid"].size(); ++k)
+        theirs[published["staid"][k]] = published["gvalue_mGal"][k];
+    const double ours_at_base = station(result, "11014121").gravity.value();
+    double squares = 0.0;
+    for (const model::StationValue& one : result.stations)
+        squares += std::pow((one.gravity.value() - ours_at_base) -
+                                (theirs.at(one.site) - theirs.at("11014121")),
+                            2);
+    const double rms_mgal = std::sqrt(squares / static_cast<double>(result.stations.size()));
+    std::cout << fmt::format("{:.4f} mGal rms from the published solution\n", rms_mgal);
+    CHECK(rms_mgal < 0.0195);
+
+    for (const std::string hidden : {"13072402", "10114700"}) {
+        const model::StationValue& one = station(result, hidden);
+        const double error_mgal = one.gravity.value() - kConstant_mgal - kAbsolute.at(hidden);
+        std::cout << fmt::format("hidden {} {:+.4f} ({:.4f})\n", hidden, error_mgal,
+                                 one.u_gravity->value());
+        CHECK(std::abs(error_mgal) < 2.0 * one.u_gravity->value());
+    }
+}
+
+TEST_CASE("mistakes of a real campaign are few, large enough to be read, and each named once",
+          "[golden][igp]") {
+    const auto result = corrected({"11014121"});
+    std::vector<std::string> texts;
+    for (const reading::Finding& finding : result.findings) {
+        if (reading::is_remark(finding)) continue;
+        texts.push_back(finding.text.english());
+        std::cout << texts.back() << '\n';
+        if (finding.size_mgal && finding.u_mgal)
+            CHECK(std::abs(*finding.size_mgal) >= 3.0 * *finding.u_mgal);
+        CHECK(std::ranges::count(texts, texts.back()) == 1);
+    }
+    CHECK(texts.size() <= 4);  // of 548 readings
+}
