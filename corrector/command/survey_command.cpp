@@ -161,13 +161,10 @@ void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
     std::ranges::sort(days, {}, [](const Day& day) {
         return std::tuple(day.result.rows.front().row.time, day.serial_number, day.name);
     });
-    std::vector<model::SurveyCorrection> results;
     std::vector<model::RecordedSurvey> surveys;
-    for (const Day& day : days) {
-        results.push_back(day.result);
+    for (const Day& day : days)
         surveys.push_back(
             {day.name, day.serial_number, &day.result, day.record ? &*day.record : nullptr});
-    }
     const bool are_all = days.size() == pages.size();
     std::ranges::sort(pages, {}, [&](const report::JointDay& page) {
         const auto day = std::ranges::find(days, page.name, &Day::name);
@@ -177,8 +174,8 @@ void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
         if (const auto day = std::ranges::find(days, page.name, &Day::name); day != days.end())
             page.result = &day->result;
     const result::JointResult joint = model::adjust_jointly(surveys);
-    const result::JointTables tables =
-        result::joint_tables(results, std::get_if<model::JointAdjustment>(&joint));
+    const auto* const adjustment = std::get_if<model::JointAdjustment>(&joint);
+    const result::JointTables tables = result::joint_tables(surveys, adjustment);
     text::write_together(
         out, {{"joint.csv", result::csv_table(result::joint_columns(), tables.stations)},
               {"joint-differences.csv",
@@ -188,7 +185,10 @@ void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
     std::cout << (are_all ? "all days\n" : "all corrected days\n");
     for (const std::string& sentence : result::joint_sentences(joint))
         std::cout << sentence << '\n';
-    std::cout << result::aligned_text(result::table_of(result::joint_columns(), tables.stations))
+    std::cout << result::aligned_text(
+                     adjustment != nullptr
+                         ? result::table_of(result::joint_columns(), tables.stations)
+                         : result::table_by_survey(tables.stations, surveys, false))
               << '\n';
 }
 

@@ -31,12 +31,6 @@ std::string address_part(const std::string& name) {
     return text;
 }
 
-const model::StationValue* find_station(const model::SurveyCorrection& day,
-                                        const std::string& site) {
-    const auto found = std::ranges::find(day.stations, site, &model::StationValue::site);
-    return found == day.stations.end() ? nullptr : &*found;
-}
-
 void add_days(pugi::xml_node parent, const std::vector<JointDay>& days) {
     std::vector<HtmlCells> rows;
     for (const JointDay& day : days) {
@@ -80,26 +74,8 @@ void add_links(pugi::xml_node parent, const std::vector<JointDay>& days) {
     if (line) add_text(line, ".");
 }
 
-void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days,
-                        const std::vector<model::SurveyCorrection>& results,
+void add_joint_stations(pugi::xml_node parent, const std::vector<model::RecordedSurvey>& surveys,
                         const std::vector<result::JointStation>& stations, bool is_adjusted) {
-    result::Table table = result::table_of(result::joint_columns(), stations);
-    for (const JointDay& day : days) {
-        if (day.result == nullptr) continue;
-        table.alignment += 'r';
-        table.headings.push_back(text::tr("{} - joint", day.name));
-    }
-    for (std::size_t i = 0; i < stations.size(); ++i) {
-        for (const model::SurveyCorrection& result : results) {
-            const model::StationValue* const value = find_station(result, stations[i].site);
-            table.rows[i].push_back(
-                value == nullptr
-                    ? "-"
-                    : text::fixed((result::day_value(*value).gravity - stations[i].gravity).value(),
-                                  3) +
-                          (value->is_flagged_only ? " *" : ""));
-        }
-    }
     const std::string caption =
         is_adjusted
             ? text::tr(
@@ -109,14 +85,10 @@ void add_joint_stations(pugi::xml_node parent, const std::vector<JointDay>& days
                   "joint-differences.csv. NAME - joint: the day's own value minus that of the "
                   "adjustment. *: only readings that were left out of the day's fit.")
             : text::tr(
-                  "Gravity: mean of the days, each weighted by 1/u^2 (not weighted if a day has no "
-                  "u), with its standard uncertainty u. The value of a day does not use the "
-                  "station's own reference (left out). In sample: one of the days has only a value "
-                  "that uses it. u includes the uncertainties of instrument and references that "
-                  "the days share. Differences of stations are in joint-differences.csv. NAME - "
-                  "joint: the day's value minus the mean. *: only readings that were left out of "
-                  "the day's fit.");
-    add_table(parent, caption, table);
+                  "Gravity of each survey with its standard uncertainty u. It does not use the "
+                  "station's own reference (left out). In sample: one of the surveys has only a "
+                  "value that uses it. *: only readings that were left out of the survey's fit.");
+    add_table(parent, caption, result::table_by_survey(stations, surveys, is_adjusted));
 }
 
 /// A grade of a station over all days, with its reasons.
@@ -126,9 +98,10 @@ struct Advice {
 };
 
 /// Adds a reason if two days disagree about a station by more than their uncertainties explain.
-void compare_days(Advice& advice, const JointDay& a, const JointDay& b, const std::string& site) {
-    const model::StationValue* const of_a = find_station(*a.result, site);
-    const model::StationValue* const of_b = find_station(*b.result, site);
+void compare_days(Advice& advice, const model::RecordedSurvey& a, const model::RecordedSurvey& b,
+                  const std::string& site) {
+    const model::StationValue* const of_a = result::find_station(*a.result, site);
+    const model::StationValue* const of_b = result::find_station(*b.result, site);
     if (of_a == nullptr || of_b == nullptr) return;
     const result::DayValue value_a = result::day_value(*of_a), value_b = result::day_value(*of_b);
     if (!value_a.u || !value_b.u) return;
@@ -147,12 +120,11 @@ void compare_days(Advice& advice, const JointDay& a, const JointDay& b, const st
 }
 
 /// Returns the best grade of a station on a day, or a worse one if the days disagree.
-/// @param days  those with a result.
-Advice advice_on(const std::string& site, const std::vector<JointDay>& days) {
+Advice advice_on(const std::string& site, const std::vector<model::RecordedSurvey>& days) {
     Advice advice;
     std::vector<std::string> reasons;
-    for (const JointDay& day : days) {
-        if (find_station(*day.result, site) == nullptr) continue;
+    for (const model::RecordedSurvey& day : days) {
+        if (result::find_station(*day.result, site) == nullptr) continue;
         const grade::ReadingGrade of_day =
             grade::grade_of_station(*day.result, grade::grade_readings(*day.result), site);
         advice.grade = std::min(advice.grade, of_day.grade);
@@ -167,11 +139,10 @@ Advice advice_on(const std::string& site, const std::vector<JointDay>& days) {
 }
 
 /// Adds the mistakes found with certainty, and the stations to trust and to repeat.
-/// @param days  those with a result.
-void add_joint_actions(pugi::xml_node parent, const std::vector<JointDay>& days,
+void add_joint_actions(pugi::xml_node parent, const std::vector<model::RecordedSurvey>& days,
                        const std::vector<result::JointStation>& stations) {
     std::vector<std::string> items;
-    for (const JointDay& day : days)
+    for (const model::RecordedSurvey& day : days)
         for (const reading::Finding& finding : day.result->findings)
             if (finding.is_headline)
                 items.push_back(fmt::format("{}: {}", day.name, text::in_words(finding.text)));
@@ -209,8 +180,8 @@ void add_joint_actions(pugi::xml_node parent, const std::vector<JointDay>& days,
             "nnl", {text::tr("Station"), text::tr("Grade"), text::tr("Why")}, rows);
 }
 
-std::string scatter_sentence(const std::vector<model::SurveyCorrection>& results) {
-    const auto scatter = scatter_of_days(results);
+std::string scatter_sentence(const std::vector<model::RecordedSurvey>& days) {
+    const auto scatter = scatter_of_days(days);
     if (!scatter)
         return text::tr("No station was measured on two days, so the days cannot be compared.");
     const std::string expected = text::fixed_or(scatter->expected_mgal, 2, "");
@@ -225,20 +196,21 @@ std::string scatter_sentence(const std::vector<model::SurveyCorrection>& results
 
 }  // namespace
 
-std::optional<DayScatter> scatter_of_days(const std::vector<model::SurveyCorrection>& days) {
+std::optional<DayScatter> scatter_of_days(const std::vector<model::RecordedSurvey>& days) {
     DayScatter scatter;
     double squares = 0.0, expected = 0.0;
     bool has_all_u = true;
-    for (const result::JointStation& station : result::join_days(days)) {
+    for (const result::JointStation& station : result::joint_tables(days, nullptr).stations) {
         if (station.day_count < 2) continue;
         std::vector<const model::StationValue*> values;
-        for (const model::SurveyCorrection& day : days)
-            if (const model::StationValue* const value = find_station(day, station.site))
+        for (const model::RecordedSurvey& day : days)
+            if (const auto* const value = result::find_station(*day.result, station.site))
                 values.push_back(value);
         const auto n = static_cast<double>(values.size());
-        double mean = 0.0;  // of the differences from the joint value
-        const auto off = [&station](const model::StationValue& value) {
-            return (result::day_value(value).gravity - station.gravity).value();
+        double mean = 0.0;  // of the differences from the first day
+        const MilliGal first = result::day_value(*values.front()).gravity;
+        const auto off = [first](const model::StationValue& value) {
+            return (result::day_value(value).gravity - first).value();
         };
         for (const auto* const value : values) mean += off(*value) / n;
         for (const auto* const a : values) {
@@ -258,16 +230,13 @@ std::optional<DayScatter> scatter_of_days(const std::vector<model::SurveyCorrect
 }
 
 std::string joint_html(const std::vector<JointDay>& days, const result::JointResult& joint) {
-    std::vector<JointDay> corrected;
-    std::vector<model::SurveyCorrection> results;
+    std::vector<model::RecordedSurvey> corrected;
     std::vector<std::string> troubles;
     for (const JointDay& day : days) {
-        if (day.result != nullptr) {
-            corrected.push_back(day);
-            results.push_back(*day.result);
-        } else {
+        if (day.result != nullptr)
+            corrected.push_back({day.name, "", day.result, nullptr});
+        else
             troubles.push_back(fmt::format("{}: {}", day.name, day.trouble));
-        }
     }
     const std::string title = text::tr("Gravity of {} surveys", days.size());
     Page page(title);
@@ -275,12 +244,12 @@ std::string joint_html(const std::vector<JointDay>& days, const result::JointRes
         add(page.body(), "p", text::tr("Not corrected, and not included below:"));
     add_list(page.body(), troubles);
     const auto* const adjustment = std::get_if<model::JointAdjustment>(&joint);
-    const auto joined = result::joint_tables(results, adjustment).stations;
+    const auto joined = result::joint_tables(corrected, adjustment).stations;
     add_joint_actions(page.add_section(text::tr("What to do")), corrected, joined);
     const pugi::xml_node stations = page.add_section(text::tr("Stations"));
     for (const std::string& sentence : result::joint_sentences(joint)) add(stations, "p", sentence);
-    add_joint_stations(stations, days, results, joined, adjustment != nullptr);
-    add(stations, "p", scatter_sentence(results));
+    add_joint_stations(stations, corrected, joined, adjustment != nullptr);
+    add(stations, "p", scatter_sentence(corrected));
     const pugi::xml_node section = page.add_section(text::tr("The surveys"));
     add_days(section, days);
     add_links(section, days);

@@ -2,8 +2,9 @@
 /// @file
 /// joint.html: several surveys side by side.
 ///
-/// The page shows whether the days agree: by the difference of each day from the joint value, and
-/// by the scatter of these differences against the uncertainties.  Use it for two days or more.
+/// The page shows whether the days agree: by the difference of each day from the joint value, or
+/// without an adjustment by their values, and by the scatter of the days against the uncertainties.
+/// Use it for two days or more.
 
 #include <string>
 #include <vector>
@@ -44,7 +45,7 @@ struct DayScatter {
 /// even if all its rows are flagged.
 /// @return std::nullopt if no station was measured on two days.
 [[nodiscard]] std::optional<DayScatter> scatter_of_days(
-    const std::vector<model::SurveyCorrection>& days);
+    const std::vector<model::RecordedSurvey>& days);
 
 /// Returns the page: what to do about each station, the joint stations with the difference of each
 /// day, and the days with their scores and links to their reports.  It needs no other file.
@@ -52,7 +53,7 @@ struct DayScatter {
 /// A station has the best grade of its days.  It gets `care` or `repeat` if two days disagree by more
 /// than 2 or 3 times the uncertainty of their difference.
 ///
-/// Days without a result are listed first, with their reasons, and are in no mean.  The links lead
+/// Days without a result are listed first, with their reasons.  The links lead
 /// to FOLDER/report.html.  All texts are escaped, and the page is well-formed XML
 /// (joint_page_test.cpp).
 /// @param days   in the order of the page.

@@ -47,8 +47,9 @@ std::string joint_json(const JointResult& joint, const JointTables& tables) {
     Json json;
     json["program"] = "a351-correct";
     json["version"] = A351_VERSION;
-    json["method"] = adjustment != nullptr ? "adjustment" : "means";
-    json["reason"] = adjustment != nullptr ? Json(nullptr) : Json(std::get<text::Message>(joint).english());
+    json["method"] = adjustment != nullptr ? "adjustment" : "none";
+    json["reason"] =
+        adjustment != nullptr ? Json(nullptr) : Json(std::get<text::Message>(joint).english());
     json["units"] = adjustment != nullptr ? terms_json(adjustment->units, false) : Json(nullptr);
     json["surveys"] = adjustment != nullptr ? terms_json(adjustment->surveys, true) : Json(nullptr);
     json["placement_share"] = adjustment != nullptr ? share_json(adjustment->share) : Json(nullptr);
@@ -66,8 +67,10 @@ std::string joint_json(const JointResult& joint, const JointTables& tables) {
 std::vector<std::string> joint_sentences(const JointResult& joint) {
     const auto* const adjustment = std::get_if<model::JointAdjustment>(&joint);
     if (adjustment == nullptr)
-        return {text::tr("The values are means of the surveys, because {}.",
-                         std::get<text::Message>(joint))};
+        return {
+            text::tr("There is no joint adjustment, because {}. The values of the surveys are "
+                     "side by side.",
+                     std::get<text::Message>(joint))};
     std::vector<std::string> sentences{
         text::tr("The values are from one adjustment of {} surveys of {} units.",
                  adjustment->surveys.size(), adjustment->units.size())};

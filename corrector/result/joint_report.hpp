@@ -19,7 +19,7 @@ using JointResult = std::variant<model::JointAdjustment, text::Message>;
 [[nodiscard]] std::string joint_json(const JointResult& joint, const JointTables& tables);
 
 /// Returns how the joint values were made: the adjustment, the split of the placement, and the
-/// factor of enlarged uncertainties; or why they are means.  In the language of this program.
+/// factor of enlarged uncertainties; or why there are none.  In the language of this program.
 [[nodiscard]] std::vector<std::string> joint_sentences(const JointResult& joint);
 
 }  // namespace a351::corrector::result

@@ -1,6 +1,5 @@
 #include "corrector/result/joint_table.hpp"
 
-#include <cmath>
 #include "tests/support/catch.hpp"
 
 using namespace a351;
@@ -23,111 +22,63 @@ SurveyCorrection day_with(double gravity_mgal, std::optional<double> u_mgal) {
 
 }  // namespace
 
-TEST_CASE("days are combined by their weights", "[survey][joint]") {
-    const auto joint = join_days({day_with(979901.0, 1.0), day_with(979904.0, 2.0)});
-    REQUIRE(joint.size() == 1);
-    CHECK(joint[0].gravity.value() == Approx(979901.6).epsilon(1e-12));
-    CHECK(joint[0].u_gravity->value() == Approx(std::sqrt(0.8)));
-    CHECK(joint[0].residual->value() == Approx(-1.6));
-    CHECK(joint[0].day_count == 2);
-    CHECK(joint[0].row_count == 4);
-}
-
-TEST_CASE("if a day has no uncertainty the plain mean of the days is used", "[survey][joint]") {
-    const auto joint = join_days({day_with(979901.0, 1.0), day_with(979904.0, std::nullopt)});
-    CHECK(joint[0].gravity.value() == Approx(979902.5).epsilon(1e-12));
-    CHECK_FALSE(joint[0].u_gravity.has_value());
-    CHECK(csv_table(joint_columns(), joint) ==
-          "site,days,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal,in_sample\n"
-          "A,2,4,979902.500000,,979900.000000,-2.500000,1\n");
-}
-
-TEST_CASE("days are joined by their values without the own reference, with the errors they share",
+TEST_CASE("without an adjustment the surveys are side by side, and no value is joint",
           "[survey][joint]") {
-    std::vector<SurveyCorrection> days{day_with(979900.0, 1.0), day_with(979900.0, 1.0)};
-    for (SurveyCorrection& day : days) {
-        StationValue& station = day.stations.front();
-        station.left_out = MilliGal(979902.0);
-        station.u_left_out = MilliGal(1.0);
-        station.shared = SharedErrors{};
-        station.shared->unit_mgal = {0.6, 0.0, 0.0, 0.0, -0.2, 0.0, 0.0, 0.0};
-    }
-    const auto joint = join_days(days);
-    CHECK(joint[0].gravity.value() == Approx(979902.0).epsilon(1e-12));
-    CHECK_FALSE(joint[0].is_in_sample);
-    CHECK(joint[0].u_gravity->value() == Approx(std::sqrt(0.5 * (1.0 + 0.4))));
-    // A day with a calibration has other priors.
-    days[1].stations.front().shared->is_calibrated = true;
-    CHECK(join_days(days)[0].u_gravity->value() == Approx(std::sqrt(0.5)));
-}
-
-TEST_CASE("the uncertainty of a difference is that of the errors that make it", "[survey][joint]") {
-    // Errors of two stations on two days as sums of independent errors of variance 1: the unit's
-    // scale, a reference, the drifts of both days, and four placements.
-    Eigen::Matrix<double, 4, 8> errors;
-    errors << 0.5, 0.7, 0.4, 0.0, 1.2, 0.0, 0.0, 0.0,  // first day, A
-        -0.8, 0.6, 0.9, 0.0, 0.0, 1.1, 0.0, 0.0,       // first day, B
-        0.3, 0.5, 0.0, -0.6, 0.0, 0.0, 1.0, 0.0,       // second day, A
-        -0.9, 0.8, 0.0, 0.7, 0.0, 0.0, 0.0, 1.6;       // second day, B
-    std::vector<SurveyCorrection> days(2);
-    for (Eigen::Index d = 0; d < 2; ++d) {
-        SurveyCorrection& day = days[static_cast<std::size_t>(d)];
-        const Eigen::MatrixXd of_day = errors.middleRows(2 * d, 2);
-        day.covariance = StationCovariance{{"A", "B"}, of_day * of_day.transpose()};
-        for (Eigen::Index k = 0; k < 2; ++k) {
-            StationValue station;
-            station.site = k == 0 ? "A" : "B";
-            station.left_out = MilliGal(979900.0 + 10.0 * static_cast<double>(k));
-            station.u_left_out = MilliGal(of_day.row(k).norm());
-            station.shared = SharedErrors{};
-            station.shared->unit_mgal.back() = of_day(k, 0);
-            station.shared->references_mgal["C"] = of_day(k, 1);
-            day.stations.push_back(station);
-        }
-    }
-    const auto joint = join_days(days);
-    const auto differences = joint_differences(days);
-    REQUIRE(differences.size() == 1);
-    Eigen::Matrix<double, 1, 8> of_a, of_b;
-    const auto mean = [&](Eigen::Index k) -> Eigen::Matrix<double, 1, 8> {
-        const double first = 1.0 / errors.row(k).squaredNorm(),
-                     second = 1.0 / errors.row(2 + k).squaredNorm();
-        return (first * errors.row(k) + second * errors.row(2 + k)) / (first + second);
-    };
-    of_a = mean(0);
-    of_b = mean(1);
-    CHECK(joint[0].u_gravity->value() == Approx(of_a.norm()));
-    CHECK(joint[1].u_gravity->value() == Approx(of_b.norm()));
-    CHECK(differences[0].from == "A");
-    CHECK(differences[0].difference.value() == Approx(10.0));
-    CHECK(differences[0].u.value() == Approx((of_b - of_a).norm()));
-    // The adjusted values of a network have another covariance than those without the own datum.
-    days[1].own = NetworkPart{};
-    CHECK(joint_differences(days).empty());
-}
-
-TEST_CASE("a station that alone is held has its reference, and shares its error",
-          "[survey][joint]") {
-    SurveyCorrection day = day_with(979901.0, std::nullopt);
-    day.stations.front().shared = SharedErrors{{}, false, {{"A", 0.3}}};
-    StationValue other;
+    SurveyCorrection first = day_with(979901.0, 1.0), second = day_with(979904.0, std::nullopt);
+    StationValue other = first.stations.front();
     other.site = "B";
-    other.left_out = MilliGal(979950.0);
-    other.u_left_out = MilliGal(0.5);
-    other.shared = SharedErrors{{}, false, {{"A", 0.3}}};
-    day.stations.push_back(other);
-    day.covariance = StationCovariance{{"A", "B"}, Eigen::Matrix2d{{0.09, 0.09}, {0.09, 0.25}}};
-    const std::vector<SurveyCorrection> days{day, day};
-    const auto joint = join_days(days);
-    CHECK(joint[0].gravity.value() == 979900.0);
-    CHECK(joint[0].u_gravity->value() == Approx(0.3));
-    CHECK(joint[0].is_in_sample);
-    CHECK(joint[1].u_gravity->value() == Approx(std::sqrt(0.17)));
-    // The own errors of both days remain, 0.4 each.
-    CHECK(joint_differences(days)[0].u.value() == Approx(0.4 / std::sqrt(2.0)));
+    other.reference.reset();
+    other.is_flagged_only = true;
+    second.stations.push_back(other);
+    const std::vector<RecordedSurvey> surveys{{"mon", "", &first}, {"tue", "", &second}};
+    const JointTables tables = joint_tables(surveys, nullptr);
+    CHECK(csv_table(joint_columns(), tables.stations) ==
+          "site,days,n,gravity_mgal,u_gravity_mgal,reference_mgal,residual_mgal,in_sample\n"
+          "A,2,4,,,979900.000000,,1\n"
+          "B,1,2,,,,,0\n");
+    CHECK(tables.differences.empty());
+    const Table table = table_by_survey(tables.stations, surveys, false);
+    CHECK(table.headings == std::vector<std::string>{"Station", "Days", "n", "Reference mGal",
+                                                     "In sample", "mon", "tue"});
+    CHECK(table.alignment.size() == table.headings.size());
+    CHECK(table.rows[0][5] == "979901.000 +- 1.00");
+    CHECK(table.rows[0][6] == "979904.000");
+    CHECK(table.rows[1][5] == "-");
+    CHECK(table.rows[1][6] == "979901.000 +- 1.00 *");
 }
 
-TEST_CASE("an adjustment replaces the means, except of stations with marked readings only",
+TEST_CASE("the value of a survey is that without the own reference, if the model gives it",
+          "[survey][joint]") {
+    StationValue station = day_with(979901.0, 1.0).stations.front();
+    CHECK(day_value(station).gravity.value() == 979901.0);
+    CHECK(day_value(station).is_in_sample);
+    station.left_out = MilliGal(979902.0);
+    station.u_left_out = MilliGal(1.5);
+    CHECK(day_value(station).gravity.value() == 979902.0);
+    CHECK(day_value(station).u->value() == 1.5);
+    CHECK_FALSE(day_value(station).is_in_sample);
+    // A station that alone is held has its reference.
+    station.left_out.reset();
+    station.shared = SharedErrors{{}, false, {{"A", 0.3}}};
+    CHECK(day_value(station).gravity.value() == 979900.0);
+    CHECK(day_value(station).u->value() == 0.3);
+    CHECK(day_value(station).is_in_sample);
+}
+
+TEST_CASE("two days share the errors of the unit and of the references that both hold",
+          "[survey][joint]") {
+    StationValue a, b;
+    CHECK(covariance_mgal2(a, b) == 0.0);
+    a.shared = SharedErrors{{0.6, 0.0, 0.0, 0.0, -0.2, 0.0, 0.0, 0.0}, false, {{"C", 0.5}}};
+    b.shared =
+        SharedErrors{{0.5, 0.0, 0.0, 0.0, 0.3, 0.0, 0.0, 0.0}, false, {{"C", 0.4}, {"D", 1.0}}};
+    CHECK(covariance_mgal2(a, b) == Approx(0.5 * 0.4 + 0.6 * 0.5 - 0.2 * 0.3));
+    // A day with a calibration has other priors.
+    b.shared->is_calibrated = true;
+    CHECK(covariance_mgal2(a, b) == Approx(0.5 * 0.4));
+}
+
+TEST_CASE("an adjustment gives the joint values, except of stations with marked readings only",
           "[survey][joint]") {
     SurveyCorrection day = day_with(979901.0, 1.0);
     StationValue other = day.stations.front();
@@ -135,13 +86,18 @@ TEST_CASE("an adjustment replaces the means, except of stations with marked read
     day.stations.push_back(other);
     JointAdjustment adjustment;
     adjustment.stations.push_back({"A", MilliGal(979900.5), MilliGal(0.4), false});
-    const JointTables tables = joint_tables({day, day}, &adjustment);
+    const std::vector<RecordedSurvey> surveys{{"mon", "", &day}, {"tue", "", &day}};
+    const JointTables tables = joint_tables(surveys, &adjustment);
     REQUIRE(tables.stations.size() == 2);
-    CHECK(tables.stations[0].gravity.value() == 979900.5);
+    CHECK(tables.stations[0].gravity->value() == 979900.5);
     CHECK(tables.stations[0].u_gravity->value() == 0.4);
     CHECK(tables.stations[0].residual->value() == -0.5);
     CHECK_FALSE(tables.stations[0].is_in_sample);
     CHECK(tables.stations[0].day_count == 2);
-    CHECK(tables.stations[1].gravity.value() == 979901.0);
+    CHECK_FALSE(tables.stations[1].gravity.has_value());
     CHECK(tables.differences.empty());
+    const Table table = table_by_survey(tables.stations, surveys, true);
+    CHECK(table.headings.back() == "tue - joint");
+    CHECK(table.rows[0].back() == "0.500");
+    CHECK(table.rows[1].back() == "-");
 }
