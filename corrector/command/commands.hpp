@@ -37,8 +37,6 @@ void add_design_command(CLI::App& program);
 void add_emd_command(CLI::App& program);
 /// `export`: a channel on an exact grid of UTC, as CSV or miniSEED (export.hpp).
 void add_export_command(CLI::App& program);
-/// `history`: constant, slopes and noise of a unit over the days of a season, from their results.
-void add_history_command(CLI::App& program);
 /// `import`: files of gravimeters as the tables that `table` reads, and every reading as CSV.
 void add_import_command(CLI::App& program);
 /// `record`: hours to weeks at one point.  Writes tables, result.json and record.html on the

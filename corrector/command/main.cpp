@@ -8,7 +8,6 @@
 #include <array>
 #include <exception>
 #include <iostream>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -23,19 +22,20 @@ constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
 /// Options and subcommands that earlier versions had, with what replaced them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kRemoved{
-    {{"--curve",
-      "the curve follows from the model, that of the publication for paper and the slow one for all "
-      "others"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kRemoved{
+    {{"--curve", "the curve follows from the model"},
+     {"history", "survey with several survey files writes history.csv and terms.csv"},
      {"--robust-terms", "every model but paper is searched for bad readings"}}};
 
 /// Returns what replaced the removed words of the command line; empty if there are none.
 std::string about_removed(int argc, char** argv) {
     std::string text;
-    for (const std::string_view word : std::span(argv, static_cast<std::size_t>(argc)))
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
         for (const auto& [removed, instead] : kRemoved)
-            if (word.substr(0, word.find('=')) == removed)
+            if (word.substr(0, word.find('=')) == removed && (i == 1 || word.starts_with("--")))
                 text += fmt::format("; {} is unknown: {}", removed, instead);
+    }
     return text;
 }
 
@@ -61,7 +61,6 @@ int main(int argc, char** argv) {
     command::add_design_command(program);
     command::add_emd_command(program);
     command::add_export_command(program);
-    command::add_history_command(program);
     command::add_import_command(program);
     command::add_record_command(program);
     command::add_retime_command(program);

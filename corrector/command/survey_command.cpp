@@ -28,6 +28,7 @@
 #include "corrector/result/joint_table.hpp"
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
+#include "corrector/result/unit_history.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/write_together.hpp"
 
@@ -156,7 +157,8 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
 /// Writes and prints what the corrected days have together.
 /// @param pages  of all days, also of those that are not corrected.
 void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
-                 const std::filesystem::path& out) {
+                 const std::filesystem::path& out,
+                 const std::vector<std::string>& picture_formats) {
     // The order of the arguments has no effect.
     std::ranges::sort(days, {}, [](const Day& day) {
         return std::tuple(day.result.rows.front().row.time, day.serial_number, day.name);
@@ -176,12 +178,19 @@ void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
     const result::JointResult joint = model::adjust_jointly(surveys);
     const auto* const adjustment = std::get_if<model::JointAdjustment>(&joint);
     const result::JointTables tables = result::joint_tables(surveys, adjustment);
-    text::write_together(
-        out, {{"joint.csv", result::csv_table(result::joint_columns(), tables.stations)},
-              {"joint-differences.csv",
-               result::csv_table(result::difference_columns(), tables.differences)},
-              {"joint.json", result::joint_json(joint, tables)},
-              {"joint.html", report::joint_html(pages, joint)}});
+    const std::vector<result::UnitDay> units = result::unit_days(surveys);
+    std::vector<text::NamedText> files{
+        {"joint.csv", result::csv_table(result::joint_columns(), tables.stations)},
+        {"joint-differences.csv",
+         result::csv_table(result::difference_columns(), tables.differences)},
+        {"joint.json", result::joint_json(joint, tables)},
+        {"history.csv", result::csv_table(result::unit_day_columns(), units)},
+        {"terms.csv", result::csv_table(result::term_summary_columns(), result::summarise(units))}};
+    report::Report page = report::make_joint_page(pages, joint, units, picture_formats);
+    std::move(page.files.begin(), page.files.end(), std::back_inserter(files));
+    text::write_together(out, files);
+    for (const std::string& warning : page.warnings)
+        std::cerr << "a351-correct: " << warning << '\n';
     std::cout << (are_all ? "all days\n" : "all corrected days\n");
     for (const std::string& sentence : result::joint_sentences(joint))
         std::cout << sentence << '\n';
@@ -236,7 +245,7 @@ void correct_days(const SurveyCommandOptions& options) {
                   << reading::findings_text(day.result.findings) << result::survey_text(day.result)
                   << day.amendments << model::trend_comparison_text(day.result) << '\n';
     }
-    if (is_joint) write_joint(std::move(days), std::move(joint_days), out);
+    if (is_joint) write_joint(std::move(days), std::move(joint_days), out, options.figures);
     std::cout << "written to " << out.string() << '\n';
     if (!troubles.empty())
         throw std::runtime_error(

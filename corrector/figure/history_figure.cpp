@@ -22,37 +22,37 @@ const std::array<std::string, 4> kColours{kBlue, kVermilion, "'#009E73'", "'#CC7
 constexpr int kPanel_px = 190, kWidth_px = 900;
 
 std::size_t index_of(std::string_view name) {
-    const auto& kinds = history::term_kinds();
-    return static_cast<std::size_t>(std::ranges::find(kinds, name, &history::TermKind::name) -
+    const auto& kinds = result::term_kinds();
+    return static_cast<std::size_t>(std::ranges::find(kinds, name, &result::TermKind::name) -
                                     kinds.begin());
 }
 
 /// Returns the days of a unit that have the term: time, value, uncertainty.
-std::string lines_of(const std::vector<history::UnitDay>& days, const std::string& unit,
+std::string lines_of(const std::vector<result::UnitDay>& days, const std::string& unit,
                      std::size_t k) {
     std::string lines;
-    for (const history::UnitDay& day : days) {
+    for (const result::UnitDay& day : days) {
         if (day.serial_number != unit || !day.terms[k]) continue;
         lines += to_rfc3339(day.start) + ' ' + datum(day.terms[k]->value, 5) +
-                 datum(day.terms[k]->u.value_or(0.0), 5) + '\n';
+                 datum(day.terms[k]->standard_error.value_or(0.0), 5) + '\n';
     }
     return lines;
 }
 
 /// Returns the distance of the dates below a panel, s: whole days, at most six dates.
-int date_step_s(const std::vector<history::UnitDay>& days) {
+int date_step_s(const std::vector<result::UnitDay>& days) {
     constexpr int kDay_s = 86'400;
     constexpr double kMostDates = 5.0;
-    const auto [first, last] = std::ranges::minmax(days, {}, &history::UnitDay::start);
+    const auto [first, last] = std::ranges::minmax(days, {}, &result::UnitDay::start);
     const double span_days = seconds_between(first.start, last.start) / kDay_s;
     return kDay_s * std::max(1, static_cast<int>(std::ceil(span_days / kMostDates)));
 }
 
 }  // namespace
 
-Figure history_figure(const std::vector<history::UnitDay>& days) {
+Figure history_figure(const std::vector<result::UnitDay>& days) {
     std::vector<std::string> units;
-    for (const history::UnitDay& day : days)
+    for (const result::UnitDay& day : days)
         if (units.empty() || units.back() != day.serial_number) units.push_back(day.serial_number);
     FigureData data("history");
     std::string panels;
@@ -73,7 +73,7 @@ Figure history_figure(const std::vector<history::UnitDay>& days) {
         ++count;
         panels += fmt::format(
             "set ylabel {}\n{}",
-            gnuplot_string(text::translated(history::term_kinds()[k].heading, text::language())),
+            gnuplot_string(text::translated(result::term_kinds()[k].heading, text::language())),
             plot_command(clauses));
     }
     return data.figure(

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "corrector/figure/history_figure.hpp"
 #include "corrector/grade/reading_grade.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/joint_table.hpp"
@@ -229,7 +230,9 @@ std::optional<DayScatter> scatter_of_days(const std::vector<model::RecordedSurve
     return scatter;
 }
 
-std::string joint_html(const std::vector<JointDay>& days, const result::JointResult& joint) {
+Report make_joint_page(const std::vector<JointDay>& days, const result::JointResult& joint,
+                       const std::vector<result::UnitDay>& units,
+                       const std::vector<std::string>& picture_formats) {
     std::vector<model::RecordedSurvey> corrected;
     std::vector<std::string> troubles;
     for (const JointDay& day : days) {
@@ -238,8 +241,13 @@ std::string joint_html(const std::vector<JointDay>& days, const result::JointRes
         else
             troubles.push_back(fmt::format("{}: {}", day.name, day.trouble));
     }
-    const std::string title = text::tr("Gravity of {} surveys", days.size());
-    Page page(title);
+    std::vector<figure::Figure> figures;
+    if (!units.empty()) figures.push_back(figure::history_figure(units));
+    figure::Drawing drawing = figure::draw(figures, picture_formats);
+    Report report;
+    report.warnings = missing_lines(drawing.troubles);
+    Page page(text::tr("Gravity of {} surveys", days.size()));
+    add_list(page.body(), report.warnings);
     if (!troubles.empty())
         add(page.body(), "p", text::tr("Not corrected, and not included below:"));
     add_list(page.body(), troubles);
@@ -250,10 +258,20 @@ std::string joint_html(const std::vector<JointDay>& days, const result::JointRes
     for (const std::string& sentence : result::joint_sentences(joint)) add(stations, "p", sentence);
     add_joint_stations(stations, corrected, joined, adjustment != nullptr);
     add(stations, "p", scatter_sentence(corrected));
+    if (!units.empty()) {
+        const pugi::xml_node section = page.add_section(text::tr("The units"));
+        add_table(section,
+                  text::tr("Terms of each unit over its days, each fitted alone: a term that does "
+                           "not change scatters by about its u, or less."),
+                  result::table_of(result::term_summary_columns(), result::summarise(units)));
+        add_figures(section, figures, drawing);
+    }
     const pugi::xml_node section = page.add_section(text::tr("The surveys"));
     add_days(section, days);
     add_links(section, days);
-    return page.text();
+    report.files.emplace_back("joint.html", page.text());
+    add_figure_files(report.files, figures, drawing);
+    return report;
 }
 
 }  // namespace a351::corrector::report

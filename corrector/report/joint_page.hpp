@@ -10,14 +10,16 @@
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
+#include "corrector/report/report.hpp"
 #include "corrector/result/joint_report.hpp"
+#include "corrector/result/unit_history.hpp"
 
 namespace a351::corrector::report {
 
 /// One day of the survey: its result, or the reason why there is none.
 ///
-/// The result is not owned and must live during the call of joint_html().  It has at least one row.
-/// `name` may be any text.  `folder` is a plain name; the page encodes it in the address.
+/// The result is not owned and must live during the call of make_joint_page().  It has at least one
+/// row.  `name` may be any text.  `folder` is a plain name; the page encodes it in the address.
 struct JointDay {
     std::string name;                                 ///< Name of the day, as in its survey file.
     std::string folder;                               ///< Folder of its result, next to the page.
@@ -47,18 +49,22 @@ struct DayScatter {
 [[nodiscard]] std::optional<DayScatter> scatter_of_days(
     const std::vector<model::RecordedSurvey>& days);
 
-/// Returns the page: what to do about each station, the joint stations with the difference of each
-/// day, and the days with their scores and links to their reports.  It needs no other file.
+/// Makes joint.html: what to do about each station, the joint stations with the difference of each
+/// day, the terms of the units by day, and the days with their scores and links to their reports.
 ///
 /// A station has the best grade of its days.  It gets `care` or `repeat` if two days disagree by more
 /// than 2 or 3 times the uncertainty of their difference.
 ///
-/// Days without a result are listed first, with their reasons.  The links lead
-/// to FOLDER/report.html.  All texts are escaped, and the page is well-formed XML
+/// Days without a result are listed first, with their reasons.  The links lead to
+/// FOLDER/report.html.  All texts are escaped, and the page is well-formed XML
 /// (joint_page_test.cpp).
 /// @param days   in the order of the page.
 /// @param joint  adjustment of the days with a result, or why there is none.
-[[nodiscard]] std::string joint_html(const std::vector<JointDay>& days,
-                                     const result::JointResult& joint);
+/// @param units  days of the units; without them the page has no section about units.
+/// @param picture_formats  formats other than SVG, from picture_formats().
+[[nodiscard]] Report make_joint_page(const std::vector<JointDay>& days,
+                                     const result::JointResult& joint,
+                                     const std::vector<result::UnitDay>& units,
+                                     const std::vector<std::string>& picture_formats);
 
 }  // namespace a351::corrector::report

@@ -23,7 +23,7 @@ def simulate(folder, name, seed, serial, more="", text=None):
 def joined(folder, name, *surveys):
     run(BIN / "a351-correct", "survey", *surveys, "--model", "day", "--out", folder / name, env={"PATH": str(folder)})
     return {file: (folder / name / file).read_bytes()
-            for file in ("joint.csv", "joint-differences.csv", "joint.json", "joint.html")}
+            for file in ("joint.csv", "joint-differences.csv", "joint.json", "joint.html", "history.csv", "terms.csv")}
 
 
 with Scratch() as scratch:
@@ -50,6 +50,19 @@ with Scratch() as scratch:
     alone = {row["site"]: float(row["u_gravity_mgal"]) for row in rows(scratch / "one" / "first-4002" / "stations.csv")}
     worse = [row["site"] for row in joint["stations"] if row["site"] not in KNOWN and row["u_gravity_mgal"] > alone[row["site"]]]
     demand(f"stations with a larger u than on one day: {worse or 'none'}", not worse)
+
+    demand("the page has the terms of the units", b">The units</h2>" in one["joint.html"])
+    history = rows(scratch / "one" / "history.csv")
+    demand(f"the history has {[(row['serial_number'], row['name']) for row in history]}",
+           [(row["serial_number"], row["name"][:5]) for row in history] == [("00000011", "first"), ("00000011", "third"), ("00000012", "secon")])
+    for row in history:
+        alone = json.loads((scratch / "one" / row["name"] / "result.json").read_text())
+        terms = {term["name"]: term["value"] for term in alone["coefficients"]}
+        demand(f"{row['name']}: the history has the terms of the day alone, constant {terms['constant_mgal']:.1f} mGal",
+               all(abs(float(row[name]) - terms[name]) < 1e-6 for name in ("constant_mgal", "slow_lag_s", "placement_mgal"))
+               and row["start_utc"] == min(stay["start_utc"] for stay in alone["occupations"]))
+    demand("the terms of the first unit are of two days",
+           [row["days"] for row in rows(scratch / "one" / "terms.csv") if row["term"] == "constant_mgal"] == ["2", "1"])
 
     again = scratch / "first" / "again.toml"
     again.write_text(first.read_text().replace('name = "first', 'name = "again'))

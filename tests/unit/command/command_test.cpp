@@ -157,6 +157,7 @@ TEST_CASE("bad usage ends with status 2 and one line on standard error, and noth
     const auto [arguments, message] = GENERATE_COPY(table<std::string, std::string>({
         {"", "A subcommand is required"},
         {"table", "--sites is required"},
+        {"history result", "history is unknown: survey with several survey files writes"},
         {sites + "unknown.csv", "unknown.csv:2: site = No.77: unknown"},
         {sites + "nan.csv", "nan.csv:2: acceleration_mgal = nan"},
         {sites + "short.csv", "short.csv"},

@@ -36,6 +36,13 @@ std::optional<DayScatter> scatter_of(const std::vector<SurveyCorrection>& days) 
     return scatter_of_days(surveys);
 }
 
+/// Returns the page of days that are not adjusted together.
+std::string page_of(const std::vector<JointDay>& days, const std::string& reason) {
+    const Report report = make_joint_page(days, reason, {}, {});
+    CHECK(report.files.size() == 1);
+    return report.files.front().second;
+}
+
 }  // namespace
 
 TEST_CASE("the scatter from day to day is given with the value expected from u",
@@ -65,10 +72,10 @@ TEST_CASE("the joint page lists every day, the differences, and the reason for a
           "[report][joint]") {
     const SurveyCorrection first = day_with("S4", 0.0);
     const SurveyCorrection second = day_with("S4", 4.0);
-    const std::string html = joint_html({{"mon <1>/a", "mon <1>-a", &first},
-                                         {"tue", "tue", nullptr, "day.toml: no <occupation>"},
-                                         {"wed", "wed", &second}},
-                                        std::string("they have no records"));
+    const std::string html = page_of({{"mon <1>/a", "mon <1>-a", &first},
+                                      {"tue", "tue", nullptr, "day.toml: no <occupation>"},
+                                      {"wed", "wed", &second}},
+                                     "they have no records");
     pugi::xml_document document;
     const pugi::xml_parse_result parsed = document.load_string(html.c_str());
     INFO(parsed.description());
@@ -114,7 +121,7 @@ TEST_CASE("the joint page says which stations to trust and to repeat over the da
     finding.is_headline = true;
     first.findings = {finding};
     const std::string html =
-        joint_html({{"mon", "mon", &first}, {"tue", "tue", &second}}, std::string("of a test"));
+        page_of({{"mon", "mon", &first}, {"tue", "tue", &second}}, "of a test");
     CHECK_THAT(
         html,
         ContainsSubstring("<li>mon: The box was moved.</li>") &&
