@@ -72,11 +72,8 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
     ChannelData data;
     if (from >= to) return data;
     RecordJoiner joiner(data, from, to);
-    // No record crosses midnight, and names sort by day.
-    const auto first = sds_file(archive, codes, channel, from).filename();
-    const auto last = sds_file(archive, codes, channel, to - Nanoseconds(1)).filename();
-    for (const auto& file : day_files(archive, codes, channel)) {
-        if (file.filename() < first || file.filename() > last) continue;
+    for (const auto& file :
+         day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
         const auto bytes = files::read_bytes(file);
         for (std::size_t at = 0; at < bytes.size();) {
             const std::size_t unread = at;

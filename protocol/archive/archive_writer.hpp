@@ -30,9 +30,6 @@
 
 namespace a351::archive {
 
-/// Largest sequence number of a record; 1 follows it.
-inline constexpr int kLargestSequence = 999'999;
-
 /// Returns true if a record was written before another one of its channel, according to their
 /// sequence numbers: it is less than half a million records before it.
 [[nodiscard]] bool precedes(int sequence, int other) noexcept;

@@ -30,12 +30,15 @@ namespace a351::archive {
 /// Size of every record of the archive, bytes.  Day files are multiples of it.
 inline constexpr std::size_t kRecordSize = 512;
 
+/// Largest sequence number of a record; 1 follows it.
+inline constexpr int kLargestSequence = 999'999;
+
 /// Header of a record, without the fields that follow from its samples.  archive-format.md says
 /// when each flag is set.
 struct RecordHeader {
     /// SEED codes of at most 2, 5, 2 and 3 characters A-Z 0-9; not checked.
     std::string network, station, location, channel;
-    int sequence = 1;                        ///< 1 ... 999999.
+    int sequence = 1;                        ///< 1 ... kLargestSequence.
     UtcTime start;                           ///< Time of the first sample; rounded to 1 us.
     Hertz nominal_rate;                      ///< Rate of the fixed header: n or 1 / n Hz.
     std::optional<double> declared_rate_hz;  ///< Blockette 100, as the nearest 32-bit float.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <system_error>
 #include <utility>
@@ -74,6 +75,27 @@ std::vector<fs::path> day_files(const fs::path& archive, const journal::StationC
     }
     std::ranges::sort(files);
     return files;
+}
+
+std::vector<fs::path> day_files(const fs::path& archive, const journal::StationCodes& codes,
+                                const std::string& channel, UtcTime from, UtcTime to) {
+    // Names sort by day.
+    const auto first = sds_file(archive, codes, channel, from).filename();
+    const auto last = sds_file(archive, codes, channel, to - Nanoseconds(1)).filename();
+    auto files = day_files(archive, codes, channel);
+    std::erase_if(files, [&](const fs::path& file) {
+        return file.filename() < first || file.filename() > last;
+    });
+    return files;
+}
+
+UtcTime day_of(const fs::path& file) {
+    const std::string name = file.filename().string();  // ends with .YEAR.DAY in digits
+    const char* const end = name.data() + name.size();
+    int year = 0, day = 0;
+    std::from_chars(end - 8, end - 4, year);
+    std::from_chars(end - 3, end, day);
+    return std::chrono::sys_days(std::chrono::year(year) / 1 / 1) + std::chrono::days(day - 1);
 }
 
 std::vector<fs::path> recent_day_files(const fs::path& archive, const journal::StationCodes& codes,

@@ -44,6 +44,17 @@ namespace a351::archive {
                                                            const journal::StationCodes& codes,
                                                            const std::string& channel);
 
+/// Returns the day files of a channel for the days of the interval [from, to), sorted by day.
+/// @param from, to  from < to; both may be outside the archive, for example UtcTime::min().
+[[nodiscard]] std::vector<std::filesystem::path> day_files(const std::filesystem::path& archive,
+                                                           const journal::StationCodes& codes,
+                                                           const std::string& channel, UtcTime from,
+                                                           UtcTime to);
+
+/// Returns the begin of the day of a day file, by its name.
+/// @param file  from day_files().
+[[nodiscard]] UtcTime day_of(const std::filesystem::path& file);
+
 /// Returns the day files of a channel to which records may have been added last: the three newest,
 /// sorted by day.  After the host's clock was set back over midnight an older day continues; a clock
 /// set back by more than two days is not covered.

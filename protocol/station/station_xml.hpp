@@ -13,6 +13,7 @@
 /// No function here writes a file.  All may be called from several threads.
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -99,6 +100,12 @@ struct ChannelScale {
     std::optional<double> dip_deg = {};
 };
 
+/// Position of a station, WGS 84 in StationXML; north and east positive.
+struct Position {
+    Degrees latitude, longitude;
+    Metres elevation;
+};
+
 /// Content of a station's epochs at one instant.
 struct Metadata {
     /// Codes of the station.  `axes` are the last letters of the acceleration channels in the order
@@ -106,7 +113,8 @@ struct Metadata {
     journal::StationCodes codes;
     /// Scales in the order of the file, one per channel code.
     std::vector<ChannelScale> channels;
-    std::string serial_number = {};  ///< Serial number of the sensor; empty if unknown.
+    std::string serial_number = {};         ///< Serial number of the sensor; empty if unknown.
+    std::optional<Position> position = {};  ///< Absent if the file has none.
 };
 
 /// Reads codes, scales and serial number of the station.
@@ -125,5 +133,11 @@ struct Metadata {
 ///                     sensitivity that is not positive, are refused too.
 [[nodiscard]] Metadata read_station_xml(const std::filesystem::path& file,
                                         std::optional<UtcTime> at = std::nullopt);
+
+/// Reads the metadata at each instant at which an epoch of a channel begins, in order of time.
+///
+/// A channel without a start date begins at UtcTime::min().
+/// @throws InputError  as read_station_xml().
+[[nodiscard]] std::map<UtcTime, Metadata> read_station_epochs(const std::filesystem::path& file);
 
 }  // namespace a351::station

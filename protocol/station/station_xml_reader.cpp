@@ -65,6 +65,13 @@ bool is_in_force(const std::filesystem::path& file, pugi::xml_node channel,
            *at < end.value_or(UtcTime::max());
 }
 
+std::optional<Position> position_of(pugi::xml_node station) {
+    if (!station.child("Latitude") || !station.child("Longitude")) return std::nullopt;
+    return Position{Degrees(station.child("Latitude").text().as_double()),
+                    Degrees(station.child("Longitude").text().as_double()),
+                    Metres(station.child("Elevation").text().as_double())};
+}
+
 Metadata channels_in_force(const std::filesystem::path& file, const pugi::xml_document& document,
                            std::optional<UtcTime> at) {
     Metadata metadata;
@@ -87,9 +94,26 @@ Metadata channels_in_force(const std::filesystem::path& file, const pugi::xml_do
                 else
                     metadata.channels.push_back(std::move(scale));
             }
-            if (!metadata.channels.empty()) return metadata;
+            if (metadata.channels.empty()) continue;
+            metadata.position = position_of(station);
+            return metadata;
         }
     }
+    return metadata;
+}
+
+Metadata metadata_at(const std::filesystem::path& file, const pugi::xml_document& document,
+                     std::optional<UtcTime> at) {
+    Metadata metadata = channels_in_force(file, document, at);
+    if (at && metadata.channels.empty()) metadata = channels_in_force(file, document, {});
+    std::vector<std::string> axes;
+    for (const ChannelScale& channel : metadata.channels)
+        if (channel.code.size() == 3 && channel.code[1] == 'N')
+            axes.push_back(channel.code.substr(2));
+    if (axes.size() != metadata.codes.axes.size()) {
+        refuse(file, fmt::format("{} acceleration channels; allowed: 3", axes.size()));
+    }
+    std::ranges::copy(axes, metadata.codes.axes.begin());
     return metadata;
 }
 
@@ -126,18 +150,17 @@ pugi::xml_document load_station_document(const std::filesystem::path& file) {
 }
 
 Metadata read_station_xml(const std::filesystem::path& file, std::optional<UtcTime> at) {
+    return metadata_at(file, load_station_document(file), at);
+}
+
+std::map<UtcTime, Metadata> read_station_epochs(const std::filesystem::path& file) {
     const auto document = load_station_document(file);
-    Metadata metadata = channels_in_force(file, document, at);
-    if (at && metadata.channels.empty()) metadata = channels_in_force(file, document, {});
-    std::vector<std::string> axes;
-    for (const ChannelScale& channel : metadata.channels)
-        if (channel.code.size() == 3 && channel.code[1] == 'N')
-            axes.push_back(channel.code.substr(2));
-    if (axes.size() != metadata.codes.axes.size()) {
-        refuse(file, fmt::format("{} acceleration channels; allowed: 3", axes.size()));
+    std::map<UtcTime, Metadata> epochs;
+    for (const auto& found : document.select_nodes("/FDSNStationXML/Network/Station/Channel")) {
+        const auto start = date_of(file, found.node(), "startDate").value_or(UtcTime::min());
+        if (!epochs.contains(start)) epochs.emplace(start, metadata_at(file, document, start));
     }
-    std::ranges::copy(axes, metadata.codes.axes.begin());
-    return metadata;
+    return epochs;
 }
 
 }  // namespace a351::station

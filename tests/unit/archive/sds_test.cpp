@@ -113,7 +113,17 @@ TEST_CASE("a record is written to the file of the day on which it starts", "[rec
     writer.sync();
     CHECK(sequences_in(day_file(archive, "2026-12-31T00:00:00Z")) == std::vector{1, 2, 3});
     CHECK(sequences_in(day_file(archive, "2027-01-01T00:00:00Z")) == std::vector{4, 5});
-    CHECK(day_files(archive, StationCodes{}, "BNZ").size() == 2);
+    const auto days = day_files(archive, StationCodes{}, "BNZ");
+    REQUIRE(days.size() == 2);
+    CHECK(day_of(days[0]) == parse_rfc3339("2026-12-31T00:00:00Z"));
+    CHECK(day_of(days[1]) == parse_rfc3339("2027-01-01T00:00:00Z"));
+    const auto until = [&](const char* end) {
+        return day_files(archive, StationCodes{}, "BNZ", UtcTime::min(), *parse_rfc3339(end));
+    };
+    CHECK(until("2026-12-31T00:00:00Z").empty());
+    CHECK(until("2027-01-01T00:00:00Z").size() == 1);
+    CHECK(until("2027-01-01T00:00:00.000001Z").size() == 2);
+    CHECK(day_files(archive, StationCodes{}, "BNZ", day_of(days[1]), UtcTime::max()).size() == 1);
     CHECK(newest_day_file(archive, StationCodes{}, "BNZ") ==
           day_file(archive, "2027-01-01T00:00:00Z"));
 }

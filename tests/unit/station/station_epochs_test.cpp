@@ -75,6 +75,25 @@ TEST_CASE("a change begins a new epoch of the channels it affects", "[record][st
     CHECK(File(text).read().codes == third.codes);
 }
 
+TEST_CASE("the epochs are read in order of time, each with its scales and its position",
+          "[record][station_xml]") {
+    auto station = description();
+    const auto first = to_station_xml(station);
+    station.start += 24h;
+    station.serial_number = "X0000002";
+    const auto epochs = read_station_epochs(File(extended(first, station)).path());
+    REQUIRE(epochs.size() == 2);
+    CHECK(epochs.begin()->first == description().start);
+    CHECK(epochs.begin()->second.serial_number == "X0000001");
+    CHECK(epochs.rbegin()->first == station.start);
+    CHECK(epochs.rbegin()->second.serial_number == "X0000002");
+    CHECK(epochs.rbegin()->second.channels.size() == 7);
+    CHECK(epochs.rbegin()->second.position.value().longitude == description().longitude);
+    std::string without = first;
+    without.erase(without.find("<Latitude>"), std::string("<Latitude>36.106</Latitude>").size());
+    CHECK_FALSE(File(without).read().position);
+}
+
 TEST_CASE("an oven that is added and removed has its own epochs", "[record][station_xml]") {
     auto station = description();
     const auto without = to_station_xml(station);
