@@ -6,7 +6,7 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/resampling/export.hpp"
+#include "corrector/archive_series/export.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/new_file.hpp"
@@ -15,13 +15,13 @@ namespace a351::corrector::command {
 namespace {
 
 struct Texts {
-    resampling::ExportOptions options;
+    archive_series::ExportOptions options;
     std::string from, to, format, out;
     double rate_hz = 0.0;
 };
 
 void run(Texts texts) {
-    resampling::ExportOptions& options = texts.options;
+    archive_series::ExportOptions& options = texts.options;
     options.from = instant_option("--from", texts.from);
     options.to = instant_option("--to", texts.to);
     constexpr double kMostRate_hz = 1000.0;
@@ -33,14 +33,14 @@ void run(Texts texts) {
     }
     options.rate_hz = static_cast<int>(texts.rate_hz);
     options.format =
-        texts.format == "csv" ? resampling::ExportFormat::csv : resampling::ExportFormat::mseed;
+        texts.format == "csv" ? archive_series::ExportFormat::csv : archive_series::ExportFormat::mseed;
     if (options.from >= options.to)
         throw InputError(
             fmt::format("--to = {}: not after --from; allowed: a later instant", texts.to));
     require_file_option("--out", texts.out);
     text::NewFile file(texts.out);
-    const resampling::ExportReport report =
-        resampling::export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
+    const archive_series::ExportReport report =
+        archive_series::export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
     file.close();
     file.publish();
     for (const archive::Damage& damage : report.damage)

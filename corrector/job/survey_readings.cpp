@@ -54,7 +54,7 @@ reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Pro
     const reading::SurveyStays stays = reading::read_survey_inputs(source);
     std::vector<text::Message> warnings;
     if (survey.survey.calibration)
-        warnings = check_calibration(survey, stays.station.serial_number, stays.list.windows);
+        warnings = check_calibration(survey, stays.epoch.serial_number, stays.list.windows);
     reading::OccupationRows read = reading::average_occupations(source, stays, progress);
     read.warnings.insert(read.warnings.begin(), warnings.begin(), warnings.end());
     tide::apply_tide(read.rows, read.sites, survey.tide, read.day ? &*read.day : nullptr);

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <optional>
 
-#include "corrector/long_record/record_epochs.hpp"
+#include "corrector/archive_series/epoch.hpp"
 #include "corrector/long_record/record_segments.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
@@ -105,8 +105,8 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
             last.number = next.number;
             continue;
         }
-        if (text::Message change =
-                sensor_change(last.stretch.serial_number, next.stretch.serial_number);
+        if (text::Message change = archive_series::sensor_change(last.stretch.serial_number,
+                                                                 next.stretch.serial_number);
             last.number != next.number && !change.empty()) {
             all.warnings.push_back(text::message("from {} on, {}; the record is divided there",
                                                  to_rfc3339(start_of(next)), change));

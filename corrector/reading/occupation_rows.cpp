@@ -7,24 +7,32 @@
 #include <system_error>
 #include <tuple>
 
+#include "corrector/archive_series/sample_grid.hpp"
+#include "corrector/archive_series/samples.hpp"
 #include "corrector/reading/moved_stay.hpp"
 #include "corrector/reading/occupation_window.hpp"
-#include "corrector/reading/on_all_cores.hpp"
 #include "corrector/reading/refused.hpp"
 #include "corrector/reading/stay_remarks.hpp"
 #include "corrector/reading/vertical_axis.hpp"
 #include "protocol/archive/journal_tail.hpp"
-#include "protocol/archive/sds.hpp"
+#include "protocol/station/station_xml.hpp"
 
 namespace a351::corrector::reading {
 namespace {
+
+using archive_series::Epoch, archive_series::kOuter, archive_series::kTemperature,
+    archive_series::kVertical;
+using Samples = std::vector<archive::ChannelData>;
 
 constexpr std::chrono::minutes kMargin(1);   // reach of the temperature's filters, 9 s, and more
 constexpr std::chrono::hours kBefore(8);     // memory of the slowest response to temperature
 constexpr std::chrono::hours kOuterLead(1);  // an earlier gap of the outer oven has little effect
 
-UtcTime first_sample(bool is_axis, const std::vector<OccupationWindow>& windows) {
-    return windows.front().start - (is_axis ? Nanoseconds(kMargin) : Nanoseconds(kBefore));
+/// Returns the time from the first window to the last, and that of the temperature before.  Nothing is
+/// read after the end of an occupation that still runs.
+archive_series::Span span_of(const std::vector<OccupationWindow>& windows, bool is_running) {
+    return {windows.front().start - kMargin, windows.front().start - kBefore,
+            windows.back().end + (is_running ? Nanoseconds(0) : Nanoseconds(kMargin))};
 }
 
 UtcTime last_sample(const archive::ChannelData& channel) {
@@ -32,50 +40,21 @@ UtcTime last_sample(const archive::ChannelData& channel) {
     return last.time_of(last.counts.size() - 1);
 }
 
-/// Returns every file that read_samples() reads.
-std::vector<std::filesystem::path> archive_files(const SurveySource& source,
-                                                 const journal::StationCodes& codes,
-                                                 const SurveyChannels& channels,
-                                                 const std::vector<OccupationWindow>& windows) {
-    std::vector<std::string> names{channels.temperature.code};
-    if (channels.outer) names.push_back(channels.outer->code);
-    for (const station::ChannelScale& axis : channels.axes) names.push_back(axis.code);
-    std::sort(names.begin(), names.end());
-    std::vector<std::filesystem::path> files;
-    using std::chrono::days;
-    using std::chrono::floor;
-    const auto last_day = floor<days>(windows.back().end + kMargin);
-    for (const std::string& channel : names) {
-        const bool is_axis =
-            std::ranges::count(channels.axes, channel, &station::ChannelScale::code) > 0;
-        for (auto day = floor<days>(first_sample(is_axis, windows)); day <= last_day;
-             day += days(1)) {
-            const auto file = archive::sds_file(source.root / "archive", codes, channel, day);
-            if (std::filesystem::exists(file)) files.push_back(file);
-        }
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 /// Adds the samples that have not reached the archive.  A journal segment that the daemon has just
 /// compressed is looked for once more.
-void add_journaled(SurveySamples& samples, const SurveySource& source,
-                   const journal::StationCodes& codes, const SurveyChannels& channels,
-                   const std::vector<OccupationWindow>& windows, UtcTime to) {
-    UtcTime archived = to;
-    const auto each_channel = [&](const auto& visit) {
-        for (std::size_t k = 0; k < samples.axes.size(); ++k)
-            visit(samples.axes[k], channels.axes[k].code, first_sample(true, windows));
-        visit(samples.temperature, channels.temperature.code, first_sample(false, windows));
-    };
-    each_channel([&](const archive::ChannelData& data, const std::string&, UtcTime from) {
-        archived = std::min(archived, data.segments.empty() ? from : last_sample(data));
-    });
-    if (!samples.outer.segments.empty()) archived = std::min(archived, last_sample(samples.outer));
-    if (archived > to - std::chrono::seconds(1)) return;
+/// @return OccupationRows::as_of, if samples are of the journal.
+std::optional<UtcTime> add_journaled(Samples& samples, const std::filesystem::path& root,
+                                     const Epoch& epoch, const archive_series::Span& span) {
+    UtcTime archived = span.to;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        if (!samples[k].segments.empty())
+            archived = std::min(archived, last_sample(samples[k]));
+        else if (k != kOuter)
+            archived = std::min(archived, span.from(k));
+    }
+    if (archived > span.to - std::chrono::seconds(1)) return std::nullopt;
     const auto read = [&] {
-        return archive::JournalTail(source.root / "journal", codes, archived, to);
+        return archive::JournalTail(root / "journal", epoch.codes, archived, span.to);
     };
     const archive::JournalTail tail = [&] {
         try {
@@ -84,34 +63,9 @@ void add_journaled(SurveySamples& samples, const SurveySource& source,
             return read();
         }
     }();
-    each_channel([&](archive::ChannelData& data, const std::string& code, UtcTime from) {
-        tail.append_to(data, code, from, to);
-    });
-    if (channels.outer)
-        tail.append_to(samples.outer, channels.outer->code, first_sample(false, windows), to);
-    samples.journal_end = tail.end();
-}
-
-/// Reads all samples from the first window to the last, and the temperature before.  Each channel
-/// is read once.  Nothing is read after the end of an occupation that still runs.
-SurveySamples read_samples(const SurveySource& source, const journal::StationCodes& codes,
-                           const SurveyChannels& channels,
-                           const std::vector<OccupationWindow>& windows, bool is_running) {
-    const UtcTime to = windows.back().end + (is_running ? Nanoseconds(0) : Nanoseconds(kMargin));
-    SurveySamples samples;
-    const auto read = [&](std::size_t k) {
-        const bool is_axis = k < samples.axes.size();
-        (is_axis ? samples.axes[k] : samples.temperature) =
-            archive::read_channel(source.root / "archive", codes,
-                                  is_axis ? channels.axes[k].code : channels.temperature.code,
-                                  first_sample(is_axis, windows), to);
-    };
-    on_all_cores(samples.axes.size() + 1, read);
-    if (channels.outer)
-        samples.outer = archive::read_channel(source.root / "archive", codes, channels.outer->code,
-                                              first_sample(false, windows), to);
-    if (source.is_so_far) add_journaled(samples, source, codes, channels, windows, to);
-    return samples;
+    for (std::size_t k = 0; k < samples.size(); ++k)
+        tail.append_to(samples[k], epoch.channels[k].code, span.from(k), span.to);
+    return tail.end();
 }
 
 std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyStays& stays) {
@@ -132,34 +86,36 @@ std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyS
         for (const auto& log : logs) add("events", log);
     }
     if (!source.amendments.empty()) add("amendments", source.amendments);
-    for (const auto& file :
-         archive_files(source, stays.station.codes, stays.channels, stays.list.windows)) {
-        add("archive", file);
-    }
+    auto files =
+        archive_series::files_of(source.root, stays.epoch, span_of(stays.list.windows, false));
+    std::ranges::sort(files);
+    for (const auto& file : files) add("archive", file);
     return inputs;
 }
 
 /// Returns the temperature from kBefore before the first occupation to the end of the last.
-std::optional<DayTemperature> temperature_of_day(const SurveySamples& samples,
-                                                 const SurveyChannels& channels,
+std::optional<DayTemperature> temperature_of_day(const Samples& samples, const Epoch& epoch,
                                                  const std::vector<OccupationWindow>& windows) {
-    const auto& segments = samples.temperature.segments;
+    const auto& segments = samples[kTemperature].segments;
     if (segments.empty()) return std::nullopt;
-    const auto grid = sampling_grid(segments, segments.front().time_of(0), windows.back().end);
+    const auto grid =
+        archive_series::sampling_grid(segments, segments.front().time_of(0), windows.back().end);
     if (!grid) return std::nullopt;
-    return day_temperature(TimeSeries<DegC>(grid->origin, Hertz(grid->rate_hz),
-                                            place_on_grid(segments, channels.temperature, *grid)));
+    return day_temperature(TimeSeries<DegC>(
+        grid->origin, Hertz(grid->rate_hz),
+        archive_series::place_on_grid(segments, epoch.channels[kTemperature], *grid)));
 }
 
 /// Adds the temperature of an outer oven to the day, or a warning why it is not used.
-void add_outer(DayRecord& day, const SurveySamples& samples, const SurveyChannels& channels,
+void add_outer(DayRecord& day, const Samples& samples, const Epoch& epoch,
                const std::vector<OccupationWindow>& windows, std::vector<text::Message>& warnings) {
-    if (!channels.outer) return;
-    const auto course = temperature_course(samples.outer.segments, *channels.outer);
+    if (!epoch.has_outer()) return;
+    const auto course =
+        archive_series::temperature_course(samples[kOuter].segments, epoch.channels[kOuter]);
     const TimeSeries<DegC>& grid = day.temperature.series;
     const UtcTime from = std::max(grid.start(), windows.front().start - kOuterLead);
-    const UtcTime to = std::min(windows.back().end, last_sample(samples.temperature));
-    if (!is_without_gaps(course, from, to)) {
+    const UtcTime to = std::min(windows.back().end, last_sample(samples[kTemperature]));
+    if (!archive_series::is_without_gaps(course, from, to)) {
         warnings.push_back(text::message(
             "the temperature of the outer oven is not used: it has a gap of more than 10 min"));
         return;
@@ -168,7 +124,7 @@ void add_outer(DayRecord& day, const SurveySamples& samples, const SurveyChannel
     for (std::size_t i = 0; i < grid.size(); ++i)
         times.push_back(grid.time_of(static_cast<double>(i)));
     day.outer = TimeSeries<DegC>(grid.start(), grid.rate(),
-                                 interpolated(course, times, Nanoseconds::max()));
+                                 archive_series::interpolated(course, times, Nanoseconds::max()));
 }
 
 /// Returns the number of a set-up in its stay, from 1; std::nullopt if the stay has one set-up.
@@ -242,25 +198,29 @@ SurveyStays read_survey_inputs(const SurveySource& source) {
         throw Refused("no_metadata", stays.metadata.string() +
                                          ": no such file; allowed: the metadata that the daemon "
                                          "writes with the first data");
-    stays.station = station::read_station_xml(stays.metadata, stays.list.windows.front().start);
-    stays.channels = find_channels(stays.station, stays.metadata);
+    const UtcTime start = stays.list.windows.front().start;
+    stays.epoch = archive_series::epoch_of(start, station::read_station_xml(stays.metadata, start),
+                                           stays.metadata);
     return stays;
 }
 
 OccupationRows average_occupations(const SurveySource& source, const SurveyStays& stays,
                                    const Progress& progress) {
-    const auto& [sites, list, amendments, metadata, station, channels_of_file] = stays;
+    const auto& [sites, list, amendments, metadata, epoch_of_file] = stays;
     OccupationRows result;
-    result.serial_number = station.serial_number;
-    SurveyChannels channels = channels_of_file;
+    Epoch epoch = epoch_of_file;
+    result.serial_number = epoch.serial_number;
     const bool is_running =
         !list.running_key.empty() && list.windows.back().key == list.running_key;
-    SurveySamples samples = read_samples(source, station.codes, channels, list.windows, is_running);
+    const archive_series::Span span = span_of(list.windows, is_running);
+    Samples samples = archive_series::read_samples(source.root, epoch, span);
+    std::optional<UtcTime> journal_end;
+    if (source.is_so_far) journal_end = add_journaled(samples, source.root, epoch, span);
     std::vector<OccupationWindow> windows = list.windows;
-    end_with_record(windows, samples.axes.back());
+    end_with_record(windows, samples[kVertical]);
     const VerticalAxis vertical = source.is_tumbled
-                                      ? put_named_vertical_last(samples, channels)
-                                      : put_vertical_last(samples, channels, windows, metadata);
+                                      ? put_named_vertical_last(samples, epoch)
+                                      : put_vertical_last(samples, epoch, windows, metadata);
 
     std::vector<std::optional<SurveyRow>> rows(windows.size());
     std::vector<std::optional<RepresentativeValue>> values(windows.size());
@@ -269,7 +229,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     std::vector<std::optional<MovedStay>> moved(windows.size());
     const auto average = [&](std::size_t i) {
         const OccupationWindow& given = windows[i];
-        auto record = cut_occupation(samples, channels, given.start, given.end);
+        auto record = cut_occupation(samples, epoch, given.start, given.end);
         if (!record) {
             troubles[i] = text::marked("no samples");
             return;
@@ -278,7 +238,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         moved[i] = moved_stay(given, *record, axes);
         const OccupationWindow& window = moved[i] ? moved[i]->still : given;
         if (moved[i]) {
-            record = cut_occupation(samples, channels, window.start, window.end).value();
+            record = cut_occupation(samples, epoch, window.start, window.end).value();
             axes = decimate_axes(*record);
         }
         auto& value = values[i];
@@ -294,17 +254,16 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     };
     on_all_cores(windows.size(), average, progress);
 
-    if (auto temperature = temperature_of_day(samples, channels, windows))
+    if (auto temperature = temperature_of_day(samples, epoch, windows))
         result.day = DayRecord{std::move(*temperature), {}};
     result.left_out = list.left_out;
     result.warnings = list.warnings;
-    if (result.day) add_outer(*result.day, samples, channels, windows, result.warnings);
+    if (result.day) add_outer(*result.day, samples, epoch, windows, result.warnings);
     if (!vertical.warning.empty()) result.warnings.push_back(vertical.warning);
     result.amendments = amendments;
     result.sites = sites;
-    for (const archive::ChannelData& axis : samples.axes) add_damage(result.warnings, axis);
-    add_damage(result.warnings, samples.temperature);
-    add_damage(result.warnings, samples.outer);
+    for (const archive::ChannelData& channel : samples)
+        archive_series::add_damage(result.warnings, channel);
     std::vector<OccupationWindow> averaged;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const OccupationWindow& window = windows[i];
@@ -334,22 +293,22 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
                                                 source.path.string(), source.root.string(),
                                                 result.warnings.back()));
     }
-    for (Finding& remark : stay_remarks(averaged, samples.axes.back()))
+    for (Finding& remark : stay_remarks(averaged, samples[kVertical]))
         result.findings.push_back(std::move(remark));
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
     for (text::Message& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));
-    result.temperature_course =
-        temperature_course(samples.temperature.segments, channels.temperature);
+    result.temperature_course = archive_series::temperature_course(samples[kTemperature].segments,
+                                                                   epoch.channels[kTemperature]);
     result.verdicts = verdict_course(events::read_events(source.root / "events").events,
                                      result.temperature_course);
     if (!source.is_so_far) result.inputs = inputs_of(source, stays);
     result.running_key = list.running_key;
-    if (!samples.axes[2].segments.empty()) result.data_end = last_sample(samples.axes[2]);
+    if (!samples[kVertical].segments.empty()) result.data_end = last_sample(samples[kVertical]);
     if (source.is_so_far)
-        result.as_of = is_running            ? source.running_until
-                       : samples.journal_end ? samples.journal_end
-                                             : archive::journal_end(source.root / "journal");
+        result.as_of = is_running    ? source.running_until
+                       : journal_end ? journal_end
+                                     : archive::journal_end(source.root / "journal");
     return result;
 }
 

@@ -18,17 +18,16 @@
 #include <string>
 #include <vector>
 
+#include "corrector/archive_series/epoch.hpp"
 #include "corrector/reading/amendments.hpp"
 #include "corrector/reading/day_record.hpp"
 #include "corrector/reading/finding.hpp"
 #include "corrector/reading/occupation_list.hpp"
-#include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/on_all_cores.hpp"
 #include "corrector/reading/representative_value.hpp"
 #include "corrector/reading/survey_row.hpp"
 #include "corrector/reading/temperature_course.hpp"
 #include "corrector/reading/verdict_course.hpp"
-#include "protocol/station/station_xml.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
@@ -68,8 +67,7 @@ struct SurveyStays {
     OccupationList list;             ///< Possible set-ups, amended.
     Amendments amendments;           ///< Amendments carried out; empty without a file.
     std::filesystem::path metadata;  ///< StationXML that was read.
-    station::Metadata station;       ///< Epochs in force at the first set-up.
-    SurveyChannels channels;         ///< Channels of axes and temperature.
+    archive_series::Epoch epoch;     ///< Sensor and scales at the first set-up.
 };
 
 /// The readings of a survey.

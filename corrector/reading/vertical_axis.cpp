@@ -7,11 +7,13 @@
 #include <optional>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/station/station_xml.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::reading {
 namespace {
 
+using archive_series::kVertical;
 constexpr double kSteepDip_deg = 45.0;
 constexpr double kMps2PerG = kMilliGalPerStandardGravity * 1e-5;
 
@@ -36,61 +38,69 @@ std::optional<double> mean_g(const std::vector<archive::Segment>& segments,
     return sum / count / kMps2PerG;
 }
 
-/// Returns the axis that the metadata call vertical, or the end.
-auto named_vertical(const SurveyChannels& channels) {
-    return std::ranges::find_if(channels.axes, [](const station::ChannelScale& axis) {
-        return axis.dip_deg && std::abs(*axis.dip_deg) > kSteepDip_deg;
-    });
+/// Returns the place of the axis that the metadata call vertical.
+std::optional<std::size_t> named_vertical(const archive_series::Epoch& epoch) {
+    for (std::size_t k = 0; k <= kVertical; ++k)
+        if (const auto& dip_deg = epoch.channels[k].dip_deg;
+            dip_deg && std::abs(*dip_deg) > kSteepDip_deg)
+            return k;
+    return std::nullopt;
 }
 
-void put_last(SurveySamples& samples, SurveyChannels& channels, std::ptrdiff_t at) {
-    std::rotate(samples.axes.begin() + at, samples.axes.begin() + at + 1, samples.axes.end());
-    std::rotate(channels.axes.begin() + at, channels.axes.begin() + at + 1, channels.axes.end());
+void put_last(std::vector<archive::ChannelData>& samples, archive_series::Epoch& epoch,
+              std::size_t axis) {
+    const auto put = [axis](auto& channels) {
+        const auto first = channels.begin() + static_cast<std::ptrdiff_t>(axis);
+        std::rotate(first, first + 1, channels.begin() + kVertical + 1);
+    };
+    put(samples);
+    put(epoch.channels);
 }
 
 std::string in_g(double value) { return text::fixed(value, 4) + " g"; }
 
 }  // namespace
 
-VerticalAxis put_vertical_last(SurveySamples& samples, SurveyChannels& channels,
+VerticalAxis put_vertical_last(std::vector<archive::ChannelData>& samples,
+                               archive_series::Epoch& epoch,
                                const std::vector<OccupationWindow>& windows,
                                const std::filesystem::path& file) {
-    std::array<double, 3> means{};
+    const std::vector<station::ChannelScale>& axes = epoch.channels;
+    std::array<double, kVertical + 1> means{};
     std::string list;
     bool is_complete = true;
     for (std::size_t k = 0; k < means.size(); ++k) {
-        const auto mean = mean_g(samples.axes[k].segments, channels.axes[k], windows);
+        const auto mean = mean_g(samples[k].segments, axes[k], windows);
         means[k] = mean.value_or(0.0);
         is_complete = is_complete && mean.has_value();
-        list += fmt::format("{}{} {}", k == 0 ? "" : ", ", channels.axes[k].code, in_g(means[k]));
+        list += fmt::format("{}{} {}", k == 0 ? "" : ", ", axes[k].code, in_g(means[k]));
     }
     const auto distance = [](double mean) { return std::abs(std::abs(mean) - 1.0); };
     const auto nearest =
         static_cast<std::size_t>(std::ranges::min_element(means, {}, distance) - means.begin());
-    if (!is_complete) return {channels.axes.back().code, StandardGravity(0.0), {}};
+    if (!is_complete) return {axes[kVertical].code, StandardGravity(0.0), {}};
     if (std::abs(means[nearest]) < kLeastVertical.value())
         throw InputError(fmt::format(
             "{}: no axis is vertical: {}; allowed: an axis with at least {} along gravity",
             file.string(), list, in_g(kLeastVertical.value())));
-    VerticalAxis vertical{channels.axes[nearest].code, StandardGravity(means[nearest]), {}};
-    const auto named = named_vertical(channels);
-    if (named != channels.axes.end() && named->code != vertical.code)
+    VerticalAxis vertical{axes[nearest].code, StandardGravity(means[nearest]), {}};
+    if (const auto named = named_vertical(epoch); named && *named != nearest)
         vertical.warning = text::message(
             "{}: {} is vertical by its dip, but gravity is along {} ({}); {} is used; the axis "
             "biases of a calibration belong to the usual mounting",
-            file.string(), named->code, vertical.code, list, vertical.code);
+            file.string(), axes[*named].code, vertical.code, list, vertical.code);
     if (means[nearest] < 0.0)
         vertical.warning += text::message("{}the sensor is mounted upside down: {} has {}",
                                           vertical.warning.empty() ? file.string() + ": " : "; ",
                                           vertical.code, in_g(means[nearest]));
-    put_last(samples, channels, static_cast<std::ptrdiff_t>(nearest));
+    put_last(samples, epoch, nearest);
     return vertical;
 }
 
-VerticalAxis put_named_vertical_last(SurveySamples& samples, SurveyChannels& channels) {
-    const auto named = named_vertical(channels);
-    if (named != channels.axes.end()) put_last(samples, channels, named - channels.axes.begin());
-    return {channels.axes.back().code, StandardGravity(0.0), {}};
+VerticalAxis put_named_vertical_last(std::vector<archive::ChannelData>& samples,
+                                     archive_series::Epoch& epoch) {
+    if (const auto named = named_vertical(epoch)) put_last(samples, epoch, *named);
+    return {epoch.channels[kVertical].code, StandardGravity(0.0), {}};
 }
 
 }  // namespace a351::corrector::reading

@@ -5,16 +5,17 @@
 /// Gravity itself says it.  The order of the channels in station.xml does not: another program may
 /// write the vertical channel first, and a sensor may be mounted on its side.
 ///
-///     const VerticalAxis vertical = put_vertical_last(samples, channels, windows, file);
-///     // channels.axes[2] is the vertical axis now
+///     const VerticalAxis vertical = put_vertical_last(samples, epoch, windows, file);
+///     // epoch.channels[kVertical] is the vertical axis now
 ///     if (!vertical.warning.empty()) warnings.push_back(vertical.warning);
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "corrector/archive_series/epoch.hpp"
 #include "corrector/reading/occupation_list.hpp"
-#include "corrector/reading/occupation_window.hpp"
+#include "protocol/archive/archive_reader.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/message.hpp"
 
@@ -31,7 +32,7 @@ struct VerticalAxis {
     text::Message warning;  ///< Sentence for the user; empty if there is nothing to say.
 };
 
-/// Finds the axis whose |mean| is nearest to 1 g, and exchanges axes of samples and channels so
+/// Finds the axis whose |mean| is nearest to 1 g, and exchanges axes of samples and epoch so
 /// that it is the last.  The horizontal axes keep their order.
 ///
 /// The warning says if another axis has a dip of more than 45 deg in the metadata, or if the sensor
@@ -41,13 +42,15 @@ struct VerticalAxis {
 /// @param windows  occupations; if an axis has no sample in them, nothing is exchanged.
 /// @param file     name of the metadata, for messages.
 /// @throws InputError  no axis has |mean| >= kLeastVertical; the message has all three.
-VerticalAxis put_vertical_last(SurveySamples& samples, SurveyChannels& channels,
+VerticalAxis put_vertical_last(std::vector<archive::ChannelData>& samples,
+                               archive_series::Epoch& epoch,
                                const std::vector<OccupationWindow>& windows,
                                const std::filesystem::path& file);
 
 /// Exchanges axes so that the one with a dip of more than 45 deg in the metadata is the last; without
 /// one nothing is exchanged.  For a sensor that is laid down in several positions.
 /// @return the axis; its mean is 0 and it has no warning.
-VerticalAxis put_named_vertical_last(SurveySamples& samples, SurveyChannels& channels);
+VerticalAxis put_named_vertical_last(std::vector<archive::ChannelData>& samples,
+                                     archive_series::Epoch& epoch);
 
 }  // namespace a351::corrector::reading

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/archive/sds.hpp"
@@ -18,14 +17,7 @@ std::string PressureChannel::name() const {
 }
 
 std::vector<std::filesystem::path> PressureChannel::files(UtcTime from, UtcTime to) const {
-    using std::chrono::days;
-    using std::chrono::floor;
-    std::vector<std::filesystem::path> existing;
-    for (auto day = floor<days>(from); day <= floor<days>(to); day += days(1))
-        if (auto file = archive::sds_file(archive, codes, channel, day);
-            std::filesystem::exists(file))
-            existing.push_back(std::move(file));
-    return existing;
+    return archive::day_files(archive, codes, channel, from, to);
 }
 
 std::optional<PressureChannel> pressure_channel(const std::string& name) {

@@ -19,8 +19,8 @@ struct Mounted {
     std::array<std::size_t, 3> order;  ///< Order of the channels in the file.
     std::array<double, 3> dip_deg{0.0, 0.0, -90.0};
 
-    SurveySamples samples = {};
-    SurveyChannels channels = {};
+    std::vector<archive::ChannelData> samples = std::vector<archive::ChannelData>(3);
+    corrector::archive_series::Epoch epoch = {};
     VerticalAxis vertical = {};
 
     void look() {
@@ -31,13 +31,13 @@ struct Mounted {
             archive::Segment segment{50.0, {}, {{0, kDayStart}}};
             segment.counts.assign(30'000, static_cast<std::int32_t>(counts));
             std::fill_n(segment.counts.begin(), 15'000, 980'665);  // on the way: not looked at
-            samples.axes[k].segments = {segment};
-            channels.axes[k] = {codes[axis], 1e-5, 0.0, "m/s**2", dip_deg[axis]};
+            samples[k].segments = {segment};
+            epoch.channels.push_back({codes[axis], 1e-5, 0.0, "m/s**2", dip_deg[axis]});
         }
         OccupationWindow window;
         window.start = kDayStart + from_seconds(300.0);
         window.end = kDayStart + from_seconds(600.0);
-        vertical = put_vertical_last(samples, channels, {window}, "station.xml");
+        vertical = put_vertical_last(samples, epoch, {window}, "station.xml");
     }
 };
 
@@ -56,14 +56,14 @@ TEST_CASE("the vertical axis is found in six mountings and three orders of the c
                 sensor.look();
                 CAPTURE(codes[axis], sign, sensor.vertical.warning);
                 CHECK(sensor.vertical.code == codes[axis]);
-                CHECK(sensor.channels.axes[2].code == codes[axis]);
+                CHECK(sensor.epoch.channels[2].code == codes[axis]);
                 std::vector<std::string> horizontal;
                 for (const std::size_t other : order)
                     if (other != axis) horizontal.emplace_back(codes[other]);
-                CHECK(sensor.channels.axes[0].code == horizontal[0]);
-                CHECK(sensor.channels.axes[1].code == horizontal[1]);
+                CHECK(sensor.epoch.channels[0].code == horizontal[0]);
+                CHECK(sensor.epoch.channels[1].code == horizontal[1]);
                 CHECK(sensor.vertical.mean.value() == Approx(sign * 1.0018).epsilon(1e-5));
-                CHECK(std::abs(sensor.samples.axes[2].segments[0].counts.back()) > 900'000);
+                CHECK(std::abs(sensor.samples[2].segments[0].counts.back()) > 900'000);
                 const bool is_upside_down =
                     sensor.vertical.warning.english().find("upside down") != std::string::npos;
                 CHECK(is_upside_down == (sign < 0.0));

@@ -58,5 +58,6 @@ TEST_CASE("a day of another model, or of a unit that is not known, is in no hist
           "[result][history]") {
     const auto day = day_of("2026-05-01", 10.0);
     auto linear = day;
+    linear.own = std::monostate();
     CHECK(unit_days({{"linear", "A", &linear}, {"unknown", "", &day}}).empty());
 }

@@ -22,7 +22,7 @@
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector::resampling {
+namespace a351::corrector::archive_series {
 
 /// Formats of an export.
 /// - `csv`: for tables and plots; the values keep their fractions of a count.
@@ -74,4 +74,4 @@ struct ExportReport {
 ExportReport export_channel(const ExportOptions& options,
                             const std::function<void(std::string_view)>& write);
 
-}  // namespace a351::corrector::resampling
+}  // namespace a351::corrector::archive_series

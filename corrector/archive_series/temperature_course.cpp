@@ -1,4 +1,4 @@
-#include "corrector/reading/temperature_course.hpp"
+#include "corrector/archive_series/temperature_course.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-namespace a351::corrector::reading {
+namespace a351::corrector::archive_series {
 namespace {
 
 struct Sum {
@@ -83,4 +83,4 @@ std::vector<double> interpolated(const std::vector<MinuteTemperature>& course,
     return values;
 }
 
-}  // namespace a351::corrector::reading
+}  // namespace a351::corrector::archive_series

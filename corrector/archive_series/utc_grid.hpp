@@ -16,7 +16,7 @@
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/core/utc_time.hpp"
 
-namespace a351::corrector::resampling {
+namespace a351::corrector::archive_series {
 
 /// Returns the instant k / rate_hz seconds after 1970, rounded down to a nanosecond; k may be
 /// negative.
@@ -82,4 +82,4 @@ private:
     std::vector<double> kernel_;  ///< h from 0 to half_width_, kSteps per sample.
 };
 
-}  // namespace a351::corrector::resampling
+}  // namespace a351::corrector::archive_series

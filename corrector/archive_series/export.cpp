@@ -1,4 +1,4 @@
-#include "corrector/resampling/export.hpp"
+#include "corrector/archive_series/export.hpp"
 
 #include <fmt/core.h>
 
@@ -8,113 +8,81 @@
 #include <memory>
 #include <optional>
 
-#include "corrector/resampling/utc_grid.hpp"
+#include "corrector/archive_series/utc_grid.hpp"
 #include "protocol/archive/miniseed.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/csv.hpp"
 
-namespace a351::corrector::resampling {
+namespace a351::corrector::archive_series {
 namespace {
 
 using std::chrono::days;
 
 constexpr const char* kProductLocation = "10";
 
-/// Writes runs in order; runs without a gap between them become one.
-class GridWriter {
-public:
-    using Write = std::function<void(std::string_view)>;
+using Write = std::function<void(std::string_view)>;
 
-    GridWriter(const Write& write, int rate_hz) : write_(write), rate_hz_(rate_hz) {}
-    GridWriter(const GridWriter&) = delete;
-    GridWriter& operator=(const GridWriter&) = delete;
-    virtual ~GridWriter() = default;
-
-    void take(const GridRun& run, ExportReport& report) {
-        if (run.values.empty()) return;
-        if (run.first != next_ || report.values == 0) {
-            if (report.values > 0) end_run();
-            ++report.runs;
-        }
-        put(run);
-        next_ = run.first + static_cast<std::int64_t>(run.values.size());
-        report.values += static_cast<std::int64_t>(run.values.size());
-    }
-    virtual void end_run() = 0;
-
-protected:
-    virtual void put(const GridRun& run) = 0;
-    void write(std::string_view bytes) const { write_(bytes); }
-    [[nodiscard]] UtcTime time_of(std::int64_t k) const { return grid_time(k, rate_hz_); }
-
-private:
-    const Write& write_;
-    int rate_hz_;
-    std::int64_t next_ = 0;
+/// Writes runs in order.
+struct GridWriter {
+    std::function<void(const GridRun&)> put;  ///< Writes values that follow the last ones.
+    std::function<void()> end_run;
 };
 
-class CsvGrid : public GridWriter {
-public:
-    /// @param scale  value of one count in the unit.
-    CsvGrid(const Write& write, int rate_hz, const std::string& unit, double scale)
-        : GridWriter(write, rate_hz), scale_(scale) {
-        this->write("time_utc," + unit + "\n");
-    }
-    void end_run() override { write("\n"); }
-
-private:
-    void put(const GridRun& run) override {
+/// @param scale  value of one count in the unit.
+GridWriter csv_writer(const Write& write, const ExportOptions& options, double scale) {
+    write("time_utc," + options.unit + "\n");
+    const auto put = [&write, rate_hz = options.rate_hz, scale](const GridRun& run) {
         std::string rows;
         for (std::size_t i = 0; i < run.values.size(); ++i) {
-            rows += to_rfc3339(time_of(run.first + static_cast<std::int64_t>(i)), 9) + ',' +
-                    text::shortest(scale_ * run.values[i]) + '\n';
+            const UtcTime time = grid_time(run.first + static_cast<std::int64_t>(i), rate_hz);
+            rows += to_rfc3339(time, 9) + ',' + text::shortest(scale * run.values[i]) + '\n';
         }
         write(rows);
-    }
+    };
+    return {put, [&write] { write("\n"); }};
+}
 
-    double scale_;
-};
+/// Values that are not in a record yet, and the header of the next one.
+struct Unpacked {
+    archive::RecordHeader header;
+    int rate_hz;
+    std::vector<std::int32_t> counts = {};
+    std::int64_t first = 0;  ///< Number of the first one on the grid.
 
-class MiniseedGrid : public GridWriter {
-public:
-    MiniseedGrid(const Write& write, int rate_hz, const journal::StationCodes& codes,
-                 const std::string& channel)
-        : GridWriter(write, rate_hz) {
-        header_.network = codes.network;
-        header_.station = codes.station;
-        header_.location = kProductLocation;
-        header_.channel = channel;
-        header_.nominal_rate = Hertz(rate_hz);
-    }
-    void end_run() override {
-        while (!counts_.empty()) pack();
-    }
-
-private:
-    void put(const GridRun& run) override {
-        if (counts_.empty()) first_ = run.first;
-        for (const double value : run.values) {
-            counts_.push_back(static_cast<std::int32_t>(
-                std::llround(std::clamp(value, -2147483648.0, 2147483647.0))));
-            if (counts_.size() == archive::kMostSamplesPerRecord) pack();
-        }
-    }
-    void pack() {
-        header_.start = time_of(first_);
-        const archive::PackedRecord packed = archive::pack_record(header_, counts_);
+    void pack(const Write& write) {
+        header.start = grid_time(first, rate_hz);
+        const archive::PackedRecord packed = archive::pack_record(header, counts);
         write({reinterpret_cast<const char*>(packed.bytes.data()), packed.bytes.size()});
-        counts_.erase(counts_.begin(),
-                      counts_.begin() + static_cast<std::ptrdiff_t>(packed.sample_count));
-        first_ += static_cast<std::int64_t>(packed.sample_count);
-        header_.sequence = header_.sequence % 999999 + 1;
+        const auto count = static_cast<std::ptrdiff_t>(packed.sample_count);
+        counts.erase(counts.begin(), counts.begin() + count);
+        first += count;
+        header.sequence = header.sequence % archive::kLargestSequence + 1;
     }
-
-    archive::RecordHeader header_;
-    std::vector<std::int32_t> counts_;
-    std::int64_t first_ = 0;
 };
+
+GridWriter miniseed_writer(const Write& write, const ExportOptions& options,
+                           const journal::StationCodes& codes) {
+    archive::RecordHeader header;
+    header.network = codes.network;
+    header.station = codes.station;
+    header.location = kProductLocation;
+    header.channel = options.channel;
+    header.nominal_rate = Hertz(options.rate_hz);
+    const auto left = std::make_shared<Unpacked>(Unpacked{header, options.rate_hz});
+    const auto put = [&write, left](const GridRun& run) {
+        if (left->counts.empty()) left->first = run.first;
+        for (const double value : run.values) {
+            left->counts.push_back(static_cast<std::int32_t>(
+                std::llround(std::clamp(value, -2147483648.0, 2147483647.0))));
+            if (left->counts.size() == archive::kMostSamplesPerRecord) left->pack(write);
+        }
+    };
+    return {put, [&write, left] {
+                while (!left->counts.empty()) left->pack(write);
+            }};
+}
 
 /// Adds damage that is not yet in the report.  The same record may be read for two days, because
 /// each day is read with a margin.
@@ -147,19 +115,26 @@ double scale_of(const ExportOptions& options, const station::Metadata& metadata)
 
 }  // namespace
 
-ExportReport export_channel(const ExportOptions& options,
-                            const std::function<void(std::string_view)>& write) {
+ExportReport export_channel(const ExportOptions& options, const Write& write) {
     const auto metadata =
         station::read_station_xml(options.root / "metadata" / "station.xml", options.from);
     const double scale = scale_of(options, metadata);
-    std::unique_ptr<GridWriter> writer;
-    if (options.format == ExportFormat::csv) {
-        writer = std::make_unique<CsvGrid>(write, options.rate_hz, options.unit, scale);
-    } else {
-        writer =
-            std::make_unique<MiniseedGrid>(write, options.rate_hz, metadata.codes, options.channel);
-    }
+    const GridWriter writer = options.format == ExportFormat::csv
+                                  ? csv_writer(write, options, scale)
+                                  : miniseed_writer(write, options, metadata.codes);
     ExportReport report;
+    std::int64_t next = 0;  // number on the grid that would continue the run
+    const auto take = [&](const GridRun& run) {
+        if (run.values.empty()) return;
+        if (run.first != next || report.runs == 0) {
+            if (report.runs > 0) writer.end_run();
+            ++report.runs;
+        }
+        writer.put(run);
+        const auto count = static_cast<std::int64_t>(run.values.size());
+        next = run.first + count;
+        report.values += count;
+    };
     std::optional<UtcGrid> grid;
     double source_rate_hz = 0.0;
     for (UtcTime begin = options.from; begin < options.to;) {
@@ -180,7 +155,7 @@ ExportReport export_channel(const ExportOptions& options,
                 }
                 grid.emplace(source_rate_hz, options.rate_hz);
             }
-            writer->take(grid->resample(segment, begin, end), report);
+            take(grid->resample(segment, begin, end));
         }
         note(report, data.damage);
         begin = end;
@@ -190,8 +165,8 @@ ExportReport export_channel(const ExportOptions& options,
                                      options.channel, to_rfc3339(options.from),
                                      to_rfc3339(options.to)));
     }
-    writer->end_run();
+    writer.end_run();
     return report;
 }
 
-}  // namespace a351::corrector::resampling
+}  // namespace a351::corrector::archive_series

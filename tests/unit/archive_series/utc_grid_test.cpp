@@ -1,4 +1,4 @@
-#include "corrector/resampling/utc_grid.hpp"
+#include "corrector/archive_series/utc_grid.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include "tests/support/catch.hpp"
 
-namespace a351::corrector::resampling {
+namespace a351::corrector::archive_series {
 namespace {
 
 const UtcTime kStart = *parse_rfc3339("2026-03-01T12:00:00.013Z");
@@ -115,4 +115,4 @@ TEST_CASE("a rate above that of the samples is refused", "[export]") {
     CHECK_THROWS_AS(UtcGrid(50.0, 0), std::invalid_argument);
 }
 
-}  // namespace a351::corrector::resampling
+}  // namespace a351::corrector::archive_series

@@ -1,4 +1,4 @@
-#include "corrector/reading/on_all_cores.hpp"
+#include "corrector/archive_series/on_all_cores.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace a351::corrector::reading {
+namespace a351::corrector::archive_series {
 
 void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& work,
                   const Progress& progress) {
@@ -37,4 +37,4 @@ void on_all_cores(std::size_t count, const std::function<void(std::size_t)>& wor
     }
 }
 
-}  // namespace a351::corrector::reading
+}  // namespace a351::corrector::archive_series

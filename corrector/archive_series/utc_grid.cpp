@@ -1,4 +1,4 @@
-#include "corrector/resampling/utc_grid.hpp"
+#include "corrector/archive_series/utc_grid.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace a351::corrector::resampling {
+namespace a351::corrector::archive_series {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
@@ -27,37 +27,15 @@ double kernel(double zero_crossings) {
     return sinc * std::cyl_bessel_i(0.0, kBeta * std::sqrt(inside)) / at_0;
 }
 
-/// Computes u(t) for increasing t.
-class Position {
-public:
-    explicit Position(const archive::Segment& segment)
-        : segment_(segment), samples_per_s_(segment.rate_hz) {
-        measure();
-    }
-
-    double at(UtcTime time) {
-        const auto& anchors = segment_.anchors;
-        while (i_ + 1 < anchors.size() && anchors[i_ + 1].time <= time) {
-            ++i_;
-            measure();
-        }
-        return static_cast<double>(anchors[i_].offset) +
-               seconds_between(anchors[i_].time, time) * samples_per_s_;
-    }
-
-private:
-    void measure() {
-        if (i_ + 1 == segment_.anchors.size()) return;
-        const auto& anchor = segment_.anchors[i_];
-        const auto& next = segment_.anchors[i_ + 1];
-        samples_per_s_ = static_cast<double>(next.offset - anchor.offset) /
-                         seconds_between(anchor.time, next.time);
-    }
-
-    const archive::Segment& segment_;
-    double samples_per_s_;
-    std::size_t i_ = 0;
-};
+/// Returns the rate between the starts of records i and i + 1.  In the last record it is that before;
+/// in a single one that of the header.
+double rate_in_record(const archive::Segment& segment, std::size_t i) {
+    const auto& anchors = segment.anchors;
+    if (anchors.size() < 2) return segment.rate_hz;
+    const auto* anchor = &anchors[std::min(i, anchors.size() - 2)];
+    return static_cast<double>(anchor[1].offset - anchor[0].offset) /
+           seconds_between(anchor[0].time, anchor[1].time);
+}
 
 }  // namespace
 
@@ -93,10 +71,16 @@ GridRun UtcGrid::resample(const archive::Segment& segment, UtcTime from, UtcTime
     const UtcTime begin = std::max(from, segment.anchors.front().time);
     const UtcTime end = std::min(to, segment.time_of(segment.counts.size() - 1) + Nanoseconds(1));
     GridRun run;
-    Position position(segment);
+    const auto& anchors = segment.anchors;
+    std::size_t record = 0;
     const double last = static_cast<double>(segment.counts.size() - 1) - half_width_;
-    for (std::int64_t k = first_on_grid(begin, rate_hz_); grid_time(k, rate_hz_) < end; ++k) {
-        const double u = position.at(grid_time(k, rate_hz_));
+    for (std::int64_t k = first_on_grid(begin, rate_hz_);; ++k) {
+        const UtcTime time = grid_time(k, rate_hz_);
+        if (time >= end) break;
+        while (record + 1 < anchors.size() && anchors[record + 1].time <= time) ++record;
+        const double u =
+            static_cast<double>(anchors[record].offset) +
+            seconds_between(anchors[record].time, time) * rate_in_record(segment, record);
         if (u < half_width_) continue;
         if (u > last) break;
         if (run.values.empty()) run.first = k;
@@ -124,4 +108,4 @@ double UtcGrid::at(const std::vector<std::int32_t>& counts, double position) con
     return origin + sum / weights;
 }
 
-}  // namespace a351::corrector::resampling
+}  // namespace a351::corrector::archive_series

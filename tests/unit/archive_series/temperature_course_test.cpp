@@ -1,12 +1,11 @@
-#include "corrector/reading/temperature_course.hpp"
-#include "corrector/reading/verdict_course.hpp"
+#include "corrector/archive_series/temperature_course.hpp"
 
 #include <cmath>
 
 #include "tests/support/catch.hpp"
 
 using namespace a351;
-using namespace a351::corrector::reading;
+using namespace a351::corrector::archive_series;
 using namespace std::chrono_literals;
 
 namespace {
@@ -66,29 +65,4 @@ TEST_CASE("between two means the temperature is a straight line, outside them it
     CHECK(near[1] == 38.0);
     CHECK(std::isnan(near[2]));
     CHECK(std::isnan(near[3]));
-}
-
-TEST_CASE("a verdict lasts until the next one, but not over a pause of the recorder",
-          "[survey][temperature]") {
-    const auto minute = [](int k) { return kCourseStart - 30s + k * 1min; };
-    std::vector<MinuteTemperature> course;
-    for (const int k : {0, 1, 2, 10, 11}) course.push_back({minute(k) + 30s, DegC(40.0)});
-    const auto event = [&](int k, const char* state) {
-        return events::Event{"verdict", minute(k), {}, {}, {{"state", state}}};
-    };
-    const auto spans = verdict_course({event(1, "stable"),
-                                       event(-60, "settling"),
-                                       {"start", minute(2), {}, {}, {}},
-                                       event(11, "disturbed")},
-                                      course);
-    REQUIRE(spans.size() == 4);
-    const auto is = [&](std::size_t i, int from, int to, const char* state) {
-        return spans[i].start == minute(from) && spans[i].end == minute(to) &&
-               spans[i].state == state;
-    };
-    CHECK(is(0, 0, 1, "settling"));
-    CHECK(is(1, 1, 3, "stable"));
-    CHECK(is(2, 10, 11, "stable"));
-    CHECK(is(3, 11, 12, "disturbed"));
-    CHECK(verdict_course({}, course).empty());
 }

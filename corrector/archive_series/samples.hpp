@@ -1,0 +1,50 @@
+#pragma once
+/// @file
+/// The samples of a sensor's channels, as the archive has them: counts, with the times of the records.
+///
+///     const Epoch epoch = epoch_of(start, station, metadata_file);
+///     const std::vector<archive::ChannelData> samples = read_samples(root, epoch, {from, from, to});
+///     for (const archive::ChannelData& channel : samples) add_damage(warnings, channel);
+///     const auto grid = sampling_grid(samples[kVertical].segments, start, end);
+///
+/// The order of the channels is that of Epoch::channels.
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "corrector/archive_series/epoch.hpp"
+#include "protocol/archive/archive_reader.hpp"
+#include "protocol/core/utc_time.hpp"
+#include "protocol/text/message.hpp"
+
+namespace a351::corrector::archive_series {
+
+/// An interval of time to be read.  The temperatures may begin earlier than the axes, because the
+/// response to them has a memory.
+struct Span {
+    UtcTime axes_from;         ///< Start of the axes.
+    UtcTime temperature_from;  ///< Start of the temperatures.
+    UtcTime to;                ///< End of all channels, not included.
+
+    /// Returns the start of a channel, by its place.
+    [[nodiscard]] UtcTime from(std::size_t channel) const {
+        return channel <= kVertical ? axes_from : temperature_from;
+    }
+};
+
+/// Reads all channels of an epoch, on all cores.  A channel without samples is no error.
+/// @param root  data root; its folder `archive` is read.
+/// @throws std::system_error  a file cannot be read, or no thread started.
+[[nodiscard]] std::vector<archive::ChannelData> read_samples(const std::filesystem::path& root,
+                                                             const Epoch& epoch, const Span& span);
+
+/// Returns the day files of all channels in the span, by channel and day.
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const std::filesystem::path& root,
+                                                          const Epoch& epoch, const Span& span);
+
+/// Adds a warning for each piece of the channel's files that could not be read.  The English text is
+/// that of archive::to_text(); earlier warnings are kept.
+void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData& channel);
+
+}  // namespace a351::corrector::archive_series
