@@ -6,7 +6,7 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/mistake/survey_findings.hpp"
+#include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/reduction/normal_gravity.hpp"
@@ -68,7 +68,7 @@ void correct_table(TableOptions options) {
     number_option("--reading-sd", options.survey.priors.reading_sd_mgal, adjustment::kLeastSd_mgal,
                   adjustment::kGreatestSd_mgal);
     model::SurveyCorrection result =
-        mistake::correct_and_search({rows, sites, nullptr}, options.survey);
+        judgement::correct_and_search({rows, sites, nullptr}, options.survey);
     if (density) result::add_anomalies(result.stations, sites, *density);
 
     nlohmann::ordered_json settings;

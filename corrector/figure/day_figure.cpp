@@ -7,7 +7,7 @@
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/record_figures.hpp"
 #include "corrector/figure/row_marks.hpp"
-#include "corrector/grade/reading_grade.hpp"
+#include "corrector/judgement/reading_grade.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
@@ -73,7 +73,7 @@ std::string error_lines(const model::SurveyCorrection& result, const Mark& mark)
     std::string lines;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const model::CorrectedRow& row = result.rows[i];
-        const auto error_mgal = grade::error_of(row);
+        const auto error_mgal = judgement::error_of(row);
         if (!error_mgal || !mark.takes(row)) continue;
         lines += fmt::format("{} {}{}{}", to_rfc3339(row.row.time), datum(*error_mgal, 4),
                              datum(row.u_corrected ? row.u_corrected->value() : 0.0, 4),

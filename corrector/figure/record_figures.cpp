@@ -6,7 +6,7 @@
 #include "corrector/eemd/extrema.hpp"
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/record_figures.hpp"
-#include "corrector/grade/reading_name.hpp"
+#include "corrector/judgement/reading_name.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
@@ -126,7 +126,7 @@ Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord
             "set arrow from first {0},graph 0 to first {0},graph 1 nohead dt 2 lw 1 lc rgb {1}\n",
             text::fixed(minutes_between(value.series.start(), limit), 4), kVermilion);
     }
-    const std::string reading = grade::reading_name(result.rows, record.row);
+    const std::string reading = judgement::reading_name(result.rows, record.row);
     return data.figure(
         text::tr("{}, from {}: {}", reading, to_rfc3339(value.series.start()),
                  averaged_text(result.rows[record.row], mean_mgal)),
@@ -187,7 +187,7 @@ Figure panels_figure(const model::SurveyCorrection& result,
             "set label 4 {} at graph 0.96,0.09 right font ',10' front\n"
             "plot '{}.dat' index 0 using 1:(${}-{}) with lines {}\n",
             k + kColumns >= n ? "%g" : "", k % kColumns == 0 ? "%g" : "",
-            gnuplot_string(short_label(grade::reading_name(result.rows, records[k].row))),
+            gnuplot_string(short_label(judgement::reading_name(result.rows, records[k].row))),
             gnuplot_string("mean " + text::fixed(panels.means[k], panels.label_decimals)),
             reading_figure_name(records[k].row), panels.column, text::fixed(panels.means[k], 5),
             panels.style);

@@ -4,7 +4,7 @@
 
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/figure.hpp"
-#include "corrector/grade/reading_name.hpp"
+#include "corrector/judgement/reading_name.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
@@ -25,7 +25,7 @@ const std::vector<Mark>& marks() {
 }
 
 std::string comment(const model::SurveyCorrection& result, std::size_t row) {
-    return fmt::format("# {}\n", clean_utf8(grade::reading_name(result.rows, row)));
+    return fmt::format("# {}\n", clean_utf8(judgement::reading_name(result.rows, row)));
 }
 
 }  // namespace a351::corrector::figure

@@ -97,7 +97,7 @@ struct ReadingRecord {
 /// Returns the figure of the day: errors of the readings, their samples, the temperature of
 /// the sensor and the verdicts of the recorder on one axis of time, with the stays.
 ///
-/// The errors are those of grade::error_of(), with u_corrected as bars (0 if there is none).  A panel
+/// The errors are those of judgement::error_of(), with u_corrected as bars (0 if there is none).  A panel
 /// without data is left out.  The curve of the temperature is interrupted between minutes that are
 /// not neighbours (day_figure_test.cpp).  It plots the data of reading_figures().
 /// @param course    in order of time; may be empty.

@@ -4,7 +4,7 @@
 
 #include "corrector/job/reference_survey.hpp"
 #include "corrector/job/survey_readings.hpp"
-#include "corrector/mistake/survey_findings.hpp"
+#include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/reading/refused.hpp"
 
@@ -27,7 +27,7 @@ model::SurveyCorrection correct_survey_day(const SurveyFile& survey,
     try {
         std::optional<ReferenceNetwork> reference;
         if (survey.reference) reference = hold_reference_values(survey, read);
-        model::SurveyCorrection result = mistake::correct_and_search(
+        model::SurveyCorrection result = judgement::correct_and_search(
             {read.rows, read.sites, day}, with_sites_of(read, survey.survey), read.findings);
         model::add_left_out(result, read.left_out);
         if (reference) compare_with_reference(result, *reference);

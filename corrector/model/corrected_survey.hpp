@@ -118,7 +118,7 @@ struct CorrectedRow {
     std::optional<MilliGal> u_corrected;
     /// External studentised residual; absent for `paper`.
     std::optional<double> studentised_residual;
-    /// Reasons from physical_doubt(); empty if there are none.  No row is left out because of them.
+    /// Reasons to doubt the row without use of gravity, from judgement::correct_and_search().  No row is left out because of them.
     std::string doubt_physical;
     /// Values of one model only.
     std::variant<std::monostate, PaperRow, WholeDayRow> own;
@@ -298,7 +298,7 @@ struct NetworkPart {
     std::vector<NetworkRow> rows;   ///< Readings in use in order of time; datum; priors.
     std::size_t reading_count = 0;  ///< Number of readings in use.
     std::vector<std::string> held_sites;  ///< Stations whose reference is held.
-    std::size_t unknown_count = 0;
+    std::size_t unknown_count = 0, station_count = 0;  ///< Unknowns, and gravities among them.
     std::size_t dof = 0;           ///< Degrees of freedom: rows - unknowns.
     double weighted_square = 0.0;  ///< v^T W v
     double chi_square_low = 0.0, chi_square_high = 0.0;  ///< Limits of the global test; 0 if dof = 0.

@@ -214,7 +214,8 @@ NetworkPart part_of(const AdjustedSurvey& adjusted) {
     part.reading_count = adjusted.survey.readings().size();
     for (const adjustment::EquationStation& station : adjusted.survey.stations())
         if (station.held) part.held_sites.push_back(station.site);
-    part.unknown_count = adjusted.survey.stations().size() + adjusted.survey.terms().size();
+    part.station_count = adjusted.survey.stations().size();
+    part.unknown_count = part.station_count + adjusted.survey.terms().size();
     part.dof = solution.dof();
     part.weighted_square = solution.weighted_square();
     if (part.dof > 0) {

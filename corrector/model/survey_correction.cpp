@@ -8,8 +8,6 @@
 
 #include "corrector/model/linear_models.hpp"
 #include "corrector/model/model.hpp"
-#include "corrector/model/outlier_tests.hpp"
-#include "corrector/model/row_doubts.hpp"
 #include "corrector/reading/refused.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -172,6 +170,43 @@ void remark_unused(Fit& result, const Model& model, const SurveyOptions& options
             text::message("{} does not use: {}", model.name, text::joined(unused)));
 }
 
+/// Distance from the temperatures of the fit that is not worth a remark, degC.  Reason: it is twice
+/// the swing of the oven, and 1.5 mGal at the published -29 mGal/degC.
+constexpr double kOutsideTemperature_degc = 0.05;
+
+/// Returns a remark on readings of unknown stations whose temperature is outside that of the
+/// readings in the fit at known stations; empty if there are none, or if the rows have no temperature.
+///
+/// The temperature correction of such a reading is extrapolated: an error of the coefficient acts
+/// on the whole distance.
+text::Message temperature_remark(const std::vector<CorrectedRow>& rows,
+                                 const std::vector<std::string>& datum) {
+    if (rows.empty() || !rows.front().row.has_temperature) return {};
+    double low_degc = HUGE_VAL, high_degc = -HUGE_VAL;
+    for (const CorrectedRow& row : rows) {
+        if (!row.is_used || !row.row.is_datum(datum)) continue;
+        low_degc = std::min(low_degc, row.row.temperature.value());
+        high_degc = std::max(high_degc, row.row.temperature.value());
+    }
+    if (low_degc > high_degc) return {};
+    double most_degc = 0.0;
+    std::vector<std::string> names;
+    for (const CorrectedRow& row : rows) {
+        if (row.row.is_excluded || row.row.is_datum(datum)) continue;
+        const double degc = row.row.temperature.value();
+        const double outside_degc = std::max(low_degc - degc, degc - high_degc);
+        if (outside_degc <= kOutsideTemperature_degc) continue;
+        most_degc = std::max(most_degc, outside_degc);
+        names.push_back(fmt::format("{} ({})", row.row.site, row.row.occupation));
+    }
+    if (names.empty()) return {};
+    return text::message(
+        "temperature outside {} to {} degC, that of the known stations in the fit, by up to {} "
+        "degC: the temperature correction is extrapolated for {}",
+        text::fixed(low_degc, 2), text::fixed(high_degc, 2), text::fixed(most_degc, 2),
+        text::joined(names));
+}
+
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     Chosen chosen;
     const SurveyOptions& options = problem.options;
@@ -296,7 +331,6 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
         return set;
     };
     result.row_sets = {scores_of("used", unflagged), scores_of("all", all)};
-    for (CorrectedRow& row : result.rows) row.doubt_physical = physical_doubt(row.row);
     if (chosen.priors) applied.priors = *chosen.priors;
     result.options = std::move(applied);
     return result;

@@ -20,7 +20,7 @@ nlohmann::ordered_json json_or_null(const Value& value, bool is_there) {
 
 std::string_view to_text(FindingKind kind) {
     // In the order of the enumerators.
-    constexpr std::array<std::string_view, 16> kTexts{
+    constexpr std::array<std::string_view, 15> kTexts{
         "moved_box",
         "other_name",
         "reference",
@@ -35,7 +35,6 @@ std::string_view to_text(FindingKind kind) {
         "missed_set_up",
         "short_stay",
         "base_not_revisited",
-        "temperature_moving",
         "clock",
     };
     return kTexts.at(static_cast<std::size_t>(kind));

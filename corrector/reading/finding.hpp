@@ -31,7 +31,6 @@ namespace a351::corrector::reading {
 /// - missed_set_up: the box was lifted and set down during the stay, and no set-up was entered.
 /// - short_stay: the set-up is much shorter than the others of the day.
 /// - base_not_revisited: the base has one stay only.
-/// - temperature_moving: the temperature moved by more than the model corrects.
 /// - clock: times are uncertain, or the host's clock was set back.
 enum class FindingKind {
     moved_box,
@@ -48,7 +47,6 @@ enum class FindingKind {
     missed_set_up,
     short_stay,
     base_not_revisited,
-    temperature_moving,
     clock,
 };
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "corrector/grade/reading_grade.hpp"
+#include "corrector/judgement/reading_grade.hpp"
 
 namespace a351::corrector::report {
 namespace {
@@ -101,11 +101,11 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
         json["left_out_difference_mgal"] = (*station->left_out - *reference).value();
 }
 
-Json remarks_of(const Stay& stay, const std::vector<grade::ReadingGrade>& grades,
+Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& grades,
                 const std::vector<reading::LeftOut>& left_out) {
     Json remarks = Json::array();
     std::set<std::string> texts;
-    const auto add = [&](const grade::Reason& reason) {
+    const auto add = [&](const judgement::Reason& reason) {
         if (texts.insert(reason.text.english()).second)
             remarks.push_back({{"code", reason.code},
                                {"numbers", reason.numbers},
@@ -115,7 +115,7 @@ Json remarks_of(const Stay& stay, const std::vector<grade::ReadingGrade>& grades
     for (const std::size_t i : stay.left_out) add({"left_out", {}, left_out[i].reason});
     if (!grades.empty())
         for (const std::size_t i : stay.rows)
-            for (const grade::Reason& reason : grades[i].reasons) add(reason);
+            for (const judgement::Reason& reason : grades[i].reasons) add(reason);
     return remarks;
 }
 
@@ -152,7 +152,7 @@ Json to_json(const GravitySoFar& so_far) {
     std::vector<reading::LeftOut> left_out;
     if (so_far.read) left_out = so_far.result ? so_far.result->left_out : so_far.read->left_out;
     const auto grades =
-        so_far.result ? grade::grade_readings(*so_far.result) : std::vector<grade::ReadingGrade>();
+        so_far.result ? judgement::grade_readings(*so_far.result) : std::vector<judgement::ReadingGrade>();
     for (const Stay& stay : stays_of(rows_of(so_far), left_out)) {
         Json one;
         one["key"] = text_or_null(stay.key);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "corrector/figure/history_figure.hpp"
-#include "corrector/grade/reading_grade.hpp"
+#include "corrector/judgement/reading_grade.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -94,7 +94,7 @@ void add_joint_stations(pugi::xml_node parent, const std::vector<model::Recorded
 
 /// A grade of a station over all days, with its reasons.
 struct Advice {
-    grade::Grade grade = grade::Grade::repeat;
+    judgement::Grade grade = judgement::Grade::repeat;
     std::vector<std::string> reasons;
 };
 
@@ -112,9 +112,9 @@ void compare_days(Advice& advice, const model::RecordedSurvey& a, const model::R
     if (!(variance_mgal2 > 0.0)) return;
     const double difference_mgal = std::abs((value_a.gravity - value_b.gravity).value());
     const double ratio = difference_mgal / std::sqrt(variance_mgal2);
-    if (ratio <= grade::kCareRatio) return;
+    if (ratio <= judgement::kCareRatio) return;
     advice.grade = std::max(
-        advice.grade, ratio > grade::kRepeatRatio ? grade::Grade::repeat : grade::Grade::care);
+        advice.grade, ratio > judgement::kRepeatRatio ? judgement::Grade::repeat : judgement::Grade::care);
     advice.reasons.push_back(
         text::tr("{} and {} differ by {} mGal, {} times the uncertainty of the difference", a.name,
                  b.name, text::fixed(difference_mgal, 1), text::fixed(ratio, 1)));
@@ -126,14 +126,14 @@ Advice advice_on(const std::string& site, const std::vector<model::RecordedSurve
     std::vector<std::string> reasons;
     for (const model::RecordedSurvey& day : days) {
         if (result::find_station(*day.result, site) == nullptr) continue;
-        const grade::ReadingGrade of_day =
-            grade::grade_of_station(*day.result, grade::grade_readings(*day.result), site);
+        const judgement::ReadingGrade of_day =
+            judgement::grade_of_station(*day.result, judgement::grade_readings(*day.result), site);
         advice.grade = std::min(advice.grade, of_day.grade);
         if (!of_day.reasons.empty())
             reasons.push_back(
-                text::tr("{}, {}", day.name, text::Message(grade::reason_in_words(of_day))));
+                text::tr("{}, {}", day.name, text::Message(judgement::reason_in_words(of_day))));
     }
-    if (advice.grade != grade::Grade::trust) advice.reasons = reasons;
+    if (advice.grade != judgement::Grade::trust) advice.reasons = reasons;
     for (auto a = days.begin(); a != days.end(); ++a)
         for (auto b = a + 1; b != days.end(); ++b) compare_days(advice, *a, *b, site);
     return advice;
@@ -156,18 +156,18 @@ void add_joint_actions(pugi::xml_node parent, const std::vector<model::RecordedS
         if (!advice.reasons.empty())
             reasons.at(grade).push_back(
                 {station.site,
-                 std::string(text::translated(grade::grade_name(advice.grade), text::language())),
+                 std::string(text::translated(judgement::grade_name(advice.grade), text::language())),
                  text::joined(advice.reasons, "; ")});
     }
-    const auto add_group = [&](grade::Grade grade, const std::string& what) {
+    const auto add_group = [&](judgement::Grade grade, const std::string& what) {
         const auto& group = sites.at(static_cast<std::size_t>(grade));
         if (!group.empty()) items.push_back(text::tr("{}: {}.", what, text::joined(group)));
     };
-    add_group(grade::Grade::repeat,
+    add_group(judgement::Grade::repeat,
               text::tr("Repeat, no day has a value to trust or the days disagree"));
     if (items.empty()) items.push_back(text::tr("No station needs to be repeated."));
-    add_group(grade::Grade::care, text::tr("Use with care"));
-    add_group(grade::Grade::trust, text::tr("Trust"));
+    add_group(judgement::Grade::care, text::tr("Use with care"));
+    add_group(judgement::Grade::trust, text::tr("Trust"));
     add_list(parent, items);
     std::vector<HtmlCells> rows;
     for (const auto& group : {reasons[2], reasons[1]})

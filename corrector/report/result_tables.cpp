@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corrector/grade/closure.hpp"
-#include "corrector/grade/reading_name.hpp"
+#include "corrector/judgement/closure.hpp"
+#include "corrector/judgement/reading_name.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/side_by_side_report.hpp"
@@ -135,7 +135,7 @@ void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result) 
     table.alignment.insert(0, is_recorded ? "nnr" : "nn");
     const auto add_row = [&](std::size_t i) {
         const model::CorrectedRow& row = result.rows[i];
-        HtmlCells cells{grade::reading_name(result.rows, i), to_rfc3339(row.row.time)};
+        HtmlCells cells{judgement::reading_name(result.rows, i), to_rfc3339(row.row.time)};
         if (is_recorded) {
             const HtmlCells times = averaged(row.row);
             cells[1] = times[0];
@@ -177,7 +177,7 @@ void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& resul
     table.headings.insert(table.headings.begin(), "Reading");
     table.alignment.insert(0, "n");
     for (std::size_t i = 0; i < table.rows.size(); ++i)
-        table.rows[i].insert(table.rows[i].begin(), grade::reading_name(result.rows, i));
+        table.rows[i].insert(table.rows[i].begin(), judgement::reading_name(result.rows, i));
     add_table(
         parent,
         tr("From acceleration to gravity, in mGal: corrected = acceleration - tide + constant "
@@ -199,7 +199,7 @@ void add_side_by_side(pugi::xml_node parent, const model::SurveyCorrection& resu
 }
 
 void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) {
-    const std::vector<grade::Closure> closures = grade::close_stations(result);
+    const std::vector<judgement::Closure> closures = judgement::close_stations(result);
     if (closures.empty()) {
         add(parent, "p",
             tr("No station was read twice, so there are no closures; drift is visible only against "
@@ -207,14 +207,14 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
         return;
     }
     std::vector<HtmlCells> rows;
-    for (const grade::Closure& pair : closures) {
-        rows.push_back({grade::reading_name(result.rows, pair.earlier),
-                        grade::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2),
+    for (const judgement::Closure& pair : closures) {
+        rows.push_back({judgement::reading_name(result.rows, pair.earlier),
+                        judgement::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2),
                         number(pair.before), number(pair.after_tide),
                         number(pair.after_temperature), number(pair.after_rate),
                         number(pair.after_all), cell(pair.drift_mgal_per_h, 3)});
     }
-    const grade::ClosureRms rms = grade::rms_of(closures).value();
+    const judgement::ClosureRms rms = judgement::rms_of(closures).value();
     rows.push_back({tr("RMS of {}", closures.size()), "", "", number(rms.before),
                     number(rms.after_tide), number(rms.after_temperature), number(rms.after_rate),
                     number(rms.after_all), ""});

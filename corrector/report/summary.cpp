@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "corrector/grade/reading_name.hpp"
+#include "corrector/judgement/reading_name.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/linear_models.hpp"
 #include "corrector/report/html.hpp"
@@ -18,8 +18,8 @@
 
 namespace a351::corrector::report {
 
-using grade::Grade;
-using grade::ReadingGrade;
+using judgement::Grade;
+using judgement::ReadingGrade;
 using text::tr;
 
 namespace {
@@ -46,11 +46,11 @@ void add_reasons(pugi::xml_node parent, const model::SurveyCorrection& result,
         for (std::size_t i = 0; i < grades.size(); ++i) {
             if (grades[i].grade != wanted || grades[i].reasons.empty()) continue;
             rows.push_back(
-                {grade::reading_name(result.rows, i),
-                 std::string(text::translated(grade::grade_name(wanted), text::language())),
-                 text::fixed_or(grade::error_of(result.rows[i]), 2, "-"),
+                {judgement::reading_name(result.rows, i),
+                 std::string(text::translated(judgement::grade_name(wanted), text::language())),
+                 text::fixed_or(judgement::error_of(result.rows[i]), 2, "-"),
                  text::fixed_or(result.rows[i].u_corrected, 2, "-"),
-                 grade::reason_in_words(grades[i])});
+                 judgement::reason_in_words(grades[i])});
         }
     }
     if (rows.empty()) return;
@@ -103,7 +103,7 @@ std::string headline(const model::SurveyCorrection& result) {
         return day + tr(" Coefficients: {}, degrees of freedom: {}.", result.score.parameter_count,
                         result.score.dof);
     return day + tr(" Unknowns: {}, of which stations: {} ({} held); degrees of freedom: {}.",
-                    result.score.parameter_count, result.stations.size(), network->held_sites.size(),
+                    result.score.parameter_count, network->station_count, network->held_sites.size(),
                     result.score.dof);
 }
 
@@ -113,12 +113,12 @@ std::vector<std::string> actions(const model::SurveyCorrection& result,
                                  const std::vector<ReadingGrade>& grades) {
     std::vector<std::string> urgent, optional, care, trusted;
     for (std::size_t i = 0; i < grades.size(); ++i) {
-        const std::string name = grade::reading_name(result.rows, i);
+        const std::string name = judgement::reading_name(result.rows, i);
         if (grades[i].grade == Grade::trust) {
             trusted.push_back(name);
         } else if (grades[i].grade == Grade::care) {
             care.push_back(name);
-        } else if (grade::grade_of_station(result, grades, result.rows[i].row.site).grade ==
+        } else if (judgement::grade_of_station(result, grades, result.rows[i].row.site).grade ==
                    Grade::trust) {
             optional.push_back(name);
         } else {
@@ -235,7 +235,7 @@ void add_findings(pugi::xml_node parent, const std::vector<reading::Finding>& fi
 }
 
 void add_actions(pugi::xml_node parent, const model::SurveyCorrection& result) {
-    const std::vector<ReadingGrade> grades = grade::grade_readings(result);
+    const std::vector<ReadingGrade> grades = judgement::grade_readings(result);
     add_list(parent, actions(result, grades));
     add_reasons(parent, result, grades);
 }

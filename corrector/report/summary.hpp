@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/grade/reading_grade.hpp"
+#include "corrector/judgement/reading_grade.hpp"
 #include "corrector/model/corrected_survey.hpp"
 
 namespace a351::corrector::report {
@@ -24,7 +24,7 @@ namespace a351::corrector::report {
 /// @param grades  from grade_readings() of this result.
 /// @return sentences in plain text; they name each reading once.
 [[nodiscard]] std::vector<std::string> actions(const model::SurveyCorrection& result,
-                                               const std::vector<grade::ReadingGrade>& grades);
+                                               const std::vector<judgement::ReadingGrade>& grades);
 
 /// Returns the limits of the survey as a whole: too few readings of the base, stations that nothing
 /// checks.
@@ -58,7 +58,7 @@ void add_findings(pugi::xml_node parent, const std::vector<reading::Finding>& fi
 /// Adds the actions, and the readings that have a reason.
 ///
 /// The readings are graded here.  A reading without a reason is not in the table.  The error is that
-/// of grade::error_of().
+/// of judgement::error_of().
 void add_actions(pugi::xml_node parent, const model::SurveyCorrection& result);
 
 /// Adds the errors of the applied model, the sentence on them and the limits of the survey.

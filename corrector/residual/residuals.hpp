@@ -13,7 +13,7 @@
 ///     t / step.length;                                     // size of the step, mGal
 ///     1.0 / step.length;                                   // its standard uncertainty, mGal
 ///
-/// The models make Residuals; whole_day::goodness_of_fit() and mistake::find_mistakes() test them.
+/// The models make Residuals; whole_day::goodness_of_fit() and judgement::find_mistakes() test them.
 
 #include <Eigen/Core>
 #include <cstddef>

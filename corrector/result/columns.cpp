@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "corrector/grade/reading_grade.hpp"
+#include "corrector/judgement/reading_grade.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/catalogue.hpp"
@@ -77,14 +77,14 @@ Column<model::CorrectedRow> tilt_column() {
 
 /// Returns the last columns of occupations.csv.  Cells of CSV have no comma.
 Columns columns_of_grades(const model::SurveyCorrection& result) {
-    std::map<UtcTime, grade::ReadingGrade> grades;  // the rows have different times
-    const std::vector<grade::ReadingGrade> of_rows = grade::grade_readings(result);
+    std::map<UtcTime, judgement::ReadingGrade> grades;  // the rows have different times
+    const std::vector<judgement::ReadingGrade> of_rows = judgement::grade_readings(result);
     for (std::size_t i = 0; i < of_rows.size(); ++i) grades[result.rows[i].row.time] = of_rows[i];
     const auto name = [grades](const model::CorrectedRow& row) {
-        return std::string(grade::grade_name(grades.at(row.row.time).grade));
+        return std::string(judgement::grade_name(grades.at(row.row.time).grade));
     };
     const auto reason = [grades](const model::CorrectedRow& row) {
-        std::string text = grade::reason_text(grades.at(row.row.time));
+        std::string text = judgement::reason_text(grades.at(row.row.time));
         std::replace(text.begin(), text.end(), ',', ';');
         return text;
     };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corrector/grade/reading_grade.hpp"
+#include "corrector/judgement/reading_grade.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::result {
@@ -29,7 +29,7 @@ Json mgal(const std::optional<MilliGal>& value) {
 }
 
 Json feature(const model::StationValue& station, const text::Site& site,
-             const grade::ReadingGrade& grade) {
+             const judgement::ReadingGrade& grade) {
     Json json;
     json["type"] = "Feature";
     json["geometry"] = nullptr;
@@ -47,8 +47,8 @@ Json feature(const model::StationValue& station, const text::Site& site,
                           {"reference_mgal", mgal(station.reference)},
                           {"residual_mgal", mgal(station.residual)},
                           {"flagged_only", station.is_flagged_only},
-                          {"grade", grade::grade_name(grade.grade)},
-                          {"grade_reason", grade::reason_text(grade)}};
+                          {"grade", judgement::grade_name(grade.grade)},
+                          {"grade_reason", judgement::reason_text(grade)}};
     return json;
 }
 
@@ -70,12 +70,12 @@ std::string duration_s(const reading::SurveyRow& row) {
 std::string stations_geojson(const model::SurveyCorrection& result,
                              const std::vector<text::Site>& sites) {
     std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
-    const std::vector<grade::ReadingGrade> grades = grade::grade_readings(result);
+    const std::vector<judgement::ReadingGrade> grades = judgement::grade_readings(result);
     for (const model::StationValue& station : result.stations) {
         const text::Site* const site = text::find_site(sites, station.site);
         if (site == nullptr) continue;
         text += (text.back() == '[' ? "\n" : ",\n") +
-                feature(station, *site, grade::grade_of_station(result, grades, station.site))
+                feature(station, *site, judgement::grade_of_station(result, grades, station.site))
                     .dump(-1, ' ', false, Json::error_handler_t::replace);
     }
     return text + "\n]}\n";

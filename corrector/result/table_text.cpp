@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "corrector/model/model.hpp"
-#include "corrector/model/row_doubts.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/network_report.hpp"
 #include "corrector/result/scale_report.hpp"
@@ -39,6 +38,18 @@ std::string occupations_text(const model::SurveyCorrection& result) {
             cells.back() = flag_of(stay);
         });
     return aligned_text(table);
+}
+
+/// Returns the doubtful rows with their reasons, one per line, or a line that there are none.
+std::string doubts_text(const model::SurveyCorrection& result) {
+    std::string text;
+    for (const model::CorrectedRow& row : result.rows) {
+        if (row.doubt_physical.empty()) continue;
+        text +=
+            fmt::format("  {} ({}): {}\n", row.row.site, row.row.occupation, row.doubt_physical);
+    }
+    if (text.empty()) return "doubtful readings: none\n";
+    return "doubtful readings (none is left out because of this):\n" + text;
 }
 
 std::string coefficients_text(const model::SurveyCorrection& result) {
@@ -168,7 +179,7 @@ std::string survey_text(const model::SurveyCorrection& result) {
                        '\n' + aligned_text(models_table(result)) +
                        "LOO: leave-one-out. LOSO: leave-one-station-out.\n\n" +
                        summary_text(result) + coefficients_text(result) + network_text(result) +
-                       model::doubts_text(result);
+                       doubts_text(result);
     for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
     for (const std::string& sentence : side_by_side_sentences(result)) text += sentence + '\n';
     for (const text::Message& remark : result.remarks) text += text::in_words(remark) + '\n';

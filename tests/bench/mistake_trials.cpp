@@ -18,7 +18,7 @@
 
 #include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_readings.hpp"
-#include "corrector/mistake/mistake_search.hpp"
+#include "corrector/judgement/mistake_search.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/model.hpp"
 
@@ -168,7 +168,7 @@ public:
             clean.push_back(largest(residuals->simulated(generator)).first);
         const auto limit =
             clean.begin() +
-            static_cast<std::ptrdiff_t>((1.0 - corrector::mistake::kWholeDayMistakeAlpha) * kDraws);
+            static_cast<std::ptrdiff_t>((1.0 - corrector::judgement::kWholeDayMistakeAlpha) * kDraws);
         std::nth_element(clean.begin(), limit, clean.end());
         Count total;
         for (total.trials = 0; total.trials < kDraws; ++total.trials) {

@@ -9,7 +9,7 @@
 #include <sstream>
 #include "tests/support/catch.hpp"
 
-#include "corrector/mistake/survey_findings.hpp"
+#include "corrector/judgement/survey_findings.hpp"
 #include "corrector/tide/tide_choice.hpp"
 
 using namespace a351;
@@ -87,7 +87,7 @@ std::vector<reading::SurveyRow> rows(const std::vector<std::string>& held) {
 model::SurveyCorrection corrected(const std::vector<std::string>& held) {
     model::SurveyOptions options;
     options.priors.reading_sd_mgal = kReadingSd_mgal;
-    return mistake::correct_and_search({rows(held), {}, nullptr}, options);
+    return judgement::correct_and_search({rows(held), {}, nullptr}, options);
 }
 
 const model::StationValue& station(const model::SurveyCorrection& result, const std::string& site) {

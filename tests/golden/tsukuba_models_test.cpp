@@ -4,6 +4,7 @@
 #include <map>
 #include "tests/support/catch.hpp"
 
+#include "corrector/judgement/physical_doubt.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "tests/golden/tsukuba_table.hpp"
 
@@ -204,7 +205,7 @@ TEST_CASE("the physical criterion finds the publication's three and No.1 (2)",
         for (const CorrectedRow& row : correct(model, true).rows) {
             CAPTURE(row.row.site, row.row.occupation);
             const bool is_fourth = row.row.site == "No.1" && row.row.occupation == 2;
-            CHECK(!row.doubt_physical.empty() == (row.row.is_flagged || is_fourth));
+            CHECK(!judgement::physical_doubt(row.row).empty() == (row.row.is_flagged || is_fourth));
         }
     }
 }

@@ -6,7 +6,7 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/gravimeter/survey_tables.hpp"
-#include "corrector/mistake/survey_findings.hpp"
+#include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/network.hpp"
 #include "corrector/tide/tide_choice.hpp"
 #include "protocol/text/csv.hpp"
@@ -218,7 +218,7 @@ TEST_CASE("a finding about a gravimeter has a size that can be read", "[golden][
         if (row.time > rows[8].time) row.acceleration = row.acceleration + MilliGal(kStep_mgal);
     model::SurveyOptions options;
     options.priors.reading_sd_mgal = kReadingSd_mgal;
-    const auto result = mistake::correct_and_search({rows, {}, nullptr}, options);
+    const auto result = judgement::correct_and_search({rows, {}, nullptr}, options);
     REQUIRE(!result.findings.empty());
     for (const reading::Finding& finding : result.findings) std::cout << finding.text.english() << '\n';
     CHECK(result.findings[0].kind == reading::FindingKind::step);

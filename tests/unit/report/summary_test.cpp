@@ -8,7 +8,7 @@
 
 using namespace a351::corrector;
 using namespace a351;
-using namespace a351::corrector::grade;
+using namespace a351::corrector::judgement;
 using namespace a351::corrector::model;
 using namespace a351::corrector::reading;
 using namespace a351::corrector::report;

@@ -4,6 +4,7 @@
 #include <system_error>
 #include "tests/support/catch.hpp"
 
+#include "corrector/judgement/physical_doubt.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/core/input_error.hpp"
@@ -29,7 +30,9 @@ SurveyCorrection corrected(const std::string& model) {
     rows[2].acceleration = rows[2].acceleration + MilliGal(1.0);
     SurveyOptions options;
     options.model = model;
-    return correct_survey(rows, options);
+    SurveyCorrection result = correct_survey(rows, options);
+    for (CorrectedRow& row : result.rows) row.doubt_physical = a351::corrector::judgement::physical_doubt(row.row);
+    return result;
 }
 
 std::size_t file_count(const std::filesystem::path& folder) {

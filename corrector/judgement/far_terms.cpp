@@ -1,0 +1,75 @@
+#include "corrector/judgement/far_terms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::judgement {
+namespace {
+
+/// Factors of a prior's standard deviation.  Reason: a free coefficient may be thousands of
+/// deviations away, and one that is held moves by less than the last digit that is printed.
+constexpr double kFree = 1e4, kHeld = 1e-3;
+
+adjustment::Priors with_factor(adjustment::Priors priors, const std::vector<model::Coefficient>& terms,
+                          double factor) {
+    for (const model::Coefficient& term : terms) priors.factors[term.name] = factor;
+    return priors;
+}
+
+/// Returns "the scale of CG-5 40888", or the name of another coefficient.
+text::Message name_of(const model::Fit& fit, const model::Coefficient& term) {
+    if (!term.name.starts_with(adjustment::kScale)) return text::Message(term.name);
+    std::size_t number = 0;
+    for (const model::Coefficient& one : fit.coefficients) {
+        if (one.name == term.name) break;
+        if (one.name.starts_with(adjustment::kScale)) ++number;
+    }
+    const std::string& instrument = fit.scales.at(number).instrument;
+    return instrument.empty() ? text::message("the scale of the sensor")
+                              : text::message("the scale of {}", instrument);
+}
+
+}  // namespace
+
+std::vector<model::Coefficient> far_terms(const model::Fit& fit) {
+    std::vector<model::Coefficient> terms;
+    std::ranges::copy_if(
+        fit.coefficients, std::back_inserter(terms),
+        [](const model::Coefficient& term) { return term.deviations() > kFarTerm; });
+    return terms;
+}
+
+adjustment::Priors freed(adjustment::Priors priors, const std::vector<model::Coefficient>& terms) {
+    std::vector<model::Coefficient> believable;
+    std::ranges::copy_if(
+        terms, std::back_inserter(believable), [](const model::Coefficient& term) {
+            return !term.name.starts_with(adjustment::kScale) ||
+                   std::abs(term.value - 1.0) <= adjustment::kGreatestScaleError;
+        });
+    return with_factor(std::move(priors), believable, kFree);
+}
+
+adjustment::Priors held(adjustment::Priors priors, const std::vector<model::Coefficient>& terms) {
+    return with_factor(std::move(priors), terms, kHeld);
+}
+
+reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term) {
+    reading::Finding finding{.kind = reading::FindingKind::scale, .code = "term_far_from_prior"};
+    finding.text = text::message(
+        "{} comes out as {}, {} standard deviations from its prior {} +- {}, and is held there: look "
+        "for a mistake in the readings, or give the instrument's own value as prior",
+        name_of(fit, term), text::fixed(term.value, 5), text::fixed(term.deviations(), 1),
+        text::shortest(term.prior->mean), text::shortest(term.prior->sd));
+    return finding;
+}
+
+text::Message held_term(const model::Fit& fit, const model::Coefficient& term) {
+    return text::message(
+        "{} is held at its prior {}: with the mistakes that were found it comes out as {}",
+        name_of(fit, term), text::shortest(term.prior->mean), text::fixed(term.value, 5));
+}
+
+}  // namespace a351::corrector::judgement

@@ -1,0 +1,37 @@
+#pragma once
+/// @file
+/// Coefficients that the readings move far from their priors: a prior that is wrong, or a mistake in
+/// the readings that looks like a scale.
+
+#include <string>
+#include <vector>
+
+#include "corrector/model/corrected_survey.hpp"
+#include "corrector/reading/finding.hpp"
+
+namespace a351::corrector::judgement {
+
+/// Distance of a coefficient from the mean of its prior that is not believed, in standard deviations
+/// of the prior.  Reason: a normal prior that is right allows it once in 16 000.
+inline constexpr double kFarTerm = 4.0;
+
+/// Returns the coefficients that are farther than kFarTerm from their priors.
+[[nodiscard]] std::vector<model::Coefficient> far_terms(const model::Fit& fit);
+
+/// Returns the priors with the coefficients free, so that the readings alone decide.  A scale farther
+/// from 1 than adjustment::kGreatestScaleError keeps its prior: it is no scale.
+[[nodiscard]] adjustment::Priors freed(adjustment::Priors priors,
+                                  const std::vector<model::Coefficient>& terms);
+
+/// Returns the priors with the coefficients held at their means.
+[[nodiscard]] adjustment::Priors held(adjustment::Priors priors,
+                                 const std::vector<model::Coefficient>& terms);
+
+/// Returns a finding of the kind `scale`.
+/// @param fit  with the coefficient.
+[[nodiscard]] reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term);
+
+/// Returns a remark: the coefficient is held at its prior, because mistakes moved it away.
+[[nodiscard]] text::Message held_term(const model::Fit& fit, const model::Coefficient& term);
+
+}  // namespace a351::corrector::judgement

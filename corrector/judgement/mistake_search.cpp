@@ -1,0 +1,141 @@
+#include "corrector/judgement/mistake_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "corrector/judgement/mistake_trial.hpp"
+
+namespace a351::corrector::judgement {
+namespace {
+
+/// Mistakes that are put right on trial although they are not sure.  Reason: two large ones hide each
+/// other, until both are put right (the generalised test of B. Rosner, Technometrics 25, 165-172,
+/// 1983).
+constexpr std::size_t kLookAhead = 2;
+
+std::shared_ptr<const adjustment::Residuals> residuals_of(adjustment::Trials& trials,
+                                                          const std::vector<Mistake>& known,
+                                                          const std::vector<Mistake>& quiet) {
+    return trials.residuals({known.begin(), known.end()}, {quiet.begin(), quiet.end()});
+}
+
+/// Returns the mistake that explains most of what the known ones leave, with its probability.
+///
+/// With the noise that it causes itself a mistake may be taken for another one; so the best few are
+/// each tried at the noise of the survey in which they are put right, where the right one is seen
+/// clearly.
+std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings,
+                                    adjustment::Trials& trials,
+                                    const std::vector<Mistake>& known, bool is_known_sure,
+                                    double alpha) {
+    constexpr std::size_t kTried = 4;
+    auto residuals = residuals_of(trials, known, known);
+    if (!residuals) return std::nullopt;
+    const Trial noisy(std::move(residuals), readings, known);
+    if (!noisy.is_possible() || !(is_known_sure || noisy.allows_trial())) return std::nullopt;
+    std::optional<Scored> best;
+    for (const Scored& candidate : noisy.best(kTried)) {
+        std::vector<Mistake> quiet = known;
+        quiet.push_back(candidate.mistake);
+        residuals = residuals_of(trials, known, quiet);
+        if (!residuals) continue;
+        const Trial trial(std::move(residuals), readings, known);
+        if (!trial.is_possible()) continue;
+        Scored found = trial.best(1).front();
+        if (!best || found.score > best->score) best = std::move(found);
+    }
+    if (!best) return std::nullopt;
+    std::vector<Mistake> quiet = known;
+    quiet.push_back(best->mistake);
+    residuals = residuals_of(trials, known, quiet);
+    if (!residuals) return std::nullopt;
+    Trial(std::move(residuals), readings, known)
+        .measure(best->mistake, is_known_sure ? alpha : kTrialShare * alpha);
+    return best->mistake;
+}
+
+/// Returns the level that the probability of a mistake must not exceed.
+double level_of(const Mistake& mistake, double alpha) {
+    return mistake.needed_trial ? kTrialShare * alpha : alpha;
+}
+
+double share_of_level(const Mistake& mistake, double alpha) {
+    return mistake.p / level_of(mistake, alpha);
+}
+
+/// Returns true for a mistake that is unlikely without one, and large enough to be read.
+bool is_clear(const Mistake& mistake, double alpha) {
+    return share_of_level(mistake, alpha) <= 1.0 &&
+           std::abs(mistake.size_mgal) >= kLeastSize_u * mistake.u_mgal;
+}
+
+std::vector<Mistake> without(std::vector<Mistake> mistakes, std::size_t k) {
+    mistakes.erase(mistakes.begin() + static_cast<std::ptrdiff_t>(k));
+    return mistakes;
+}
+
+/// Replaces each mistake by the one that explains most of what the others leave: an early one may
+/// have been taken for two that were not known yet.
+void refine(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
+            adjustment::Trials& trials) {
+    for (std::size_t k = 0; k < mistakes.size(); ++k) {
+        const std::vector<Mistake> others = without(mistakes, k);
+        auto residuals = residuals_of(trials, others, mistakes);
+        if (!residuals) continue;
+        const Trial trial(std::move(residuals), readings, others);
+        if (!trial.is_possible()) continue;
+        mistakes[k] = trial.best(1).front().mistake;
+    }
+}
+
+}  // namespace
+
+std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
+                                     adjustment::Trials& trials, double alpha) {
+    std::vector<Mistake> mistakes;
+    const auto accepted =
+        static_cast<std::size_t>(std::ranges::count(readings, true, &SearchedReading::is_accepted));
+    std::vector<Mistake> sure;
+    while (mistakes.size() < std::min(accepted / 3, sure.size() + 1 + kLookAhead)) {
+        const bool is_known_sure = mistakes.size() == sure.size();
+        auto found = next_mistake(readings, trials, mistakes, is_known_sure, alpha);
+        if (!found) break;
+        found->needed_trial = !is_known_sure;
+        const bool is_sure = is_clear(*found, alpha);
+        mistakes.push_back(std::move(*found));
+        if (mistakes.size() > 1) refine(mistakes, readings, trials);
+        if (!is_sure) continue;
+        for (std::size_t k = 0; k < mistakes.size(); ++k)
+            mistakes[k].needed_trial = k < sure.size() ? sure[k].needed_trial : !is_known_sure;
+        sure = mistakes;
+    }
+    mistakes = std::move(sure);
+    // A mistake that is no longer clear with the others put right is dropped, the least clear first.
+    while (!mistakes.empty()) {
+        measure_again(mistakes, readings, trials, alpha);
+        const auto worst = std::ranges::max_element(mistakes, {}, [&](const Mistake& one) {
+            return std::pair(!is_clear(one, alpha), share_of_level(one, alpha));
+        });
+        if (is_clear(*worst, alpha)) break;
+        mistakes.erase(worst);
+    }
+    return mistakes;
+}
+
+void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
+                   adjustment::Trials& trials, double alpha) {
+    for (std::size_t k = 0; k < mistakes.size(); ++k) {
+        const std::vector<Mistake> others = without(mistakes, k);
+        auto residuals = residuals_of(trials, others, mistakes);
+        mistakes[k].p = 1.0;
+        if (!residuals) continue;
+        Mistake mistake = mistakes[k];
+        Trial(std::move(residuals), readings, others).measure(mistake, level_of(mistake, alpha));
+        mistakes[k].p = mistake.p;
+        mistakes[k].size_mgal = mistake.size_mgal;
+        mistakes[k].u_mgal = mistake.u_mgal;
+    }
+}
+
+}  // namespace a351::corrector::judgement

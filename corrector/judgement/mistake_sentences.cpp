@@ -1,0 +1,308 @@
+#include "corrector/judgement/mistake_sentences.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/model/amended_survey.hpp"
+#include "corrector/judgement/physical_doubt.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/strict_toml.hpp"
+
+namespace a351::corrector::judgement {
+namespace {
+
+using reading::Finding;
+using reading::FindingKind;
+using reading::SurveyRow;
+
+/// Greatest p of a headline.  Reason: one clean day in a thousand may be told something false in its
+/// first line.
+constexpr double kHeadlineP = 0.001;
+/// Greatest distance from a reference at which a reading is said to be of that site, in standard
+/// uncertainties.  Reason: one right name in a hundred is missed.
+constexpr double kNameReach = 2.5;
+/// A site that has readings of its own is so much less likely to be the right one.  Reason: only the
+/// base and a few benchmarks are visited twice; the number itself is a guess.
+constexpr double kVisitedOdds = 4.0;
+
+/// Turns mistakes into sentences with proposals.
+class Teller {
+public:
+    Teller(const std::vector<SurveyRow>& rows, const model::RowChoice& choice,
+           const std::vector<text::Site>& sites)
+        : rows_(rows), choice_(choice), sites_(sites) {}
+
+    [[nodiscard]] std::vector<Finding> told(const Mistake& mistake) const {
+        if (mistake.kind == adjustment::AlternativeKind::step) return {step(mistake)};
+        if (mistake.kind == adjustment::AlternativeKind::swap) return swapped_names(mistake);
+        if (mistake.kind == adjustment::AlternativeKind::set_up) return {bad_set_up(mistake)};
+        const bool is_one_stay = std::ranges::all_of(mistake.readings, [&](std::size_t i) {
+            return rows_[i].occupation == rows_[mistake.readings.front()].occupation;
+        });
+        // At an end of the day a step is as likely as a name.
+        const bool is_name_likely =
+            is_one_stay && (mistake.kind == adjustment::AlternativeKind::station || !step_beside(mistake));
+        const auto others = is_name_likely ? read_sites(mistake) : std::vector<Candidate>();
+        Finding finding = !others.empty()                        ? other_name(mistake, others)
+                          : mistake.kind == adjustment::AlternativeKind::station ? reference(mistake)
+                                                                 : bad_stay(mistake);
+        add_temperature(finding, mistake);
+        add_step(finding, mistake);
+        return {std::move(finding)};
+    }
+
+private:
+    [[nodiscard]] const SurveyRow& first(const Mistake& mistake) const {
+        return rows_[mistake.readings.front()];
+    }
+
+    [[nodiscard]] Finding finding_of(const Mistake& mistake, FindingKind kind, std::string code,
+                                     const SurveyRow& row) const {
+        Finding finding{.kind = kind, .code = std::move(code)};
+        set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
+        finding.size_mgal = mistake.size_mgal;
+        finding.u_mgal = mistake.u_mgal;
+        finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
+        return finding;
+    }
+
+    /// Returns "12.3 +- 1.5 mGal too high".
+    static text::Message off_by(double size_mgal, double u_mgal) {
+        const std::string size = in_mgal(std::abs(size_mgal), u_mgal), u = in_mgal(u_mgal, u_mgal);
+        return size_mgal > 0.0 ? text::message("{} +- {} mGal too high", size, u)
+                               : text::message("{} +- {} mGal too low", size, u);
+    }
+
+    /// Returns a size with the decimals that its uncertainty allows: readings of a spring gravimeter
+    /// are a thousand times as sure as those of the sensor.
+    static std::string in_mgal(double size_mgal, double u_mgal) {
+        constexpr double kFine_mgal = 0.05;  // below it one decimal is 0.0
+        return text::fixed(size_mgal, u_mgal < kFine_mgal ? 4 : 1);
+    }
+
+    /// Returns "No.5 (2)", with the gravimeter if there is one.
+    static std::string name_of(const SurveyRow& row) {
+        return row.instrument.empty()
+                   ? fmt::format("{} ({})", row.site, row.occupation)
+                   : fmt::format("{} ({}, {})", row.site, row.occupation, row.instrument);
+    }
+
+    /// Returns an amendment of the stay of a row; empty if there can be none.
+    static std::string amendment(std::string_view kind, const SurveyRow& row, bool has_set_up,
+                                 const std::string& rest) {
+        if (row.listed.site.empty()) return {};
+        reading::ListedSetUp listed = row.listed;
+        if (!has_set_up) listed.set_up.reset();
+        return reading::amendment_head(kind, listed) + rest;
+    }
+
+    static std::string rename(const SurveyRow& row, const std::string& to,
+                              const std::string& reason) {
+        return amendment("rename", row, false,
+                         fmt::format("to = {}\nreason = {}\n", text::toml_string(to),
+                                     text::toml_string(reason)));
+    }
+
+    /// A site at which a reading may have been made instead of at the one that it names.
+    struct Candidate {
+        const text::Site* site = nullptr;
+        double distance_mgal = 0.0;
+        double cost = 0.0;  ///< -2 ln(likelihood)
+    };
+
+    /// Returns the sites at which the reading may have been made, the likeliest first: their
+    /// gravity is about the reference of the named site plus the size of the mistake.
+    [[nodiscard]] std::vector<Candidate> read_sites(const Mistake& mistake) const {
+        std::vector<Candidate> candidates;
+        const SurveyRow& row = first(mistake);
+        if (!choice_.in_use[mistake.readings.front()]) return candidates;  // no reference is held
+        const MilliGal read = *row.reference + MilliGal(mistake.size_mgal);
+        for (const text::Site& site : sites_) {
+            if (!site.gravity || site.name == row.site || is_refused(site.name)) continue;
+            const double u =
+                std::hypot(mistake.u_mgal, site.u_gravity.value_or(MilliGal(0.0)).value());
+            const double distance_mgal = std::abs((read - *site.gravity).value());
+            if (distance_mgal > kNameReach * u) continue;
+            double cost = std::pow(distance_mgal / u, 2);
+            if (std::ranges::find(rows_, site.name, &SurveyRow::site) != rows_.end())
+                cost += 2.0 * std::log(kVisitedOdds);
+            candidates.push_back({&site, distance_mgal, cost});
+        }
+        std::ranges::stable_sort(candidates, {}, &Candidate::cost);
+        return candidates;
+    }
+
+    /// Says that the temperature of the only or first reading was not steady, which may be the cause.
+    void add_temperature(Finding& finding, const Mistake& mistake) const {
+        std::string doubt = temperature_doubt(first(mistake));
+        if (doubt.empty()) return;
+        if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
+        finding.text += text::message("; its temperature was not steady ({})", doubt);
+    }
+
+    /// Says that a stay at an end of the day may be good, and the instrument have stepped next to it.
+    void add_step(Finding& finding, const Mistake& mistake) const {
+        const auto after = step_beside(mistake);
+        if (!after) return;
+        finding.code += "_or_step";
+        finding.text += text::message("; or the instrument stepped between {} and {}",
+                                      name_of(rows_[model::reading_before(rows_, *after)]),
+                                      name_of(rows_[*after]));
+    }
+
+    /// Returns the first reading after a step that would look like this mistake, if there is one.
+    [[nodiscard]] std::optional<std::size_t> step_beside(const Mistake& mistake) const {
+        const std::size_t from = mistake.readings.front(), to = mistake.readings.back();
+        const std::vector<std::size_t> loops = adjustment::loop_numbers(rows_);
+        std::ptrdiff_t before = 0, within = 0, after = 0;
+        std::size_t next = 0;
+        for (std::size_t i = rows_.size(); i-- > 0;) {
+            if (!choice_.accepted[i] || loops[i] != loops[from]) continue;
+            ++(i < from ? before : i > to ? after : within);
+            if (i > to) next = i;
+        }
+        if (within != std::ssize(mistake.readings)) return std::nullopt;
+        if ((before == 0) == (after == 0)) return std::nullopt;
+        return before == 0 ? next : from;
+    }
+
+    /// Returns true if an amendment refuses the reference of a site.
+    [[nodiscard]] bool is_refused(const std::string& site) const {
+        return std::ranges::any_of(rows_, [&](const SurveyRow& row) {
+            return row.site == site && row.is_reference_refused;
+        });
+    }
+
+    [[nodiscard]] Finding step(const Mistake& mistake) const {
+        const std::size_t after = mistake.readings.front();
+        Finding finding{.kind = FindingKind::step, .code = "step"};
+        finding.time = model::time_before(rows_, after);
+        finding.size_mgal = mistake.size_mgal;
+        finding.u_mgal = mistake.u_mgal;
+        finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
+        finding.text = text::message(
+            "between {} and {} the instrument stepped: from then on the readings are {}",
+            name_of(rows_[model::reading_before(rows_, after)]), name_of(rows_[after]),
+            off_by(mistake.size_mgal, mistake.u_mgal));
+        if (!rows_[after].listed.site.empty())
+            finding.amendment = fmt::format(
+                "[[step]]\ntime_utc = \"{}\"\nreason = \"step of {} mGal\"\n",
+                to_rfc3339(*finding.time, 3), in_mgal(mistake.size_mgal, mistake.u_mgal));
+        return finding;
+    }
+
+    /// Returns one finding for each stay.  The amendment of the first renames both, because half of it
+    /// would make two stays of one site.
+    [[nodiscard]] std::vector<Finding> swapped_names(const Mistake& mistake) const {
+        Finding one = swapped(mistake, mistake.readings, mistake.others, mistake.size_mgal),
+                other = swapped(mistake, mistake.others, mistake.readings, -mistake.size_mgal);
+        one.amendment += other.amendment;
+        other.amendment.clear();
+        return {std::move(one), std::move(other)};
+    }
+
+    [[nodiscard]] Finding swapped(const Mistake& mistake, const std::vector<std::size_t>& own,
+                                  const std::vector<std::size_t>& others, double size_mgal) const {
+        const SurveyRow& row = rows_[own.front()];
+        const SurveyRow& other = rows_[others.front()];
+        Finding finding = finding_of(mistake, FindingKind::other_name, "swapped", row);
+        finding.size_mgal = size_mgal;
+        finding.u_mgal.reset();
+        finding.other_site = other.site;
+        finding.text = text::message("{} reads like {}, and {} like {}: the names were swapped",
+                                     name_of(row), other.site, name_of(other), row.site);
+        finding.amendment = rename(row, other.site, "names swapped");
+        return finding;
+    }
+
+    [[nodiscard]] Finding other_name(const Mistake& mistake,
+                                     const std::vector<Candidate>& others) const {
+        constexpr std::size_t kMostNames = 3;
+        const SurveyRow& row = first(mistake);
+        const text::Site& other = *others.front().site;
+        Finding finding = finding_of(mistake, FindingKind::other_name, "other_name", row);
+        finding.other_site = other.name;
+        text::Message names;
+        for (std::size_t i = 0; i < std::min(kMostNames, others.size()); ++i) {
+            if (i > 0) names += text::message(" or ");
+            names += fmt::format("{} ({} mGal)", others[i].site->name,
+                                 in_mgal(others[i].distance_mgal, mistake.u_mgal));
+        }
+        finding.text = text::message("{} is {}; it reads like {}", name_of(row),
+                                     off_by(mistake.size_mgal, mistake.u_mgal), names);
+        if (mistake.kind == adjustment::AlternativeKind::station) {
+            finding.code = "other_name_or_reference";
+            finding.text += text::message("; if the name is right, the reference of {} is {}",
+                                          row.site, off_by(-mistake.size_mgal, mistake.u_mgal));
+        }
+        finding.amendment = rename(row, other.name, "reads like " + other.name);
+        return finding;
+    }
+
+    [[nodiscard]] Finding reference(const Mistake& mistake) const {
+        const SurveyRow& row = first(mistake);
+        Finding finding = finding_of(mistake, FindingKind::reference, "reference", row);
+        finding.size_mgal = -mistake.size_mgal;
+        finding.text = text::message("the reference of {} is {}", row.site,
+                                     off_by(-mistake.size_mgal, mistake.u_mgal));
+        const bool is_one_stay = std::ranges::all_of(
+            mistake.readings, [&](std::size_t i) { return rows_[i].occupation == row.occupation; });
+        if (is_one_stay) {
+            finding.code = "reference_or_reading";
+            finding.text += text::message(", or its only stay is bad: look at both");
+        }
+        if (!row.listed.site.empty())
+            finding.amendment = fmt::format(
+                "[[reference]]\nsite = {}\nuse = false\nreason = \"off by {} mGal\"\n",
+                text::toml_string(row.site), in_mgal(-mistake.size_mgal, mistake.u_mgal));
+        return finding;
+    }
+
+    [[nodiscard]] Finding bad_stay(const Mistake& mistake) const {
+        const SurveyRow& row = first(mistake);
+        Finding finding = finding_of(mistake, FindingKind::bad_reading, "stay_disagrees", row);
+        finding.text =
+            text::message("{} is {}, unlike the other readings of {}: repeat it", name_of(row),
+                          off_by(mistake.size_mgal, mistake.u_mgal), row.site);
+        finding.amendment = amendment("exclude", row, false,
+                                      fmt::format("reason = \"off by {} mGal\"\n",
+                                                  in_mgal(mistake.size_mgal, mistake.u_mgal)));
+        return finding;
+    }
+
+    [[nodiscard]] Finding bad_set_up(const Mistake& mistake) const {
+        const std::size_t i = mistake.readings.front();
+        const SurveyRow& row = rows_[i];
+        Finding finding = finding_of(mistake, FindingKind::bad_reading, "set_up_disagrees", row);
+        const auto is_same_stay = [&](const SurveyRow& other) {
+            return other.site == row.site && other.occupation == row.occupation;
+        };
+        const auto number =
+            row.listed.set_up
+                ? *row.listed.set_up
+                : 1 + std::count_if(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i),
+                                    is_same_stay);
+        finding.text = text::message("set-up {} of {} is {}, unlike the others: repeat it", number,
+                                     name_of(row), off_by(mistake.size_mgal, mistake.u_mgal));
+        finding.amendment = amendment("exclude", row, true,
+                                      fmt::format("reason = \"off by {} mGal\"\n",
+                                                  in_mgal(mistake.size_mgal, mistake.u_mgal)));
+        return finding;
+    }
+
+    const std::vector<SurveyRow>& rows_;
+    const model::RowChoice& choice_;
+    const std::vector<text::Site>& sites_;
+};
+
+}  // namespace
+
+std::vector<Finding> findings_of(const Mistake& mistake, const std::vector<SurveyRow>& rows,
+                                 const model::RowChoice& choice,
+                                 const std::vector<text::Site>& sites) {
+    return Teller(rows, choice, sites).told(mistake);
+}
+
+}  // namespace a351::corrector::judgement

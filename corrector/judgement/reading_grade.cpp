@@ -1,0 +1,276 @@
+#include "corrector/judgement/reading_grade.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "corrector/judgement/closure.hpp"
+#include "corrector/judgement/reading_name.hpp"
+#include "corrector/judgement/physical_doubt.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::judgement {
+namespace {
+
+// Largest difference between the two trends of one record.  Reason: a quarter of the 2 mGal by
+// which good readings scatter.
+constexpr double kTrendDifference_mgal = 0.5;
+
+void add(ReadingGrade& reading, Grade grade, Reason reason) {
+    reading.grade = std::max(reading.grade, grade);
+    reading.reasons.push_back(std::move(reason));
+}
+
+struct NoteText {
+    std::string_view note;
+    Grade grade;
+    std::string_view text;
+};
+/// The flags of representative_value.hpp and of amendments, in words.
+constexpr std::array<NoteText, 14> kNoteTexts{{
+    {"fallback", Grade::care,
+     text::marked(
+         "the trend has too few extrema for the usual interval (fallback): look at the record")},
+    {"disturbed_start", Grade::trust,
+     text::marked("only the part after a disturbance at its start was averaged")},
+    {"disturbed_end", Grade::trust,
+     text::marked("only the part before a disturbance at its end was averaged")},
+    {"pulse", Grade::care, text::marked("a knock split the record; its longest part was used")},
+    {"gap", Grade::care, text::marked("samples are missing")},
+    {"no-stop", Grade::care,
+     text::marked("not stopped: it lasts until the next start, or until the box was moved")},
+    {"moved", Grade::care,
+     text::marked("the box was moved during the stay: the part before or after was used")},
+    {"shaken", Grade::repeat, text::marked("the box was never at rest")},
+    {"unsettled", Grade::care, text::marked("the smoother did not converge: look at the record")},
+    {"excluded", Grade::repeat, text::marked("excluded by an amendment")},
+    {"included", Grade::trust, text::marked("included by an amendment")},
+    {"retimed", Grade::trust, text::marked("its times were amended")},
+    {"renamed", Grade::trust, text::marked("its site was amended")},
+    {"divided", Grade::trust, text::marked("divided into set-ups by an amendment")},
+}};
+
+/// Flags of the trend and its interval.
+constexpr std::array<std::string_view, 4> kTrendNotes{"fallback", "disturbed_start",
+                                                      "disturbed_end", "unsettled"};
+
+/// Adds a flag in words.
+/// @param is_day  the model averages the record without the trend, so flags of the trend do not
+///                matter.
+void add_note(ReadingGrade& reading, const std::string& note, bool is_day) {
+    if (is_day && std::ranges::count(kTrendNotes, note) > 0) return;
+    if (is_day && note == "pulse") {
+        add(reading, Grade::care,
+            {note, {}, text::message("a knock: the samples around it were left out")});
+        return;
+    }
+    const auto known = std::ranges::find(kNoteTexts, note, &NoteText::note);
+    if (known == kNoteTexts.end()) {
+        add(reading, Grade::care, {note, {}, note});
+    } else {
+        add(reading, known->grade, {note, {}, text::marked_message(known->text)});
+    }
+}
+
+void add_temperature(ReadingGrade& reading, const model::CorrectedRow& row, bool corrects_rate) {
+    std::string doubt = temperature_doubt(row.row);
+    if (doubt.empty()) return;
+    if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
+    add(reading, corrects_rate ? Grade::care : Grade::repeat,
+        {"temperature_moving",
+         {row.row.rate_degc_per_h, row.rate_correction.value()},
+         corrects_rate
+             ? text::message(
+                   "temperature not steady: {}; the value depends on a rate correction of {} mGal",
+                   doubt, text::fixed(row.rate_correction.value(), 1))
+             : text::message("temperature not steady: {}, which the model does not correct",
+                             doubt)});
+}
+
+/// Adds a reason if the residual is large.
+/// @param is_left_out  u is that of the prediction without the row's station, not of the residual.
+void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is_left_out) {
+    if (!row.residual || !row.u_corrected || !(row.u_corrected->value() > 0.0)) return;
+    if (row.row.is_reference_refused) return;  // it says nothing about the reading
+    const double ratio = is_left_out ? row.studentised_residual.value_or(0.0)
+                                     : row.residual->value() / row.u_corrected->value();
+    if (std::abs(ratio) <= kCareRatio) return;
+    add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
+        {"off_reference",
+         {-ratio * row.u_corrected->value(), std::abs(ratio)},
+         text::message(
+             "{} mGal {}{}, {} times its uncertainty",
+             text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
+             ratio > 0.0 ? text::message("below its reference")
+                         : text::message("above its reference"),
+             is_left_out ? text::message(" when its station is left out") : text::Message(),
+             text::fixed(std::abs(ratio), 1))});
+}
+
+/// Adds the findings that concern the reading.
+void add_findings(ReadingGrade& reading, const reading::SurveyRow& row,
+                  const std::vector<reading::Finding>& findings) {
+    for (const reading::Finding& finding : findings) {
+        if (finding.site != row.site || finding.occupation != row.occupation) continue;
+        // Those that have a note or a reason of their own.
+        if (finding.kind == reading::FindingKind::moved_box || finding.code == "never_at_rest" ||
+            finding.kind == reading::FindingKind::no_stop)
+            continue;
+        add(reading,
+            finding.kind == reading::FindingKind::bad_reading ? Grade::repeat : Grade::care,
+            {finding.code, {}, finding.text});
+    }
+}
+
+/// Adds reasons if the samples alone say that the reading is worse than its uncertainty.
+void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
+    if (!row.row.record || !row.u_corrected) return;
+    const MilliGal u = *row.u_corrected, by_shaking = row.row.record->rectification;
+    if (const auto error = row.row.record->standard_error; error && *error > u)
+        add(reading, Grade::repeat,
+            {"scattered",
+             {error->value(), u.value()},
+             text::message(
+                 "the scatter of its samples alone gives {} mGal, more than its u of {} mGal",
+                 text::fixed(error->value(), 1), text::fixed(u.value(), 1))});
+    if (by_shaking > u)
+        add(reading, Grade::repeat,
+            {"shaken",
+             {by_shaking.value(), u.value()},
+             text::message("the box was shaken as on a drive: this changes the norm of its samples "
+                           "by {} mGal, more than its u of {} mGal",
+                           text::fixed(by_shaking.value(), 1), text::fixed(u.value(), 1))});
+}
+
+void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {
+    if (!row.record) return;
+    const double difference = row.record->smoother_minus_eemd().value();
+    if (std::abs(difference) <= kTrendDifference_mgal) return;
+    add(reading, Grade::care,
+        {"trends_differ",
+         {difference},
+         text::message("its two trends (smoother, EEMD) differ by {} mGal",
+                       text::fixed(difference, 2))});
+}
+
+/// Scatter of readings of one station after all corrections.
+struct ReadingScatter {
+    text::Message name;
+    double mgal = 0.0;
+};
+
+std::optional<ReadingScatter> scatter_of(const model::SurveyCorrection& result) {
+    if (result.as<model::WholeDayPart>() == nullptr) {
+        if (!result.score.s_mgal) return std::nullopt;
+        return ReadingScatter{text::message("s"), *result.score.s_mgal};
+    }
+    // The readings are corrected for all other terms of this model.
+    for (const model::Coefficient& coefficient : result.coefficients) {
+        if (coefficient.name == "placement_mgal")
+            return ReadingScatter{text::message("placement"), coefficient.value};
+    }
+    return std::nullopt;
+}
+
+/// Adds reasons to readings of one station that disagree.  Readings to be repeated are not
+/// compared.
+void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrection& result) {
+    const auto scatter = scatter_of(result);
+    if (!scatter || !(scatter->mgal > 0.0)) return;
+    const double expected_mgal = std::sqrt(2.0) * scatter->mgal;
+    for (const Closure& pair : close_stations(result)) {
+        if (readings[pair.earlier].grade == Grade::repeat) continue;
+        if (readings[pair.later].grade == Grade::repeat) continue;
+        const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
+        if (ratio <= kCareRatio) continue;
+        const auto reason = [&](std::size_t other) {
+            return Reason{
+                "differs",
+                {std::abs(pair.after_all.value()), ratio},
+                text::message("differs by {} mGal from {}, {} times the value expected from {}",
+                              text::fixed(std::abs(pair.after_all.value()), 1),
+                              reading_name(result.rows, other), text::fixed(ratio, 1),
+                              scatter->name)};
+        };
+        add(readings[pair.earlier], Grade::care, reason(pair.later));
+        add(readings[pair.later], Grade::care, reason(pair.earlier));
+    }
+}
+
+}  // namespace
+
+std::string reason_text(const ReadingGrade& reading) {
+    std::vector<std::string> texts;
+    for (const Reason& reason : reading.reasons) texts.push_back(reason.text);
+    return text::joined(texts, "; ");
+}
+
+std::string reason_in_words(const ReadingGrade& reading) {
+    std::vector<text::Message> texts;
+    for (const Reason& reason : reading.reasons) texts.push_back(reason.text);
+    return text::in_words(texts, "; ");
+}
+
+std::string_view grade_name(Grade grade) noexcept {
+    constexpr std::array<std::string_view, 3> kNames{text::marked("trust"), text::marked("care"),
+                                                     text::marked("repeat")};
+    return kNames[static_cast<std::size_t>(grade)];
+}
+
+std::optional<double> error_of(const model::CorrectedRow& row) {
+    if (!row.residual) return std::nullopt;
+    const auto* const day = row.as<model::WholeDayRow>();
+    if (day == nullptr) return row.residual->value();
+    if (!day->left_out) return std::nullopt;
+    return (*row.row.reference - *day->left_out).value();
+}
+
+std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) {
+    const bool corrects_rate = std::ranges::any_of(result.rows, [](const model::CorrectedRow& row) {
+        return row.rate_correction != MilliGal(0.0);
+    });
+    const bool is_day = result.as<model::WholeDayPart>() != nullptr;
+    std::vector<ReadingGrade> readings;
+    for (const model::CorrectedRow& row : result.rows) {
+        ReadingGrade& reading = readings.emplace_back();
+        if (row.row.is_flagged) {
+            add(reading, row.is_used ? Grade::care : Grade::repeat,
+                {"flagged",
+                 {},
+                 row.is_used
+                     ? text::message("marked by the operator as not to be used, but in the fit")
+                     : text::message("marked by the operator as not to be used")});
+        }
+        add_temperature(reading, row, corrects_rate);
+        add_residual(reading, row, is_day);
+        add_findings(reading, row.row, result.findings);
+        add_samples(reading, row);
+        if (!is_day) add_trends(reading, row.row);
+        for (const std::string& note : row.row.notes) add_note(reading, note, is_day);
+    }
+    add_repeats(readings, result);
+    return readings;
+}
+
+ReadingGrade grade_of_station(const model::SurveyCorrection& result,
+                              const std::vector<ReadingGrade>& grades, const std::string& site) {
+    ReadingGrade station{Grade::repeat, {}};
+    for (std::size_t i = 0; i < grades.size(); ++i)
+        if (result.rows[i].row.site == site)
+            station.grade = std::min(station.grade, grades[i].grade);
+    if (station.grade == Grade::trust) return station;
+    for (std::size_t i = 0; i < grades.size(); ++i) {
+        if (result.rows[i].row.site != site || grades[i].grade != station.grade) continue;
+        text::Message name = reading_name(result.rows, i) + ": ";
+        for (const Reason& reason : grades[i].reasons)
+            station.reasons.push_back(
+                {reason.code, reason.numbers, std::exchange(name, {}) + reason.text});
+    }
+    return station;
+}
+
+}  // namespace a351::corrector::judgement

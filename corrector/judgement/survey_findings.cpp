@@ -1,0 +1,237 @@
+#include "corrector/judgement/survey_findings.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/judgement/far_terms.hpp"
+#include "corrector/judgement/mistake_search.hpp"
+#include "corrector/judgement/mistake_sentences.hpp"
+#include "corrector/judgement/physical_doubt.hpp"
+#include "corrector/judgement/survey_remarks.hpp"
+#include "corrector/model/amended_survey.hpp"
+#include "corrector/model/calibration_use.hpp"
+#include "corrector/model/model.hpp"
+#include "corrector/model/survey_correction.hpp"
+#include "corrector/reading/refused.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::judgement {
+namespace {
+
+using reading::Finding;
+using reading::FindingKind;
+using reading::SurveyRow;
+
+/// A day is unusable if stations left out are predicted this much worse than with the mistakes put
+/// right, and at least so badly.  Reason: twice the 2.6 mGal of the publication.
+constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
+
+/// Probability of a test of the fit below which it is a finding.  Reason: all findings together may be
+/// false on one day in 20; the test of the step alone is false on half as many as a remark.
+constexpr double kMisfitP = 0.008;
+
+std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
+                                      const model::RowChoice& choice) {
+    std::vector<SearchedReading> readings;
+    const std::vector<std::size_t> loops = adjustment::loop_numbers(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        SearchedReading& reading = readings.emplace_back();
+        reading.loop = loops[i];
+        reading.site = rows[i].site;
+        reading.occupation = rows[i].occupation;
+        reading.is_accepted = choice.accepted[i];
+        if (choice.in_use[i]) reading.reference_mgal = rows[i].reference->value();
+    }
+    return readings;
+}
+
+/// Says how the model does not fit the day, if so: a curvature, a step of which the search is not
+/// sure.
+void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& findings) {
+    const auto* const day = result.as<model::WholeDayPart>();
+    if (day == nullptr) return;
+    for (const whole_day::FitTest& test : day->fit_tests) {
+        if (test.p >= kMisfitP || test.misfit == whole_day::Misfit::tails) continue;
+        Finding& finding =
+            findings.emplace_back(Finding{.kind = FindingKind::misfit, .code = "curvature"});
+        if (test.misfit == whole_day::Misfit::curvature) {
+            finding.text = text::message(
+                "the model does not fit this day: the residuals follow the square of the {}",
+                test.place == 0 ? text::message("temperature") : text::message("time"));
+            continue;
+        }
+        const SurveyRow& row = result.rows[test.place].row;
+        finding.code = "misfit_step";
+        set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
+        finding.text = text::message(
+            "the model does not fit this day: the readings from {} ({}) on seem to be off by a "
+            "step",
+            row.site, std::to_string(row.occupation));
+    }
+}
+
+/// Returns the place of a finding in the list: headlines, mistakes, remarks, what was not visited.
+int rank_of(const Finding& finding) {
+    if (finding.is_headline) return 0;
+    if (!reading::is_remark(finding)) return 1;
+    return finding.kind == FindingKind::not_visited ? 3 : 2;
+}
+
+/// Says that the day is not usable, if so.
+/// @param amended_loso_mgal  error of stations left out with the mistakes put right, if there are.
+std::optional<Finding> unusable(const model::SurveyCorrection& result,
+                                const std::optional<double>& amended_loso_mgal) {
+    const auto& loso = result.score.loso_mgal;
+    if (!loso || !amended_loso_mgal || *loso < kUnusable_mgal ||
+        *loso < kUnusableRatio * *amended_loso_mgal)
+        return std::nullopt;
+    return Finding{
+        .kind = FindingKind::unusable_day,
+        .code = "unusable_day",
+        .text = text::message("this day is not usable as it is: stations left out are predicted "
+                              "with an error of {} mGal, {} with the mistakes below put right",
+                              text::fixed(*loso, 1), text::fixed(*amended_loso_mgal, 1)),
+        .is_headline = true};
+}
+
+/// Findings of a survey, and the survey without its mistakes.
+struct Search {
+    std::vector<Finding> findings;
+    std::vector<text::Message> remarks;
+    std::optional<model::AmendedSurvey> amended;  ///< Absent if there are no mistakes.
+};
+
+/// Says which coefficients are far from their priors also without the mistakes, and which are not.
+void say_far_terms(Search& found, const model::Model& model, const SearchedSurvey& survey,
+                   const model::Fit& fit, const std::vector<model::Coefficient>& far) {
+    std::optional<model::FitResult> right;
+    if (found.amended)
+        right = model.fit({found.amended->rows, found.amended->options, survey.day},
+                          found.amended->choice);
+    const auto* const amended = right ? std::get_if<model::Fit>(&*right) : &fit;
+    const std::vector<model::Coefficient> still =
+        amended == nullptr ? std::vector<model::Coefficient>() : far_terms(*amended);
+    for (const model::Coefficient& term : far) {
+        const auto at = std::ranges::find(still, term.name, &model::Coefficient::name);
+        if (at == still.end())
+            found.remarks.push_back(held_term(fit, term));
+        else
+            found.findings.push_back(far_term(*amended, *at));
+    }
+}
+
+/// @param far  coefficients far from their priors.  They are free while mistakes are searched, so
+///             that nothing is a mistake that a scale explains; sizes are those with the priors.
+Search search(const model::SurveyCorrection& result, const SearchedSurvey& survey,
+              const std::vector<model::Coefficient>& far = {}) {
+    std::vector<Finding> findings = result.findings;
+    Search found;
+    std::optional<model::AmendedSurvey> right;
+    const model::Model& model = *model::find_model(result.model);
+    const std::vector<SurveyRow> rows =
+        model::without_known_tilt(survey.rows, result.options.calibration);
+    if (model.trials) {
+        const model::RowChoice choice =
+            model::choose_rows(rows, result.options.datum, result.options.use_flags);
+        const std::vector<SearchedReading> readings = searched(rows, choice);
+        model::SurveyOptions options = result.options;
+        options.priors = freed(std::move(options.priors), far);
+        std::vector<Mistake> mistakes;
+        if (const auto trials = model.trials({rows, options, survey.day}, choice))
+            mistakes = search_mistakes(
+                readings, *trials,
+                result.model == model::kWholeDay ? kWholeDayMistakeAlpha : kMistakeAlpha);
+        if (!far.empty() && !mistakes.empty())
+            if (const auto trials = model.trials({rows, result.options, survey.day}, choice))
+                measure_again(mistakes, readings, *trials);
+        for (const Mistake& mistake : mistakes)
+            for (Finding& finding : findings_of(mistake, rows, choice, survey.sites))
+                findings.push_back(std::move(finding));
+        if (!mistakes.empty()) {
+            right = model::amended(rows, result.options, {mistakes.begin(), mistakes.end()});
+            const auto score =
+                model.score({right->rows, right->options, survey.day}, right->choice);
+            if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
+                findings.insert(findings.begin(), std::move(*finding));
+        }
+    }
+    // A mistake that was found is a misfit of its own.
+    if (!right) say_misfits(result, findings);
+    for (Finding& remark : survey_remarks(result, survey.rows, survey.sites))
+        findings.push_back(std::move(remark));
+    found.findings = std::move(findings);
+    found.amended = std::move(right);
+    say_far_terms(found, model, survey, result, far);
+    std::ranges::stable_sort(found.findings, {}, rank_of);
+    return found;
+}
+
+/// Returns the model that `auto` chooses without the mistakes; `present` if there is none.
+std::string model_without_mistakes(const model::AmendedSurvey& right, const SearchedSurvey& survey,
+                                   const std::string& present) {
+    try {
+        // The tilt of a calibration is subtracted from the amended rows already.
+        return model::correct_survey(right.rows, right.options, survey.day).model;
+    } catch (const reading::Refused&) {
+        return present;
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
+                                   const SearchedSurvey& survey) {
+    return search(result, survey).findings;
+}
+
+model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
+                                           model::SurveyOptions options,
+                                           const std::vector<Finding>& known) {
+    const auto correct = [&] {
+        auto result = model::correct_with_calibration(survey.rows, options, survey.day);
+        result.findings = known;
+        return result;
+    };
+    const auto search_and_hold = [&](model::SurveyCorrection& result) {
+        const std::vector<model::Coefficient> far = far_terms(result);
+        Search found = search(result, survey, far);
+        if (far.empty()) return found;
+        model::SurveyOptions with_held = options;
+        with_held.model = result.model;
+        with_held.priors = held(result.options.priors, far);
+        model::SurveyCorrection fit =
+            model::correct_with_calibration(survey.rows, with_held, survey.day);
+        fit.remarks = std::move(result.remarks);
+        fit.remarks.insert(fit.remarks.end(), found.remarks.begin(), found.remarks.end());
+        fit.choice = result.choice;
+        fit.choice_loso_mgal = result.choice_loso_mgal;
+        result = std::move(fit);
+        return found;
+    };
+    model::SurveyCorrection result = correct();
+    Search found = search_and_hold(result);
+    if (options.model == model::kAutomatic && result.model != model::kWholeDay) {
+        // The mistakes may be the reason why the whole-day model looks worse; it sees more of them.
+        model::SurveyCorrection of_day = result;
+        of_day.model = model::kWholeDay;
+        std::optional<model::AmendedSurvey> right;
+        if (survey.day != nullptr) right = search(of_day, survey).amended;
+        if (!right) right = found.amended;
+        const std::string chosen =
+            right ? model_without_mistakes(*right, survey, result.model) : result.model;
+        if (chosen != result.model) {
+            options.model = chosen;
+            result = correct();
+            result.remarks.push_back(text::message(
+                "{} is chosen from the readings without the mistakes that were found", chosen));
+            found = search_and_hold(result);
+        }
+    }
+    result.findings = std::move(found.findings);
+    for (model::CorrectedRow& row : result.rows) row.doubt_physical = physical_doubt(row.row);
+    return result;
+}
+
+}  // namespace a351::corrector::judgement

@@ -1,0 +1,62 @@
+#include "corrector/judgement/survey_remarks.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::judgement {
+namespace {
+
+using reading::Finding;
+using reading::FindingKind;
+
+/// Says that the base has one stay only.
+std::optional<Finding> base_not_revisited(const model::SurveyCorrection& result) {
+    constexpr std::size_t kFewestStays = 5;  // a shorter list is no survey day
+    std::set<std::pair<std::string, int>> stays;
+    for (const model::CorrectedRow& row : result.rows)
+        stays.emplace(row.row.site, row.row.occupation);
+    const std::string& base = result.options.base;
+    const auto is_base = [&](const auto& stay) { return stay.first == base; };
+    if (stays.size() < kFewestStays || std::ranges::count_if(stays, is_base) != 1)
+        return std::nullopt;
+    Finding finding{
+        .kind = FindingKind::base_not_revisited, .code = "base_not_revisited", .site = base};
+    finding.text = text::message(
+        "the base {} has 1 stay of {}, at least 2 show a drift without the references", base,
+        stays.size());
+    return finding;
+}
+
+std::optional<Finding> not_visited(const std::vector<reading::SurveyRow>& rows,
+                                   const std::vector<text::Site>& sites) {
+    constexpr std::size_t kMostNames = 10;
+    std::vector<std::string> names;
+    for (const text::Site& site : sites)
+        if (std::ranges::find(rows, site.name, &reading::SurveyRow::site) == rows.end())
+            names.push_back(site.name);
+    if (names.empty()) return std::nullopt;
+    Finding finding{.kind = FindingKind::not_visited, .code = "not_visited"};
+    const std::size_t more = names.size() - std::min(names.size(), kMostNames);
+    names.resize(names.size() - more);
+    finding.text = text::message("without a reading in this day: {}{}", text::joined(names),
+                                 more == 0 ? text::Message() : text::message(" and {} more", more));
+    return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> survey_remarks(const model::SurveyCorrection& result,
+                                    const std::vector<reading::SurveyRow>& rows,
+                                    const std::vector<text::Site>& sites) {
+    std::vector<Finding> remarks;
+    if (auto finding = base_not_revisited(result)) remarks.push_back(std::move(*finding));
+    if (auto finding = not_visited(rows, sites)) remarks.push_back(std::move(*finding));
+    return remarks;
+}
+
+}  // namespace a351::corrector::judgement

@@ -1,0 +1,149 @@
+// Where a scale, a step and a reference meet: which of them is named, and with which uncertainty.
+#include <cmath>
+#include <random>
+#include <set>
+#include "tests/support/catch.hpp"
+
+#include "corrector/judgement/survey_findings.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+using reading::Finding;
+using reading::FindingKind;
+
+namespace {
+
+constexpr double kReadingSd_mgal = 0.005;
+
+/// A spring gravimeter on a line: a station, its gravity above the first one and its reference.
+struct Place {
+    std::string site;
+    double gravity_mgal = 0.0;
+    bool is_known = false;
+};
+
+/// Readings of one meter or several that are carried together, with a drift.
+struct Line {
+    std::vector<reading::SurveyRow> rows;
+    std::mt19937_64 generator{7};
+
+    /// Adds a reading of each meter at a place.
+    void visit(const Place& place, double hours, const std::vector<double>& scales) {
+        for (std::size_t k = 0; k < scales.size(); ++k) {
+            reading::SurveyRow row;
+            row.site = place.site;
+            row.occupation =
+                1 + static_cast<int>(std::ranges::count(rows, place.site, &reading::SurveyRow::site));
+            row.time = parse_rfc3339("2024-06-12T06:00:00Z").value() +
+                       std::chrono::seconds(std::lround(3600.0 * hours) + 12 * std::ssize(rows) % 72);
+            row.instrument = "M" + std::to_string(k);
+            row.loop = 1;
+            row.has_temperature = false;
+            if (place.is_known) {
+                row.reference = MilliGal(980000.0 + place.gravity_mgal);
+                row.u_reference = MilliGal(0.01);
+            }
+            // A sum of twelve uniform numbers is normal enough, and the same on every machine.
+            double error = -6.0;
+            for (int i = 0; i < 12; ++i)
+                error += static_cast<double>(generator() >> 11) * 0x1p-53;
+            row.acceleration = MilliGal(4000.0 + 100.0 * static_cast<double>(k) +
+                                        scales[k] * place.gravity_mgal + 0.02 * hours +
+                                        kReadingSd_mgal * error);
+            rows.push_back(row);
+        }
+    }
+
+    /// Adds an offset to all readings of a meter from an hour on.
+    void step(std::size_t from, const std::string& meter, double mgal) {
+        for (std::size_t i = from; i < rows.size(); ++i)
+            if (rows[i].instrument == meter)
+                rows[i].acceleration = rows[i].acceleration + MilliGal(mgal);
+    }
+
+    [[nodiscard]] model::SurveyCorrection corrected(std::optional<adjustment::Prior> scale = {}) const {
+        model::SurveyOptions options;
+        options.model = "network";
+        options.priors.reading_sd_mgal = kReadingSd_mgal;
+        if (scale) adjustment::set_prior(options.priors, "test", "scale", *scale);
+        return judgement::correct_and_search({rows, {}, nullptr}, options);
+    }
+};
+
+const std::vector<Place> kStations{{"A", 0.0, true},   {"B", -151.2, false}, {"C", -60.0, false},
+                                   {"D", 35.0, false}, {"E", -97.0, false}};
+
+/// A day out and home, each station twice.
+Line day(const std::vector<double>& scales) {
+    Line line;
+    double hours = 0.0;
+    for (const Place& place : kStations) line.visit(place, hours += 0.5, scales);
+    for (auto place = kStations.rbegin(); place != kStations.rend(); ++place)
+        line.visit(*place, hours += 0.5, scales);
+    return line;
+}
+
+std::vector<Finding> mistakes(const model::SurveyCorrection& result) {
+    std::vector<Finding> list;
+    for (const Finding& finding : result.findings)
+        if (!reading::is_remark(finding)) list.push_back(finding);
+    return list;
+}
+
+}  // namespace
+
+TEST_CASE("meters whose scales differ by more than their prior are named, and no reference is",
+          "[mistake][scale]") {
+    const Line six = day({1.0007, 1.0004, 1.0001, 0.9999, 0.9996, 0.9993});
+    const auto found = mistakes(six.corrected());
+    REQUIRE(!found.empty());
+    std::set<std::string> texts;
+    for (const Finding& finding : found) {
+        CHECK(finding.kind == FindingKind::scale);
+        CHECK(texts.insert(finding.text.english()).second);
+    }
+    CHECK(mistakes(six.corrected(adjustment::Prior{1.0, 0.001})).empty());
+}
+
+TEST_CASE("a step is named with the uncertainty that the scale gives it, and the scale is not",
+          "[mistake][scale]") {
+    constexpr double kStep_mgal = 97.67;
+    Line line = day({1.0});
+    line.step(6, "M0", kStep_mgal);
+    const auto result = line.corrected(adjustment::Prior{1.0, 0.002});
+    const auto found = mistakes(result);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].kind == FindingKind::step);
+    CHECK(std::abs(*found[0].size_mgal - kStep_mgal) < 3.0 * *found[0].u_mgal);
+    // The scale turns an error of 0.2 % of a difference of gravity into an error of the step.
+    CHECK(*found[0].u_mgal > 0.001);
+    // A scale that only the mistake makes is not used.
+    REQUIRE(result.scales.size() == 1);
+    CHECK(std::abs(result.scales[0].value - 1.0) < 4.0 * 0.002);
+}
+
+TEST_CASE("a step of one of two meters is a step of this meter only", "[mistake][scale]") {
+    Line line = day({1.0, 1.0});
+    line.step(10, "M1", 0.4);
+    const auto found = mistakes(line.corrected());
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].kind == FindingKind::step);
+    CHECK(std::abs(*found[0].size_mgal - 0.4) < 0.02);
+    CHECK_THAT(found[0].text.english(), ContainsSubstring("M1"));
+}
+
+TEST_CASE("a step says what the prior of the scale leaves open", "[mistake][scale]") {
+    // The stations before the step are close together, and so are those after it: only the prior says
+    // that the difference of 97 mGal is a step and not a scale of zero.
+    const Place a{"A", 0.0, true}, b{"B", 0.3, true}, c{"C", -97.0, true}, d{"D", -97.2, true};
+    Line line;
+    double hours = 0.0;
+    for (const Place& place : {a, b, a, b, c, d, c, d}) line.visit(place, hours += 0.4, {1.0});
+    line.step(4, "M0", 97.67);
+    const auto found = mistakes(line.corrected(adjustment::Prior{1.0, 0.002}));
+    const auto step = std::ranges::find(found, FindingKind::step, &Finding::kind);
+    REQUIRE(step != found.end());
+    CHECK(std::abs(*step->size_mgal - 97.67) < 3.0 * *step->u_mgal);
+    CHECK(*step->u_mgal > 0.9 * 0.002 * 97.0);
+    CHECK(*step->u_mgal < 1.5 * 0.002 * 97.0);
+}

@@ -1,0 +1,229 @@
+#include "corrector/judgement/reading_grade.hpp"
+
+#include "tests/support/catch.hpp"
+
+#include "corrector/judgement/reading_name.hpp"
+
+using namespace a351;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
+using namespace a351::corrector::judgement;
+
+namespace {
+
+/// Returns readings of different stations, a day apart, exactly at the limits of trust.
+SurveyCorrection quiet(std::size_t count) {
+    SurveyCorrection result;
+    result.score.s_mgal = 2.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        CorrectedRow row;
+        row.row.site = std::string(1, static_cast<char>('A' + i));
+        row.row.time = UtcTime(std::chrono::days(i));
+        row.row.rate_degc_per_h = 0.2;
+        row.is_used = true;
+        row.residual = MilliGal(-4.0);
+        row.u_corrected = MilliGal(2.0);
+        result.rows.push_back(row);
+        StationValue station;
+        station.site = row.row.site;
+        result.stations.push_back(station);
+    }
+    return result;
+}
+
+Grade first_grade(const SurveyCorrection& result) { return grade_readings(result).front().grade; }
+
+std::string first_reasons(const SurveyCorrection& result) {
+    std::string text;
+    const ReadingGrade first = grade_readings(result).front();
+    for (const Reason& reason : first.reasons) text += reason.text.english() + '|';
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("a reading at its limits is trusted", "[report][grade]") {
+    const SurveyCorrection result = quiet(2);
+    CHECK(first_grade(result) == Grade::trust);
+    CHECK(first_reasons(result).empty());
+    CHECK(grade_of_station(result, grade_readings(result), "B").grade == Grade::trust);
+}
+
+TEST_CASE("a moving temperature is graded repeat, or care if the model has a rate term",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(2);
+    result.rows[0].row.rate_degc_per_h = -0.21;
+    CHECK(first_grade(result) == Grade::repeat);
+    CHECK(first_reasons(result) ==
+          "temperature not steady: rate -0.210 degC/h, which the model does not correct|");
+    result.rows[0].rate_correction = MilliGal(5.25);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK_THAT(first_reasons(result),
+               ContainsSubstring("depends on a rate correction of 5.2 mGal"));
+}
+
+TEST_CASE("a temperature that moves one way is graded repeat above the limit of its range",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    RecordSummary& record = result.rows[0].row.record.emplace();
+    record.temperature_range = DegC(0.051);
+    record.temperature_shape = TemperatureShape::monotone;
+    CHECK(first_grade(result) == Grade::repeat);
+    record.temperature_shape = TemperatureShape::turning;
+    CHECK(first_grade(result) == Grade::trust);
+    record.temperature_shape = TemperatureShape::half_wave;
+    CHECK(first_grade(result) == Grade::repeat);
+}
+
+TEST_CASE("the whole-day model is graded by its prediction without the station",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.own = WholeDayPart{};
+    result.rows[0].residual = MilliGal(-9.0);
+    result.rows[0].studentised_residual = 1.9;
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[0].studentised_residual = -3.1;
+    CHECK(first_grade(result) == Grade::repeat);
+    CHECK(first_reasons(result) ==
+          "6.2 mGal above its reference when its station is left out, 3.1 times its uncertainty|");
+}
+
+TEST_CASE("a reading whose samples are worse than its uncertainty is graded repeat",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.record.emplace();
+    auto& record = *result.rows[0].row.record;
+    record.standard_error = MilliGal(2.0);
+    record.rectification = MilliGal(2.0);
+    CHECK(first_grade(result) == Grade::trust);
+    record.standard_error = MilliGal(2.1);
+    CHECK(first_grade(result) == Grade::repeat);
+    CHECK(first_reasons(result) ==
+          "the scatter of its samples alone gives 2.1 mGal, more than its u of 2.0 mGal|");
+    record.standard_error.reset();
+    record.rectification = MilliGal(77.6);
+    CHECK(first_grade(result) == Grade::repeat);
+    CHECK(first_reasons(result) ==
+          "the box was shaken as on a drive: this changes the norm of its samples by 77.6 mGal, "
+          "more than its u of 2.0 mGal|");
+}
+
+TEST_CASE("set-ups of one station are compared by the placement scatter of the whole-day model",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(2);
+    result.own = WholeDayPart{};
+    result.score.s_mgal.reset();
+    result.coefficients = {{"flicker_mgal", 9.0, {}}, {"placement_mgal", 1.5, {}}};
+    result.rows[1].row.site = "A";
+    result.stations.pop_back();
+    result.rows[1].corrected = MilliGal(4.2);  // 2 sqrt(2) 1.5 = 4.24
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[1].corrected = MilliGal(4.3);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_reasons(result) ==
+          "differs by 4.3 mGal from A (1b), 2.0 times the value expected from placement|");
+}
+
+TEST_CASE("problems of the trend do not lower the grade of the whole-day model",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.notes = {"fallback", "disturbed_end"};
+    result.rows[0].row.record.emplace().smoother_mean = MilliGal(3.0);
+    CHECK(first_grade(result) == Grade::care);
+    result.own = WholeDayPart{};
+    CHECK(first_grade(result) == Grade::trust);
+    CHECK(first_reasons(result).empty());
+    result.rows[0].row.notes = {"pulse"};
+    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_reasons(result) == "a knock: the samples around it were left out|");
+}
+
+TEST_CASE("an excluded reading is graded repeat, an amended one can be trusted",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.notes = {"excluded"};
+    CHECK(first_grade(result) == Grade::repeat);
+    result.rows[0].row.notes = {"retimed", "renamed"};
+    CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("a residual above two u is graded care, above three u repeat", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].residual = MilliGal(-4.1);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK_THAT(first_reasons(result), ContainsSubstring("4.1 mGal above its reference"));
+    result.rows[0].residual = MilliGal(6.1);
+    CHECK(first_grade(result) == Grade::repeat);
+    result.rows[0].residual.reset();
+    CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("a reading whose trends disagree is graded care", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.record.emplace().smoother_mean = MilliGal(-0.51);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK_THAT(first_reasons(result), ContainsSubstring("differ by -0.51 mGal"));
+    result.rows[0].row.record->smoother_mean = MilliGal(0.5);
+    CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("a reading flagged by the operator is graded repeat, or care if it is in the fit",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.is_flagged = true;
+    CHECK(first_grade(result) == Grade::care);
+    result.rows[0].is_used = false;
+    CHECK(first_grade(result) == Grade::repeat);
+}
+
+TEST_CASE("known notes are graded by their meaning, unknown notes as care", "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    result.rows[0].row.notes = {"disturbed_end"};
+    CHECK(first_grade(result) == Grade::trust);
+    CHECK(first_reasons(result) == "only the part before a disturbance at its end was averaged|");
+    result.rows[0].row.notes = {"fallback"};
+    CHECK(first_grade(result) == Grade::care);
+    result.rows[0].row.notes = {"seen from afar"};
+    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_reasons(result) == "seen from afar|");
+}
+
+TEST_CASE("readings of one station that disagree are both graded care", "[report][grade]") {
+    SurveyCorrection result = quiet(2);
+    result.rows[1].row.site = "A";
+    result.rows[1].row.occupation = 2;
+    result.stations.pop_back();
+    result.rows[1].corrected = MilliGal(5.6);  // 2 sqrt(2) s = 5.66
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[1].corrected = MilliGal(5.7);
+    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_reasons(result) ==
+          "differs by 5.7 mGal from A (2), 2.0 times the value expected from s|");
+    CHECK(grade_readings(result)[1].reasons.front().text ==
+          "differs by 5.7 mGal from A (1), 2.0 times the value expected from s");
+    result.rows[1].row.rate_degc_per_h = 0.3;  // it must be repeated and is not used for comparison
+    CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("a station has the best grade of its readings, with their reasons", "[report][grade]") {
+    SurveyCorrection result = quiet(3);
+    result.rows[2].row.site = "A";
+    result.rows[2].row.occupation = 2;
+    result.stations.pop_back();
+    const Reason x{"x", {}, "x"}, y{"y", {}, "y"};
+    std::vector<ReadingGrade> grades{{Grade::repeat, {x}}, {Grade::repeat, {x, y}}, {}};
+    CHECK(grade_of_station(result, grades, "A").grade == Grade::trust);
+    CHECK(grade_of_station(result, grades, "A").reasons.empty());
+    CHECK(reason_text(grade_of_station(result, grades, "B")) == "B (1): x; y");
+    grades[2] = {Grade::care, {y}};
+    CHECK(grade_of_station(result, grades, "A").grade == Grade::care);
+    CHECK(reason_text(grade_of_station(result, grades, "A")) == "A (2): y");
+}
+
+TEST_CASE("set-ups of one stay are distinguished by letters", "[report][grade]") {
+    SurveyCorrection result = quiet(3);
+    result.rows[2].row.site = "A";
+    CHECK(reading_name(result.rows, 0) == "A (1a)");
+    CHECK(reading_name(result.rows, 1) == "B (1)");
+    CHECK(reading_name(result.rows, 2) == "A (1b)");
+}

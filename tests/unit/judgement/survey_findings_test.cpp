@@ -1,0 +1,232 @@
+#include "corrector/judgement/survey_findings.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include "tests/support/catch.hpp"
+
+#include "corrector/model/survey_correction.hpp"
+#include "tests/unit/model/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector;
+using reading::Finding;
+using reading::FindingKind;
+
+namespace {
+
+/// A made-up day with a scatter of 0.3 mGal, and the list of its sites with one more.
+struct Day {
+    std::vector<reading::SurveyRow> rows = model::made_up::day();
+    std::vector<text::Site> sites;
+
+    Day() {
+        const std::vector<double> errors_mgal{0.3,  -0.2, 0.1,  -0.4, 0.2,  0.4,
+                                              -0.3, 0.1,  -0.1, 0.3,  -0.3, 0.0};
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            rows[i].acceleration = rows[i].acceleration + MilliGal(errors_mgal[i]);
+            rows[i].listed = {rows[i].site, rows[i].occupation, std::nullopt};
+            if (text::find_site(sites, rows[i].site) == nullptr)
+                sites.push_back(
+                    {rows[i].site, Degrees(140.0), Degrees(36.0), Metres(0.0), rows[i].reference});
+        }
+        sites.push_back({"S9", Degrees(140.0), Degrees(36.0), Metres(0.0), MilliGal(979900.0)});
+    }
+
+    [[nodiscard]] std::vector<Finding> findings(const std::string& model = "t-rate-drift") const {
+        model::SurveyOptions options;
+        options.model = model;
+        return judgement::find_mistakes(model::correct_survey(rows, options), {rows, sites, nullptr});
+    }
+
+    void off(std::size_t i, double mgal) {
+        rows[i].acceleration = rows[i].acceleration + MilliGal(mgal);
+    }
+};
+
+std::vector<std::string> kinds(const std::vector<Finding>& findings) {
+    std::vector<std::string> list;
+    for (const Finding& finding : findings) list.emplace_back(to_text(finding.kind));
+    return list;
+}
+
+using Kinds = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("of a good day only the benchmarks that were not visited are said", "[mistake]") {
+    for (const std::string model : {"t-rate-drift", "network", "paper"}) {
+        const auto findings = Day().findings(model);
+        REQUIRE(kinds(findings) == Kinds{"not_visited"});
+        CHECK(findings.back().text == "without a reading in this day: S9");
+        CHECK_FALSE(findings.back().is_headline);
+    }
+}
+
+TEST_CASE("a wrong reference is named with its size and an amendment", "[mistake]") {
+    Day day;
+    for (auto& row : day.rows)
+        if (row.site == "S2") row.reference = *row.reference + MilliGal(50.0);
+    for (const std::string model : {"t-rate-drift", "network"}) {
+        const auto findings = day.findings(model);
+        REQUIRE(kinds(findings) == Kinds{"unusable_day", "reference", "not_visited"});
+        CHECK(findings[1].site == "S2");
+        CHECK(std::abs(*findings[1].size_mgal - 50.0) < 3.0);
+        CHECK(findings[1].text.english().find("mGal too high") != std::string::npos);
+        CHECK(findings[1].amendment.find("[[reference]]\nsite = \"S2\"\nuse = false\n") == 0);
+        CHECK(findings[1].is_headline);
+    }
+}
+
+TEST_CASE("a reading under another site's name is named with that site", "[mistake]") {
+    Day day;
+    const text::Site& other = day.sites.back();
+    // S5 was read, but it is called S9
+    day.rows[6].site = day.rows[6].listed.site = other.name;
+    day.rows[6].reference = other.gravity;
+    const auto findings = day.findings();
+    REQUIRE(kinds(findings) == Kinds{"unusable_day", "other_name", "not_visited"});
+    CHECK(findings[1].site == "S9");
+    CHECK(findings[1].other_site == "S5");
+    CHECK(findings[1].code == "other_name_or_reference");
+    CHECK(findings[1].amendment ==
+          "[[rename]]\nsite = \"S9\"\noccupation = 1\nto = \"S5\"\nreason = \"reads like S5\"\n");
+}
+
+TEST_CASE("swapped names are two findings, a step has its time", "[mistake]") {
+    Day swapped;
+    std::swap(swapped.rows[1].site, swapped.rows[8].site);
+    std::swap(swapped.rows[1].reference, swapped.rows[8].reference);
+    const auto names = swapped.findings();
+    REQUIRE(names.size() >= 2);
+    const auto is_name = [](const Finding& finding) {
+        return finding.kind == FindingKind::other_name;
+    };
+    CHECK(std::ranges::count_if(names, is_name) == 2);
+    // One proposal renames both: half of it would make two stays of one site.
+    const auto first = std::ranges::find_if(names, is_name);
+    CHECK(std::next(first)->amendment.empty());
+    CHECK(first->amendment.find("to = \"" + first->other_site + "\"") != std::string::npos);
+    CHECK(first->amendment.find("to = \"" + std::next(first)->other_site + "\"") !=
+          std::string::npos);
+
+    Day stepped;
+    for (std::size_t i = 6; i < stepped.rows.size(); ++i) stepped.off(i, -30.0);
+    for (const std::string model : {"t-rate-drift", "network"}) {
+        const auto found = stepped.findings(model);
+        const auto step = std::ranges::find(found, FindingKind::step, &Finding::kind);
+        REQUIRE(step != found.end());
+        CHECK(std::abs(*step->size_mgal + 30.0) < 3.0);
+        CHECK(*step->time > stepped.rows[5].time);
+        CHECK(*step->time < stepped.rows[6].time);
+        CHECK(step->text.english().find("too low") != std::string::npos);
+        CHECK(step->amendment.find("[[step]]\ntime_utc = ") == 0);
+    }
+}
+
+TEST_CASE("a bad reading of a station with others is to be repeated", "[mistake]") {
+    Day day;
+    day.off(9, 25.0);  // the second stay at S2
+    const auto findings = day.findings();
+    const auto bad = std::ranges::find(findings, FindingKind::bad_reading, &Finding::kind);
+    REQUIRE(bad != findings.end());
+    CHECK(bad->site == "S2");
+    CHECK(bad->occupation == 2);
+    CHECK(bad->amendment.find("[[exclude]]\nsite = \"S2\"\noccupation = 2\n") == 0);
+    day.rows[9].is_excluded = true;
+    CHECK(kinds(day.findings()) == Kinds{"not_visited"});
+}
+
+TEST_CASE("two bad readings of one day are both named", "[mistake]") {
+    Day day;
+    day.off(2, 60.0);
+    day.off(8, -40.0);
+    std::set<std::string> sites;
+    for (const Finding& finding : day.findings())
+        if (finding.size_mgal) sites.insert(finding.site);
+    CHECK(sites == std::set<std::string>{"S2", "S7"});
+}
+
+TEST_CASE("a base with one stay is named", "[mistake]") {
+    Day day;
+    for (const std::size_t i : {std::size_t{4}, std::size_t{11}}) {
+        day.rows[i].site = "S1";
+        day.rows[i].occupation = static_cast<int>(i);
+        day.rows[i].acceleration =
+            day.rows[i].acceleration + (*day.rows[1].reference - *day.rows[i].reference);
+        day.rows[i].reference = day.rows[1].reference;
+    }
+    const auto found = day.findings();
+    REQUIRE(kinds(found) == Kinds{"base_not_revisited", "not_visited"});
+    CHECK(found[0].text ==
+          "the base B has 1 stay of 12, at least 2 show a drift without the references");
+}
+
+TEST_CASE("a day that the model does not fit is named, with the reading after the step",
+          "[mistake]") {
+    using whole_day::Misfit;
+    const Day day;
+    model::SurveyOptions options;
+    options.model = "paper";  // a model that is not searched
+    model::SurveyCorrection result = model::correct_survey(day.rows, options);
+    const auto said = [&](const whole_day::FitTest& test) {
+        model::WholeDayPart part;
+        part.fit_tests = {test};
+        result.own = part;
+        const auto findings = judgement::find_mistakes(result, {day.rows, day.sites, nullptr});
+        REQUIRE_FALSE(findings.empty());
+        return findings.front();
+    };
+    const Finding step = said({Misfit::step, 0.007, 4});
+    CHECK(step.code == "misfit_step");
+    CHECK(step.site == day.rows[4].site);
+    CHECK_FALSE(step.is_headline);
+    CHECK(said({Misfit::curvature, 0.007, 1}).text.english() ==
+          "the model does not fit this day: the residuals follow the square of the time");
+    CHECK(said({Misfit::step, 0.009, 4}).kind != FindingKind::misfit);
+    CHECK(said({Misfit::tails, 0.001, 4}).kind != FindingKind::misfit);
+}
+
+TEST_CASE("a table has findings, but no amendments", "[mistake]") {
+    Day day;
+    for (auto& row : day.rows) row.listed = {};
+    day.off(9, 25.0);
+    for (const Finding& finding : day.findings()) CHECK(finding.amendment.empty());
+}
+
+TEST_CASE("findings have all keys, and null for what does not apply", "[mistake]") {
+    const auto json = reading::findings_json(
+        {{.kind = FindingKind::not_visited, .code = "not_visited", .text = "x"}});
+    CHECK(
+        json.dump() ==
+        R"([{"kind":"not_visited","code":"not_visited","is_headline":false,"site":null,"occupation":null,)"
+        R"("key":null,"time_utc":null,"size_mgal":null,"u_mgal":null,"other_site":null,"text":"x","text_parts":["x"],"amendment":null}])");
+}
+
+TEST_CASE("a mistake does not decide which model is chosen", "[mistake]") {
+    const Day good;
+    const std::string chosen = model::correct_survey(good.rows, {}).model;
+    CHECK(chosen == "t-rate-drift");
+    CHECK(judgement::correct_and_search({good.rows, good.sites, nullptr}, {}).remarks.empty());
+
+    Day day;
+    day.off(2, 100.0);
+    REQUIRE(model::correct_survey(day.rows, {}).model != chosen);
+    const auto result = judgement::correct_and_search({day.rows, day.sites, nullptr}, {});
+    CHECK(result.model == chosen);
+    REQUIRE(!result.remarks.empty());
+    CHECK(result.remarks.back() ==
+          "t-rate-drift is chosen from the readings without the mistakes that were found");
+    CHECK(kinds(result.findings).front() == "unusable_day");
+
+    // A model that is asked for is kept, and what is known already stays.
+    model::SurveyOptions options;
+    options.model = "t";
+    const Finding known{
+        .kind = FindingKind::no_stop, .code = "no_stop", .text = "S1 (1) has no stop"};
+    const auto kept = judgement::correct_and_search({day.rows, day.sites, nullptr}, options, {known});
+    CHECK(kept.model == "t");
+    CHECK(std::ranges::count(kept.findings, known.text, &Finding::text) == 1);
+}
