@@ -24,7 +24,7 @@ struct JointStation {
     /// Gravity of the adjustment and its standard uncertainty; absent without an adjustment, or if
     /// all readings are marked.
     std::optional<MilliGal> gravity, u_gravity;
-    std::optional<MilliGal> reference;  ///< Reference of the last survey that has one.
+    std::optional<MilliGal> reference;  ///< Reference in the last survey that has one.
     std::optional<MilliGal> residual;   ///< reference - gravity.
     /// True: gravity has seen the station's reference; without an adjustment a survey's value.
     bool is_in_sample = false;
