@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -6,6 +7,7 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
+#include "corrector/command/progress_bar.hpp"
 #include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
@@ -67,8 +69,10 @@ void correct_table(TableOptions options) {
                   adjustment::kGreatestSd_mgal);
     number_option("--reading-sd", options.survey.priors.reading_sd_mgal, adjustment::kLeastSd_mgal,
                   adjustment::kGreatestSd_mgal);
-    model::SurveyCorrection result =
-        judgement::correct_and_search({rows, sites, nullptr}, options.survey);
+    model::SurveyCorrection result = [&] {
+        ProgressBar bar("search for mistakes");
+        return judgement::correct_and_search({rows, sites, nullptr, std::ref(bar)}, options.survey);
+    }();
     if (density) result::add_anomalies(result.stations, sites, *density);
 
     nlohmann::ordered_json settings;

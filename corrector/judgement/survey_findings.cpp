@@ -96,6 +96,28 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
         .is_headline = true};
 }
 
+/// Trials that report how many there were.
+class ReportedTrials final : public adjustment::Trials {
+public:
+    ReportedTrials(std::unique_ptr<adjustment::Trials> trials, const SearchedSurvey& survey)
+        : trials_(std::move(trials)), survey_(survey) {}
+
+    [[nodiscard]] std::shared_ptr<const adjustment::Residuals> residuals(
+        const std::vector<adjustment::Alternative>& known,
+        const std::vector<adjustment::Alternative>& quiet) override {
+        // Without a mistake there are three rounds of six trials, and two of refinement.
+        constexpr std::size_t kUsual = 21;
+        if (survey_.progress) survey_.progress(done_, std::max(kUsual, done_ + 1));
+        ++done_;
+        return trials_->residuals(known, quiet);
+    }
+
+private:
+    std::unique_ptr<adjustment::Trials> trials_;
+    const SearchedSurvey& survey_;
+    std::size_t done_ = 0;
+};
+
 /// Findings of a survey, and the survey without its mistakes.
 struct Search {
     std::vector<Finding> findings;
@@ -139,10 +161,12 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
         model::SurveyOptions options = result.options;
         options.priors = freed(std::move(options.priors), far);
         std::vector<Mistake> mistakes;
-        if (const auto trials = model.trials({rows, options, survey.day}, choice))
+        if (auto plain = model.trials({rows, options, survey.day}, choice)) {
+            ReportedTrials trials(std::move(plain), survey);
             mistakes = search_mistakes(
-                readings, *trials,
+                readings, trials,
                 result.model == model::kWholeDay ? kWholeDayMistakeAlpha : kMistakeAlpha);
+        }
         if (!far.empty() && !mistakes.empty())
             if (const auto trials = model.trials({rows, result.options, survey.day}, choice))
                 measure_again(mistakes, readings, *trials);

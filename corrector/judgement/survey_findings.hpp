@@ -5,6 +5,8 @@
 ///     const SurveyCorrection result = correct_and_search({rows, sites, day}, options);
 ///     result.findings;
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
@@ -20,15 +22,16 @@ struct SearchedSurvey {
     const std::vector<reading::SurveyRow>& rows;  ///< As they were corrected.
     const std::vector<text::Site>& sites;
     const reading::DayRecord* day;  ///< Null: there are only averages.
+    /// Called before each trial of the search with the trials done and those expected.
+    std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
 /// Searches a corrected survey for mistakes (mistake_search.hpp), with the model that was applied.
 ///
 /// A reading that is off by the difference between two references of the list is said to be of the
 /// other site, if this is within two and a half standard uncertainties.  `paper` is not searched.
+/// Remarks are added about a base with one stay, and benchmarks that were not visited.
 /// @param result  with the findings that are known already, for example moved boxes.
-/// Remarks are added about temperatures that moved by more than the model corrects, a base with one
-/// stay, and benchmarks that were not visited.
 /// @return these and the new ones, the worst first: an unusable day, headlines, other mistakes,
 ///         remarks, benchmarks that were not visited.
 [[nodiscard]] std::vector<reading::Finding> find_mistakes(const model::SurveyCorrection& result,
