@@ -13,6 +13,8 @@ using Index = Eigen::Index;
 /// Least pivot of a column of length 1 that is determined.  Reason: rounding leaves about 1e-13; the
 /// root, 3e-6, is a part of a column that no survey can separate from the others.
 constexpr double kLeastPivot = 1e-11;
+/// Pivot that rounding can leave.
+constexpr double kRounding = 1e-13;
 /// Least part of an unknown in a combination that changes no row.
 constexpr double kLeastPart = 1e-4;
 /// Least pivot without a refinement of Q.  Reason: the relative error of Q is about eps / pivot.
@@ -51,8 +53,12 @@ NormalEquations::NormalEquations(const Equations& equations)
       of_both_(equations.stations) {
     const auto terms = static_cast<Index>(equations.terms);
     Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(terms, terms);
+    prior_weights_ = Eigen::VectorXd::Zero(terms);
     for (const Equation& row : equations.rows) {
         const double weight = 1.0 / (row.sd * row.sd);
+        if (row.unknowns.size() == 1 && row.unknowns.front().unknown >= equations.stations)
+            prior_weights_(static_cast<Index>(row.unknowns.front().unknown - equations.stations)) +=
+                weight;
         for (const auto& [a, factor] : row.unknowns) {
             if (a < equations.stations) {
                 of_stations_(static_cast<Index>(a)) += weight * factor * factor;
@@ -92,9 +98,20 @@ NormalEquations::NormalEquations(const Equations& equations)
         if (!(of_stations_(static_cast<Index>(station)) > 0.0)) undetermined_.push_back(station);
     factor_.emplace(reduced);
     if (terms == 0) return;
-    if (factor_->is_positive_definite())
-        least_pivot_ = factor_->lower().diagonal().cwiseAbs2().minCoeff();
-    if (!factor_->is_positive_definite() || least_pivot_ <= kLeastPivot) find_undetermined(reduced);
+    bool is_determined = factor_->is_positive_definite();
+    if (is_determined) {
+        const Eigen::VectorXd pivots = factor_->lower().diagonal().cwiseAbs2();
+        least_pivot_ = pivots.minCoeff();
+        for (Index k = 0; k < terms; ++k)
+            is_determined = is_determined && pivots(k) > least_pivot_of(k);
+    }
+    if (!is_determined) find_undetermined(reduced);
+}
+
+double NormalEquations::least_pivot_of(Index term) const {
+    // A prior determines its term, however many readings do not.
+    const double prior = 0.5 * prior_weights_(term) * scale_(term) * scale_(term);
+    return prior > kRounding ? std::min(prior, kLeastPivot) : kLeastPivot;
 }
 
 void NormalEquations::find_undetermined(const Eigen::MatrixXd& reduced) {
@@ -105,7 +122,7 @@ void NormalEquations::find_undetermined(const Eigen::MatrixXd& reduced) {
     std::vector<Index> pivots;
     std::set<std::size_t> open(undetermined_.begin(), undetermined_.end());
     for (Index k = 0; k < n; ++k) {
-        if (left(k, k) > kLeastPivot) {
+        if (left(k, k) > least_pivot_of(k)) {
             for (Index j = k + 1; j < n; ++j) {
                 const double part = left(j, k) / left(k, k);
                 if (part == 0.0) continue;
@@ -183,6 +200,7 @@ Adjustment::Adjustment(Equations equations, Cofactor cofactor)
     : equations_(std::move(equations)), normal_(equations_) {
     if (!undetermined().empty()) return;
     const std::vector<Equation>& rows = equations_.rows;
+    holds_a_term_ = std::ranges::any_of(rows, [](const Equation& row) { return row.true_ratio != 1.0; });
     Eigen::VectorXd left(std::ssize(rows));
     for (std::size_t i = 0; i < rows.size(); ++i) left(static_cast<Index>(i)) = rows[i].value;
     Unknowns all{Eigen::VectorXd::Zero(static_cast<Index>(equations_.stations)),
@@ -233,7 +251,11 @@ std::optional<double> Adjustment::s0() const {
 
 double Adjustment::redundancy(std::size_t row) const {
     const Equation& equation = equations_.rows[row];
-    return 1.0 - variance(equation.unknowns) / (equation.sd * equation.sd);
+    double square = 0.0;
+    for (const Entry& a : equation.unknowns)
+        for (const Entry& b : equation.unknowns)
+            square += a.factor * b.factor * cofactor(a.unknown, b.unknown);
+    return 1.0 - square / (equation.sd * equation.sd);
 }
 
 std::optional<double> Adjustment::studentised(std::size_t row) const {
@@ -246,7 +268,7 @@ std::optional<double> Adjustment::studentised(std::size_t row) const {
     return residuals_[row] / (sd * std::sqrt(square * r));
 }
 
-double Adjustment::covariance(std::size_t a, std::size_t b) const {
+double Adjustment::cofactor(std::size_t a, std::size_t b) const {
     return cofactor_(static_cast<Index>(a), static_cast<Index>(b));
 }
 
@@ -255,15 +277,19 @@ double Adjustment::covariance(const Combination& a, const Combination& b, double
         double sum = 0.0;
         for (const Entry& l : left)
             for (const Entry& r : right)
-                sum += l.factor * r.factor * covariance(l.unknown, r.unknown);
+                sum += l.factor * r.factor * cofactor(l.unknown, r.unknown);
         return sum;
     };
-    if (noise == 1.0) return stated(a, b);
-    double of_priors = 0.0;
-    for (const Equation& row : equations_.rows)
-        if (!row.is_reading)
-            of_priors += stated(a, row.unknowns) * stated(b, row.unknowns) / (row.sd * row.sd);
-    return noise * noise * stated(a, b) + (1.0 - noise * noise) * of_priors;
+    if (noise == 1.0 && !holds_a_term_) return stated(a, b);
+    // Error of x: Q A' W e.  A row of another standard deviation than stated counts with its own.
+    double others = 0.0, true_others = 0.0;
+    for (const Equation& row : equations_.rows) {
+        if (row.is_reading) continue;
+        const double part = stated(a, row.unknowns) * stated(b, row.unknowns) / (row.sd * row.sd);
+        others += part;
+        true_others += row.true_ratio * row.true_ratio * part;
+    }
+    return noise * noise * (stated(a, b) - others) + true_others;
 }
 
 }  // namespace a351::corrector::adjustment

@@ -68,10 +68,13 @@ public:
 private:
     /// Finds combinations of unknowns that change no row.
     void find_undetermined(const Eigen::MatrixXd& reduced);
+    /// Returns the least pivot of a term that is determined.
+    [[nodiscard]] double least_pivot_of(Eigen::Index term) const;
 
     Eigen::VectorXd of_stations_;                  ///< D.
     std::vector<std::vector<Entry>> of_both_;      ///< B, for each station its terms.
     Eigen::VectorXd scale_;                        ///< (terms) 1 / length of the columns.
+    Eigen::VectorXd prior_weights_;  ///< (terms) 1 / sd^2 of their priors; 0 without one.
     std::optional<linear_algebra::Cholesky> factor_;  ///< S, scaled.
     double least_pivot_ = 1.0;
     std::vector<std::size_t> undetermined_;
@@ -112,11 +115,12 @@ public:
     /// redundancy, if dof < 2, or if s_i is not positive.
     [[nodiscard]] std::optional<double> studentised(std::size_t row) const;
 
-    /// Returns element of Q.
-    [[nodiscard]] double covariance(std::size_t a, std::size_t b) const;
+    /// Returns an element of Q.
+    [[nodiscard]] double cofactor(std::size_t a, std::size_t b) const;
     /// Returns the covariance of two combinations.
     /// @param noise  ratio of the true standard deviation of the readings to the stated one.  References
-    ///               and priors keep theirs: noise^2 Q + (1 - noise^2) Q P Q, P their normal matrix.
+    ///               and priors keep theirs: noise^2 (Q - Q P Q) + Q P' Q, with P their normal matrix,
+    ///               and P' that of true_ratio^2 times their variances.
     [[nodiscard]] double covariance(const Combination& a, const Combination& b,
                                     double noise = 1.0) const;
     /// Returns the variance of a combination.
@@ -129,7 +133,8 @@ private:
     NormalEquations normal_;
     std::vector<double> values_, residuals_;
     double weighted_square_ = 0.0;
-    Eigen::MatrixXd cofactor_;  ///< Q.
+    bool holds_a_term_ = false;  ///< A row has another standard deviation than the stated one.
+    Eigen::MatrixXd cofactor_;   ///< Q.
 };
 
 /// Least redundancy of a row that v / r predicts without itself.  Reason: below it v / r is rounding.

@@ -31,6 +31,8 @@ struct Equation {
     double sd = 1.0;        ///< Standard deviation a priori, > 0.
     Combination unknowns;   ///< At most one of them is a station.
     bool is_reading = true; ///< False for references and priors, whose sd is not that of readings.
+    /// True standard deviation / sd: above 1 for a coefficient that is held at its prior.
+    double true_ratio = 1.0;
 };
 
 /// A system of equations.

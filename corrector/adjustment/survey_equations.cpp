@@ -235,10 +235,12 @@ Equations SurveyEquations::equations() const {
         for (std::size_t k = 0; k < terms_.size(); ++k) {
             const SurveyTerm& term = terms_[k];
             if (!term.prior || term.is_scale != is_scale) continue;
+            const double sd = knowledge_.priors.in_use(term.name, *term.prior).sd;
             equations.rows.push_back({term.prior->mean - (is_scale ? 1.0 : 0.0),
-                                      knowledge_.priors.in_use(term.name, *term.prior).sd,
+                                      sd,
                                       {{unknown_of_term(k), 1.0}},
-                                      false});
+                                      false,
+                                      std::max(1.0, term.prior->sd / sd)});
         }
     return equations;
 }
@@ -322,6 +324,10 @@ AdjustedSurvey adjust(SurveyEquations survey, Cofactor cofactor) {
         survey.linearise(solution);
         if (!survey.is_nonlinear()) break;
         Adjustment next(survey.equations(), Cofactor::left_out);
+        if (!next.undetermined().empty()) {
+            solution = std::move(next);
+            break;
+        }
         double moved_mgal = 0.0;
         for (std::size_t k = 0; k < survey.stations().size(); ++k)
             moved_mgal = std::max(moved_mgal, std::abs(next.value(k) - solution.value(k)));

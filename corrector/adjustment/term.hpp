@@ -28,8 +28,8 @@ inline constexpr double kReferenceTime_h = 5.0;
 /// The correction to which the effect of a term is added, with the sign turned.
 enum class Correction { temperature, rate, drift, tilt, pressure, scale };
 
-/// How far a coefficient reaches: one loop of an instrument, one instrument, or the survey.
-enum class Scope { loop, instrument, survey };
+/// How far a coefficient reaches: one loop of an instrument, or the survey.
+enum class Scope { loop, survey };
 
 /// A row, as the column of a term sees it.
 struct TermInput {
@@ -43,7 +43,6 @@ struct Term {
     std::string_view name;  ///< Name of the coefficient with its unit, as in options and tables.
     Correction correction = Correction::temperature;
     Scope scope = Scope::survey;
-    bool may_have_prior = false;
     /// Returns the column for a row; null for the scale, whose column is the gravity.
     /// @throws InputError  the row lacks what the term needs.
     double (*column)(const TermInput&) = nullptr;
@@ -59,7 +58,7 @@ extern const Term kTemperature;           ///< T - T0, degC.
 extern const Term kRate;                  ///< Rate of the temperature, degC/h.
 extern const Term kAxisX, kAxisY;         ///< Means of the horizontal axes, g: biases of a tilted box.
 extern const Term kAdmittance;            ///< Air pressure above that of the standard atmosphere, hPa.
-extern const Term kScaleTerm;             ///< S - 1, times gravity above g0.
+extern const Term kScaleTerm;  ///< S - 1, times gravity above g0; one for each instrument.
 
 /// Returns the terms that may have a prior, in the order of options and files.
 [[nodiscard]] std::span<const Term* const> terms_with_prior();

@@ -70,13 +70,13 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey,
     ReferenceNetwork result;
     for (std::size_t k = 0; k < network.survey.stations().size(); ++k)
         result.values[network.survey.stations()[k].site] = {
-            network.gravity(k), MilliGal(std::sqrt(network.adjustment.covariance(k, k)))};
+            network.gravity(k), MilliGal(std::sqrt(network.adjustment.variance({{k, 1.0}})))};
     for (std::size_t k = 0; k < network.survey.terms().size(); ++k) {
         const adjustment::SurveyTerm& term = network.survey.terms()[k];
         const std::size_t at = network.survey.unknown_of_term(k);
         if (term.is_scale)
             result.scales.push_back({term.instrument, network.coefficient(k),
-                                     std::sqrt(network.adjustment.covariance(at, at)),
+                                     std::sqrt(network.adjustment.variance({{at, 1.0}})),
                                      *term.prior});
     }
     result.reading_count = adjusted.part.reading_count;

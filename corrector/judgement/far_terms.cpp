@@ -9,9 +9,9 @@
 namespace a351::corrector::judgement {
 namespace {
 
-/// Factors of a prior's standard deviation.  Reason: a free coefficient may be thousands of
-/// deviations away, and one that is held moves by less than the last digit that is printed.
-constexpr double kFree = 1e4, kHeld = 1e-3;
+/// Factors of a prior's standard deviation.  Reason: a free coefficient may be a hundred deviations
+/// away, and one that is held moves by a thousandth of one.
+constexpr double kFree = 1e2, kHeld = 1e-3;
 
 adjustment::Priors with_factor(adjustment::Priors priors, const std::vector<model::Coefficient>& terms,
                           double factor) {
@@ -52,17 +52,27 @@ adjustment::Priors freed(adjustment::Priors priors, const std::vector<model::Coe
     return with_factor(std::move(priors), believable, kFree);
 }
 
-adjustment::Priors held(adjustment::Priors priors, const std::vector<model::Coefficient>& terms) {
-    return with_factor(std::move(priors), terms, kHeld);
+bool is_held(const model::Coefficient& term, const adjustment::Priors& given) {
+    return term.name.starts_with(adjustment::kScale) || given.find(term.name) != nullptr;
 }
 
-reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term) {
+adjustment::Priors held(adjustment::Priors priors, const std::vector<model::Coefficient>& terms) {
+    const adjustment::Priors given = priors;
+    std::vector<model::Coefficient> of_given;
+    std::ranges::copy_if(terms, std::back_inserter(of_given),
+                         [&](const model::Coefficient& term) { return is_held(term, given); });
+    return with_factor(std::move(priors), of_given, kHeld);
+}
+
+reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term,
+                          const adjustment::Priors& given) {
     reading::Finding finding{.kind = reading::FindingKind::scale, .code = "term_far_from_prior"};
     finding.text = text::message(
-        "{} comes out as {}, {} standard deviations from its prior {} +- {}, and is held there: look "
-        "for a mistake in the readings, or give the instrument's own value as prior",
+        "{} comes out as {}, {} standard deviations from its prior {} +- {}{}: look for a mistake in "
+        "the readings, or give the instrument's own value as prior",
         name_of(fit, term), text::fixed(term.value, 5), text::fixed(term.deviations(), 1),
-        text::shortest(term.prior->mean), text::shortest(term.prior->sd));
+        text::shortest(term.prior->mean), text::shortest(term.prior->sd),
+        is_held(term, given) ? text::message(", and is held there") : text::Message());
     return finding;
 }
 

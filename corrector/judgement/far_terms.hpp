@@ -12,7 +12,7 @@
 namespace a351::corrector::judgement {
 
 /// Distance of a coefficient from the mean of its prior that is not believed, in standard deviations
-/// of the prior.  Reason: a normal prior that is right allows it once in 16 000.
+/// of the prior.  Reason: a normal prior that is right allows it less than once in 16 000.
 inline constexpr double kFarTerm = 4.0;
 
 /// Returns the coefficients that are farther than kFarTerm from their priors.
@@ -23,13 +23,20 @@ inline constexpr double kFarTerm = 4.0;
 [[nodiscard]] adjustment::Priors freed(adjustment::Priors priors,
                                   const std::vector<model::Coefficient>& terms);
 
-/// Returns the priors with the coefficients held at their means.
-[[nodiscard]] adjustment::Priors held(adjustment::Priors priors,
-                                 const std::vector<model::Coefficient>& terms);
+/// Returns true for a coefficient that is held when it is far: a scale, or one whose prior the user gave.
+/// Other priors are assumptions about a unit that nobody has measured; clear readings overrule them.
+[[nodiscard]] bool is_held(const model::Coefficient& term, const adjustment::Priors& given);
+
+/// Returns the given priors with the coefficients of is_held() held at their means.  Their standard
+/// deviations still count in all uncertainties.
+[[nodiscard]] adjustment::Priors held(adjustment::Priors given,
+                                      const std::vector<model::Coefficient>& terms);
 
 /// Returns a finding of the kind `scale`.
-/// @param fit  with the coefficient.
-[[nodiscard]] reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term);
+/// @param fit    with the coefficient.
+/// @param given  priors of the user.
+[[nodiscard]] reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term,
+                                        const adjustment::Priors& given);
 
 /// Returns a remark: the coefficient is held at its prior, because mistakes moved it away.
 [[nodiscard]] text::Message held_term(const model::Fit& fit, const model::Coefficient& term);

@@ -89,6 +89,22 @@ void refine(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& 
     }
 }
 
+/// Sets probabilities, sizes and uncertainties again, each from the residuals with the others put right.
+void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
+                   adjustment::Trials& trials, double alpha) {
+    for (std::size_t k = 0; k < mistakes.size(); ++k) {
+        const std::vector<Mistake> others = without(mistakes, k);
+        auto residuals = residuals_of(trials, others, mistakes);
+        mistakes[k].p = 1.0;
+        if (!residuals) continue;
+        Mistake mistake = mistakes[k];
+        Trial(std::move(residuals), readings, others).measure(mistake, level_of(mistake, alpha));
+        mistakes[k].p = mistake.p;
+        mistakes[k].size_mgal = mistake.size_mgal;
+        mistakes[k].u_mgal = mistake.u_mgal;
+    }
+}
+
 }  // namespace
 
 std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& readings,
@@ -110,8 +126,12 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
             mistakes[k].needed_trial = k < sure.size() ? sure[k].needed_trial : !is_known_sure;
         sure = mistakes;
     }
-    mistakes = std::move(sure);
-    // A mistake that is no longer clear with the others put right is dropped, the least clear first.
+    drop_unclear(sure, readings, trials, alpha);
+    return sure;
+}
+
+void drop_unclear(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
+                  adjustment::Trials& trials, double alpha) {
     while (!mistakes.empty()) {
         measure_again(mistakes, readings, trials, alpha);
         const auto worst = std::ranges::max_element(mistakes, {}, [&](const Mistake& one) {
@@ -119,22 +139,6 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
         });
         if (is_clear(*worst, alpha)) break;
         mistakes.erase(worst);
-    }
-    return mistakes;
-}
-
-void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
-                   adjustment::Trials& trials, double alpha) {
-    for (std::size_t k = 0; k < mistakes.size(); ++k) {
-        const std::vector<Mistake> others = without(mistakes, k);
-        auto residuals = residuals_of(trials, others, mistakes);
-        mistakes[k].p = 1.0;
-        if (!residuals) continue;
-        Mistake mistake = mistakes[k];
-        Trial(std::move(residuals), readings, others).measure(mistake, level_of(mistake, alpha));
-        mistakes[k].p = mistake.p;
-        mistakes[k].size_mgal = mistake.size_mgal;
-        mistakes[k].u_mgal = mistake.u_mgal;
     }
 }
 

@@ -41,6 +41,9 @@ struct SearchedReading {
     std::size_t loop = 0;     ///< Readings of one loop have a constant in common.
 };
 
+/// Greatest p of a headline.  Reason: one clean day in a thousand may be told something false in its
+/// first line.
+inline constexpr double kHeadlineP = 0.001;
 /// Least size of a mistake that is reported, in its standard uncertainties.
 inline constexpr double kLeastSize_u = 3.0;
 
@@ -67,9 +70,10 @@ inline constexpr double kTrialShare = 0.1;
                                                    adjustment::Trials& trials,
                                                    double alpha = kMistakeAlpha);
 
-/// Sets sizes and uncertainties of mistakes again, each from the residuals with the others put right.
+/// Measures mistakes again and drops those that are no longer clear with the others put right, the
+/// least clear first.
 /// @param mistakes  from search_mistakes().
-void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
-                   adjustment::Trials& trials, double alpha = kMistakeAlpha);
+void drop_unclear(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
+                  adjustment::Trials& trials, double alpha);
 
 }  // namespace a351::corrector::judgement

@@ -17,9 +17,6 @@ using reading::Finding;
 using reading::FindingKind;
 using reading::SurveyRow;
 
-/// Greatest p of a headline.  Reason: one clean day in a thousand may be told something false in its
-/// first line.
-constexpr double kHeadlineP = 0.001;
 /// Greatest distance from a reference at which a reading is said to be of that site, in standard
 /// uncertainties.  Reason: one right name in a hundred is missed.
 constexpr double kNameReach = 2.5;
@@ -30,9 +27,9 @@ constexpr double kVisitedOdds = 4.0;
 /// Turns mistakes into sentences with proposals.
 class Teller {
 public:
-    Teller(const std::vector<SurveyRow>& rows, const model::RowChoice& choice,
-           const std::vector<text::Site>& sites)
-        : rows_(rows), choice_(choice), sites_(sites) {}
+    Teller(const std::vector<SearchedReading>& readings, const std::vector<SurveyRow>& rows,
+           const model::RowChoice& choice, const std::vector<text::Site>& sites)
+        : readings_(readings), rows_(rows), choice_(choice), sites_(sites) {}
 
     [[nodiscard]] std::vector<Finding> told(const Mistake& mistake) const {
         if (mistake.kind == adjustment::AlternativeKind::step) return {step(mistake)};
@@ -155,11 +152,10 @@ private:
     /// Returns the first reading after a step that would look like this mistake, if there is one.
     [[nodiscard]] std::optional<std::size_t> step_beside(const Mistake& mistake) const {
         const std::size_t from = mistake.readings.front(), to = mistake.readings.back();
-        const std::vector<std::size_t> loops = adjustment::loop_numbers(rows_);
         std::ptrdiff_t before = 0, within = 0, after = 0;
         std::size_t next = 0;
         for (std::size_t i = rows_.size(); i-- > 0;) {
-            if (!choice_.accepted[i] || loops[i] != loops[from]) continue;
+            if (!choice_.accepted[i] || readings_[i].loop != readings_[from].loop) continue;
             ++(i < from ? before : i > to ? after : within);
             if (i > to) next = i;
         }
@@ -292,6 +288,7 @@ private:
         return finding;
     }
 
+    const std::vector<SearchedReading>& readings_;
     const std::vector<SurveyRow>& rows_;
     const model::RowChoice& choice_;
     const std::vector<text::Site>& sites_;
@@ -299,10 +296,12 @@ private:
 
 }  // namespace
 
-std::vector<Finding> findings_of(const Mistake& mistake, const std::vector<SurveyRow>& rows,
+std::vector<Finding> findings_of(const Mistake& mistake,
+                                 const std::vector<SearchedReading>& readings,
+                                 const std::vector<SurveyRow>& rows,
                                  const model::RowChoice& choice,
                                  const std::vector<text::Site>& sites) {
-    return Teller(rows, choice, sites).told(mistake);
+    return Teller(readings, rows, choice, sites).told(mistake);
 }
 
 }  // namespace a351::corrector::judgement

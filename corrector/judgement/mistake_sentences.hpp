@@ -16,9 +16,10 @@ namespace a351::corrector::judgement {
 ///
 /// A stay that is off is said to be of another site if the reading is within two and a half standard
 /// uncertainties of that site's reference.  There is no amendment for rows without ListedSetUp::site.
-/// @param rows, choice  all readings of the search, and those of its fit.
+/// @param readings, rows, choice  all readings of the search, and those of its fit.
 /// @param sites  sites whose name may be right.
 [[nodiscard]] std::vector<reading::Finding> findings_of(const Mistake& mistake,
+                                                        const std::vector<SearchedReading>& readings,
                                                         const std::vector<reading::SurveyRow>& rows,
                                                         const model::RowChoice& choice,
                                                         const std::vector<text::Site>& sites);

@@ -288,7 +288,7 @@ std::vector<Scored> Trial::best(std::size_t count) const {
 void Trial::measure(Mistake& mistake, double level) const {
     const auto found = std::ranges::find_if(
         suspects_, [&](const Suspect& suspect) { return suspect.mistake.is_same(mistake); });
-    if (found == suspects_.end()) {
+    if (found == suspects_.end() || dof_ < kFewestDof) {
         mistake.p = 1.0;
         return;
     }
@@ -352,9 +352,12 @@ double Trial::probability(double score, double level) const {
     while (draws < kMostDraws) {
         for (int k = 0; k < kDrawsEach; ++k, ++draws)
             if (best_score(residuals_->simulated(generator)) >= score) ++higher;
-        // Four standard deviations of a count above its expectation at the level.
-        const double expected = level * draws;
-        if (higher > expected + 4.0 * std::sqrt(expected) + 4.0) break;
+        // Four standard deviations of a count above its expectation at the level, or below that of
+        // the level of a headline.
+        const double expected = level * draws, of_headline = std::min(level, kHeadlineP) * draws;
+        if (higher > expected + 4.0 * std::sqrt(expected) + 4.0 ||
+            higher + 4.0 * std::sqrt(static_cast<double>(higher)) + 4.0 < of_headline)
+            break;
     }
     return (1.0 + higher) / (1.0 + draws);
 }

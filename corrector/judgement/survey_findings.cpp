@@ -33,12 +33,12 @@ constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
 constexpr double kMisfitP = 0.008;
 
 std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
-                                      const model::RowChoice& choice) {
+                                      const model::RowChoice& choice, bool has_loops) {
     std::vector<SearchedReading> readings;
     const std::vector<std::size_t> loops = adjustment::loop_numbers(rows);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         SearchedReading& reading = readings.emplace_back();
-        reading.loop = loops[i];
+        if (has_loops) reading.loop = loops[i];
         reading.site = rows[i].site;
         reading.occupation = rows[i].occupation;
         reading.is_accepted = choice.accepted[i];
@@ -127,7 +127,8 @@ struct Search {
 
 /// Says which coefficients are far from their priors also without the mistakes, and which are not.
 void say_far_terms(Search& found, const model::Model& model, const SearchedSurvey& survey,
-                   const model::Fit& fit, const std::vector<model::Coefficient>& far) {
+                   const model::Fit& fit, const std::vector<model::Coefficient>& far,
+                   const adjustment::Priors& given) {
     std::optional<model::FitResult> right;
     if (found.amended)
         right = model.fit({found.amended->rows, found.amended->options, survey.day},
@@ -137,17 +138,18 @@ void say_far_terms(Search& found, const model::Model& model, const SearchedSurve
         amended == nullptr ? std::vector<model::Coefficient>() : far_terms(*amended);
     for (const model::Coefficient& term : far) {
         const auto at = std::ranges::find(still, term.name, &model::Coefficient::name);
-        if (at == still.end())
+        if (at != still.end())
+            found.findings.push_back(far_term(*amended, *at, given));
+        else if (is_held(term, given))
             found.remarks.push_back(held_term(fit, term));
-        else
-            found.findings.push_back(far_term(*amended, *at));
     }
 }
 
 /// @param far  coefficients far from their priors.  They are free while mistakes are searched, so
 ///             that nothing is a mistake that a scale explains; sizes are those with the priors.
+/// @param given  priors of the user.
 Search search(const model::SurveyCorrection& result, const SearchedSurvey& survey,
-              const std::vector<model::Coefficient>& far = {}) {
+              const adjustment::Priors& given, const std::vector<model::Coefficient>& far = {}) {
     std::vector<Finding> findings = result.findings;
     Search found;
     std::optional<model::AmendedSurvey> right;
@@ -157,21 +159,21 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     if (model.trials) {
         const model::RowChoice choice =
             model::choose_rows(rows, result.options.datum, result.options.use_flags);
-        const std::vector<SearchedReading> readings = searched(rows, choice);
+        const double alpha =
+            result.model == model::kWholeDay ? kWholeDayMistakeAlpha : kMistakeAlpha;
+        const std::vector<SearchedReading> readings = searched(rows, choice, model.has_loops);
         model::SurveyOptions options = result.options;
         options.priors = freed(std::move(options.priors), far);
         std::vector<Mistake> mistakes;
         if (auto plain = model.trials({rows, options, survey.day}, choice)) {
             ReportedTrials trials(std::move(plain), survey);
-            mistakes = search_mistakes(
-                readings, trials,
-                result.model == model::kWholeDay ? kWholeDayMistakeAlpha : kMistakeAlpha);
+            mistakes = search_mistakes(readings, trials, alpha);
         }
         if (!far.empty() && !mistakes.empty())
             if (const auto trials = model.trials({rows, result.options, survey.day}, choice))
-                measure_again(mistakes, readings, *trials);
+                drop_unclear(mistakes, readings, *trials, alpha);
         for (const Mistake& mistake : mistakes)
-            for (Finding& finding : findings_of(mistake, rows, choice, survey.sites))
+            for (Finding& finding : findings_of(mistake, readings, rows, choice, survey.sites))
                 findings.push_back(std::move(finding));
         if (!mistakes.empty()) {
             right = model::amended(rows, result.options, {mistakes.begin(), mistakes.end()});
@@ -187,7 +189,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
         findings.push_back(std::move(remark));
     found.findings = std::move(findings);
     found.amended = std::move(right);
-    say_far_terms(found, model, survey, result, far);
+    say_far_terms(found, model, survey, result, far, given);
     std::ranges::stable_sort(found.findings, {}, rank_of);
     return found;
 }
@@ -207,7 +209,7 @@ std::string model_without_mistakes(const model::AmendedSurvey& right, const Sear
 
 std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
                                    const SearchedSurvey& survey) {
-    return search(result, survey).findings;
+    return search(result, survey, result.options.priors).findings;
 }
 
 model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
@@ -220,17 +222,13 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
     };
     const auto search_and_hold = [&](model::SurveyCorrection& result) {
         const std::vector<model::Coefficient> far = far_terms(result);
-        Search found = search(result, survey, far);
+        Search found = search(result, survey, options.priors, far);
         if (far.empty()) return found;
         model::SurveyOptions with_held = options;
-        with_held.model = result.model;
-        with_held.priors = held(result.options.priors, far);
+        with_held.priors = held(options.priors, far);
         model::SurveyCorrection fit =
             model::correct_with_calibration(survey.rows, with_held, survey.day);
-        fit.remarks = std::move(result.remarks);
         fit.remarks.insert(fit.remarks.end(), found.remarks.begin(), found.remarks.end());
-        fit.choice = result.choice;
-        fit.choice_loso_mgal = result.choice_loso_mgal;
         result = std::move(fit);
         return found;
     };
@@ -241,7 +239,7 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         model::SurveyCorrection of_day = result;
         of_day.model = model::kWholeDay;
         std::optional<model::AmendedSurvey> right;
-        if (survey.day != nullptr) right = search(of_day, survey).amended;
+        if (survey.day != nullptr) right = search(of_day, survey, options.priors).amended;
         if (!right) right = found.amended;
         const std::string chosen =
             right ? model_without_mistakes(*right, survey, result.model) : result.model;

@@ -115,7 +115,7 @@ void set_adjusted(StationValue& value, const Fit& result, const AdjustedSurvey& 
     const adjustment::EquationStation& of = adjusted.survey.stations()[station];
     value.is_flagged_only = false;
     value.gravity = adjusted.gravity(station);
-    value.u_gravity = MilliGal(std::sqrt(solution.covariance(station, station)));
+    value.u_gravity = MilliGal(std::sqrt(solution.variance({{station, 1.0}})));
     if (const auto s0 = solution.s0())
         value.u_a_posteriori = MilliGal(*s0 * value.u_gravity->value());
     value.redundancy = of.datum_row ? solution.redundancy(*of.datum_row) : 0.0;
@@ -314,14 +314,12 @@ void set_hidden_references(Fit& result, const AdjustedSurvey& adjusted) {
         covariance.sites.push_back(to->site);
         for (std::size_t a = 0; a < unknowns.size(); ++a)
             covariance.mgal2(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)) =
-                solution.covariance(of_to, unknowns[a].second);
+                solution.covariance({{of_to, 1.0}}, {{unknowns[a].second, 1.0}});
         for (std::size_t a = 0; a < b; ++a) {
             const auto& [from, of_from] = unknowns[a];
             result.differences.push_back(difference_of(
                 *from, *to, to->gravity - from->gravity,
-                MilliGal(std::sqrt(solution.covariance(of_from, of_from) +
-                                   solution.covariance(of_to, of_to) -
-                                   2.0 * solution.covariance(of_from, of_to)))));
+                MilliGal(std::sqrt(solution.variance({{of_to, 1.0}, {of_from, -1.0}})))));
         }
     }
     result.covariance = std::move(covariance);

@@ -38,9 +38,10 @@ AmendedSurvey amended(const std::vector<reading::SurveyRow>& rows, const SurveyO
 }
 
 std::size_t reading_before(const std::vector<reading::SurveyRow>& rows, std::size_t after) {
-    const std::vector<std::size_t> loops = adjustment::loop_numbers(rows);
-    const auto later = loops.rend() - static_cast<std::ptrdiff_t>(after);
-    return static_cast<std::size_t>(loops.rend() - std::find(later, loops.rend(), loops[after])) - 1;
+    std::size_t before = after;
+    while (before > 0)
+        if (rows[--before].instrument == rows[after].instrument) break;
+    return before;
 }
 
 UtcTime time_before(const std::vector<reading::SurveyRow>& rows, std::size_t after) {

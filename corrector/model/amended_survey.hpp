@@ -22,11 +22,11 @@ struct AmendedSurvey {
                                     const SurveyOptions& options,
                                     const std::vector<adjustment::Alternative>& alternatives);
 
-/// Returns the number of the reading of the same loop before a reading, which there must be.
+/// Returns the number of the reading of the same instrument before a reading, which there must be.
 [[nodiscard]] std::size_t reading_before(const std::vector<reading::SurveyRow>& rows,
                                          std::size_t after);
 
-/// Returns the instant between a reading and the one of the same loop before it: that of a step.
+/// Returns the instant between a reading and the one of the same instrument before it: that of a step.
 [[nodiscard]] UtcTime time_before(const std::vector<reading::SurveyRow>& rows, std::size_t after);
 
 }  // namespace a351::corrector::model

@@ -223,7 +223,7 @@ std::optional<double> choice_loso_mgal(const SurveyProblem& problem,
 std::vector<Model> linear_models() {
     std::vector<Model> list;
     const auto add = [&list](const LinearModel& model, bool is_always_scored) {
-        list.push_back({model.name, is_always_scored, std::bind_front(fit, model),
+        list.push_back({model.name, is_always_scored, false, std::bind_front(fit, model),
                         [model](const SurveyProblem& problem, const RowChoice& choice) {
                             return score_linear_model(model, problem, choice.in_use);
                         },

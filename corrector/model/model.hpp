@@ -65,6 +65,7 @@ using FitResult = std::variant<Fit, Refusal>;
 struct Model {
     std::string_view name;          ///< Name in options and tables; unique in models().
     bool is_always_scored = false;  ///< True: scored in every survey, whichever model is applied.
+    bool has_loops = false;  ///< True: each loop of an instrument has a constant of its own.
 
     /// Fits the model and corrects all rows.  Physical doubts are not set.
     ///

@@ -387,7 +387,7 @@ NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,
 }
 
 Model network_model() {
-    return {kNetwork, false, fit_network, score_network, network_trials};
+    return {kNetwork, false, true, fit_network, score_network, network_trials};
 }
 
 }  // namespace a351::corrector::model

@@ -293,6 +293,6 @@ Score score_paper_model(const std::vector<reading::SurveyRow>& rows,
     return score;
 }
 
-Model paper_model() { return {kPaper, true, fit_paper, score_paper}; }
+Model paper_model() { return {kPaper, true, false, fit_paper, score_paper}; }
 
 }  // namespace a351::corrector::model

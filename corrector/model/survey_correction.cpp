@@ -33,7 +33,7 @@ struct Chosen {
     FitResult fit;
     std::optional<Choice> choice;
     std::optional<double> choice_loso_mgal;
-    std::optional<adjustment::Priors> priors;  ///< adjustment::Priors that were fitted, if not those of the options.
+    std::optional<adjustment::Priors> priors;  ///< Priors that were fitted, if not those of the options.
     std::vector<text::Message> remarks;
 };
 

@@ -364,7 +364,7 @@ std::optional<text::Message> day_refusal(const std::vector<reading::SurveyRow>& 
 }
 
 Model whole_day_model() {
-    return {kWholeDay, false, fit_whole_day, score_day, day_trials};
+    return {kWholeDay, false, false, fit_whole_day, score_day, day_trials};
 }
 
 }  // namespace a351::corrector::model

@@ -143,3 +143,20 @@ TEST_CASE("mistakes of a real campaign are few, large enough to be read, and eac
     }
     CHECK(texts.size() <= 4);  // of 548 readings
 }
+
+TEST_CASE("a reading of a real campaign that is made wrong by 0.3 mGal is named", "[golden][igp]") {
+    auto list = rows({"11014121"});
+    reading::SurveyRow& wrong = list[100];
+    wrong.acceleration = wrong.acceleration + MilliGal(0.3);
+    const std::string site = wrong.site;
+    const int occupation = wrong.occupation;
+    model::SurveyOptions options;
+    options.priors.reading_sd_mgal = kReadingSd_mgal;
+    const auto findings =
+        judgement::correct_and_search({list, {}, nullptr}, options).findings;
+    const auto named = std::ranges::find_if(findings, [&](const reading::Finding& finding) {
+        return finding.site == site && finding.occupation == occupation;
+    });
+    REQUIRE(named != findings.end());
+    CHECK(std::abs(*named->size_mgal - 0.3) < 4.0 * *named->u_mgal);
+}

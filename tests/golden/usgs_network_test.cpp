@@ -90,7 +90,7 @@ HoldOut value_of(const std::vector<reading::SurveyRow>& rows, const std::string&
     const auto at = static_cast<std::size_t>(
         std::ranges::find(stations, site, &adjustment::EquationStation::site) - stations.begin());
     return {network.gravity(at).value() - gravity_mgal,
-            std::sqrt(network.adjustment.covariance(at, at))};
+            std::sqrt(network.adjustment.variance({{at, 1.0}}))};
 }
 
 /// Predicts one absolute station from the others.

@@ -122,19 +122,44 @@ TEST_CASE("an alternative is an update: sizes are those of least squares with on
     }
 }
 
-TEST_CASE("exchanged names move the readings by the difference of the references",
+TEST_CASE("the residuals with names put right are those of the survey with the right names",
           "[adjustment][trials]") {
-    auto rows = line();
-    const auto trials = white_trials(adjust(survey_of(rows)));
-    const Alternative swap{AlternativeKind::swap, {0}, {6}, -97.0};
-    const auto right = trials->residuals({swap}, {swap});
-    REQUIRE(right != nullptr);
-    // The readings were right, so the exchange makes each wrong by the difference.
-    const auto before = trials->residuals({}, {});
-    CHECK(right->seen().square < 1.5 * right->dof());
-    CHECK(before->seen().square < 1.5 * before->dof());
-    CHECK(1.0 / std::sqrt(right->information({0}, {0})) >
-          100.0 / std::sqrt(before->information({0}, {0})));
+    const auto right = line();
+    auto wrong = right;
+    // Readings 0 (at A) and 6 (at D) under each other's name.
+    for (const auto& [here, there] : {std::pair<std::size_t, std::size_t>{0, 6}, {6, 0}}) {
+        wrong[here].site = right[there].site;
+        wrong[here].reference = right[there].reference;
+        wrong[here].u_reference = right[there].u_reference;
+    }
+    // The size is the reference of the other reading minus the own one.
+    const Alternative swap{AlternativeKind::swap, {0}, {6}, 97.0};
+    const auto of_right = white_trials(adjust(survey_of(right)))->residuals({}, {});
+    const auto put_right = white_trials(adjust(survey_of(wrong)))->residuals({swap}, {swap});
+    REQUIRE(of_right != nullptr);
+    REQUIRE(put_right != nullptr);
+    const Effect stay{8};
+    const Offset ours = offset_of(*put_right, stay), expected = offset_of(*of_right, stay);
+    CHECK(ours.size_mgal == Approx(expected.size_mgal).margin(0.5 * expected.u_mgal));
+    CHECK(ours.u_mgal == Approx(expected.u_mgal).epsilon(0.3));
+}
+
+TEST_CASE("a standard deviation that is stated wrongly is replaced by the scatter of the readings",
+          "[adjustment][trials]") {
+    const auto rows = line();
+    const double sd_mgal = 0.005 * adjust(survey_of(rows)).adjustment.s0().value();
+    const AdjustedSurvey stated = adjust(survey_of(rows, sd_mgal));
+    const Effect step{18, 20, 22, 24, 26};
+    const Offset dense =
+        dense_offset(stated.adjustment.equations(), stated.survey, {}, step);
+    for (const double factor : {0.1, 10.0}) {
+        const auto residuals =
+            white_trials(adjust(survey_of(rows, factor * sd_mgal)))->residuals({}, {});
+        const Offset ours = offset_of(*residuals, step);
+        CHECK(ours.size_mgal == Approx(dense.size_mgal).margin(0.1 * dense.u_mgal));
+        // A base is used for a noise within 5 % of its own.
+        CHECK(ours.u_mgal == Approx(dense.u_mgal).epsilon(0.06));
+    }
 }
 
 TEST_CASE("residuals that are drawn have the stated information", "[adjustment][trials]") {

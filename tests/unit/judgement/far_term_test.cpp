@@ -93,7 +93,7 @@ std::vector<Finding> mistakes(const model::SurveyCorrection& result) {
 }  // namespace
 
 TEST_CASE("meters whose scales differ by more than their prior are named, and no reference is",
-          "[mistake][scale]") {
+          "[judgement][scale]") {
     const Line six = day({1.0007, 1.0004, 1.0001, 0.9999, 0.9996, 0.9993});
     const auto found = mistakes(six.corrected());
     REQUIRE(!found.empty());
@@ -106,7 +106,7 @@ TEST_CASE("meters whose scales differ by more than their prior are named, and no
 }
 
 TEST_CASE("a step is named with the uncertainty that the scale gives it, and the scale is not",
-          "[mistake][scale]") {
+          "[judgement][scale]") {
     constexpr double kStep_mgal = 97.67;
     Line line = day({1.0});
     line.step(6, "M0", kStep_mgal);
@@ -122,7 +122,7 @@ TEST_CASE("a step is named with the uncertainty that the scale gives it, and the
     CHECK(std::abs(result.scales[0].value - 1.0) < 4.0 * 0.002);
 }
 
-TEST_CASE("a step of one of two meters is a step of this meter only", "[mistake][scale]") {
+TEST_CASE("a step of one of two meters is a step of this meter only", "[judgement][scale]") {
     Line line = day({1.0, 1.0});
     line.step(10, "M1", 0.4);
     const auto found = mistakes(line.corrected());
@@ -132,7 +132,7 @@ TEST_CASE("a step of one of two meters is a step of this meter only", "[mistake]
     CHECK_THAT(found[0].text.english(), ContainsSubstring("M1"));
 }
 
-TEST_CASE("a step says what the prior of the scale leaves open", "[mistake][scale]") {
+TEST_CASE("a step says what the prior of the scale leaves open", "[judgement][scale]") {
     // The stations before the step are close together, and so are those after it: only the prior says
     // that the difference of 97 mGal is a step and not a scale of zero.
     const Place a{"A", 0.0, true}, b{"B", 0.3, true}, c{"C", -97.0, true}, d{"D", -97.2, true};
@@ -146,4 +146,44 @@ TEST_CASE("a step says what the prior of the scale leaves open", "[mistake][scal
     CHECK(std::abs(*step->size_mgal - 97.67) < 3.0 * *step->u_mgal);
     CHECK(*step->u_mgal > 0.9 * 0.002 * 97.0);
     CHECK(*step->u_mgal < 1.5 * 0.002 * 97.0);
+}
+
+TEST_CASE("a scale that is held keeps the uncertainty of its prior", "[judgement][scale]") {
+    // The scale of the meter is 8 standard deviations from its prior; B is 151 mGal away.
+    Line line = day({1.0008});
+    for (reading::SurveyRow& row : line.rows) {
+        if (row.site != "A" && row.site != "C") continue;
+        row.reference = MilliGal(980000.0 - (row.site == "C" ? 60.0 : 0.0));
+        row.u_reference = MilliGal(0.001);
+    }
+    const auto result = line.corrected(adjustment::Prior{1.0, 1e-4});
+    REQUIRE(mistakes(result).size() == 1);
+    CHECK(mistakes(result)[0].kind == FindingKind::scale);
+    CHECK(result.scales.at(0).u == Approx(1e-4).epsilon(0.01));
+    const auto far = std::ranges::find(result.stations, "B", &model::StationValue::site);
+    // 1e-4 of about 120 mGal beyond both references
+    CHECK(far->u_gravity->value() > 0.009);
+}
+
+TEST_CASE("many loops of two meters whose scales are far from their prior are adjusted",
+          "[judgement][scale]") {
+    Line line;
+    for (int loop = 0; loop < 20; ++loop) {
+        const std::size_t first = line.rows.size();
+        for (int k = 0; k < 6; ++k) {
+            const double gravity_mgal = k % 3 == 0 ? 0.0 : 15.0 * loop + 7.0 * k;
+            const std::string site = k % 3 == 0 ? "A" : "S" + std::to_string(2 * loop + k % 3);
+            line.visit({site, gravity_mgal, k % 3 == 0}, 24.0 * loop + 0.4 * k, {1.0006, 0.9994});
+        }
+        for (std::size_t i = first; i < line.rows.size(); ++i) line.rows[i].loop = loop + 1;
+    }
+    for (reading::SurveyRow& row : line.rows)
+        if (row.site != "A") row.reference.reset();
+    const auto result = line.corrected();
+    for (const Finding& finding : mistakes(result)) {
+        INFO(finding.text.english());
+        if (finding.u_mgal && finding.size_mgal)
+            CHECK(std::abs(*finding.size_mgal) >= 3.0 * *finding.u_mgal);
+    }
+    CHECK(result.stations.size() == 41);
 }

@@ -230,3 +230,16 @@ TEST_CASE("a mistake does not decide which model is chosen", "[mistake]") {
     CHECK(kept.model == "t");
     CHECK(std::ranges::count(kept.findings, known.text, &Finding::text) == 1);
 }
+
+TEST_CASE("a step over a pause of a night is found where one constant holds for all days",
+          "[judgement]") {
+    Day day;
+    for (std::size_t i = 6; i < day.rows.size(); ++i) {
+        day.rows[i].time += std::chrono::hours(20);
+        day.off(i, 20.0);
+    }
+    const auto findings = day.findings("t-rate");
+    const auto step = std::ranges::find(findings, FindingKind::step, &Finding::kind);
+    REQUIRE(step != findings.end());
+    CHECK(std::abs(*step->size_mgal - 20.0) < 4.0);
+}
