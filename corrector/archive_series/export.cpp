@@ -24,14 +24,33 @@ constexpr const char* kProductLocation = "10";
 
 using Write = std::function<void(std::string_view)>;
 
+[[noreturn]] void refuse_unit(const ExportOptions& options, std::string_view trouble) {
+    throw InputError(fmt::format("--unit = {}: {}; allowed: counts", options.unit, trouble));
+}
+
+/// Returns the value of one count in the unit.
+/// @throws InputError  the channel has another kind of unit.
+double scale_of(const ExportOptions& options, const station::Metadata& metadata) {
+    if (options.unit == "counts") return 1.0;
+    const auto channel =
+        std::ranges::find(metadata.channels, options.channel, &station::ChannelScale::code);
+    if (channel == metadata.channels.end() || channel->unit != "m/s**2")
+        refuse_unit(options, options.channel + " is not a channel of acceleration");
+    const double mgal = kMilliGalPerMps2 * channel->gain;
+    constexpr double kMgPerStandardGravity = 1000.0;
+    return options.unit == "mgal" ? mgal
+                                  : mgal / kMilliGalPerStandardGravity * kMgPerStandardGravity;
+}
+
 /// Writes runs in order.
 struct GridWriter {
     std::function<void(const GridRun&)> put;  ///< Writes values that follow the last ones.
     std::function<void()> end_run;
 };
 
-/// @param scale  value of one count in the unit.
-GridWriter csv_writer(const Write& write, const ExportOptions& options, double scale) {
+GridWriter csv_writer(const Write& write, const ExportOptions& options,
+                      const station::Metadata& metadata) {
+    const double scale = scale_of(options, metadata);
     write("time_utc," + options.unit + "\n");
     const auto put = [&write, rate_hz = options.rate_hz, scale](const GridRun& run) {
         std::string rows;
@@ -63,10 +82,11 @@ struct Unpacked {
 };
 
 GridWriter miniseed_writer(const Write& write, const ExportOptions& options,
-                           const journal::StationCodes& codes) {
+                           const station::Metadata& metadata) {
+    if (options.unit != "counts") refuse_unit(options, "records of miniSEED hold whole counts");
     archive::RecordHeader header;
-    header.network = codes.network;
-    header.station = codes.station;
+    header.network = metadata.codes.network;
+    header.station = metadata.codes.station;
     header.location = kProductLocation;
     header.channel = options.channel;
     header.nominal_rate = Hertz(options.rate_hz);
@@ -84,6 +104,12 @@ GridWriter miniseed_writer(const Write& write, const ExportOptions& options,
             }};
 }
 
+/// The formats: another one is a line here and its writer.
+constexpr struct Format {
+    std::string_view name;
+    GridWriter (*writer)(const Write&, const ExportOptions&, const station::Metadata&);
+} kFormats[]{{"csv", csv_writer}, {"mseed", miniseed_writer}};
+
 /// Adds damage that is not yet in the report.  The same record may be read for two days, because
 /// each day is read with a margin.
 void note(ExportReport& report, const std::vector<archive::Damage>& damage) {
@@ -95,33 +121,19 @@ void note(ExportReport& report, const std::vector<archive::Damage>& damage) {
     }
 }
 
-/// Returns the value of one count in the unit.
-/// @throws InputError  the channel has another kind of unit, or the format has counts only.
-double scale_of(const ExportOptions& options, const station::Metadata& metadata) {
-    if (options.unit == "counts") return 1.0;
-    const auto refuse = [&](std::string_view trouble) {
-        throw InputError(fmt::format("--unit = {}: {}; allowed: counts", options.unit, trouble));
-    };
-    if (options.format == ExportFormat::mseed) refuse("records of miniSEED hold whole counts");
-    const auto channel =
-        std::ranges::find(metadata.channels, options.channel, &station::ChannelScale::code);
-    if (channel == metadata.channels.end() || channel->unit != "m/s**2")
-        refuse(options.channel + " is not a channel of acceleration");
-    const double mgal = kMilliGalPerMps2 * channel->gain;
-    constexpr double kMgPerStandardGravity = 1000.0;
-    return options.unit == "mgal" ? mgal
-                                  : mgal / kMilliGalPerStandardGravity * kMgPerStandardGravity;
-}
-
 }  // namespace
+
+std::vector<std::string> export_formats() {
+    std::vector<std::string> names;
+    for (const Format& format : kFormats) names.emplace_back(format.name);
+    return names;
+}
 
 ExportReport export_channel(const ExportOptions& options, const Write& write) {
     const auto metadata =
         station::read_station_xml(options.root / "metadata" / "station.xml", options.from);
-    const double scale = scale_of(options, metadata);
-    const GridWriter writer = options.format == ExportFormat::csv
-                                  ? csv_writer(write, options, scale)
-                                  : miniseed_writer(write, options, metadata.codes);
+    const Format& format = *std::ranges::find(kFormats, options.format, &Format::name);
+    const GridWriter writer = format.writer(write, options, metadata);
     ExportReport report;
     std::int64_t next = 0;  // number on the grid that would continue the run
     const auto take = [&](const GridRun& run) {

@@ -6,7 +6,7 @@
 /// for programs that need a regular grid, or to compare with another instrument.  Do not use it for
 /// a survey: the corrector takes the archive itself.
 ///
-///     ExportOptions options{root, from, to, "BNZ", 50, ExportFormat::csv};
+///     ExportOptions options{root, from, to, "BNZ", 50, "csv"};
 ///     const ExportReport report =
 ///         export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
 ///
@@ -24,13 +24,12 @@
 
 namespace a351::corrector::archive_series {
 
-/// Formats of an export.
-/// - `csv`: for tables and plots; the values keep their fractions of a count.
-/// - `mseed`: for seismological programs; the values are rounded to whole counts.
-enum class ExportFormat {
-    csv,   ///< `time_utc,counts` or another unit, shortest exact digits; an empty line at each gap.
-    mseed  ///< Records as in the archive, whole counts, location code 10.
-};
+/// Returns the names of the formats.
+/// - `csv`: for tables and plots: `time_utc,counts` or another unit, shortest exact digits with the
+///   fractions of a count; an empty line at each gap.
+/// - `mseed`: for seismological programs: records as in the archive, rounded to whole counts,
+///   location code 10.
+[[nodiscard]] std::vector<std::string> export_formats();
 
 /// Part of a channel to be exported, and its form.
 ///
@@ -41,7 +40,7 @@ struct ExportOptions {
     UtcTime from, to;            ///< Start, and end, which is not included.
     std::string channel;         ///< Channel of the archive, e.g. BNZ.
     int rate_hz = 50;            ///< Values per second, at most the rate of the channel.
-    ExportFormat format = ExportFormat::csv;
+    std::string format = "csv";  ///< One of export_formats(), not checked.
     /// Unit of the values: counts, mg (1e-3 of 9.80665 m/s2) or mgal; in miniSEED counts only.
     std::string unit = "counts";
 };

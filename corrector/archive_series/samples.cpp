@@ -1,6 +1,11 @@
 #include "corrector/archive_series/samples.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+
 #include "corrector/archive_series/on_all_cores.hpp"
+#include "protocol/archive/journal_tail.hpp"
 #include "protocol/archive/sds.hpp"
 
 namespace a351::corrector::archive_series {
@@ -24,6 +29,37 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& root, c
         files.insert(files.end(), of_channel.begin(), of_channel.end());
     }
     return files;
+}
+
+UtcTime last_sample(const archive::ChannelData& channel) {
+    const archive::Segment& last = channel.segments.back();
+    return last.time_of(last.counts.size() - 1);
+}
+
+std::optional<UtcTime> add_journaled(std::vector<archive::ChannelData>& samples,
+                                     const std::filesystem::path& root, const Epoch& epoch,
+                                     const Span& span) {
+    UtcTime archived = span.to;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        if (!samples[k].segments.empty())
+            archived = std::min(archived, last_sample(samples[k]));
+        else if (k != kOuter)
+            archived = std::min(archived, span.from(k));
+    }
+    if (archived > span.to - std::chrono::seconds(1)) return std::nullopt;
+    const auto read = [&] {
+        return archive::JournalTail(root / "journal", epoch.codes, archived, span.to);
+    };
+    const archive::JournalTail tail = [&] {
+        try {
+            return read();
+        } catch (const std::system_error&) {
+            return read();
+        }
+    }();
+    for (std::size_t k = 0; k < samples.size(); ++k)
+        tail.append_to(samples[k], epoch.channels[k].code, span.from(k), span.to);
+    return tail.end();
 }
 
 void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData& channel) {

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "corrector/archive_series/epoch.hpp"
@@ -42,6 +43,20 @@ struct Span {
 /// Returns the day files of all channels in the span, by channel and day.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const std::filesystem::path& root,
                                                           const Epoch& epoch, const Span& span);
+
+/// Returns the time of the last sample.
+/// @param channel  has at least one.
+[[nodiscard]] UtcTime last_sample(const archive::ChannelData& channel);
+
+/// Adds the samples that have not reached the archive.  A journal segment that the daemon has just
+/// compressed is looked for once more.
+/// @param samples  of read_samples() for the same epoch and span.
+/// @return the newest clock reading of the journal; std::nullopt if the archive is complete, or if the
+///         journal continued after the span.
+/// @throws std::system_error  a segment of the journal cannot be read.
+std::optional<UtcTime> add_journaled(std::vector<archive::ChannelData>& samples,
+                                     const std::filesystem::path& root, const Epoch& epoch,
+                                     const Span& span);
 
 /// Adds a warning for each piece of the channel's files that could not be read.  The English text is
 /// that of archive::to_text(); earlier warnings are kept.

@@ -8,36 +8,24 @@
 #include <map>
 
 namespace a351::corrector::archive_series {
-namespace {
-
-struct Sum {
-    std::int64_t counts = 0;
-    std::int64_t samples = 0;
-};
-using MinuteSums = std::map<std::chrono::sys_time<std::chrono::minutes>, Sum>;
-
-/// Adds the samples [begin, end) of a segment; `time` is the time stamp of sample `begin`.
-void add_record(MinuteSums& sums, const archive::Segment& segment, std::size_t begin,
-                std::size_t end, UtcTime time) {
-    for (std::size_t i = begin; i < end; ++i) {
-        const UtcTime at = time + from_seconds(static_cast<double>(i - begin) / segment.rate_hz);
-        Sum& sum = sums[std::chrono::floor<std::chrono::minutes>(at)];
-        sum.counts += segment.counts[i];
-        ++sum.samples;
-    }
-}
-
-}  // namespace
-
 std::vector<MinuteTemperature> temperature_course(const std::vector<archive::Segment>& segments,
                                                   const station::ChannelScale& scale) {
-    MinuteSums sums;
+    struct Sum {
+        std::int64_t counts = 0, samples = 0;
+    };
+    std::map<std::chrono::sys_time<std::chrono::minutes>, Sum> sums;
     for (const archive::Segment& segment : segments) {
         for (std::size_t k = 0; k < segment.anchors.size(); ++k) {
-            const bool is_last = k + 1 == segment.anchors.size();
-            add_record(sums, segment, segment.anchors[k].offset,
-                       is_last ? segment.counts.size() : segment.anchors[k + 1].offset,
-                       segment.anchors[k].time);
+            const archive::Segment::Anchor& anchor = segment.anchors[k];
+            const std::size_t end = k + 1 < segment.anchors.size() ? segment.anchors[k + 1].offset
+                                                                   : segment.counts.size();
+            for (std::size_t i = anchor.offset; i < end; ++i) {
+                const double after_s = static_cast<double>(i - anchor.offset) / segment.rate_hz;
+                const UtcTime time = anchor.time + from_seconds(after_s);
+                Sum& sum = sums[std::chrono::floor<std::chrono::minutes>(time)];
+                sum.counts += segment.counts[i];
+                ++sum.samples;
+            }
         }
     }
     std::vector<MinuteTemperature> course;
@@ -63,22 +51,20 @@ bool is_without_gaps(const std::vector<MinuteTemperature>& course, UtcTime from,
 
 std::vector<double> interpolated(const std::vector<MinuteTemperature>& course,
                                  const std::vector<UtcTime>& times, Nanoseconds gap) {
-    std::vector<double> values;
+    std::vector<double> values(times.size(), std::numeric_limits<double>::quiet_NaN());
+    if (course.empty()) return values;
     auto after = course.begin();  // the first mean after the instant
-    for (const UtcTime time : times) {
-        while (after != course.end() && after->middle <= time) ++after;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        while (after != course.end() && after->middle <= times[i]) ++after;
+        const bool is_outside = after == course.begin() || after == course.end();
         const MinuteTemperature& last = after == course.begin() ? *after : *(after - 1);
-        const MinuteTemperature& next = after == course.end() ? last : *after;
-        const Nanoseconds apart = &last == &next ? Nanoseconds(std::chrono::abs(time - last.middle))
-                                                 : next.middle - last.middle;
-        if (apart > gap) {
-            values.push_back(std::numeric_limits<double>::quiet_NaN());
+        if ((is_outside ? Nanoseconds(std::chrono::abs(times[i] - last.middle))
+                        : after->middle - last.middle) > gap)
             continue;
-        }
-        const double share = &last == &next ? 0.0
-                                            : seconds_between(last.middle, time) /
-                                                  seconds_between(last.middle, next.middle);
-        values.push_back(std::lerp(last.mean.value(), next.mean.value(), share));
+        values[i] = is_outside ? last.mean.value()
+                               : std::lerp(last.mean.value(), after->mean.value(),
+                                           seconds_between(last.middle, times[i]) /
+                                               seconds_between(last.middle, after->middle));
     }
     return values;
 }

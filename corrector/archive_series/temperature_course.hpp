@@ -52,8 +52,8 @@ inline constexpr std::chrono::minutes kLongestOuterGap(10);
                                    UtcTime to);
 
 /// Returns the temperature at some instants: a straight line between two means, constant before the
-/// first and after the last; NaN where the means are further apart.
-/// @param course  in order of time, at least one.
+/// first and after the last; NaN where the means are further apart or there is none.
+/// @param course  in order of time.
 /// @param times   in order of time.
 /// @param gap     longest time between two means, or from an end to an instant.
 [[nodiscard]] std::vector<double> interpolated(const std::vector<MinuteTemperature>& course,

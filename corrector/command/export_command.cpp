@@ -4,9 +4,9 @@
 #include <iostream>
 #include <memory>
 
+#include "corrector/archive_series/export.hpp"
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/archive_series/export.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/new_file.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 struct Texts {
     archive_series::ExportOptions options;
-    std::string from, to, format, out;
+    std::string from, to, out;
     double rate_hz = 0.0;
 };
 
@@ -32,8 +32,6 @@ void run(Texts texts) {
                         text::shortest(texts.rate_hz), text::shortest(kMostRate_hz)));
     }
     options.rate_hz = static_cast<int>(texts.rate_hz);
-    options.format =
-        texts.format == "csv" ? archive_series::ExportFormat::csv : archive_series::ExportFormat::mseed;
     if (options.from >= options.to)
         throw InputError(
             fmt::format("--to = {}: not after --from; allowed: a later instant", texts.to));
@@ -65,8 +63,8 @@ void add_export_command(CLI::App& program) {
     add_required(command, "--channel", "NAME", texts->options.channel, "Channel, for example BNZ");
     add_required(command, "--rate", "HZ", texts->rate_hz,
                  "Values per second, a whole number from 1 to 1000");
-    add_required(command, "--format", "NAME", texts->format, "Format of the file")
-        ->check(CLI::IsMember({"csv", "mseed"}));
+    add_required(command, "--format", "NAME", texts->options.format, "Format of the file")
+        ->check(CLI::IsMember(archive_series::export_formats()));
     add_with_default(command, "--unit", "NAME", texts->options.unit,
                      "Unit of the values in CSV; mg and mgal for acceleration only")
         ->check(CLI::IsMember({"counts", "mg", "mgal"}));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <system_error>
 #include <tuple>
 
 #include "corrector/archive_series/sample_grid.hpp"
@@ -21,7 +20,7 @@ namespace a351::corrector::reading {
 namespace {
 
 using archive_series::Epoch, archive_series::kOuter, archive_series::kTemperature,
-    archive_series::kVertical;
+    archive_series::kVertical, archive_series::last_sample;
 using Samples = std::vector<archive::ChannelData>;
 
 constexpr std::chrono::minutes kMargin(1);   // reach of the temperature's filters, 9 s, and more
@@ -33,39 +32,6 @@ constexpr std::chrono::hours kOuterLead(1);  // an earlier gap of the outer oven
 archive_series::Span span_of(const std::vector<OccupationWindow>& windows, bool is_running) {
     return {windows.front().start - kMargin, windows.front().start - kBefore,
             windows.back().end + (is_running ? Nanoseconds(0) : Nanoseconds(kMargin))};
-}
-
-UtcTime last_sample(const archive::ChannelData& channel) {
-    const archive::Segment& last = channel.segments.back();
-    return last.time_of(last.counts.size() - 1);
-}
-
-/// Adds the samples that have not reached the archive.  A journal segment that the daemon has just
-/// compressed is looked for once more.
-/// @return OccupationRows::as_of, if samples are of the journal.
-std::optional<UtcTime> add_journaled(Samples& samples, const std::filesystem::path& root,
-                                     const Epoch& epoch, const archive_series::Span& span) {
-    UtcTime archived = span.to;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        if (!samples[k].segments.empty())
-            archived = std::min(archived, last_sample(samples[k]));
-        else if (k != kOuter)
-            archived = std::min(archived, span.from(k));
-    }
-    if (archived > span.to - std::chrono::seconds(1)) return std::nullopt;
-    const auto read = [&] {
-        return archive::JournalTail(root / "journal", epoch.codes, archived, span.to);
-    };
-    const archive::JournalTail tail = [&] {
-        try {
-            return read();
-        } catch (const std::system_error&) {
-            return read();
-        }
-    }();
-    for (std::size_t k = 0; k < samples.size(); ++k)
-        tail.append_to(samples[k], epoch.channels[k].code, span.from(k), span.to);
-    return tail.end();
 }
 
 std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyStays& stays) {
@@ -215,7 +181,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     const archive_series::Span span = span_of(list.windows, is_running);
     Samples samples = archive_series::read_samples(source.root, epoch, span);
     std::optional<UtcTime> journal_end;
-    if (source.is_so_far) journal_end = add_journaled(samples, source.root, epoch, span);
+    if (source.is_so_far)
+        journal_end = archive_series::add_journaled(samples, source.root, epoch, span);
     std::vector<OccupationWindow> windows = list.windows;
     end_with_record(windows, samples[kVertical]);
     const VerticalAxis vertical = source.is_tumbled

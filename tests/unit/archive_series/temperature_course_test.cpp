@@ -65,4 +65,5 @@ TEST_CASE("between two means the temperature is a straight line, outside them it
     CHECK(near[1] == 38.0);
     CHECK(std::isnan(near[2]));
     CHECK(std::isnan(near[3]));
+    CHECK(std::isnan(interpolated({}, {at(0)}, Nanoseconds::max()).at(0)));
 }
