@@ -45,8 +45,8 @@ public:
     /// Sets the epoch of all samples taken from here on; a change begins a new stretch.
     void use(const Epoch& epoch) {
         if (epoch_ == &epoch) return;
-        if (std::string change = epoch_ == nullptr ? "" : epoch_change(*epoch_, epoch);
-            !change.empty())
+        if (text::Message change;
+            epoch_ != nullptr && !(change = epoch_change(*epoch_, epoch)).empty())
             divide(std::move(change), epoch.start);
         epoch_ = &epoch;
     }
@@ -183,7 +183,7 @@ private:
 
     LongRecord& record_;
     const Epoch* epoch_ = nullptr;
-    std::string change_;    ///< Change with which this stretch begins, or the next one.
+    text::Message change_;  ///< Change with which this stretch begins, or the next one.
     double rate_hz_ = 0.0;  ///< Rate; 0: no sample yet.
     int stages_ = 0;
     std::optional<StretchBuilder> builder_;
@@ -196,11 +196,8 @@ private:
 /// Sets the outer oven's temperature of the stretches: NaN in its gaps, with a warning.
 void set_outer(LongRecord& record, const std::vector<archive_series::MinuteTemperature>& outer) {
     for (RecordStretch& stretch : record.stretches) {
-        if (outer.empty())
-            stretch.outer_degc.assign(stretch.size(), kNaN);
-        else
-            stretch.outer_degc = archive_series::interpolated(outer, stretch.times,
-                                                              archive_series::kLongestOuterGap);
+        stretch.outer_degc =
+            archive_series::interpolated(outer, stretch.times, archive_series::kLongestOuterGap);
         const auto gap = std::ranges::find_if(stretch.outer_degc,
                                               [](double value) { return std::isnan(value); });
         if (gap == stretch.outer_degc.end()) continue;
