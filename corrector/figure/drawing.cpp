@@ -9,7 +9,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "corrector/figure/program_run.hpp"
+#include "protocol/child/child_program.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::corrector::figure {
@@ -47,27 +47,22 @@ private:
     std::filesystem::path path_;
 };
 
-ProgramRun run_gnuplot(const TemporaryFolder& folder, const std::vector<std::string>& names,
-                       const std::string& format) {
+child::ChildEnd run_gnuplot(const TemporaryFolder& folder, const std::vector<std::string>& names,
+                            const std::string& format) {
     // -d: no start-up file of the user or the machine.
-    std::vector<std::string> arguments{"-d", "-e", "format='" + format + "'"};
-    for (const std::string& name : names) arguments.push_back(name + ".gp");
-    return run_program("gnuplot", arguments, folder.path(), kTimeLimit);
+    std::vector<std::string> words{"gnuplot", "-d", "-e", "format='" + format + "'"};
+    for (const std::string& name : names) words.push_back(name + ".gp");
+    // cairo 1.18 (Debian 13) leaves the objects of a PDF file uncompressed with this variable, so
+    // that the date of the run can be removed; cairo 1.16 (Debian 12) does so anyway.
+    return child::run_child({.words = std::move(words),
+                             .directory = folder.path(),
+                             .variables = {"LC_ALL=C.UTF-8", "TZ=UTC0", "CAIRO_DEBUG_PDF=1"}},
+                            {.time = kTimeLimit});
 }
 
-/// Returns the last line of gnuplot's messages, which gives the reason; the lines before show the
-/// place.
-std::string last_line(std::string text) {
-    text.erase(text.find_last_not_of("\n ") + 1);
-    return text.substr(text.find_last_of('\n') + 1);
-}
-
-std::string trouble_of(const ProgramRun& run) {
-    if (!run.is_found) return "gnuplot is not installed (not in PATH)";
-    if (run.is_timed_out) return fmt::format("gnuplot took longer than {} s", kTimeLimit.count());
-    const std::string words = last_line(run.errors);
-    return fmt::format("gnuplot ended with status {}{}{}", run.status, words.empty() ? "" : ": ",
-                       words);
+std::string trouble_of(const child::ChildEnd& end) {
+    if (end.outcome == child::Outcome::missing) return "gnuplot is not installed (not in PATH)";
+    return "gnuplot failed: " + end.message;
 }
 
 /// Replaces the time of the run, which the PDF library writes in this form and length.
@@ -81,22 +76,23 @@ void remove_creation_date(std::string& pdf) {
 
 void draw_format(const TemporaryFolder& folder, const std::vector<std::string>& names,
                  const std::string& format, Drawing& drawing) {
+    using enum child::Outcome;
     const std::string ending = "." + format;
-    ProgramRun run = run_gnuplot(folder, names, format);
+    child::ChildEnd end = run_gnuplot(folder, names, format);
     std::vector<std::string> drawn;
-    if (run.is_good()) {
+    if (end.outcome == good) {
         drawn = names;
-    } else if (run.is_found && !run.is_timed_out) {
+    } else if (end.outcome == missing || end.outcome == too_slow) {
+        drawing.troubles.push_back(trouble_of(end));
+    } else {
         for (const std::string& name : names) {
-            run = run_gnuplot(folder, {name}, format);
-            if (run.is_good()) {
+            end = run_gnuplot(folder, {name}, format);
+            if (end.outcome == good) {
                 drawn.push_back(name);
             } else {
-                drawing.troubles.push_back(fmt::format("{}{}: {}", name, ending, trouble_of(run)));
+                drawing.troubles.push_back(fmt::format("{}{}: {}", name, ending, trouble_of(end)));
             }
         }
-    } else {
-        drawing.troubles.push_back(trouble_of(run));
     }
     for (const std::string& name : drawn) {
         const std::string file = name + ending;

@@ -24,6 +24,23 @@ bool is_object(const std::string& text) {
     return text.starts_with('{') && nlohmann::json::accept(text);
 }
 
+/// Returns the code of a run without a document.
+std::string reason_of(child::Outcome outcome) {
+    using enum child::Outcome;
+    switch (outcome) {
+        case missing:
+            return "no_corrector";
+        case killed:
+            return "killed";
+        case too_slow:
+            return "too_slow";
+        case too_much_output:
+            return "too_much_output";
+        default:
+            return "failed";
+    }
+}
+
 }  // namespace
 
 GravityOptions options_for(const std::filesystem::path& corrector, const SurveyFiles& files,
@@ -93,31 +110,37 @@ void GravitySoFar::run() {
             if (again_ && *again_ <= now) again_.reset();
             last_run_ = now;
             lock.unlock();
-            ChildEnd end;
-            try {
-                end = run_child(options_.command, options_.limits, stop_);
-                if (end.trouble.empty() && !is_object(end.output))
-                    end = {"no_document", {}, "its output is not a JSON object"};
-            } catch (const std::exception& error) {
-                end = {"failed", {}, error.what()};
-            }
+            Answer answer = ask();
             lock.lock();
-            take(std::move(end));
+            take(std::move(answer));
         }
     }
 }
 
-void GravitySoFar::take(ChildEnd end) {
-    if (end.trouble == "stopped") return;
-    if (end.trouble.empty()) {
-        document_ = std::move(end.output);
+GravitySoFar::Answer GravitySoFar::ask() const {
+    try {
+        child::ChildEnd end = child::run_child({.words = options_.command, .is_background = true},
+                                               options_.limits, &stop_);
+        if (end.outcome != child::Outcome::good)
+            return {{}, reason_of(end.outcome), std::move(end.message)};
+        if (is_object(end.output)) return {std::move(end.output), {}, {}};
+        return {{}, "no_document", "its output is not a JSON object"};
+    } catch (const std::exception& error) {
+        return {{}, "failed", error.what()};
+    }
+}
+
+void GravitySoFar::take(Answer answer) {
+    if (stop_) return;
+    if (answer.reason.empty()) {
+        document_ = std::move(answer.document);
         reason_.clear();
         cause_.clear();
         return;
     }
-    const bool is_new = end.trouble != reason_;
-    reason_ = std::move(end.trouble);
-    cause_ = std::move(end.message);
+    const bool is_new = answer.reason != reason_;
+    reason_ = std::move(answer.reason);
+    cause_ = std::move(answer.cause);
     if (is_new && options_.failed) options_.failed(reason_, cause_);
 }
 

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/gravity/child_program.hpp"
+#include "protocol/child/child_program.hpp"
 
 namespace a351::daemon::gravity {
 
@@ -26,7 +26,7 @@ struct GravityOptions {
     /// Real time after a change until the corrector runs a second time.  Reason: the temperature
     /// after a stop is filtered with data that follow it.
     std::chrono::milliseconds again{std::chrono::seconds(20)};
-    ChildLimits limits{};
+    child::ChildLimits limits{.cpu_s = 60, .memory_bytes = std::size_t{2} << 30U};
     /// Receives code and cause of a failure, once until another one or a success follows.
     std::function<void(const std::string& reason, const std::string& cause)> failed{};
 };
@@ -49,7 +49,7 @@ struct SurveyFiles {
 ///
 /// The document is the corrector's (a351-correct-survey(1), --json).  If the last run failed it is
 /// the last good one, with `reason` and `reason_text` of the failure:
-/// - those of ChildEnd::trouble;
+/// - no_corrector, failed, killed, too_slow, too_much_output: its run, see child::Outcome;
 /// - no_document: the output is not one JSON object;
 /// - not_yet: the corrector has not run since the daemon started.
 class GravitySoFar {
@@ -71,10 +71,16 @@ public:
 
 private:
     using Time = std::chrono::steady_clock::time_point;
+    /// Answer of one run.
+    struct Answer {
+        std::string document, reason, cause;  ///< A document has no reason.
+    };
 
     void run();
     [[nodiscard]] std::optional<Time> next_run() const;
-    void take(ChildEnd end);
+    /// Runs the corrector; returns the document, or the reason and its cause.
+    [[nodiscard]] Answer ask() const;
+    void take(Answer answer);
 
     const GravityOptions options_;
     std::atomic<bool> stop_{false};

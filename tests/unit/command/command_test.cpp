@@ -63,7 +63,7 @@ TEST_CASE("table writes a report in the requested formats, the same bytes each t
 TEST_CASE("without a working gnuplot everything except the figures is written", "[command]") {
     const auto [script, reason] = GENERATE(table<std::string, std::string>({
         {"", "figures are missing: gnuplot is not installed (not in PATH)"},
-        {"echo 'no fonts' >&2; exit 5", "gnuplot ended with status 5: no fonts; 4 more such"},
+        {"echo 'no fonts' >&2; exit 5", "gnuplot failed: no fonts; 4 more such"},
     }));
     CAPTURE(reason);
     const test::TemporaryDirectory folder;

@@ -3,12 +3,11 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/figure/escaping.hpp"
-#include "corrector/figure/program_run.hpp"
-#include "tests/unit/report/path_variable.hpp"
+#include "protocol/child/child_program.hpp"
+#include "tests/support/path_variable.hpp"
 
 using namespace a351;
 using namespace a351::corrector::figure;
-using namespace std::chrono_literals;
 
 namespace {
 
@@ -19,38 +18,13 @@ Figure figure(const std::string& name, const std::string& commands) {
 }
 
 bool has_gnuplot() {
-    const test::TemporaryDirectory folder;
-    if (run_program("gnuplot", {"--version"}, folder.path(), 20s).is_good()) return true;
+    if (child::run_child({.words = {"gnuplot", "--version"}}).outcome == child::Outcome::good)
+        return true;
     WARN("gnuplot is not installed: nothing is drawn");
     return false;
 }
 
 }  // namespace
-
-TEST_CASE("a program runs in the given folder, without a shell", "[report][program]") {
-    const test::TemporaryDirectory folder;
-    const ProgramRun run =
-        run_program("sh", {"-c", "pwd >&2; echo \"$1 $LC_ALL\" >&2; exit 3", "sh", "a`b` $c"},
-                    folder.path(), 60s);
-    CHECK(run.is_found);
-    CHECK_FALSE(run.is_good());
-    CHECK(run.status == 3);
-    CHECK(run.errors == folder.path().string() + "\na`b` $c C.UTF-8\n");
-}
-
-TEST_CASE("a program that is missing, is killed or takes too long is recognised as such",
-          "[report][program]") {
-    const test::TemporaryDirectory folder;
-    CHECK_FALSE(run_program("a351-no-such-program", {}, folder.path(), 60s).is_found);
-    {
-        const PathVariable path(folder.write("no-folder", ""));
-        CHECK_FALSE(run_program("gnuplot", {}, folder.path(), 60s).is_found);
-    }
-    CHECK(run_program("sh", {"-c", "kill -9 $$"}, folder.path(), 60s).status == 128 + 9);
-    const ProgramRun run = run_program("sleep", {"1000"}, folder.path(), 1ms);
-    CHECK(run.is_timed_out);
-    CHECK_FALSE(run.is_good());
-}
 
 TEST_CASE("drawing the same figures gives the same bytes in every format", "[report][drawing]") {
     if (!has_gnuplot()) return;
@@ -76,7 +50,7 @@ TEST_CASE("a bad figure is reported and does not affect the others", "[report][d
     CHECK(drawing.pictures[1].first == "two.svg");
     REQUIRE(drawing.troubles.size() == 1);
     CHECK_THAT(drawing.troubles.front(),
-               StartsWith("bad.svg: gnuplot ended with status 1: \"bad.gp\" line ") &&
+               StartsWith("bad.svg: gnuplot failed: \"bad.gp\" line ") &&
                    EndsWith("No data in plot"));
 }
 
@@ -108,7 +82,7 @@ TEST_CASE("a missing or failing gnuplot gives exactly one reason", "[report][dra
     const Drawing drawing = draw(figures, {});
     CHECK(drawing.pictures.empty());
     CHECK(drawing.troubles ==
-          std::vector<std::string>{"one.svg: gnuplot ended with status 4: no such terminal"});
+          std::vector<std::string>{"one.svg: gnuplot failed: no such terminal"});
     write_gnuplot(folder, "exit 0");
     CHECK(draw(figures, {}).troubles ==
           std::vector<std::string>{"one.svg: gnuplot did not write it"});

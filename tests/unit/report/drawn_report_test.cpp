@@ -1,7 +1,7 @@
 #include "tests/support/catch.hpp"
 
+#include "tests/support/path_variable.hpp"
 #include "tests/unit/report/evil_report.hpp"
-#include "tests/unit/report/path_variable.hpp"
 
 using namespace a351;
 using namespace a351::corrector::report;
@@ -30,9 +30,8 @@ TEST_CASE("a failing gnuplot is reported once", "[report][page]") {
     const PathVariable path(folder.path());
     const Report made = report();
     REQUIRE(made.warnings.size() == 1);
-    CHECK_THAT(made.warnings.front(),
-               StartsWith("figures are missing: day.svg: gnuplot ended with status "
-                          "2: no <terminal>; ") &&
-                   EndsWith(" more such"));
+    CHECK_THAT(made.warnings.front(), StartsWith("figures are missing: day.svg: gnuplot failed: "
+                                                 "no <terminal>; ") &&
+                                          EndsWith(" more such"));
     CHECK_THAT(file(made, "report.html"), ContainsSubstring("no &lt;terminal&gt;"));
 }
