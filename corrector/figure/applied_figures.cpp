@@ -10,9 +10,11 @@
 namespace a351::corrector::figure {
 namespace {
 
+using text::tr;
+
 /// Returns hours and deviations from the mean.  Neighbours are averaged so that the curve has at
 /// most kMostPoints.
-std::string curve_lines(const std::vector<double>& values, double step_s) {
+std::string mean_lines(const std::vector<double>& values, double step_s) {
     const double mean = correlation::mean_of(values);
     const std::size_t each = (values.size() + kMostPoints - 1) / kMostPoints;
     std::string lines;
@@ -20,62 +22,51 @@ std::string curve_lines(const std::vector<double>& values, double step_s) {
         double sum = 0.0;
         for (std::size_t i = first; i < first + each; ++i) sum += values[i] - mean;
         const double middle = static_cast<double>(first) + 0.5 * static_cast<double>(each - 1);
-        lines += datum(middle * step_s / kSecondsPerHour, 5) +
-                 datum(sum / static_cast<double>(each), 4) + '\n';
+        lines +=
+            data_line("54", {middle * step_s / kSecondsPerHour, sum / static_cast<double>(each)});
     }
     return lines;
 }
 
 Figure series_figure(const long_record::RecordResult& result) {
-    FigureData data("before-after");
-    std::string panels;
-    const auto panel = [&](const std::string& title, const std::vector<double>& values,
-                           const std::string& colour) {
-        const std::string block = data.add(fmt::format("hours {} (mGal)", title),
-                                           curve_lines(values, result.record.step_s));
-        panels += fmt::format(
-            "set ylabel '{} (mGal)'\n{}", text::translated(title, text::language()),
-            plot_command(
-                {fmt::format("{} using 1:2 with lines lc rgb {} notitle", block, colour)}));
-    };
     const std::vector<double>& before = result.segment().acceleration_mgal;
-    const auto [low, high] = std::minmax_element(before.begin(), before.end());
-    const double mean = correlation::mean_of(before);
-    panel(text::marked("Before"), before, kGrey);
-    panel(text::marked("Parametric"), result.applied->parametric_mgal, kBlue);
-    panels += fmt::format("set xlabel '{}'\n",
-                          text::tr("Hours after {}", to_rfc3339(result.segment().start)));
-    panel(text::marked("By modes"), result.applied->by_modes_mgal, kVermilion);
-    return data.figure(
-        text::tr(
-            "The record minus its mean, before and after the correction by each of two methods."),
-        900, 640,
-        fmt::format(
-            "set multiplot layout 3,1\nset lmargin 12\nset yrange [{}:{}]\n{}unset multiplot\n",
-            datum(*low - mean - 1.0, 1), datum(*high - mean + 1.0, 1), panels));
+    const double low = std::ranges::min(before), high = std::ranges::max(before),
+                 mean = correlation::mean_of(before);
+    Figure figure{"before-after",
+                  tr("The record minus its mean, before and after the correction by each of two "
+                     "methods."),
+                  900, 640};
+    const auto add = [&](const char* title, const std::vector<double>& values, Colour colour) {
+        figure.panels.push_back(
+            {.y = {std::string(text::translated(title, text::language())) + " (mGal)",
+                   {low - mean - 1.0, high - mean + 1.0}}});
+        figure.plot(fmt::format("hours {} (mGal)", title), mean_lines(values, result.record.step_s),
+                    {Look::line, colour}, figure.panels.size() - 1);
+    };
+    add(text::marked("Before"), before, Colour::grey);
+    add(text::marked("Parametric"), result.applied->parametric_mgal, Colour::blue);
+    add(text::marked("By modes"), result.applied->by_modes_mgal, Colour::vermilion);
+    figure.panels.back().x.label = tr("Hours after {}", to_rfc3339(result.segment().start));
+    return figure;
 }
 
 Figure allan_figure(const long_record::RecordResult& result) {
+    Figure figure{
+        "allan",
+        tr("Allan deviation before and after the correction: scatter of averages over this time."),
+        900, 400};
     std::string lines;
-    for (const long_record::AllanPoint& point : result.applied->allan)
-        lines += datum(point.averaging_s, 0) + datum(point.deviation_mgal.before, 5) +
-                 datum(point.deviation_mgal.parametric, 5) +
-                 datum(point.deviation_mgal.by_modes, 5) + '\n';
-    FigureData data("allan");
-    const std::string block = data.add("averaging_s before parametric by_modes (mGal)", lines);
-    const auto curve = [&](int column, const std::string& colour, const char* title) {
-        return fmt::format("{} using 1:{} with linespoints pt 7 ps 0.5 lc rgb {} title '{}'", block,
-                           column, colour, text::translated(title, text::language()));
-    };
-    return data.figure(
-        text::tr(
-            "Allan deviation before and after the correction: scatter of averages over this time."),
-        900, 400,
-        fmt::format("set logscale xy\nset xlabel '{}'\nset ylabel '{}'\n",
-                    text::tr("Averaging (s)"), text::tr("Allan deviation (mGal)")) +
-            plot_command({curve(2, kGrey, text::marked("before")),
-                          curve(3, kBlue, text::marked("parametric")),
-                          curve(4, kVermilion, text::marked("by modes"))}));
+    for (const auto& [averaging_s, deviation] : result.applied->allan)
+        lines += data_line(
+            "0555", {averaging_s, deviation.before, deviation.parametric, deviation.by_modes});
+    const std::string source = figure.add("averaging_s before parametric by_modes (mGal)", lines);
+    figure.panels = {
+        {{.label = tr("Averaging (s)"), .scale = Scale::logarithmic},
+         {.label = tr("Allan deviation (mGal)"), .scale = Scale::logarithmic},
+         {{Look::linked_discs, Colour::grey, tr("before"), {{1}, {2}}, source},
+          {Look::linked_discs, Colour::blue, tr("parametric"), {{1}, {3}}, source},
+          {Look::linked_discs, Colour::vermilion, tr("by modes"), {{1}, {4}}, source}}}};
+    return figure;
 }
 
 }  // namespace

@@ -8,9 +8,6 @@
 ///
 ///     const Drawing drawing = draw(figures, {"pdf"});
 ///     for (const std::string& trouble : drawing.troubles) std::cerr << trouble << '\n';
-///
-/// Names from input files must be quoted by gnuplot_string() of escaping.hpp in every script.  Then
-/// they are drawn literally and execute nothing (drawing_test.cpp).
 
 #include <string>
 #include <vector>
@@ -41,10 +38,10 @@ struct Drawing {
 /// bad figure does not affect the others.  The same figures give the same bytes with the same
 /// gnuplot (drawing_test.cpp).  The date in a PDF is replaced by 1970-01-01.
 ///
-/// A run of gnuplot is killed after 60 s; its figures are then not drawn alone.  It gets no shell, the
-/// locale C.UTF-8 and UTC as its time zone.  The temporary
-/// folder is below std::filesystem::temp_directory_path() and is removed at the end.  A folder or a
-/// file that cannot be written there is a trouble too.
+/// A run of gnuplot is killed after 60 s; its figures are then not drawn alone.  It gets no shell,
+/// the locale C.UTF-8 and UTC as its time zone.  The temporary folder is below
+/// std::filesystem::temp_directory_path() and is removed at the end.  A folder or a file that cannot
+/// be written there is a trouble too.
 /// @param figures  with different names; a figure without data may plot the data of the others.  No
 ///                 figures give an empty result, and no program is started.
 /// @param formats  formats besides SVG, from picture_formats(); not checked.

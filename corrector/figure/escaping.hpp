@@ -5,7 +5,7 @@
 /// The text may have any bytes and any encoding.
 ///
 ///     node.text().set(clean_utf8(site).c_str());
-///     script += "set title " + gnuplot_string(site) + '\n';
+///     command = "set title " + gnuplot_string(site);
 ///
 /// The functions throw nothing but std::bad_alloc.  Examples: tests/unit/figure/escaping_test.cpp.
 

@@ -1,22 +1,134 @@
 #pragma once
 /// @file
-/// A figure of the report as a gnuplot script with its data, so that an author can restyle it.
+/// A figure as data: panels with axes, series, spans, lines and texts.
 ///
-///     FigureData data("residuals");
-///     const std::string points = data.add("hours residual_mgal", "1.0 0.3\n2.0 -0.1\n");
-///     const Figure figure = data.figure("Residuals in time.", 640, 440,
-///                                       "set xlabel 'Hours'\n" +
-///                                           plot_command({points + " using 1:2 with points"}));
+///     Figure figure{"residuals", "Residuals in time.", 640, 440};
+///     figure.panels = {{.x = {"Hours"}, .y = {"Residual (mGal)"}}};
+///     figure.plot("hours residual_mgal", data_line("11", {1.0, 0.3}), {Look::discs});
 ///
-/// Add all blocks before the call of figure(), which copies them.  draw() of drawing.hpp turns
-/// figures into pictures.  Nothing here starts a program or writes a file.
+/// It says what is shown.  Letters, line widths and places are decided in gnuplot_script.cpp, which
+/// writes the script, and draw() of drawing.hpp makes the pictures.
 
+#include <array>
 #include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "protocol/core/utc_time.hpp"
+
 namespace a351::corrector::figure {
+
+/// Eight colours of Okabe and Ito, which colour-blind readers can distinguish too
+/// (https://jfly.uni-koeln.de/color/); greys of error bars, raw samples and the way from station to
+/// station; tints of an area between limits, of a stay, a stay without a value and an averaged
+/// interval; and a colour by the value of the last column, which is on Panel::colours.
+// clang-format off
+enum class Colour {
+    blue, vermilion, green, orange, sky, purple, black, grey, bar_grey, raw_grey, route_grey,
+    limits, stay, lost_stay, averaged, by_value
+};
+
+/// Look of a series.  Its columns are x and y, except:
+/// - bars and the looks with bars: x, y and u, or x, y, low and high;
+/// - area: x, low and high.
+///
+/// Lines are interrupted by an empty line of the data.  Boxes are from 0 to y.
+enum class Look {
+    line, thin_line, firm_line, strong_line, thick_line, heavy_line, ribbon, area, boxes, bars,
+    dots, discs, small_discs, circles, crosses, diamonds, open_diamonds, large_discs, triangles,
+    linked_discs, discs_with_bars, circles_with_bars
+};
+// clang-format on
+
+/// A column of the data: times * value + plus.
+struct Column {
+    int number;  ///< From 1.
+    double plus = 0.0, times = 1.0;
+};
+
+/// Sources of the lines y = 0 and y = x, which need no data.
+inline const std::string kZero = "0", kDiagonal = "x";
+
+struct Series {
+    Look look = Look::line;
+    Colour colour = Colour::blue;
+    std::string label = {};  ///< In the key; empty: not there.
+    std::vector<Column> columns = {{1}, {2}};
+    std::string source = {};  ///< Figure::add(), source_of(), kZero or kDiagonal.
+    bool is_right = false;    ///< Its y axis is the right one.
+};
+
+/// The end of a range that follows from the data.
+inline constexpr double kFromData = std::numeric_limits<double>::quiet_NaN();
+
+enum class Scale { linear, logarithmic, time };
+
+struct Axis {
+    std::string label = {};
+    std::array<double, 2> range = {kFromData, kFromData};
+    double step = 0.0;           ///< Distance of the ticks; 0: a round number.
+    double last_tick = 0.0;      ///< Ticks are between minus and plus this value; 0: everywhere.
+    std::string format = "% h";  ///< Of the numbers at the ticks, as of printf.
+    Scale scale = Scale::linear;
+    std::vector<std::pair<double, std::string>> names = {};  ///< Ticks with names instead.
+    int slope = 0;         ///< Texts at the ticks rise (1), fall (-1) or are level (0).
+    bool is_shown = true;  ///< It has ticks.
+};
+
+/// A place: shares of the panel's width and height, or values of its axes.
+struct Place {
+    double x = 0.0, y = 0.0;
+    bool is_x_value = false, is_y_value = false;
+};
+
+enum class Letters { normal, small, tiny };
+
+struct Text {
+    std::string text;  ///< May have several lines.
+    Place place;
+    std::string side = "left";  ///< Its end at the place: left, center, right.
+    Letters letters = Letters::small;
+    bool is_upright = false;  ///< Turned by 90 degrees.
+};
+
+struct Line {
+    Place from, to;
+    bool is_scale_bar = false;  ///< Otherwise it is dashed.
+};
+
+/// A shaded part of the x axis.
+struct Span {
+    double from = 0.0, to = 0.0;
+    Colour colour = Colour::stay;
+};
+
+enum class Key { above, above_small, in_corner, in_line, top_of_figure };
+
+struct Panel {
+    Axis x = {}, y = {};
+    std::vector<Series> series = {};
+    Axis right = {.is_shown = false}, colours = {};
+    std::vector<Span> spans = {};
+    std::vector<Line> lines = {};
+    std::vector<Text> texts = {};
+    Key key = Key::above;
+    std::string title = {};
+    bool has_margin = false;  ///< There is room between the outer points and the border.
+    double height_px = 0.0;   ///< In a frame.
+};
+
+/// Places of the panels in px of the picture.  They share their axes: numbers and labels are at the
+/// left and lower border only.
+struct Frame {
+    double left = 0.0, right = 0.0, above = 0.0, below = 0.0;  ///< Borders.
+    double between_x = 0.0, between_y = 0.0;
+    std::size_t columns = 1;
+};
 
 /// A figure.  In the folder with its data, `gnuplot NAME.gp` writes NAME.svg, and
 /// `gnuplot -e "format='pdf'" NAME.gp` writes NAME.pdf (or png).
@@ -24,18 +136,41 @@ namespace a351::corrector::figure {
 /// A figure without data plots blocks of others, so that its script needs their NAME.dat in the
 /// same folder.
 struct Figure {
-    std::string name;       ///< Stem of its files: small letters, digits, '-'.
-    std::string caption;    ///< Plain text.
-    std::string script;     ///< Content of NAME.gp.
-    std::string data;       ///< Content of NAME.dat; empty if it plots the data of other figures.
-    bool is_small = false;  ///< At most 480 pixels wide; two fit side by side on a page.
+    std::string name;                     ///< Stem of its files: small letters, digits, '-'.
+    std::string caption = {};             ///< Plain text.
+    int width_px = 900, height_px = 480;  ///< Size at 96 per inch; a frame has its own height.
+    std::vector<Panel> panels = {};       ///< One below another, or as in the frame.
+    std::optional<Frame> frame = {};      ///< Absent: gnuplot places the panels.
+    std::string data = {};                ///< Content of NAME.dat.
+    std::size_t block_count = 0;          ///< Blocks in it.
+
+    /// Adds a block to the data.
+    /// @param title  comment that names the columns; one line.
+    /// @param lines  lines of the block, each with its line end; numbers from data_line().  An empty
+    ///               line interrupts a curve.  Two empty lines would begin another block.
+    /// @return the source of a series; empty if `lines` is empty.
+    std::string add(const std::string& title, const std::string& lines);
+
+    /// Adds a block, and a series of it to a panel; nothing if `lines` is empty.
+    void plot(const std::string& title, const std::string& lines, Series series,
+              std::size_t panel = 0);
+
+    /// Returns true if two such figures fit side by side on a page.
+    [[nodiscard]] bool is_small() const { return width_px <= 480; }
 };
 
-/// Okabe and Ito's colours, which colour-blind readers can distinguish too
-/// (https://jfly.uni-koeln.de/color/).
-inline const std::string kBlue = "'#0072B2'";
-inline const std::string kVermilion = "'#D55E00'";
-inline const std::string kGrey = "'#888888'";
+/// Returns the source of a series that plots a block of a figure's data.
+[[nodiscard]] std::string source_of(const std::string& figure, std::size_t block);
+
+/// Returns a line of the data: each number followed by a blank, then the end of the line.  NaN and
+/// infinite values become gnuplot's NaN, a point that it does not draw.
+/// @param decimals  for each number a digit, its digits after the point.
+[[nodiscard]] std::string data_line(std::string_view decimals,
+                                    std::initializer_list<double> numbers,
+                                    const std::string& end = "\n");
+
+/// Returns the value of an instant on an axis of time: seconds since 1970.
+[[nodiscard]] double instant(UtcTime time);
 
 /// Most points of a curve or scatter over a whole record.  Reason: a figure of weeks must stay
 /// small.
@@ -45,48 +180,5 @@ inline constexpr std::size_t kMostPoints = 3000;
 /// the ticks of an axis: 0.73 gives 0.5, 999 gives 500 (figures_test.cpp).
 /// @param limit  finite and > 0; not checked.
 [[nodiscard]] double round_step(double limit);
-
-/// Returns the number, or gnuplot's NaN, followed by a blank.  NaN and infinite values become NaN,
-/// a point that gnuplot does not draw.
-/// @param decimals  0 to 80, digits after the point.
-[[nodiscard]] std::string datum(double value, int decimals);
-
-/// The data of a figure: blocks of lines, numbered as gnuplot's `index` does.
-///
-/// An empty line within a block interrupts the curve.  Two empty lines would begin another block,
-/// so they must not occur.
-class FigureData {
-public:
-    /// @param name  of the figure.
-    explicit FigureData(std::string name) : name_(std::move(name)) {}
-
-    /// Adds a block.  An empty block is left out; then it must not be plotted.
-    /// @param title  comment that names the columns; one line.
-    /// @param lines  lines of the block, each with its line end; numbers from datum().
-    /// @return `'NAME.dat' index BLOCK`, with which a clause begins; empty if `lines` is empty.
-    std::string add(const std::string& title, const std::string& lines);
-
-    /// Returns the figure of these data.  Its script resets the settings of earlier scripts,
-    /// chooses the terminal by `format` (default svg), and sets the output and the common style.
-    ///
-    /// The terminal is `noenhanced`: `_`, `^` and braces in texts are shown as they are.  The
-    /// figure is small if its width is at most 480 px.
-    /// @param caption              plain text for the page; not part of the picture.
-    /// @param width_px, height_px  size of the SVG at 96 per inch; PDF and PNG have its
-    ///                             proportions.
-    /// @param body                 the commands of the script.
-    [[nodiscard]] Figure figure(const std::string& caption, int width_px, int height_px,
-                                const std::string& body) const;
-
-private:
-    std::string name_;
-    std::string text_;
-    int count_ = 0;
-};
-
-/// Returns "plot A, \<newline> B, ..." from at least one clause.
-/// @param clauses  as `'NAME.dat' index 0 using 1:2 with lines`; drawn in this order, so that later
-///                 ones are above.
-[[nodiscard]] std::string plot_command(const std::vector<std::string>& clauses);
 
 }  // namespace a351::corrector::figure

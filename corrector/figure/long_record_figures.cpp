@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -12,193 +13,157 @@
 namespace a351::corrector::figure {
 namespace {
 
+using long_record::RecordResult, long_record::RecordStretch;
+using text::tr;
+
 /// Most steps of a curve.  Reason: two to three per pixel.
 constexpr std::size_t kMostSteps = 1500;
 /// Length of the figure with both modes, h.  Reason: in a longer one the curves cannot be
 /// distinguished.
 constexpr double kOverlay_h = 12.0;
 
+/// A curve over hours: sample i is at first_h + i step_h and has factor * (value - offset).
+struct Curve {
+    std::span<const double> values;
+    double step_h, first_h = 0.0, offset = 0.0, factor = 1.0;
+};
+
 /// Returns the least and the greatest value of every step; one value if a step is one sample.
-std::string curve_lines(const std::vector<double>& values, double first_h, double step_h,
-                        double offset, double factor) {
-    const std::size_t each = (values.size() + kMostSteps - 1) / kMostSteps;
+std::string curve_lines(const Curve& curve) {
+    const std::size_t count = curve.values.size(), each = (count + kMostSteps - 1) / kMostSteps;
     std::string lines;
-    for (std::size_t first = 0; first < values.size(); first += each) {
-        const std::size_t behind = std::min(values.size(), first + each);
-        const auto [low, high] =
-            std::minmax_element(values.begin() + static_cast<std::ptrdiff_t>(first),
-                                values.begin() + static_cast<std::ptrdiff_t>(behind));
-        const std::string x =
-            datum(first_h + step_h * 0.5 * static_cast<double>(first + behind - 1), 5);
-        lines += x + datum(factor * (*low - offset), 5) + '\n';
-        if (each > 1) lines += x + datum(factor * (*high - offset), 5) + '\n';
+    for (std::size_t first = 0; first < count; first += each) {
+        const auto step = curve.values.subspan(first, std::min(each, count - first));
+        const auto [low, high] = std::ranges::minmax(step);
+        const double hours =
+            curve.first_h + curve.step_h * 0.5 * static_cast<double>(2 * first + step.size() - 1);
+        lines += data_line("55", {hours, curve.factor * (low - curve.offset)});
+        if (each > 1) lines += data_line("55", {hours, curve.factor * (high - curve.offset)});
     }
     return lines;
 }
 
-std::string scatter_lines(const std::vector<double>& x, const std::vector<double>& y,
-                          double offset) {
-    const std::size_t count = std::min(x.size(), y.size());
-    const std::size_t each = (count + kMostPoints - 1) / kMostPoints;
-    std::string lines;
-    for (std::size_t i = 0; i < count; i += each)
-        lines += datum(x[i], 6) + datum(y[i] - offset, 4) + '\n';
-    return lines;
-}
-
-std::string line_lines(const std::vector<double>& x, const correlation::LineFit& fit,
-                       double offset) {
-    const auto [low, high] = std::minmax_element(x.begin(), x.end());
-    std::string lines;
-    for (const double at : {*low, *high})
-        lines +=
-            datum(at, 6) + datum(fit.mean_y + fit.slope * (at - fit.mean_x) - offset, 4) + '\n';
-    return lines;
-}
+double step_h_of(const RecordResult& result) { return result.record.step_s / kSecondsPerHour; }
 
 /// Returns the mean acceleration rounded to whole mGal, so that the axis is easy to read.
-double reference_of(const long_record::RecordResult& result) {
+double reference_of(const RecordResult& result) {
     return std::round(correlation::mean_of(result.segment().acceleration_mgal));
 }
 
-std::string above(double reference) {
-    return fmt::format("set ylabel '{}'\n",
-                       text::tr("Acceleration - {} (mGal)", text::fixed(reference, 0)));
+std::string above_reference(const RecordResult& result) {
+    return tr("Acceleration - {} (mGal)", text::fixed(reference_of(result), 0));
 }
 
-std::string hours_axis(UtcTime start) {
-    return fmt::format("set xlabel '{}'\n", text::tr("Hours after {}", to_rfc3339(start)));
-}
+std::string hours_after(UtcTime start) { return tr("Hours after {}", to_rfc3339(start)); }
 
-/// Returns the figure of the acceleration above the temperature.
-/// @param head  commands before the upper panel.
-Figure two_panels(const FigureData& data, const std::string& caption, const std::string& head,
-                  const std::vector<std::string>& accelerations, UtcTime start,
-                  const std::vector<std::string>& temperatures) {
-    return data.figure(caption, 900, 480,
-                       fmt::format("set multiplot layout 2,1\nset lmargin 12\n{}{}"
-                                   "set ylabel '{}'\n{}{}unset multiplot\n",
-                                   head, plot_command(accelerations), text::tr("Temperature (°C)"),
-                                   hours_axis(start), plot_command(temperatures)));
+/// Returns a figure of the acceleration above the temperature.
+Figure two_panels(const std::string& name, const std::string& caption, UtcTime start,
+                  const std::string& y_label) {
+    const Panel above{.y = {y_label}}, below{{hours_after(start)}, {tr("Temperature (°C)")}};
+    return {name, caption, 900, 480, {above, below}};
 }
 
 /// Returns the figure of the raw samples' ranges, in steps, of all stretches.
-Figure raw_figure(const long_record::RecordResult& result, double reference) {
+Figure raw_figure(const RecordResult& result) {
+    using Range = RecordStretch::RawRange;
+    const double reference = reference_of(result);
     const UtcTime start = result.record.stretches.front().times.front();
     std::string acceleration, temperature;
     std::size_t samples = 0;
-    for (const long_record::RecordStretch& stretch : result.record.stretches)
-        samples += stretch.raw.size();
+    for (const RecordStretch& stretch : result.record.stretches) samples += stretch.raw.size();
     const std::size_t each = (samples + kMostSteps - 1) / kMostSteps;
-    for (const long_record::RecordStretch& stretch : result.record.stretches) {
+    for (const RecordStretch& stretch : result.record.stretches) {
         for (std::size_t first = 0; first < stretch.raw.size(); first += each) {
-            long_record::RecordStretch::RawRange range = stretch.raw[first];
-            for (std::size_t i = first; i < std::min(stretch.raw.size(), first + each); ++i) {
-                const long_record::RecordStretch::RawRange& next = stretch.raw[i];
-                range.acceleration_low_mgal =
-                    std::fmin(range.acceleration_low_mgal, next.acceleration_low_mgal);
-                range.acceleration_high_mgal =
-                    std::fmax(range.acceleration_high_mgal, next.acceleration_high_mgal);
-                range.temperature_low_degc =
-                    std::fmin(range.temperature_low_degc, next.temperature_low_degc);
-                range.temperature_high_degc =
-                    std::fmax(range.temperature_high_degc, next.temperature_high_degc);
-            }
-            const std::string x =
-                datum(seconds_between(start, stretch.times[first]) / kSecondsPerHour, 5);
-            acceleration += x + datum(range.acceleration_low_mgal - reference, 3) +
-                            datum(range.acceleration_high_mgal - reference, 3) + '\n';
-            temperature += x + datum(range.temperature_low_degc, 4) +
-                           datum(range.temperature_high_degc, 4) + '\n';
+            const auto step =
+                std::span(stretch.raw).subspan(first, std::min(each, stretch.raw.size() - first));
+            const auto limit = [&step](double Range::*member, double (*chosen)(double, double)) {
+                double value = step.front().*member;
+                for (const Range& range : step) value = chosen(value, range.*member);
+                return value;
+            };
+            const double hours = seconds_between(start, stretch.times[first]) / kSecondsPerHour;
+            acceleration += data_line(
+                "533", {hours, limit(&Range::acceleration_low_mgal, std::fmin) - reference,
+                        limit(&Range::acceleration_high_mgal, std::fmax) - reference});
+            temperature += data_line("544", {hours, limit(&Range::temperature_low_degc, std::fmin),
+                                             limit(&Range::temperature_high_degc, std::fmax)});
         }
         acceleration += '\n';
         temperature += '\n';
     }
-    FigureData data("record-raw");
-    const std::string style = " using 1:2:3 with filledcurves lc rgb ";
-    const std::string a =
-        data.add("hours acceleration: least, greatest (mGal)", acceleration) + style + kBlue;
-    const std::string t =
-        data.add("hours temperature: least, greatest (degC)", temperature) + style + kVermilion;
-    return two_panels(
-        data,
-        text::tr("Norm and temperature as sampled: range from the least to the greatest "
-                 "sample of each step."),
-        above(reference), {a + " notitle"}, start, {t + " notitle"});
+    Figure figure = two_panels("record-raw",
+                               tr("Norm and temperature as sampled: range from the least to the "
+                                  "greatest sample of each step."),
+                               start, above_reference(result));
+    const std::vector<Column> columns{{1}, {2}, {3}};
+    figure.plot("hours acceleration: least, greatest (mGal)", acceleration,
+                {Look::area, Colour::blue, "", columns});
+    figure.plot("hours temperature: least, greatest (degC)", temperature,
+                {Look::area, Colour::vermilion, "", columns}, 1);
+    return figure;
 }
 
-Figure samples_figure(const long_record::RecordResult& result, double reference) {
+Figure samples_figure(const RecordResult& result) {
     const UtcTime start = result.record.stretches.front().times.front();
+    const double step_h = step_h_of(result);
     std::string acceleration, temperature;
     for (const long_record::RecordSegment& segment : result.parts.segments) {
         const double first_h = seconds_between(start, segment.start) / kSecondsPerHour;
-        const double step_h = result.record.step_s / kSecondsPerHour;
         acceleration +=
-            curve_lines(segment.acceleration_mgal, first_h, step_h, reference, 1.0) + '\n';
-        temperature += curve_lines(segment.temperature_degc, first_h, step_h, 0.0, 1.0) + '\n';
+            curve_lines({segment.acceleration_mgal, step_h, first_h, reference_of(result)}) + '\n';
+        temperature += curve_lines({segment.temperature_degc, step_h, first_h}) + '\n';
     }
-    FigureData data("record-20s");
-    const std::string style = " using 1:2 with lines lc rgb ";
-    const std::string a = data.add("hours acceleration_mgal", acceleration) + style + kBlue;
-    const std::string t = data.add("hours temperature_degc", temperature) + style + kVermilion;
-    return two_panels(
-        data,
-        text::tr("Norm and temperature decimated to 20 s, in the segments that can be analysed."),
-        above(reference), {a + " notitle"}, start, {t + " notitle"});
+    Figure figure = two_panels("record-20s",
+                               tr("Norm and temperature decimated to 20 s, in the segments that "
+                                  "can be analysed."),
+                               start, above_reference(result));
+    figure.plot("hours acceleration_mgal", acceleration, {});
+    figure.plot("hours temperature_degc", temperature, {Look::line, Colour::vermilion}, 1);
+    return figure;
 }
 
 Figure scatter_figure(const std::string& name, const std::string& caption,
                       const std::vector<double>& x, const std::vector<double>& y,
-                      const correlation::LineFit& fit, double offset, const std::string& ylabel) {
-    FigureData data(name);
-    const std::string points =
-        data.add("temperature_degc acceleration_mgal", scatter_lines(x, y, offset));
-    const std::string line =
-        data.add("line: temperature_degc acceleration_mgal", line_lines(x, fit, offset));
-    return data.figure(
-        caption, 480, 400,
-        fmt::format(
-            "set xlabel '{}'\n{}set xtics rotate by -30\nset rmargin 5\n{}",
-            text::tr("Temperature (°C)"), ylabel,
-            plot_command(
-                {fmt::format("{} using 1:2 with points pt 7 ps 0.2 lc rgb {} notitle", points,
-                             kBlue),
-                 fmt::format("{} using 1:2 with lines lw 1.5 lc rgb {} title '{} mGal/°C, R² = {}'",
-                             line, kVermilion, text::fixed(fit.slope, 2),
-                             text::fixed(fit.r2, 3))})));
+                      const correlation::LineFit& fit, double offset, const std::string& y_label) {
+    const std::size_t count = std::min(x.size(), y.size());
+    std::string points, ends;
+    for (std::size_t i = 0; i < count; i += (count + kMostPoints - 1) / kMostPoints)
+        points += data_line("64", {x[i], y[i] - offset});
+    for (const double at : {std::ranges::min(x), std::ranges::max(x)})
+        ends += data_line("64", {at, fit.mean_y + fit.slope * (at - fit.mean_x) - offset});
+    const Axis temperature{.label = tr("Temperature (°C)"), .slope = -1};
+    Figure figure{name, caption, 480, 400, {{temperature, {y_label}}}};
+    figure.plot("temperature_degc acceleration_mgal", points, {Look::dots});
+    figure.plot(
+        "line: temperature_degc acceleration_mgal", ends,
+        {Look::strong_line, Colour::vermilion,
+         fmt::format("{} mGal/°C, R² = {}", text::fixed(fit.slope, 2), text::fixed(fit.r2, 3))});
+    return figure;
 }
 
 /// Returns the figure of the acceleration, sign reversed and moved earlier, above the temperature,
 /// each with its residue.
-Figure trend_figure(const long_record::RecordResult& result) {
+Figure trend_figure(const RecordResult& result) {
     const long_record::RecordSegment& segment = result.segment();
-    const double step_h = result.record.step_s / kSecondsPerHour;
-    const double moved_h = -result.options.shift_s / kSecondsPerHour;
-    const double first = segment.acceleration_mgal.front();
-    const std::vector<double>& slow = result.analysis.acceleration.residue.values;
-    FigureData data("trend");
-    const std::string a =
-        data.add("hours, moved; acceleration, sign reversed (mGal)",
-                 curve_lines(segment.acceleration_mgal, moved_h, step_h, first, -1.0));
-    const std::string a_slow =
-        data.add("its residue", curve_lines(slow, moved_h, step_h, 0.0, -1.0));
-    const std::string t = data.add("hours temperature_degc",
-                                   curve_lines(segment.temperature_degc, 0.0, step_h, 0.0, 1.0));
-    const std::string t_slow =
-        data.add("its residue",
-                 curve_lines(result.analysis.temperature.residue.values, 0.0, step_h, 0.0, 1.0));
-    const std::string line = " using 1:2 with lines lc rgb ",
-                      thick = " using 1:2 with lines lw 2.5 lc rgb 'black' ";
-    return two_panels(
-        data,
-        text::tr("Acceleration, sign reversed and moved {} s earlier, and temperature, each "
-                 "with the residue of its decomposition.",
-                 text::fixed(result.options.shift_s, 0)),
-        fmt::format("set xrange [{}:{}]\nset ylabel '{}'\n", text::fixed(moved_h, 3),
-                    text::fixed(step_h * static_cast<double>(segment.size()), 3),
-                    text::tr("- Acceleration (mGal)")),
-        {a + line + kBlue + " notitle", a_slow + thick + "title '" + text::tr("residue") + "'"},
-        segment.start, {t + line + kVermilion + " notitle", t_slow + thick + "notitle"});
+    const double step_h = step_h_of(result), moved_h = -result.options.shift_s / kSecondsPerHour;
+    const std::vector<double>&a = segment.acceleration_mgal, &t = segment.temperature_degc;
+    Figure figure = two_panels("trend",
+                               tr("Acceleration, sign reversed and moved {} s earlier, and "
+                                  "temperature, each with the residue of its decomposition.",
+                                  text::fixed(result.options.shift_s, 0)),
+                               segment.start, tr("- Acceleration (mGal)"));
+    const std::vector<double>& slow_a = result.analysis.acceleration.residue.values;
+    const std::vector<double>& slow_t = result.analysis.temperature.residue.values;
+    figure.plot("hours, moved; acceleration, sign reversed (mGal)",
+                curve_lines({a, step_h, moved_h, a.front(), -1.0}), {});
+    figure.plot("its residue", curve_lines({slow_a, step_h, moved_h, 0.0, -1.0}),
+                {Look::heavy_line, Colour::black, tr("residue")});
+    figure.plot("hours temperature_degc", curve_lines({t, step_h}), {Look::line, Colour::vermilion},
+                1);
+    figure.plot("its residue", curve_lines({slow_t, step_h}), {Look::heavy_line, Colour::black}, 1);
+    for (Panel& panel : figure.panels)
+        panel.x.range = {moved_h, step_h * static_cast<double>(segment.size())};
+    return figure;
 }
 
 struct ModePair {
@@ -206,7 +171,7 @@ struct ModePair {
     std::vector<double> turned;  ///< Acceleration, sign reversed, moved earlier by the shift.
 };
 
-ModePair mode_pair(const long_record::RecordResult& result) {
+ModePair mode_pair(const RecordResult& result) {
     const long_record::RecordAnalysis& analysis = result.analysis;
     const std::vector<double>& a =
         analysis.acceleration.modes[analysis.acceleration_mode->number - 1].values;
@@ -219,88 +184,78 @@ ModePair mode_pair(const long_record::RecordResult& result) {
     return pair;
 }
 
-Figure overlay_figure(const long_record::RecordResult& result, const ModePair& pair) {
-    const double step_h = result.record.step_s / kSecondsPerHour;
-    const std::size_t count =
-        std::min(pair.turned.size(), static_cast<std::size_t>(kOverlay_h / step_h));
-    const auto first = static_cast<std::ptrdiff_t>((pair.turned.size() - count) / 2);
-    const auto part = [&](const std::vector<double>& values) {
-        return std::vector<double>(values.begin() + first,
-                                   values.begin() + first + static_cast<std::ptrdiff_t>(count));
+Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
+    const double step_h = step_h_of(result);
+    const std::size_t size = pair.turned.size();
+    const std::size_t count = std::min(size, static_cast<std::size_t>(kOverlay_h / step_h));
+    const std::size_t first = (size - count) / 2;
+    Figure figure{"modes",
+                  tr("Modes of the cycle: acceleration, sign reversed and moved {} s earlier, and "
+                     "temperature{}.",
+                     text::fixed(result.options.shift_s, 0),
+                     count < size ? tr("; the middle of the record") : ""),
+                  900, 360};
+    figure.panels.push_back({{hours_after(result.segment().start)},
+                             {tr("- Acceleration (mGal)")},
+                             {},
+                             {tr("Temperature (°C)")}});
+    const auto lines = [&](const std::vector<double>& mode) {
+        return curve_lines(
+            {std::span(mode).subspan(first, count), step_h, static_cast<double>(first) * step_h});
     };
-    const double first_h = static_cast<double>(first) * step_h;
-    FigureData data("modes");
-    const std::string a = data.add("hours; acceleration, sign reversed and moved (mGal)",
-                                   curve_lines(part(pair.turned), first_h, step_h, 0.0, 1.0));
-    const std::string t = data.add("hours temperature_degc",
-                                   curve_lines(part(pair.temperature), first_h, step_h, 0.0, 1.0));
-    return data.figure(
-        text::tr("Modes of the cycle: acceleration, sign reversed and moved {} s earlier, and "
-                 "temperature{}.",
-                 text::fixed(result.options.shift_s, 0),
-                 count < pair.turned.size() ? text::tr("; the middle of the record") : ""),
-        900, 360,
-        fmt::format(
-            "{}set ylabel '{}'\nset y2label '{}'\n"
-            "set ytics nomirror\nset y2tics\n{}",
-            hours_axis(result.segment().start), text::tr("- Acceleration (mGal)"),
-            text::tr("Temperature (°C)"),
-            plot_command({fmt::format("{} using 1:2 with lines lc rgb {} title '{}'", a, kBlue,
-                                      text::tr("acceleration, sign reversed and moved")),
-                          fmt::format("{} using 1:2 axes x1y2 with lines lc rgb {} title '{}'", t,
-                                      kVermilion, text::tr("temperature"))})));
+    figure.plot("hours; acceleration, sign reversed and moved (mGal)", lines(pair.turned),
+                {.label = tr("acceleration, sign reversed and moved")});
+    figure.plot("hours temperature_degc", lines(pair.temperature),
+                {.colour = Colour::vermilion, .label = tr("temperature"), .is_right = true});
+    return figure;
 }
 
-Figure correlation_figure(const long_record::RecordResult& result) {
+Figure correlation_figure(const long_record::RecordAnalysis& analysis) {
     const auto lines = [](const correlation::CrossCorrelation& correlation) {
         std::string text;
         for (std::size_t i = 0; i < correlation.values.size(); ++i)
-            text += datum(correlation.delays_s[i], 1) + datum(correlation.values[i], 5) + '\n';
+            text += data_line("15", {correlation.delays_s[i], correlation.values[i]});
         return text;
     };
-    FigureData data("correlation");
-    const std::string modes =
-        data.add("modes: delay_s correlation", lines(result.analysis.modes->correlation));
-    const std::string band =
-        data.add("band: delay_s correlation", lines(result.analysis.band.correlation));
-    const std::string style = " using 1:2 with lines lw 1.5 lc rgb ";
-    return data.figure(
-        text::tr("Cross-correlation of the two modes, and of the band, against the delay of the "
-                 "acceleration."),
-        480, 400,
-        fmt::format("set xlabel '{}'\nset ylabel '{}'\nset yrange [-1:1]\nset xzeroaxis\n",
-                    text::tr("Delay of the acceleration (s)"), text::tr("Correlation")) +
-            plot_command({modes + style + kBlue + " title '" + text::tr("modes") + "'",
-                          band + style + kGrey + " title '" + text::tr("band") + "'"}));
+    Figure figure{
+        "correlation",
+        tr("Cross-correlation of the two modes, and of the band, against the delay of the "
+           "acceleration."),
+        480, 400};
+    figure.panels.push_back({{tr("Delay of the acceleration (s)")},
+                             {tr("Correlation"), {-1.0, 1.0}},
+                             {{.colour = Colour::grey, .source = kZero}}});
+    figure.plot("modes: delay_s correlation", lines(analysis.modes->correlation),
+                {Look::strong_line, Colour::blue, tr("modes")});
+    figure.plot("band: delay_s correlation", lines(analysis.band.correlation),
+                {Look::strong_line, Colour::grey, tr("band")});
+    return figure;
 }
 
 }  // namespace
 
-std::vector<Figure> long_record_figures(const long_record::RecordResult& result) {
-    const double reference = reference_of(result);
+std::vector<Figure> long_record_figures(const RecordResult& result) {
     const long_record::RecordSegment& segment = result.segment();
     std::vector<Figure> figures;
-    const auto& stretches = result.record.stretches;
-    if (std::ranges::any_of(stretches, [](const long_record::RecordStretch& stretch) {
-            return !stretch.raw.empty();
-        })) {
-        figures.push_back(raw_figure(result, reference));
-    }
-    figures.push_back(samples_figure(result, reference));
+    if (std::ranges::any_of(result.record.stretches,
+                            [](const RecordStretch& one) { return !one.raw.empty(); }))
+        figures.push_back(raw_figure(result));
+    figures.push_back(samples_figure(result));
     figures.push_back(trend_figure(result));
     if (result.analysis.modes) {
         const ModePair pair = mode_pair(result);
         figures.push_back(overlay_figure(result, pair));
         figures.push_back(scatter_figure(
             "scatter-modes",
-            text::tr("The two modes, acceleration sign reversed and moved, with regression line."),
+            tr("The two modes, acceleration sign reversed and moved, with regression line."),
             pair.temperature, pair.turned, result.analysis.modes->moved, 0.0,
-            fmt::format("set ylabel '{}'\n", text::tr("- Acceleration (mGal)"))));
-        figures.push_back(correlation_figure(result));
+            tr("- Acceleration (mGal)")));
+        figures.push_back(correlation_figure(result.analysis));
     }
-    figures.push_back(scatter_figure(
-        "scatter", text::tr("All samples at 20 s, with regression line."), segment.temperature_degc,
-        segment.acceleration_mgal, result.analysis.raw, reference, above(reference)));
+    figures.push_back(scatter_figure("scatter", tr("All samples at 20 s, with regression line."),
+                                     segment.temperature_degc, segment.acceleration_mgal,
+                                     result.analysis.raw, reference_of(result),
+                                     above_reference(result)));
     return figures;
 }
 

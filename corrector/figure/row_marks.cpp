@@ -2,26 +2,34 @@
 
 #include <fmt/core.h>
 
+#include <array>
+
 #include "corrector/figure/escaping.hpp"
-#include "corrector/figure/figure.hpp"
 #include "corrector/judgement/reading_name.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 
-const std::vector<Mark>& marks() {
-    static const std::vector<Mark> all{
-        {text::marked("in the fit"),
-         [](const model::CorrectedRow& row) { return row.is_used && !row.row.is_flagged; },
-         "pt 7 ps 0.6 lc rgb " + kBlue},
-        {text::marked("marked by the operator, in the fit"),
-         [](const model::CorrectedRow& row) { return row.is_used && row.row.is_flagged; },
-         "pt 6 ps 0.7 lw 1.5 lc rgb " + kBlue},
-        {text::marked("left out of the fit"),
-         [](const model::CorrectedRow& row) { return !row.is_used; },
-         "pt 2 ps 0.7 lw 1.5 lc rgb " + kVermilion},
-    };
-    return all;
+void plot_rows(Figure& figure, const model::SurveyCorrection& result, const std::string& columns,
+               const std::function<std::string(const model::CorrectedRow&)>& line_of) {
+    constexpr std::array kKinds{text::marked("in the fit"),
+                                text::marked("marked by the operator, in the fit"),
+                                text::marked("left out of the fit")};
+    const std::array<Series, kKinds.size()> looks{{{Look::discs, Colour::blue},
+                                                   {Look::circles, Colour::blue},
+                                                   {Look::crosses, Colour::vermilion}}};
+    std::array<std::string, kKinds.size()> lines;
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+        const model::CorrectedRow& row = result.rows[i];
+        const std::string line = line_of(row);
+        if (!line.empty())
+            lines.at(!row.is_used ? 2 : row.row.is_flagged ? 1 : 0) += line + comment(result, i);
+    }
+    for (std::size_t k = 0; k < kKinds.size(); ++k) {
+        Series series = looks.at(k);
+        series.label = text::translated(kKinds.at(k), text::language());
+        figure.plot(fmt::format("{}: {}", kKinds.at(k), columns), lines.at(k), series);
+    }
 }
 
 std::string comment(const model::SurveyCorrection& result, std::size_t row) {

@@ -4,22 +4,18 @@
 
 #include <functional>
 #include <string>
-#include <vector>
 
+#include "corrector/figure/figure.hpp"
 #include "corrector/model/corrected_survey.hpp"
 
 namespace a351::corrector::figure {
 
-/// A group of rows and its mark in a figure.
-struct Mark {
-    std::string title;
-    std::function<bool(const model::CorrectedRow&)> takes;
-    std::string style;
-};
-
-/// Returns the groups: in the fit, marked by the operator but in the fit, left out of the fit.  Each
-/// row is in one of them.  The list lives as long as the program.
-[[nodiscard]] const std::vector<Mark>& marks();
+/// Adds the rows to the first panel, in a block for each kind: in the fit, marked by the operator but
+/// in the fit, left out of the fit.  A line ends with the name of its row as a comment.
+/// @param columns  names of the columns.
+/// @param line_of  returns the numbers of a row; empty if it is not in the figure.
+void plot_rows(Figure& figure, const model::SurveyCorrection& result, const std::string& columns,
+               const std::function<std::string(const model::CorrectedRow&)>& line_of);
 
 /// Returns the end of a line of data: a comment with the name of the row's reading.
 [[nodiscard]] std::string comment(const model::SurveyCorrection& result, std::size_t row);

@@ -2,7 +2,7 @@
 /// @file
 /// Figures of a survey: figures 10 to 14 of the publication, the day on one axis of time, and a map.
 ///
-/// Each function returns scripts and data; draw() of drawing.hpp makes the pictures.  Rows have
+/// Each function returns figures as data; draw() of drawing.hpp makes the pictures.  Rows have
 /// three marks: in the fit, marked by the operator but in the fit, and left out of the fit.  In the
 /// data a line of a reading ends with a comment that names it.
 ///

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "corrector/figure/escaping.hpp"
+#include "corrector/figure/gnuplot_script.hpp"
 #include "corrector/figure/inline_svg.hpp"
 #include "protocol/text/message.hpp"
 
@@ -170,7 +171,7 @@ void add_figures(pugi::xml_node parent, const std::vector<figure::Figure>& figur
     pugi::xml_node side_by_side;
     for (const bool is_small : {false, true}) {
         for (const figure::Figure& figure : figures) {
-            if (figure.is_small != is_small) continue;
+            if (figure.is_small() != is_small) continue;
             if (is_small && !side_by_side) side_by_side = add_part(parent, "div", "small");
             add_figure(is_small ? side_by_side : parent, figure, drawing);
         }
@@ -186,13 +187,10 @@ std::vector<std::string> missing_lines(const std::vector<std::string>& troubles)
 
 void add_figure_files(std::vector<text::NamedText>& files,
                       const std::vector<figure::Figure>& figures, figure::Drawing& drawing) {
-    for (const figure::Figure& figure : figures) {
-        files.emplace_back("figures/" + figure.name + ".gp", figure.script);
-        if (!figure.data.empty())
-            files.emplace_back("figures/" + figure.name + ".dat", figure.data);
-    }
-    for (text::NamedText& picture : drawing.pictures)
-        files.emplace_back("figures/" + picture.first, std::move(picture.second));
+    std::vector<text::NamedText> scripts = figure::figure_files(figures);
+    for (auto* const set : {&scripts, &drawing.pictures})
+        for (text::NamedText& file : *set)
+            files.emplace_back("figures/" + file.first, std::move(file.second));
 }
 
 }  // namespace a351::corrector::report

@@ -1,6 +1,7 @@
 #include <cmath>
 #include "tests/support/catch.hpp"
 
+#include "corrector/figure/gnuplot_script.hpp"
 #include "corrector/figure/survey_figures.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/figure/corrected_rows.hpp"
@@ -17,14 +18,14 @@ TEST_CASE("the axis of the day names each stay once, and shows dates if there ar
     auto rows = made_up::day();
     rows[1].site = "B";
     rows[1].occupation = 1;
-    std::string script = day_figure(corrected(rows), {}, {}, {}).script;
+    std::string script = script_of(day_figure(corrected(rows), {}, {}, {}));
     CHECK(count(script, "'B (1)'") == 1);
     CHECK(count(script, "'B (2)'") == 1);
     CHECK_THAT(script,
                ContainsSubstring("set format x '%H:%M'") && ContainsSubstring("'UTC, 2020-05-01'"));
     rows.back().time += std::chrono::days(2);
-    script = day_figure(corrected(rows), {}, {}, {}).script;
-    CHECK_THAT(script, ContainsSubstring("%m-%d\"") &&
+    script = script_of(day_figure(corrected(rows), {}, {}, {}));
+    CHECK_THAT(script, ContainsSubstring("'%H:%M'.\"\\n\".'%m-%d'") &&
                            ContainsSubstring("'UTC, 2020-05-01 to 2020-05-03'"));
 }
 
@@ -33,14 +34,14 @@ TEST_CASE("the day shows errors with their u only for readings with a reference"
     auto rows = made_up::day();
     rows[1].reference.reset();
     const Figure figure = day_figure(corrected(rows), {}, {}, {});
-    CHECK(count(figure.script, "yerrorbars") == 1);
+    CHECK(count(script_of(figure), "yerrorbars") == 1);
     const std::string errors = figure.data.substr(0, figure.data.find("\n\n\n"));
     CHECK(count(errors, "\n2020") == 11);
     CHECK_THAT(figure.caption, ContainsSubstring("in sample") &&
                                    ContainsSubstring("standard uncertainty u as of a new station"));
     SurveyCorrection unknown;
     for (const SurveyRow& row : rows) unknown.rows.emplace_back().row = row;
-    CHECK(count(day_figure(unknown, {}, {}, {}).script, "yerrorbars") == 0);
+    CHECK(count(script_of(day_figure(unknown, {}, {}, {})), "yerrorbars") == 0);
 }
 
 TEST_CASE("the day shows the whole-day model's errors with the station left out",
@@ -58,8 +59,8 @@ TEST_CASE("a stay without a value is on the axis of the day", "[report][figures]
     SurveyCorrection result = corrected(made_up::day());
     const UtcTime end = result.rows[0].row.time - std::chrono::minutes(5);
     add_left_out(result, {{"S9", 2, end - std::chrono::hours(1), end, "no samples"}});
-    const std::string script = day_figure(result, {}, {}, {}).script;
-    CHECK_THAT(script, ContainsSubstring("'S9 (2)' '") &&
+    const std::string script = script_of(day_figure(result, {}, {}, {}));
+    CHECK_THAT(script, ContainsSubstring("'S9 (2)' at first '") &&
                            ContainsSubstring("from '" + to_rfc3339(end - std::chrono::hours(1)) +
                                              "',graph 0 to '" + to_rfc3339(end) + "'"));
 }
@@ -82,7 +83,7 @@ TEST_CASE("the verdicts of the day are a band with a key in words, if the log ha
     const Figure figure = day_figure(
         result, {}, {},
         {{at(0), at(5), "settling"}, {at(5), at(9), "stable"}, {at(9), at(10), "new word"}});
-    CHECK_THAT(figure.script,
+    CHECK_THAT(script_of(figure),
                ContainsSubstring("title 'stable'") && ContainsSubstring("title 'settling'") &&
                    !ContainsSubstring("disturbed") && !ContainsSubstring("new word"));
     CHECK_THAT(figure.data,

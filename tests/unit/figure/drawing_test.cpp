@@ -2,7 +2,6 @@
 
 #include "tests/support/catch.hpp"
 
-#include "corrector/figure/escaping.hpp"
 #include "protocol/child/child_program.hpp"
 #include "tests/support/path_variable.hpp"
 
@@ -11,8 +10,11 @@ using namespace a351::corrector::figure;
 
 namespace {
 
-Figure figure(const std::string& name, const std::string& commands) {
-    Figure figure = FigureData(name).figure("", 300, 200, commands);
+/// Returns a figure of a file's first block, with a text as title.
+Figure figure(const std::string& name, const std::string& file, const std::string& title = "") {
+    Figure figure{name, "", 300, 200};
+    figure.panels.emplace_back().series = {{.source = "'" + file + "'"}};
+    figure.panels.back().title = title;
     figure.data = "1 1\n2 4\n";
     return figure;
 }
@@ -28,8 +30,7 @@ bool has_gnuplot() {
 
 TEST_CASE("drawing the same figures gives the same bytes in every format", "[report][drawing]") {
     if (!has_gnuplot()) return;
-    const std::vector<Figure> figures{figure("one", "plot 'one.dat' with lines\n"),
-                                      figure("two", "plot 'one.dat' with points\n")};
+    const std::vector<Figure> figures{figure("one", "one.dat"), figure("two", "two.dat")};
     const Drawing drawing = draw(figures, picture_formats());
     CHECK(drawing.troubles.empty());
     REQUIRE(drawing.pictures.size() == 6);
@@ -43,15 +44,12 @@ TEST_CASE("drawing the same figures gives the same bytes in every format", "[rep
 TEST_CASE("a bad figure is reported and does not affect the others", "[report][drawing]") {
     if (!has_gnuplot()) return;
     const Drawing drawing =
-        draw({figure("one", "plot 'one.dat'\n"), figure("bad", "plot 'absent.dat'\n"),
-              figure("two", "plot 'one.dat'\n")},
-             {});
+        draw({figure("one", "one.dat"), figure("bad", "absent.dat"), figure("two", "one.dat")}, {});
     REQUIRE(drawing.pictures.size() == 2);
     CHECK(drawing.pictures[1].first == "two.svg");
     REQUIRE(drawing.troubles.size() == 1);
-    CHECK_THAT(drawing.troubles.front(),
-               StartsWith("bad.svg: gnuplot failed: \"bad.gp\" line ") &&
-                   EndsWith("No data in plot"));
+    CHECK_THAT(drawing.troubles.front(), StartsWith("bad.svg: gnuplot failed: \"bad.gp\" line ") &&
+                                             EndsWith("No data in plot"));
 }
 
 TEST_CASE("a name from an input file is drawn literally and executes nothing",
@@ -60,12 +58,12 @@ TEST_CASE("a name from an input file is drawn literally and executes nothing",
     const test::TemporaryDirectory folder;
     const std::string trap = (folder.path() / "trap").string();
     const std::string name = "It's `touch " + trap + "` @a {/x} ^2 \\n %s";
-    const Drawing drawing =
-        draw({figure("one", "set title " + gnuplot_string(name) + "\nset label " +
-                                gnuplot_string("'; system('touch " + trap + "'); #") +
-                                " at graph 0.5,0.5\nplot 'one.dat' title " + gnuplot_string(name) +
-                                '\n')},
-             {});
+    Figure one = figure("one", "one.dat", name);
+    Panel& panel = one.panels.front();
+    panel.texts = {{"'; system('touch " + trap + "'); #", {0.5, 0.5}}};
+    panel.x.label = panel.y.label = panel.series.front().label = name;
+    panel.x.names = {{1.0, name}};
+    const Drawing drawing = draw({one}, {});
     REQUIRE(drawing.pictures.size() == 1);
     CHECK_THAT(drawing.pictures.front().second,
                ContainsSubstring("`touch ") && ContainsSubstring("@a {/x} ^2 \\n %s"));
@@ -73,7 +71,7 @@ TEST_CASE("a name from an input file is drawn literally and executes nothing",
 }
 
 TEST_CASE("a missing or failing gnuplot gives exactly one reason", "[report][drawing]") {
-    const std::vector<Figure> figures{figure("one", "plot 'one.dat'\n")};
+    const std::vector<Figure> figures{figure("one", "one.dat")};
     const test::TemporaryDirectory folder;
     const PathVariable path(folder.path());
     CHECK(draw(figures, {}).troubles ==

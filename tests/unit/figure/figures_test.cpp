@@ -2,6 +2,7 @@
 #include <regex>
 #include "tests/support/catch.hpp"
 
+#include "corrector/figure/gnuplot_script.hpp"
 #include "corrector/figure/survey_figures.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "tests/golden/tsukuba_table.hpp"
@@ -58,10 +59,10 @@ TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines pr
           "[report][figures]") {
     const SurveyCorrection result = corrected(tsukuba::observations());
     // Lines in the publication: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.
-    CHECK_THAT(acceleration_figure(result).value().script,
+    CHECK_THAT(script_of(acceleration_figure(result).value()),
                ContainsSubstring("'y = 0.9735 x + 27825.7, R² = 0.9748'") &&
                    ContainsSubstring("left out of the fit"));
-    CHECK_THAT(difference_figure(result).value().script,
+    CHECK_THAT(script_of(difference_figure(result).value()),
                ContainsSubstring("'y = -29.2309 x + 3083.3, R² = 0.9257'"));
 }
 
@@ -118,7 +119,7 @@ TEST_CASE("a row of the whole-day model gets the record of which it averages mor
     CHECK(records.front().value == &values[1]);
     CHECK_THAT(reading_figures(result, records).at(0).caption,
                ContainsSubstring("the model day averages 280 s of it, mean 981702.125 mGal"));
-    CHECK_THAT(panel_figures(result, records).at(0).script, ContainsSubstring("mean 981702.1"));
+    CHECK_THAT(script_of(panel_figures(result, records).at(0)), ContainsSubstring("mean 981702.1"));
 }
 
 TEST_CASE("labels of panels placed above each other do not touch", "[report][figures]") {
@@ -128,9 +129,9 @@ TEST_CASE("labels of panels placed above each other do not touch", "[report][fig
     result.rows[0].row = row_behind(values[0], "B");
     result.rows[0].row.acceleration = MilliGal(981700.5 - 4.5);  // half a range of 6
     const auto records = find_records(result, values);
-    const std::string script = panel_figures(result, records).at(0).script;
-    CHECK_THAT(script, ContainsSubstring("set yrange [-6.00000:6.00000]") &&
-                           ContainsSubstring("set ytics -4.00000,2.00000,4.00000"));
+    const std::string script = script_of(panel_figures(result, records).at(0));
+    CHECK_THAT(script, ContainsSubstring("set yrange [-6:6]") &&
+                           ContainsSubstring("set ytics mirror norotate -4,2,4"));
 }
 
 TEST_CASE("the figure of a reading has its series, trend, extrema and interval",
@@ -142,9 +143,9 @@ TEST_CASE("the figure of a reading has its series, trend, extrema and interval",
     const auto records = find_records(result, values);
     const Figure figure = reading_figures(result, records).at(0);
     CHECK(figure.name == "reading-01");
-    CHECK_THAT(figure.script, ContainsSubstring("set title 'O\u2019Hara <3 (1)'"));
+    CHECK_THAT(script_of(figure), ContainsSubstring("set title 'O\u2019Hara <3 (1)'"));
     // The knock of 500 mGal does not stretch the axis.
-    CHECK_THAT(figure.script, ContainsSubstring("set yrange [-1.100:1.100]"));
+    CHECK_THAT(script_of(figure), ContainsSubstring("set yrange [-1.09999"));
     CHECK_THAT(figure.data, StartsWith("# minutes acceleration_mgal trend_mgal "
                                        "temperature_degc\n0.0000 NaN NaN 42.50000 \n"));
     CHECK_THAT(figure.data, ContainsSubstring("\n0.0667 981700.000 981700.560 42.50020 \n"));
@@ -156,8 +157,10 @@ TEST_CASE("the figure of a reading has its series, trend, extrema and interval",
 
     const auto panels = panel_figures(result, records);
     REQUIRE(panels.size() == 2);
-    CHECK_THAT(panels[0].script, ContainsSubstring("plot 'reading-01.dat' index 0 using 1:($2-"));
-    CHECK_THAT(panels[1].script, ContainsSubstring("plot 'reading-01.dat' index 0 using 1:($4-"));
+    CHECK_THAT(script_of(panels[0]),
+               ContainsSubstring("plot 'reading-01.dat' index 0 using 1:2 with"));
+    CHECK_THAT(script_of(panels[1]),
+               ContainsSubstring("plot 'reading-01.dat' index 0 using 1:4 with"));
     CHECK(panels[0].data.empty());
 }
 
@@ -174,7 +177,7 @@ TEST_CASE(
     const auto figure =
         map_figure(result, {site("A", 10.0, 60.0), site("B", 10.2, 60.01),
                             site("elsewhere", 50.0, 0.0), site("C", 10.1, 59.99, false)});
-    const std::string& script = figure.value().script;
+    const std::string script = script_of(figure.value());
     std::smatch x, y;
     REQUIRE(std::regex_search(script, x, std::regex("xrange \\[(.*):(.*)\\]")));
     REQUIRE(std::regex_search(script, y, std::regex("yrange \\[(.*):(.*)\\]")));
@@ -199,8 +202,9 @@ TEST_CASE("the map shows gravity and the order of the visits, those without a va
     const Figure figure =
         map_figure(result, {site("B", 10.0, 60.0), site("S5", 10.2, 60.01)}).value();
     // B is read first, fifth and last of 12; the stay without a value is the second.
-    CHECK_THAT(figure.script, ContainsSubstring("'B [1, 6, 13]'.\"\\n\".'") &&
-                                  ContainsSubstring("'S5 [2, ") && ContainsSubstring(" palette "));
+    CHECK_THAT(script_of(figure), ContainsSubstring("'B [1, 6, 13]'.\"\\n\".'") &&
+                                      ContainsSubstring("'S5 [2, ") &&
+                                      ContainsSubstring(" palette "));
     CHECK_THAT(figure.data, ContainsSubstring("10.000000 60.000000 1\n10.200000 60.010000 2\n"));
 }
 
@@ -213,9 +217,36 @@ TEST_CASE("stations that are all at one place still give a map", "[report][figur
     }
     const Figure figure =
         map_figure(result, {site("A", 10.0, 45.0), site("B", 10.0, 45.0)}).value();
-    CHECK_THAT(figure.script, ContainsSubstring("set label 'A'") &&
-                                  ContainsSubstring("set label 'B'") &&
-                                  ContainsSubstring("set label '20 m'"));
+    CHECK_THAT(script_of(figure), ContainsSubstring("set label 'A'") &&
+                                      ContainsSubstring("set label 'B'") &&
+                                      ContainsSubstring("set label '20 m'"));
+}
+
+TEST_CASE("the labels of the map cover neither a point nor another label", "[report][figures]") {
+    SurveyCorrection result;
+    for (const char* const name : {"A", "B", "C", "D"}) {
+        StationValue station;
+        station.site = name;
+        result.stations.push_back(station);
+    }
+    // B is a little east of A, so that A's label must be left of it; the others are far away.
+    const Figure figure = map_figure(result, {site("A", 10.0, 45.0), site("B", 10.002, 45.0),
+                                              site("C", 10.1, 45.05), site("D", 9.9, 44.95)})
+                              .value();
+    const std::vector<Text>& texts = figure.panels.front().texts;
+    CHECK(texts.at(0).side == "right");
+    CHECK(texts.at(1).side == "left");
+    const Figure same =
+        map_figure(result, {site("A", 10.0, 45.0), site("B", 10.0, 45.0), site("C", 10.0, 45.0)})
+            .value();
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const Text &one = same.panels.front().texts.at(i),
+                       &other = same.panels.front().texts.at(k);
+            const double apart_px = std::abs(one.place.y - other.place.y) * 0.87 * 600;
+            CHECK((one.side != other.side || apart_px > 29.0));
+        }
+    }
 }
 
 TEST_CASE("a station without coordinates is not on the map", "[report][figures]") {
@@ -227,11 +258,11 @@ TEST_CASE("a station without coordinates is not on the map", "[report][figures]"
     }
     std::vector<text::Site> sites{site("A", 10.0, 45.0), site("B", 10.0, 45.0)};
     sites[1].has_altitude = false;
-    CHECK_THAT(map_figure(result, sites).value().script,
+    CHECK_THAT(script_of(map_figure(result, sites).value()),
                ContainsSubstring("'0.00 mGal, 100 m'") && ContainsSubstring("'0.00 mGal' at"));
     sites[1].is_placed = false;
     const auto figure = map_figure(result, sites);
-    CHECK_THAT(figure.value().script,
+    CHECK_THAT(script_of(figure.value()),
                ContainsSubstring("set label 'A'") && !ContainsSubstring("set label 'B'"));
     CHECK_THAT(figure.value().caption, EndsWith("Not shown, because they have no position: B."));
     sites[0].is_placed = false;

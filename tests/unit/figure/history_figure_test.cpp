@@ -1,5 +1,7 @@
 #include "corrector/figure/history_figure.hpp"
 
+#include "corrector/figure/gnuplot_script.hpp"
+
 #include "tests/support/catch.hpp"
 
 using namespace a351;
@@ -17,8 +19,9 @@ TEST_CASE("the terms of a unit by day have a panel each, if a day has them", "[f
     }
     const figure::Figure figure = figure::history_figure(days);
     CHECK_THAT(figure.data, ContainsSubstring("2026-06-02T01:00:00Z 13.00000 2.00000"));
-    CHECK_THAT(figure.script, ContainsSubstring("Constant mGal"));
-    CHECK_THAT(figure.script, !ContainsSubstring("Placement mGal"));  // No day has it.
-    CHECK_THAT(figure.script,
-               ContainsSubstring("set xtics 604800"));  // 31 days in at most 6 dates.
+    CHECK_THAT(figure::script_of(figure), ContainsSubstring("Constant mGal"));
+    CHECK_THAT(figure::script_of(figure), !ContainsSubstring("Placement mGal"));  // No day has it.
+    CHECK_THAT(
+        figure::script_of(figure),
+        ContainsSubstring("set xtics nomirror norotate 604800"));  // 31 days in at most 6 dates.
 }
