@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <nlohmann/json.hpp>
+
 #include "corrector/result/column.hpp"
 #include "protocol/text/aligned_text.hpp"
 

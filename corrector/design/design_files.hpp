@@ -6,7 +6,6 @@
 ///     text::write_together(out, design_files(design, inputs));
 ///     std::cout << design_text(design);
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 

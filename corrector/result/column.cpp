@@ -1,5 +1,7 @@
 #include "corrector/result/column.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 

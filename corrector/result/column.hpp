@@ -20,7 +20,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -190,20 +190,20 @@ template <class Row>
 
 /// Returns an object with a member for each column, also for cells without a value.  The members
 /// keep the order of the columns.
-template <class Row>
-[[nodiscard]] nlohmann::ordered_json json_object(const std::vector<Column<Row>>& columns,
-                                                 const Row& row) {
-    nlohmann::ordered_json object;
+/// @tparam Json  not to be given.  It is a parameter so that only callers need nlohmann/json.hpp.
+template <class Row, class Json = nlohmann::ordered_json>
+[[nodiscard]] Json json_object(const std::vector<Column<Row>>& columns, const Row& row) {
+    Json object;
     for (const Column<Row>& column : columns)
         object[std::string(column.key)] = json_value(column.value(row));
     return object;
 }
 
 /// Returns an array with json_object() of each row; an empty array without rows.
-template <class Row>
-[[nodiscard]] nlohmann::ordered_json json_array(const std::vector<Column<Row>>& columns,
-                                                const std::vector<Row>& rows) {
-    nlohmann::ordered_json array = nlohmann::ordered_json::array();
+template <class Row, class Json = nlohmann::ordered_json>
+[[nodiscard]] Json json_array(const std::vector<Column<Row>>& columns,
+                              const std::vector<Row>& rows) {
+    Json array = Json::array();
     for (const Row& row : rows) array.push_back(json_object(columns, row));
     return array;
 }
