@@ -1,11 +1,11 @@
 #include "daemon/verdict/running_value.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "protocol/core/units.hpp"
+#include "protocol/signal/distributions.hpp"
 
 namespace a351::daemon::verdict {
 namespace {
@@ -30,10 +30,9 @@ double sd_of(const std::vector<double>& values) {
 }
 
 std::array<MilliGal, 2> limits_of_sd(double sd_mgal, double degrees) {
-    const boost::math::chi_squared distribution(degrees);
     const auto at = [&](double quantile) {
         return MilliGal(sd_mgal *
-                        std::sqrt(degrees / boost::math::quantile(distribution, quantile)));
+                        std::sqrt(degrees / signal::chi_square_quantile(degrees, quantile)));
     };
     return {at(0.975), at(0.025)};
 }

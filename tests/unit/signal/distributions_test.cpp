@@ -1,0 +1,45 @@
+#include "protocol/signal/distributions.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include "tests/support/catch.hpp"
+
+using namespace a351::signal;
+
+TEST_CASE("quantiles are those of printed tables", "[distributions]") {
+    // M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, 1964, tables 26.10 and 26.8.
+    CHECK(students_t_quantile(1.0, 0.975) == Approx(12.706).epsilon(1e-5));
+    CHECK(students_t_quantile(10.0, 0.975) == Approx(2.228).epsilon(1e-4));
+    CHECK(students_t_quantile(30.0, 0.995) == Approx(2.750).epsilon(1e-4));
+    CHECK(chi_square_quantile(1.0, 0.95) == Approx(3.84146).epsilon(1e-6));
+    CHECK(chi_square_quantile(10.0, 0.025) == Approx(3.24697).epsilon(1e-6));
+    CHECK(chi_square_upper_quantile(10.0, 0.025) == Approx(20.4831).epsilon(1e-6));
+}
+
+TEST_CASE("with one and two degrees of freedom the distributions have closed forms",
+          "[distributions]") {
+    for (const double p : {0.6, 0.9, 0.999}) {
+        CHECK(students_t_quantile(1.0, p) == Approx(std::tan(M_PI * (p - 0.5))).epsilon(1e-12));
+        CHECK(chi_square_quantile(2.0, p) == Approx(-2.0 * std::log(1.0 - p)).epsilon(1e-12));
+        CHECK(chi_square_exceedance(2.0, 3.0 * p) == Approx(std::exp(-1.5 * p)).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("both tails agree, and a small probability is not lost", "[distributions]") {
+    for (const double dof : {1.5, 4.0, 60.0}) {
+        CHECK(students_t_exceedance(dof, students_t_quantile(dof, 0.9)) ==
+              Approx(0.1).epsilon(1e-12));
+        CHECK(chi_square_upper_quantile(dof, 0.1) ==
+              Approx(chi_square_quantile(dof, 0.9)).epsilon(1e-12));
+        const double far = chi_square_upper_quantile(dof, 1e-30);
+        CHECK(chi_square_exceedance(dof, far) == Approx(1e-30).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("no degrees of freedom, or no probability, is refused", "[distributions]") {
+    CHECK_THROWS_AS(students_t_quantile(0.0, 0.5), std::domain_error);
+    CHECK_THROWS_AS(students_t_exceedance(-1.0, 0.5), std::domain_error);
+    CHECK_THROWS_AS(chi_square_quantile(2.0, 1.5), std::domain_error);
+    CHECK_THROWS_AS(chi_square_exceedance(2.0, -1.0), std::domain_error);
+}
