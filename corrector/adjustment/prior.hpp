@@ -1,9 +1,8 @@
 #pragma once
 /// @file
 /// Prior knowledge of the instrument: priors on coefficients of the linear models and of the
-/// network.  Each prior adds one row to the least-squares system, in which readings have weight 1:
-///
-///     reading_sd / sd * b = reading_sd / sd * mean
+/// network.  Each prior adds one equation, b = mean, with its standard deviation; a reading's equation
+/// has that of the reading.
 ///
 /// Use one for a coefficient that is known from elsewhere and that the rows determine badly.  A
 /// small sd holds the coefficient.  One far above the error without a prior has hardly any effect.

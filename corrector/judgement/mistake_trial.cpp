@@ -1,11 +1,12 @@
 #include "corrector/judgement/mistake_trial.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <random>
+
+#include "protocol/signal/distributions.hpp"
 
 namespace a351::corrector::judgement {
 namespace {
@@ -330,14 +331,13 @@ double Trial::best_score(const adjustment::Seen& seen) const {
 /// the sum over all suspects.  The share of one direction in a plain scatter has a beta distribution,
 /// so that (dof - 1) share / (1 - share) is the square of a Student's t.
 double Trial::largest_probability(double score) const {
-    const boost::math::students_t distribution(dof_ - 1.0);
     double sum = 0.0;
     for (const Suspect& suspect : suspects_) {
         const double share = -std::expm1(-2.0 * (score + suspect.cost) / dof_);
         if (!(share > 0.0)) return 1.0;
         if (!(share < 1.0)) continue;
         const double t = std::sqrt((dof_ - 1.0) * share / (1.0 - share));
-        sum += 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
+        sum += 2.0 * signal::students_t_exceedance(dof_ - 1.0, t);
     }
     return std::min(1.0, sum);
 }

@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +8,7 @@
 #include "corrector/correlation/regression.hpp"
 #include "corrector/long_record/response.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/distributions.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::long_record {
@@ -108,7 +108,7 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, const Sums&
     // Jackknife variance of ln H: (B - 1) / B sum of (deviation - mean)^2
     const double share = (blocks - 1.0) / blocks;
     const double quantile =
-        boost::math::quantile(boost::math::students_t(blocks - 1.0), 1.0 - 0.5 * kSignificance);
+        signal::students_t_quantile(blocks - 1.0, 1.0 - 0.5 * kSignificance);
     const double factor = std::exp(quantile * std::sqrt(share * along));
     const double size = std::abs(gain), phase = std::arg(gain) * kDegPerRad;
     const double of_chance = chance < size ? std::asin(chance / size) * kDegPerRad : 180.0;

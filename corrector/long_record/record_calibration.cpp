@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
+#include "protocol/signal/distributions.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::long_record {
@@ -108,10 +108,9 @@ double agreement(const std::vector<Information>& records) {
     }
     const auto [common, rank] = explained(together);
     if (dof == rank) return 1.0;
-    const boost::math::chi_squared distribution(static_cast<double>(dof - rank));
-    return boost::math::cdf(boost::math::complement(
-        distribution,
-        std::max(0.0, sum - common) / (unit::kThermalErrorFactor * unit::kThermalErrorFactor)));
+    return signal::chi_square_exceedance(
+        static_cast<double>(dof - rank),
+        std::max(0.0, sum - common) / (unit::kThermalErrorFactor * unit::kThermalErrorFactor));
 }
 
 /// Returns the response for a calibration file; undetermined directions have kOpenDeviation.

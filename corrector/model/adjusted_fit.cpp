@@ -1,10 +1,11 @@
 #include "corrector/model/adjusted_fit.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
+
+#include "protocol/signal/distributions.hpp"
 
 namespace a351::corrector::model {
 namespace {
@@ -177,7 +178,7 @@ void set_stations(Fit& result, const AdjustedSurvey& adjusted, const RowChoice& 
         if (value.reference) value.residual = *value.reference - value.gravity;
         if (!adjusted.survey.design().is_exact || !(dof > 0.0)) continue;
         value.dof = dof;
-        value.coverage_factor = boost::math::quantile(boost::math::students_t(dof), 0.975);
+        value.coverage_factor = signal::students_t_quantile(dof, 0.975);
     }
 }
 

@@ -23,7 +23,7 @@ namespace a351::corrector::model {
 /// - A station that is an unknown has its adjusted value; another one the mean of its accepted rows,
 ///   or of all its rows if none is accepted, with u^2 = sd^2 / n + variance of the mean correction.
 /// - Exact references: sd is estimated, s = s0 reading_sd; factors for 95 % are Student's.
-/// - Uncertain references: sd is stated, and the factor is 2.
+/// - Uncertain references: sd is stated, and the model sets the factors (network.cpp).
 ///
 /// A row whose loop has no reading in use has no corrections.
 [[nodiscard]] Fit fit_of(const adjustment::AdjustedSurvey& adjusted, const SurveyProblem& problem,

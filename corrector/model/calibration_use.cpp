@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "corrector/model/whole_day_model.hpp"
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
+#include "protocol/signal/distributions.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::model {
@@ -130,8 +130,7 @@ std::optional<Disagreement> disagreement(const whole_day::DayFit& fit,
         ++test.dof;
     }
     if (test.dof == 0) return std::nullopt;
-    const boost::math::chi_squared distribution(static_cast<double>(test.dof));
-    test.p = boost::math::cdf(boost::math::complement(distribution, test.chi_square));
+    test.p = signal::chi_square_exceedance(static_cast<double>(test.dof), test.chi_square);
     return test;
 }
 

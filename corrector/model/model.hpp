@@ -128,8 +128,8 @@ inline constexpr std::string_view kPaper = "paper", kWholeDay = "day", kNetwork 
 /// with a constant of their own.
 ///
 /// - A row's residual is reference - corrected, held or not.  Its leverage is 1 - redundancy;
-///   outside the network it is the variance of its corrections divided by reading_sd^2.
-/// - A row's u_corrected is sqrt(reading_sd^2 + variance of its corrections), a priori.
+///   outside the network it is the variance of its corrections divided by sd^2, that of the reading.
+/// - A row's u_corrected is sqrt(sd^2 + variance of its corrections), a priori.
 /// - Accepted rows are in the network, with or without reference.
 /// - Stations in the network have their adjusted value with the uncertainty a priori.  A station
 ///   that occurs in flagged rows only has the mean of their corrected values.

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -11,6 +10,7 @@
 
 #include "corrector/model/adjusted_fit.hpp"
 #include "corrector/model/model.hpp"
+#include "protocol/signal/distributions.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::model {
@@ -219,10 +219,9 @@ NetworkPart part_of(const AdjustedSurvey& adjusted) {
     part.dof = solution.dof();
     part.weighted_square = solution.weighted_square();
     if (part.dof > 0) {
-        const boost::math::chi_squared distribution(static_cast<double>(part.dof));
-        part.chi_square_low = boost::math::quantile(distribution, kGlobalTestAlpha);
-        part.chi_square_high =
-            boost::math::quantile(boost::math::complement(distribution, kGlobalTestAlpha));
+        const auto dof = static_cast<double>(part.dof);
+        part.chi_square_low = signal::chi_square_quantile(dof, kGlobalTestAlpha);
+        part.chi_square_high = signal::chi_square_upper_quantile(dof, kGlobalTestAlpha);
     }
     return part;
 }

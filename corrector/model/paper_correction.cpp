@@ -4,13 +4,13 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
 #include "corrector/model/model.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/pivoted_qr.hpp"
+#include "protocol/signal/distributions.hpp"
 
 namespace a351::corrector::model {
 namespace {
@@ -89,7 +89,7 @@ void set_stations(Fit& result, const RowChoice& choice, const TemperatureLine& l
             if (line.count > 2) {
                 station.dof = static_cast<double>(line.count - 2);
                 station.coverage_factor =
-                    boost::math::quantile(boost::math::students_t(*station.dof), 0.975);
+                    signal::students_t_quantile(*station.dof, 0.975);
             }
         }
         if (station.reference) station.residual = *station.reference - station.gravity;

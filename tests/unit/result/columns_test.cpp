@@ -2,6 +2,8 @@
 
 #include "tests/support/catch.hpp"
 
+#include <nlohmann/json.hpp>
+
 using namespace a351;
 using namespace a351::corrector::model;
 using namespace a351::corrector::result;
