@@ -119,10 +119,47 @@ std::pair<OccupationList, Amendments> read_occupations(const SurveySource& sourc
     return {drop_invalid_occupations(std::move(list), sites, origin), std::move(amendments)};
 }
 
-/// Returns the representative value of a record as a row of the survey, without reference and tide.
-/// @param value  must have a temperature.
-SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& value) {
+/// The average of a set-up.
+struct AveragedSetUp {
+    OccupationWindow window;            ///< As given, or the part in which the box stood.
+    std::optional<Finding> moved = {};  ///< What happened, if the box was moved.
+    /// Its value, with a temperature unless there is trouble.
+    std::optional<RepresentativeValue> value = {};
+    std::vector<DayBin> bins = {};
+    std::string trouble = {};  ///< Reason why it has no row; empty if it has one.
+};
+
+AveragedSetUp average(const Samples& samples, const Epoch& epoch, const OccupationWindow& window,
+                      const RepresentativeOptions& options) {
+    AveragedSetUp set_up{window};
+    auto record = cut_occupation(samples, epoch, window.start, window.end);
+    if (!record) {
+        set_up.trouble = text::marked("no samples");
+        return set_up;
+    }
+    DecimatedAxes axes = decimate_axes(*record);
+    if (auto moved = moved_stay(window, *record, axes)) {
+        set_up.window = std::move(moved->still);
+        set_up.moved = std::move(moved->finding);
+        record = cut_occupation(samples, epoch, set_up.window.start, set_up.window.end).value();
+        axes = decimate_axes(*record);
+    }
+    set_up.value = representative_value(*record, axes, options);
+    if (!set_up.value)
+        set_up.trouble = text::marked("too few samples in a row");
+    else if (!set_up.value->temperature)
+        set_up.trouble = text::marked("no temperature");
+    else
+        set_up.bins = bin_set_up(0, axes, kDisturbanceThreshold);
+    return set_up;
+}
+
+/// Returns a set-up without trouble as a row of the survey, without tide.
+SurveyRow row_of(const AveragedSetUp& set_up, const SurveyStays& stays) {
+    const OccupationWindow& window = set_up.window;
+    const RepresentativeValue& value = set_up.value.value();
     const TemperatureSummary& temperature = value.temperature.value();
+    const text::Site& site = *text::find_site(stays.sites, window.site);
     SurveyRow row;
     row.site = window.site;
     row.occupation = window.number;
@@ -141,6 +178,10 @@ SurveyRow row_of(const OccupationWindow& window, const RepresentativeValue& valu
     row.temperature = temperature.mean;
     row.rate_degc_per_h = temperature.slope_degc_per_h;
     row.record = static_cast<const RecordSummary&>(value);
+    row.reference = site.gravity;
+    row.u_reference = site.u_gravity;
+    row.is_reference_refused =
+        std::ranges::count(stays.amendments.refused_references, site.name) > 0;
     return row;
 }
 
@@ -189,37 +230,11 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
                                       ? put_named_vertical_last(samples, epoch)
                                       : put_vertical_last(samples, epoch, windows, metadata);
 
-    std::vector<std::optional<SurveyRow>> rows(windows.size());
-    std::vector<std::optional<RepresentativeValue>> values(windows.size());
-    std::vector<std::string> troubles(windows.size());
-    std::vector<std::vector<DayBin>> bins(windows.size());
-    std::vector<std::optional<MovedStay>> moved(windows.size());
-    const auto average = [&](std::size_t i) {
-        const OccupationWindow& given = windows[i];
-        auto record = cut_occupation(samples, epoch, given.start, given.end);
-        if (!record) {
-            troubles[i] = text::marked("no samples");
-            return;
-        }
-        DecimatedAxes axes = decimate_axes(*record);
-        moved[i] = moved_stay(given, *record, axes);
-        const OccupationWindow& window = moved[i] ? moved[i]->still : given;
-        if (moved[i]) {
-            record = cut_occupation(samples, epoch, window.start, window.end).value();
-            axes = decimate_axes(*record);
-        }
-        auto& value = values[i];
-        value = representative_value(*record, axes, source.averaging);
-        if (!value) {
-            troubles[i] = text::marked("too few samples in a row");
-        } else if (!value->temperature) {
-            troubles[i] = text::marked("no temperature");
-        } else {
-            rows[i] = row_of(window, *value);
-            bins[i] = bin_set_up(0, axes, kDisturbanceThreshold);
-        }
-    };
-    on_all_cores(windows.size(), average, progress);
+    std::vector<AveragedSetUp> set_ups(windows.size());
+    on_all_cores(
+        windows.size(),
+        [&](std::size_t i) { set_ups[i] = average(samples, epoch, windows[i], source.averaging); },
+        progress);
 
     if (auto temperature = temperature_of_day(samples, epoch, windows))
         result.day = DayRecord{std::move(*temperature), {}};
@@ -232,26 +247,21 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     for (const archive::ChannelData& channel : samples)
         archive_series::add_damage(result.warnings, channel);
     std::vector<OccupationWindow> averaged;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const OccupationWindow& window = windows[i];
-        if (moved[i]) result.findings.push_back(std::move(moved[i]->finding));
-        if (!rows[i]) {
-            leave_out(result.left_out, result.warnings, window, troubles[i]);
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        AveragedSetUp& set_up = set_ups[i];
+        if (set_up.moved) result.findings.push_back(std::move(*set_up.moved));
+        if (!set_up.trouble.empty()) {
+            leave_out(result.left_out, result.warnings, windows[i], set_up.trouble);
             continue;
         }
-        averaged.push_back(moved[i] ? moved[i]->still : window);
-        const text::Site& site = *text::find_site(sites, window.site);
-        rows[i]->reference = site.gravity;
-        rows[i]->u_reference = site.u_gravity;
-        rows[i]->is_reference_refused =
-            std::ranges::count(amendments.refused_references, site.name) > 0;
-        for (DayBin& bin : bins[i]) {
+        for (DayBin& bin : set_up.bins) {
             bin.set_up = result.rows.size();
             if (result.day && !result.day->temperature.is_bridged(bin.time))
                 result.day->bins.push_back(std::move(bin));
         }
-        result.rows.push_back(std::move(*rows[i]));
-        result.records.push_back(std::move(*values[i]));
+        result.rows.push_back(row_of(set_up, stays));
+        result.records.push_back(std::move(*set_up.value));
+        averaged.push_back(std::move(set_up.window));
     }
     if (result.rows.empty()) {
         throw Refused("no_reading", fmt::format("{}: root = {}: no occupation has samples; last: "
