@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "protocol/unit/thermal_response.hpp"
+
 namespace a351::corrector::adjustment {
 namespace {
 
@@ -19,19 +21,26 @@ const Term kTime2{"time2_mgal_per_h2", Correction::drift, Scope::loop,
                   [](const TermInput& in) { return in.hours * in.hours; }};
 const Term kTime3{"time3_mgal_per_h3", Correction::drift, Scope::loop,
                   [](const TermInput& in) { return in.hours * in.hours * in.hours; }};
-const Term kTemperature{"temperature_mgal_per_degc", Correction::temperature, Scope::survey,
-                        [](const TermInput& in) {
-                            return (in.row.temperature - kReferenceTemperature).value();
-                        }};
-const Term kRate{"rate_mgal_per_degc_per_h", Correction::rate, Scope::survey,
+const Term kTemperature{
+    "temperature_mgal_per_degc", Correction::temperature, Scope::unit,
+    [](const TermInput& in) { return (in.row.temperature - kReferenceTemperature).value(); }};
+const Term kRate{"rate_mgal_per_degc_per_h", Correction::rate, Scope::unit,
                  [](const TermInput& in) { return in.row.rate_degc_per_h; }};
-const Term kAxisX{"x_mgal_per_g", Correction::tilt, Scope::survey,
+const Term kAxisX{"x_mgal_per_g", Correction::tilt, Scope::unit,
                   [](const TermInput& in) { return axes_of(in).x.mean.value(); }};
-const Term kAxisY{"y_mgal_per_g", Correction::tilt, Scope::survey,
+const Term kAxisY{"y_mgal_per_g", Correction::tilt, Scope::unit,
                   [](const TermInput& in) { return axes_of(in).y.mean.value(); }};
-const Term kAdmittance{"admittance_mgal_per_hpa", Correction::pressure, Scope::survey,
-                       [](const TermInput& in) { return in.row.excess_pressure_hpa.value_or(0.0); }};
-const Term kScaleTerm{kScale, Correction::scale, Scope::survey, nullptr};
+const Term kAdmittance{
+    "admittance_mgal_per_hpa", Correction::pressure, Scope::unit,
+    [](const TermInput& in) { return in.row.excess_pressure_hpa.value_or(0.0); }};
+const Term kLevel{unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::level)],
+                  Correction::temperature, Scope::unit, nullptr};
+const Term kSlow{unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::slow)],
+                 Correction::temperature, Scope::unit, nullptr};
+const Term kFast{unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::fast)],
+                 Correction::rate, Scope::unit, nullptr};
+const Term kWarmUp{"warm_up_mgal", Correction::drift, Scope::loop, nullptr};
+const Term kScaleTerm{kScale, Correction::scale, Scope::unit, nullptr};
 
 std::span<const Term* const> terms_with_prior() {
     static const std::array kList{&kTemperature, &kRate, &kTime, &kScaleTerm};

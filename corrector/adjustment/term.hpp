@@ -28,22 +28,24 @@ inline constexpr double kReferenceTime_h = 5.0;
 /// The correction to which the effect of a term is added, with the sign turned.
 enum class Correction { temperature, rate, drift, tilt, pressure, scale };
 
-/// How far a coefficient reaches: one loop of an instrument, or the survey.
-enum class Scope { loop, survey };
+/// How far a coefficient reaches: one loop of an instrument, or all loops of the unit.  A survey day is
+/// one loop.
+enum class Scope { loop, unit };
 
 /// A row, as the column of a term sees it.
 struct TermInput {
     const reading::SurveyRow& row;
-    double hours = 0.0;           ///< t - t0.
-    std::string_view wanted_by;   ///< The model, for messages.
+    double hours = 0.0;          ///< t - t0.
+    std::string_view wanted_by;  ///< The model, for messages.
 };
 
 /// A term of the instrument.
 struct Term {
     std::string_view name;  ///< Name of the coefficient with its unit, as in options and tables.
     Correction correction = Correction::temperature;
-    Scope scope = Scope::survey;
-    /// Returns the column for a row; null for the scale, whose column is the gravity.
+    Scope scope = Scope::unit;
+    /// Returns the column for a row.  Null for the scale, whose column is the gravity, and for a term
+    /// whose column needs the record of the day (whole_day/day_regression.hpp).
     /// @throws InputError  the row lacks what the term needs.
     double (*column)(const TermInput&) = nullptr;
 };
@@ -56,8 +58,12 @@ extern const Term kConstant;
 extern const Term kTime, kTime2, kTime3;  ///< Drift: powers of t - t0, t in h.
 extern const Term kTemperature;           ///< T - T0, degC.
 extern const Term kRate;                  ///< Rate of the temperature, degC/h.
-extern const Term kAxisX, kAxisY;         ///< Means of the horizontal axes, g: biases of a tilted box.
-extern const Term kAdmittance;            ///< Air pressure above that of the standard atmosphere, hPa.
+extern const Term kAxisX, kAxisY;  ///< Means of the horizontal axes, g: biases of a tilted box.
+extern const Term kAdmittance;     ///< Air pressure above that of the standard atmosphere, hPa.
+/// Response to the temperature of the recorded day (protocol/unit/thermal_response.hpp): prompt rA,
+/// late rS, and rF to its rate.
+extern const Term kLevel, kSlow, kFast;
+extern const Term kWarmUp;     ///< Warm-up after power-on, mGal at the first sample of the record.
 extern const Term kScaleTerm;  ///< S - 1, times gravity above g0; one for each instrument.
 
 /// Returns the terms that may have a prior, in the order of options and files.

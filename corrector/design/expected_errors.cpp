@@ -5,7 +5,7 @@
 
 #include "corrector/design/planned_day.hpp"
 #include "corrector/reading/on_all_cores.hpp"
-#include "corrector/whole_day/station_system.hpp"
+#include "corrector/whole_day/day_model.hpp"
 
 namespace a351::corrector::design {
 namespace {
@@ -19,20 +19,22 @@ struct Squares {
 
 Squares squares_of(PlannedDay day, const PlannedUnit& unit, bool has_differences) {
     // The plan visits a known station, so there is a fit.
-    const whole_day::DayFit fit =
-        whole_day::fit_planned_day(day.record, day.stations, unit.noise, unit.priors).value();
+    const whole_day::DayAdjustment adjusted =
+        whole_day::adjust_planned_day(day.record, {nullptr, day.stations, unit.priors}, unit.noise)
+            .value();
     Squares squares;
-    for (const whole_day::GravityEstimate& gravity : fit.gravity_mgal) {
+    for (std::size_t number = 0; number < day.sites.size(); ++number) {
+        const whole_day::GravityEstimate gravity = adjusted.gravity(number);
         squares.stations.push_back(gravity.standard_error * gravity.standard_error);
         auto& parts = squares.parts.emplace_back();
         for (std::size_t k = 0; k < parts.size(); ++k)
             parts.at(k) = gravity.parts_mgal.at(k) * gravity.parts_mgal.at(k);
     }
     if (!has_differences) return squares;
-    const whole_day::StationSystem system(day.record, day.stations, fit, unit.priors);
     for (std::size_t to = 1; to < day.sites.size(); ++to)
         for (std::size_t from = 0; from < to; ++from)
-            squares.differences.push_back(std::pow(system.difference(from, to).standard_error, 2));
+            squares.differences.push_back(
+                std::pow(adjusted.difference(from, to).standard_error, 2));
     return squares;
 }
 

@@ -14,7 +14,7 @@
 
 #include "corrector/design/plan.hpp"
 #include "corrector/design/planned_unit.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_fit.hpp"
 
 namespace a351::corrector::design {
 

@@ -3,7 +3,8 @@
 /// A planned survey day in the form in which the whole-day model takes a measured one.
 ///
 ///     PlannedDay day = planned_day(plan, sites, unit, 0);
-///     const auto fit = whole_day::fit_planned_day(day.record, day.stations, unit.noise, unit.priors);
+///     const auto adjusted = whole_day::adjust_planned_day(
+///         day.record, {nullptr, day.stations, unit.priors}, unit.noise);
 ///
 /// Temperature and levelling are not known before.  Each course has the statistics of the unit's oven
 /// and of a box level; use the mean square of the results over kCourses courses.
@@ -14,7 +15,7 @@
 #include "corrector/design/plan.hpp"
 #include "corrector/design/planned_unit.hpp"
 #include "corrector/reading/day_record.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_survey.hpp"
 
 namespace a351::corrector::design {
 

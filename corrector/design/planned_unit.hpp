@@ -8,8 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "corrector/whole_day/day_model.hpp"
-#include "corrector/whole_day/day_noise.hpp"
+#include "corrector/whole_day/day_priors.hpp"
 
 namespace a351::corrector::design {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "corrector/figure/escaping.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_fit.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::figure {

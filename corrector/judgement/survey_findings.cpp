@@ -156,6 +156,8 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     const model::Model& model = *model::find_model(result.model);
     const std::vector<SurveyRow> rows =
         model::without_known_tilt(survey.rows, result.options.calibration);
+    const auto* const day = result.as<model::WholeDayPart>();
+    const whole_day::SurveyPoint* const nearby = day != nullptr ? &day->point : nullptr;
     if (model.trials) {
         const model::RowChoice choice =
             model::choose_rows(rows, result.options.datum, result.options.use_flags);
@@ -165,12 +167,13 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
         model::SurveyOptions options = result.options;
         options.priors = freed(std::move(options.priors), far);
         std::vector<Mistake> mistakes;
-        if (auto plain = model.trials({rows, options, survey.day}, choice)) {
+        if (auto plain = model.trials({rows, options, survey.day, nearby}, choice)) {
             ReportedTrials trials(std::move(plain), survey);
             mistakes = search_mistakes(readings, trials, alpha);
         }
         if (!far.empty() && !mistakes.empty())
-            if (const auto trials = model.trials({rows, result.options, survey.day}, choice))
+            if (const auto trials =
+                    model.trials({rows, result.options, survey.day, nearby}, choice))
                 drop_unclear(mistakes, readings, *trials, alpha);
         for (const Mistake& mistake : mistakes)
             for (Finding& finding : findings_of(mistake, readings, rows, choice, survey.sites))
@@ -178,7 +181,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
         if (!mistakes.empty()) {
             right = model::amended(rows, result.options, {mistakes.begin(), mistakes.end()});
             const auto score =
-                model.score({right->rows, right->options, survey.day}, right->choice);
+                model.score({right->rows, right->options, survey.day, nearby}, right->choice);
             if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
                 findings.insert(findings.begin(), std::move(*finding));
         }

@@ -5,7 +5,7 @@
 
 #include "corrector/correlation/regression.hpp"
 #include "corrector/long_record/two_path_regression.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_priors.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector::long_record {

@@ -9,8 +9,8 @@
 #include "corrector/correlation/fourier.hpp"
 #include "corrector/correlation/regression.hpp"
 #include "corrector/long_record/two_path_fit.hpp"
-#include "corrector/whole_day/day_model.hpp"
-#include "corrector/whole_day/search_grid.hpp"
+#include "corrector/whole_day/day_priors.hpp"
+#include "corrector/whole_day/least_cost.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
 
@@ -119,9 +119,15 @@ double TwoPathRegression::cost(const Lags& u) const {
 }
 
 TwoPathLags TwoPathRegression::most_likely(const Lags& start, bool is_nearby) const {
-    return whole_day::least_cost_point(
-        [this](const Lags& u) { return cost(u); }, start, is_nearby,
-        {.farthest = 5.0, .first_step = 0.3, .tolerance = 0.01, .most_costs = 120}, lag_count());
+    const auto lags_of = [](const std::vector<double>& searched) {
+        Lags u{};
+        std::ranges::copy(searched, u.begin());
+        return u;
+    };
+    return lags_of(whole_day::least_cost_point(
+        [&](const std::vector<double>& u) { return cost(lags_of(u)); },
+        {start.begin(), start.begin() + static_cast<std::ptrdiff_t>(lag_count())}, is_nearby,
+        {.farthest = 5.0, .first_step = 0.3, .tolerance = 0.01, .most_costs = 120}));
 }
 
 Eigen::VectorXd TwoPathRegression::coefficients(const Lags& u) const {

@@ -46,29 +46,11 @@ void correct_row(CorrectedRow& out, const AdjustedSurvey& adjusted, std::size_t 
     for (const Entry& part : adjusted.survey.effects(row)) {
         const MilliGal effect(adjusted.effect_mgal(part));
         effects_mgal += effect.value();
-        switch (adjusted.survey.terms()[part.unknown].correction) {
-            case Correction::temperature:
-                out.temperature_correction = out.temperature_correction - effect;
-                break;
-            case Correction::rate:
-                out.rate_correction = out.rate_correction - effect;
-                break;
-            case Correction::drift:
-                out.drift_correction = out.drift_correction - effect;
-                break;
-            case Correction::tilt:
-                out.tilt_correction = out.tilt_correction_or_zero() - effect;
-                break;
-            case Correction::scale:
-                out.scale_correction = -effect;
-                break;
-            case Correction::pressure:
-                if (!out.row.pressure_correction) break;
-                out.row.acceleration = out.row.acceleration - effect;
-                *out.row.pressure_correction = *out.row.pressure_correction - effect;
-                effects_mgal -= effect.value();
-                break;
-        }
+        const Correction correction = adjusted.survey.terms()[part.unknown].correction;
+        out.subtract(correction, effect);
+        // The acceleration is already without it.
+        if (correction == Correction::pressure && out.row.pressure_correction)
+            effects_mgal -= effect.value();
     }
     out.corrected = out.row.reduced() - MilliGal(effects_mgal);
     if (out.row.reference) out.residual = *out.row.reference - out.corrected;
@@ -259,8 +241,8 @@ void set_left_out_stations(
         if (of_one.is_determined() && !of_one.survey.readings().empty()) {
             const Combination x = to.effects(of_one);
             to.value->left_out = to.reading - MilliGal(value_of(x, of_one));
-            to.value->u_left_out = MilliGal(std::sqrt(s_mgal * s_mgal / to.count() +
-                                                      of_one.adjustment.variance(x, *s0)));
+            to.value->u_left_out = MilliGal(
+                std::sqrt(s_mgal * s_mgal / to.count() + of_one.adjustment.variance(x, *s0)));
         }
         covariance.sites.push_back(to.value->site);
         for (std::size_t a = 0; a < b; ++a) {

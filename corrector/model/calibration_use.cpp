@@ -78,7 +78,7 @@ whole_day::DayPriors day_priors_of(const SurveyOptions& options) {
     if (const adjustment::Prior* const scale = options.priors.find(adjustment::kScale))
         priors.set_scale(scale->mean, scale->sd);
     for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
-        if (const auto factor = options.priors.factors.find(whole_day::kDayTermNames.at(k));
+        if (const auto factor = options.priors.factors.find(whole_day::kDayTermList.at(k)->name);
             factor != options.priors.factors.end())
             priors.factor.row(whole_day::DayPriors::place_of(static_cast<whole_day::DayTerm>(k))) *=
                 factor->second;
@@ -192,7 +192,7 @@ SurveyCorrection correct_with_calibration(const std::vector<reading::SurveyRow>&
     SurveyOptions with_scale = options;
     if (calibration.scale && options.priors.find(adjustment::kScale) == nullptr)
         adjustment::set_prior(with_scale.priors, "calibration", adjustment::kScale,
-                  {calibration.scale->value, calibration.scale->standard_error});
+                              {calibration.scale->value, calibration.scale->standard_error});
     SurveyCorrection result =
         correct_survey(without_known_tilt(rows, options.calibration), with_scale, day);
     if (result.as<WholeDayPart>() != nullptr) return result;

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "corrector/model/survey_correction.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_fit.hpp"
 
 namespace a351::corrector::model {
 

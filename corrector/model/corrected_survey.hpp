@@ -34,7 +34,7 @@
 #include "corrector/model/score.hpp"
 #include "corrector/reading/finding.hpp"
 #include "corrector/reading/survey_row.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_fit.hpp"
 #include "corrector/whole_day/goodness_of_fit.hpp"
 #include "corrector/whole_day/unit_posterior.hpp"
 #include "protocol/text/message.hpp"
@@ -130,6 +130,10 @@ struct CorrectedRow {
     [[nodiscard]] const Part* as() const {
         return std::get_if<Part>(&own);
     }
+
+    /// Subtracts an effect on the reading: adds it, with the sign turned, to a correction.  That of the
+    /// air pressure changes the acceleration, if the row is reduced for it.
+    void subtract(adjustment::Correction correction, MilliGal effect);
 
     /// Returns the tilt correction, 0 if there is none.
     [[nodiscard]] MilliGal tilt_correction_or_zero() const {
@@ -228,7 +232,7 @@ struct StationCovariance {
 struct Coefficient {
     std::string name;  ///< Name with its unit.
     double value = 0.0;
-    std::optional<double> standard_error;  ///< Absent if not estimated, or if dof is 0.
+    std::optional<double> standard_error;         ///< Absent if not estimated, or if dof is 0.
     std::optional<adjustment::Prior> prior = {};  ///< As given; absent without one.
 
     /// Returns the distance from the prior's mean, in its standard deviations; 0 without a prior.
@@ -295,13 +299,14 @@ struct NetworkRow {
 
 /// Values that only `network` gives.
 struct NetworkPart {
-    std::vector<NetworkRow> rows;   ///< Readings in use in order of time; datum; priors.
-    std::size_t reading_count = 0;  ///< Number of readings in use.
+    std::vector<NetworkRow> rows;         ///< Readings in use in order of time; datum; priors.
+    std::size_t reading_count = 0;        ///< Number of readings in use.
     std::vector<std::string> held_sites;  ///< Stations whose reference is held.
     std::size_t unknown_count = 0, station_count = 0;  ///< Unknowns, and gravities among them.
-    std::size_t dof = 0;           ///< Degrees of freedom: rows - unknowns.
-    double weighted_square = 0.0;  ///< v^T W v
-    double chi_square_low = 0.0, chi_square_high = 0.0;  ///< Limits of the global test; 0 if dof = 0.
+    std::size_t dof = 0;                               ///< Degrees of freedom: rows - unknowns.
+    double weighted_square = 0.0;                      ///< v^T W v
+    double chi_square_low = 0.0,
+           chi_square_high = 0.0;  ///< Limits of the global test; 0 if dof = 0.
 
     /// Returns s0 = sqrt(v^T W v / dof), the ratio of the standard deviations a posteriori and a
     /// priori; absent if dof = 0.
@@ -329,7 +334,8 @@ struct WholeDayPart {
     /// Factor by which the uncertainties of stations and differences are multiplied; 1 unless the
     /// model does not fit.
     double uncertainty_factor = 1.0;
-    whole_day::UnitPosterior unit;  ///< Parameters of the unit, as the day has found them.
+    whole_day::UnitPosterior unit;   ///< Parameters of the unit, as the day has found them.
+    whole_day::SurveyPoint point{};  ///< Most likely lags and noise.
 };
 
 /// A model fitted to a survey.
@@ -346,10 +352,10 @@ struct Fit {
     /// Present if there are differences.
     std::optional<StationCovariance> covariance;
     std::vector<Coefficient> coefficients;  ///< In the order of the model.
-    std::vector<ScaleEstimate> scales;   ///< One per instrument; empty: a model without this term.
-    Score score;                         ///< Score on the rows of the fit.
+    std::vector<ScaleEstimate> scales;  ///< One per instrument; empty: a model without this term.
+    Score score;                        ///< Score on the rows of the fit.
     std::optional<Interval> loo_interval_mgal;  ///< 95 % limits of LOO; linear models only.
-    std::vector<text::Message> remarks;  ///< Further facts for the user, in sentences.
+    std::vector<text::Message> remarks;         ///< Further facts for the user, in sentences.
     /// Present if the options have a calibration and the model is `day`, or the fit is that of
     /// correct_with_calibration().
     std::optional<CalibrationUse> calibration;

@@ -1,14 +1,12 @@
 #include "corrector/model/joint_adjustment.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
+#include "corrector/model/adjusted_day.hpp"
 #include "corrector/model/calibration_use.hpp"
-#include "corrector/model/day_fits.hpp"
 #include "corrector/model/model.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
@@ -29,7 +27,7 @@ struct Reference {
 struct Prepared {
     std::vector<reading::SurveyRow> rows;
     RowChoice choice;
-    std::vector<whole_day::DayStation> stations;
+    whole_day::DaySurvey day;
 };
 
 Prepared prepared(const RecordedSurvey& survey) {
@@ -37,7 +35,8 @@ Prepared prepared(const RecordedSurvey& survey) {
     for (const CorrectedRow& row : survey.result->rows) result.rows.push_back(row.row);
     const SurveyOptions& options = survey.result->options;
     result.choice = choose_rows(result.rows, options.datum, options.use_flags);
-    result.stations = stations_of({result.rows, options, survey.day}, result.choice);
+    result.day =
+        day_survey({result.rows, options, survey.day}, result.choice, day_priors_of(options));
     return result;
 }
 
@@ -47,7 +46,7 @@ std::variant<std::map<std::string, Reference>, std::string> held_references(
     std::map<std::string, Reference> held;
     for (const Prepared& survey : surveys)
         for (std::size_t i = 0; i < survey.rows.size(); ++i) {
-            const whole_day::DayStation& station = survey.stations[i];
+            const whole_day::DayStation& station = survey.day.stations[i];
             if (!station.gravity) continue;
             const Reference reference{*station.gravity, station.u_gravity};
             const auto [place, is_new] = held.emplace(survey.rows[i].site, reference);
@@ -108,71 +107,23 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Returns the survey as a part of the adjustment; its unit is not set.
-whole_day::JointSurvey joint_survey(const RecordedSurvey& survey, Prepared& rows,
-                                    const std::map<std::string, Reference>& held,
-                                    Numbers& numbers) {
-    whole_day::JointSurvey joint;
-    joint.record = survey.day;
-    joint.priors = day_priors_of(survey.result->options);
-    for (std::size_t i = 0; i < rows.rows.size(); ++i) {
-        whole_day::DayStation& station = rows.stations[i];
-        const std::string& site = rows.rows[i].site;
-        joint.gravities.resize(std::max(joint.gravities.size(), station.number + 1));
-        if (!rows.choice.accepted[i]) {
-            joint.gravities[station.number] = numbers.of_row();
+/// Numbers the gravities of a survey, and holds what any survey holds.
+void join(Prepared& survey, const std::map<std::string, Reference>& held, Numbers& numbers) {
+    for (std::size_t i = 0; i < survey.rows.size(); ++i) {
+        whole_day::DayStation& station = survey.day.stations[i];
+        const std::string& site = survey.rows[i].site;
+        std::vector<std::size_t>& gravities = survey.day.gravities;
+        gravities.resize(std::max(gravities.size(), station.number + 1));
+        if (!survey.choice.accepted[i]) {
+            gravities[station.number] = numbers.of_row();
             continue;
         }
-        joint.gravities[station.number] = numbers.of(site);
+        gravities[station.number] = numbers.of(site);
         const auto reference = held.find(site);
         if (reference == held.end()) continue;
         station.gravity = reference->second.gravity;
         station.u_gravity = reference->second.u;
     }
-    joint.stations = rows.stations;
-    return joint;
-}
-
-Coefficient coefficient_of(std::string name, const whole_day::Estimate& estimate) {
-    return {std::move(name), estimate.value, estimate.standard_error};
-}
-
-std::vector<Coefficient> terms_of(const whole_day::JointSurveyFit& fit, bool of_survey) {
-    std::vector<Coefficient> list;
-    for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
-        if (whole_day::is_of_survey(static_cast<whole_day::DayTerm>(k)) == of_survey)
-            list.push_back(coefficient_of(std::string(whole_day::kDayTermNames.at(k)),
-                                          fit.coefficients.at(k)));
-    return list;
-}
-
-JointTerms unit_terms(const RecordedSurvey& survey, const whole_day::JointSurveyFit& fit) {
-    JointTerms unit{"", survey.serial_number, terms_of(fit, false)};
-    for (Coefficient& one : unit.coefficients)
-        if (one.name == "scale") one.value += 1.0;
-    constexpr std::array<const char*, 2> kLagNames{"fast_lag_s", "slow_lag_s"};
-    for (std::size_t k = 0; k < fit.lags_s.size(); ++k)
-        unit.coefficients.push_back(
-            {kLagNames.at(k), fit.lags_s.at(k), fit.lags_s.at(k) * fit.lag_log_errors.at(k)});
-    if (fit.outer) {
-        for (std::size_t k = 0; k < fit.outer->mgal_per_degc.size(); ++k)
-            unit.coefficients.push_back(coefficient_of(std::string(whole_day::kOuterNames.at(k)),
-                                                       fit.outer->mgal_per_degc.at(k)));
-        unit.coefficients.push_back(
-            {std::string(whole_day::kOuterNames.back()), fit.outer->lag_s, {}});
-    }
-    return unit;
-}
-
-JointTerms survey_terms(const RecordedSurvey& survey, const whole_day::JointSurveyFit& fit) {
-    JointTerms terms{survey.name, survey.serial_number, terms_of(fit, true)};
-    for (std::size_t k = 0; k < fit.steps_mgal.size(); ++k)
-        terms.coefficients.push_back(
-            coefficient_of(fmt::format("step_{}_mgal", k + 1), fit.steps_mgal[k]));
-    terms.coefficients.push_back({"placement_mgal", fit.noise.placement_mgal, std::nullopt});
-    terms.coefficients.push_back({"flicker_mgal", fit.noise.flicker_mgal, std::nullopt});
-    terms.coefficients.push_back({"white_mgal", fit.noise.white_mgal, std::nullopt});
-    return terms;
 }
 
 /// Returns the factor of JointAdjustment::uncertainty_factor.
@@ -196,13 +147,13 @@ double factor_of(const std::vector<RecordedSurvey>& surveys,
 }
 
 /// Sets stations, differences and covariance.
-void set_stations(JointAdjustment& result, const whole_day::JointFit& fit, const Numbers& numbers,
-                  const std::map<std::string, Reference>& held,
+void set_stations(JointAdjustment& result, const whole_day::DayAdjustment& fit,
+                  const Numbers& numbers, const std::map<std::string, Reference>& held,
                   const std::vector<RecordedSurvey>& surveys) {
-    const Eigen::MatrixXd correlation = fit.system.correlation();
+    const Eigen::MatrixXd correlation = fit.correlation();
     std::vector<Eigen::Index> places;
     for (const auto& [number, site] : numbers.sites()) {
-        const whole_day::Estimate gravity = fit.system.left_out(number);
+        const whole_day::Estimate gravity = fit.left_out(number);
         result.stations.push_back({site, MilliGal(gravity.value), MilliGal(gravity.standard_error),
                                    held.size() == 1 && held.contains(site)});
         result.covariance.sites.push_back(site);
@@ -219,7 +170,7 @@ void set_stations(JointAdjustment& result, const whole_day::JointFit& fit, const
         for (std::size_t a = 0; a < b; ++a) {
             const auto& [from, from_site] = numbers.sites()[a];
             const auto& [to, to_site] = numbers.sites()[b];
-            const whole_day::Estimate estimate = fit.system.difference(from, to);
+            const whole_day::Estimate estimate = fit.difference(from, to);
             StationDifference difference{
                 from_site, to_site, MilliGal(estimate.value),
                 MilliGal(result.uncertainty_factor * estimate.standard_error), std::nullopt};
@@ -242,26 +193,35 @@ std::variant<JointAdjustment, text::Message> adjust_jointly(
     const auto& held = std::get<std::map<std::string, Reference>>(references);
 
     Numbers numbers;
-    std::vector<whole_day::JointSurvey> joint;
+    std::vector<whole_day::DaySurvey> days;
     std::vector<std::size_t> first_of_unit;
     for (std::size_t k = 0; k < surveys.size(); ++k) {
-        joint.push_back(joint_survey(surveys[k], rows[k], held, numbers));
+        join(rows[k], held, numbers);
+        days.push_back(rows[k].day);
         const auto unit = std::ranges::find_if(first_of_unit, [&](std::size_t other) {
             return !surveys[k].serial_number.empty() &&
                    surveys[other].serial_number == surveys[k].serial_number &&
-                   are_equal(joint[other].priors, joint[k].priors);
+                   are_equal(days[other].priors, days[k].priors);
         });
-        joint.back().unit = static_cast<std::size_t>(unit - first_of_unit.begin());
+        days.back().unit = static_cast<std::size_t>(unit - first_of_unit.begin());
         if (unit == first_of_unit.end()) first_of_unit.push_back(k);
     }
-    const whole_day::JointFit fit = whole_day::fit_jointly(joint);
+    const whole_day::DayAdjustment adjusted = whole_day::adjust_days(days);
     JointAdjustment result;
-    set_stations(result, fit, numbers, held, surveys);
-    for (const std::size_t k : first_of_unit)
-        result.units.push_back(unit_terms(surveys[k], fit.surveys[k]));
-    for (std::size_t k = 0; k < surveys.size(); ++k)
-        result.surveys.push_back(survey_terms(surveys[k], fit.surveys[k]));
-    result.share = fit.share;
+    set_stations(result, adjusted, numbers, held, surveys);
+    result.units.resize(first_of_unit.size());
+    for (std::size_t k = 0; k < surveys.size(); ++k) {
+        const whole_day::DayFit fit = adjusted.fit(k);
+        using adjustment::Scope;
+        result.surveys.push_back(
+            {surveys[k].name, surveys[k].serial_number, coefficients_of(fit, Scope::loop)});
+        // A day with the temperature of an outer oven says more of the unit.
+        JointTerms& unit = result.units[days[k].unit];
+        std::vector<Coefficient> of_unit = coefficients_of(fit, Scope::unit);
+        if (of_unit.size() > unit.coefficients.size())
+            unit = {"", surveys[k].serial_number, std::move(of_unit)};
+    }
+    result.share = adjusted.share();
     return result;
 }
 

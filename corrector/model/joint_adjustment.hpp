@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One adjustment of several corrected surveys by the whole-day model (whole_day/joint_model.hpp).
+/// One adjustment of several corrected surveys by the whole-day model (whole_day/day_model.hpp).
 ///
 ///     const auto joint = adjust_jointly(surveys);
 ///     if (const auto* const reason = std::get_if<text::Message>(&joint)) return *reason;
@@ -15,7 +15,7 @@
 
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/day_record.hpp"
-#include "corrector/whole_day/joint_model.hpp"
+#include "corrector/whole_day/day_search.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::model {

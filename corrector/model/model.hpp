@@ -37,6 +37,8 @@ struct SurveyProblem {
     const std::vector<reading::SurveyRow>& rows;  ///< (n) At least one, in strictly ascending time.
     const SurveyOptions& options;                 ///< `base` is filled in.
     const reading::DayRecord* day;  ///< Record of the rows; null: there are only averages.
+    /// Lags and noise of a similar survey day, with which a search may begin; null: not known.
+    const whole_day::SurveyPoint* nearby = nullptr;
 };
 
 /// The rows of one fit.
@@ -65,7 +67,7 @@ using FitResult = std::variant<Fit, Refusal>;
 struct Model {
     std::string_view name;          ///< Name in options and tables; unique in models().
     bool is_always_scored = false;  ///< True: scored in every survey, whichever model is applied.
-    bool has_loops = false;  ///< True: each loop of an instrument has a constant of its own.
+    bool has_loops = false;         ///< True: each loop of an instrument has a constant of its own.
 
     /// Fits the model and corrects all rows.  Physical doubts are not set.
     ///

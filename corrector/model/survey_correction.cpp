@@ -33,7 +33,8 @@ struct Chosen {
     FitResult fit;
     std::optional<Choice> choice;
     std::optional<double> choice_loso_mgal;
-    std::optional<adjustment::Priors> priors;  ///< Priors that were fitted, if not those of the options.
+    std::optional<adjustment::Priors>
+        priors;  ///< Priors that were fitted, if not those of the options.
     std::vector<text::Message> remarks;
 };
 
@@ -56,8 +57,7 @@ void fit_without_record(Chosen& chosen, const SurveyProblem& problem, const RowC
     SurveyOptions options = problem.options;
     if (chosen.choice) {
         chosen.model = find_model(chosen.choice->model);
-        chosen.choice_loso_mgal =
-            choice_loso_mgal(problem, rows.in_use);
+        chosen.choice_loso_mgal = choice_loso_mgal(problem, rows.in_use);
     } else {
         chosen.model = find_model(kNetwork);
         chosen.remarks.push_back(text::message(
@@ -318,7 +318,8 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
         ScoredRowSet set{name, {}};
         SurveyOptions of_chosen = applied;
         if (chosen.priors) of_chosen.priors = *chosen.priors;
-        const SurveyProblem fitted{rows, of_chosen, day};
+        const auto* const part = result.as<WholeDayPart>();
+        const SurveyProblem fitted{rows, of_chosen, day, part != nullptr ? &part->point : nullptr};
         const auto add = [&](const Model& model) {
             const auto score = &model != chosen.model ? model.score(problem, choice)
                                : choice == in_fit     ? result.score

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/model/adjusted_day.hpp"
 #include "corrector/model/amended_survey.hpp"
 #include "corrector/model/calibration_use.hpp"
-#include "corrector/model/day_fits.hpp"
-#include "corrector/whole_day/day_model.hpp"
 #include "corrector/whole_day/goodness_of_fit.hpp"
 #include "corrector/whole_day/set_up_residuals.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -22,7 +21,7 @@ constexpr double kNotableShare = 0.25;     // of a variance: half of a standard 
 constexpr double kNotableGap_s = 300.0;    // together less than a ninth of the slow lag
 
 Score score_of(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use,
-               const DayFits& fits) {
+               const AdjustedDay& day) {
     Score score;
     score.model = kWholeDay;
     score.parameter_count = whole_day::kDayTerms;
@@ -31,56 +30,27 @@ Score score_of(const std::vector<reading::SurveyRow>& rows, const std::vector<bo
         if (!in_use[i]) continue;
         ++score.row_count;
         const double reference = rows[i].reference->value();
-        in_sample += std::pow(reference - fits.all.fit.set_ups[i].corrected.value(), 2);
-        if (const Fitted* const other = fits.without(rows[i].site))
-            left_out += std::pow(reference - other->fit.set_ups[i].corrected.value(), 2);
+        in_sample += std::pow(reference - day.fit().set_ups[i].corrected.value(), 2);
+        if (const AdjustedDay::Without* const other = day.without(i))
+            left_out += std::pow(reference - other->adjustment->corrected(i).value(), 2);
     }
     score.dof = score.row_count - std::min(score.row_count, score.parameter_count);
     const auto n = static_cast<double>(score.row_count);
     score.rms_mgal = std::sqrt(in_sample / n);
-    if (!fits.left_out.empty()) score.loso_mgal = std::sqrt(left_out / n);
+    if (day.is_any_left_out()) score.loso_mgal = std::sqrt(left_out / n);
     return score;
-}
-
-std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit) {
-    std::vector<Coefficient> list;
-    for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
-        list.push_back({std::string(whole_day::kDayTermNames.at(k)), fit.coefficients.at(k).value,
-                        fit.coefficients.at(k).standard_error});
-    list.back().value += 1.0;  // the scale is the last term
-    for (std::size_t k = 0; k < fit.steps_mgal.size(); ++k)
-        list.push_back({fmt::format("step_{}_mgal", k + 1), fit.steps_mgal[k].value,
-                        fit.steps_mgal[k].standard_error});
-    list.push_back({"fast_lag_s", fit.fast_lag_s, fit.fast_lag_s * fit.lag_log_errors[0]});
-    list.push_back({"slow_lag_s", fit.slow_lag_s, fit.slow_lag_s * fit.lag_log_errors[1]});
-    if (fit.outer) {
-        for (std::size_t k = 0; k < fit.outer->mgal_per_degc.size(); ++k)
-            list.push_back({std::string(whole_day::kOuterNames.at(k)),
-                            fit.outer->mgal_per_degc.at(k).value,
-                            fit.outer->mgal_per_degc.at(k).standard_error});
-        list.push_back({std::string(whole_day::kOuterNames.back()), fit.outer->lag_s, {}});
-    }
-    const auto add_noise = [&](std::size_t place, std::string name, double mgal) {
-        std::optional<double> error;
-        if (fit.noise_log_errors) error = mgal * fit.noise_log_errors->at(place);
-        list.push_back({std::move(name), mgal, error});
-    };
-    add_noise(0, "placement_mgal", fit.noise.placement_mgal);
-    add_noise(1, "flicker_mgal", fit.noise.flicker_mgal);
-    add_noise(2, "white_mgal", fit.noise.white_mgal);
-    return list;
 }
 
 /// Returns the uncertainty of a row whose station is unknown: u^2 = (standard error of the
 /// station)^2 + placement^2 (1 - 1/count).  The second part is the difference between the row's own
 /// placement error and the mean over the `count` set-ups that share the unknown.
-MilliGal row_uncertainty(const Fitted& fitted, std::size_t row) {
+MilliGal row_uncertainty(const AdjustedDay& day, std::size_t row) {
     double count = 0.0;
-    for (const whole_day::DayStation& station : fitted.stations)
-        if (station.number == fitted.stations[row].number) count += 1.0;
-    const double own = fitted.fit.noise.placement_mgal * std::sqrt(1.0 - 1.0 / count);
-    const double error = fitted.gravity_of(row).standard_error;
-    return MilliGal(std::sqrt(error * error + own * own));
+    for (const whole_day::DayStation& station : day.survey().stations)
+        if (station.number == day.number_of(row)) count += 1.0;
+    const double own =
+        day.without(row)->adjustment->noise().placement_mgal * std::sqrt(1.0 - 1.0 / count);
+    return MilliGal(std::hypot(day.without(row)->gravity.standard_error, own));
 }
 
 /// Returns the sum of the samples' durations: least spacing times number of samples.
@@ -91,25 +61,16 @@ double duration_s(const std::vector<UtcTime>& times) {
     return spacing_s * static_cast<double>(times.size());
 }
 
-void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
+void correct_row(CorrectedRow& out, std::size_t i, const AdjustedDay& day,
                  const std::vector<UtcTime>& averaged) {
-    const whole_day::DaySetUp& set_up = fits.all.fit.set_ups[i];
-    const auto effect = [&](whole_day::DayTerm term) {
-        return MilliGal(set_up.effect_mgal.at(static_cast<std::size_t>(term)));
-    };
+    const whole_day::DaySetUp& set_up = day.fit().set_ups[i];
     out.row.start = averaged.front();
     out.row.end = averaged.back();
     out.row.acceleration = set_up.reading;
     out.row.tide = set_up.tide;
     out.row.temperature = set_up.temperature;
-    out.temperature_correction =
-        -(effect(whole_day::DayTerm::constant) + effect(whole_day::DayTerm::level) +
-          effect(whole_day::DayTerm::slow));
-    out.rate_correction = -effect(whole_day::DayTerm::fast);
-    out.drift_correction =
-        -(effect(whole_day::DayTerm::drift) + effect(whole_day::DayTerm::warm_up));
-    out.tilt_correction = -(effect(whole_day::DayTerm::x) + effect(whole_day::DayTerm::y));
-    out.scale_correction = -effect(whole_day::DayTerm::scale);
+    for (std::size_t k = 0; k < whole_day::kDayTerms; ++k)
+        out.subtract(whole_day::kDayTermList.at(k)->correction, MilliGal(set_up.effect_mgal.at(k)));
     out.corrected = set_up.corrected;
     auto& own =
         out.own.emplace<WholeDayRow>(WholeDayRow{.averaged_s = duration_s(averaged),
@@ -121,11 +82,11 @@ void correct_row(CorrectedRow& out, std::size_t i, const DayFits& fits,
         out.residual = *out.row.reference - out.corrected;
     }
     // The values that the row has if its reference is unknown.
-    const Fitted* const other = fits.with_unknown(i, out.row.site);
+    const AdjustedDay::Without* const other = day.without(i);
     if (other == nullptr) return;
-    out.u_corrected = row_uncertainty(*other, i);
+    out.u_corrected = row_uncertainty(day, i);
     if (!out.row.reference) return;
-    own.left_out = other->fit.set_ups[i].corrected;
+    own.left_out = other->adjustment->corrected(i);
     const double u_reference_mgal = out.row.u_reference.value_or(MilliGal(0.0)).value();
     out.studentised_residual = (*out.row.reference - *own.left_out).value() /
                                std::hypot(out.u_corrected->value(), u_reference_mgal);
@@ -238,7 +199,7 @@ std::optional<text::Message> refusal_of(const SurveyProblem& problem, const RowC
 std::optional<Score> score_day(const SurveyProblem& problem, const RowChoice& choice) {
     if (refusal_of(problem, choice)) return std::nullopt;
     return score_of(problem.rows, choice.in_use,
-                    fit_with_and_without(problem, choice, day_priors_of(problem.options)));
+                    adjusted_day(problem, choice, day_priors_of(problem.options)));
 }
 
 FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
@@ -247,42 +208,44 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     const SurveyOptions& options = problem.options;
     const reading::DayRecord& day = *problem.day;
     const whole_day::DayPriors priors = day_priors_of(options);
-    const DayFits fits = fit_with_and_without(problem, choice, priors);
+    const AdjustedDay adjusted = adjusted_day(problem, choice, priors);
     Fit result;
     WholeDayPart part;
-    part.unit = whole_day::unit_posterior(day, fits.all.stations, fits.all.fit, priors);
+    part.unit = whole_day::unit_posterior(adjusted.fit(), priors);
+    part.point = adjusted.fit().point;
     result.own = std::move(part);
     result.rows = uncorrected(problem, choice);
-    result.score = score_of(rows, choice.in_use, fits);
+    result.score = score_of(rows, choice.in_use, adjusted);
     std::vector<std::vector<UtcTime>> averaged(rows.size());  // times of the samples in the bins
     for (const reading::DayBin& bin : day.bins)
         averaged[bin.set_up].insert(averaged[bin.set_up].end(), bin.times.begin(), bin.times.end());
-    for (std::size_t i = 0; i < rows.size(); ++i) correct_row(result.rows[i], i, fits, averaged[i]);
-    result.coefficients = coefficients_of(fits.all.fit);
-    for (const auto term : {whole_day::DayTerm::level, whole_day::DayTerm::slow,
-                            whole_day::DayTerm::fast, whole_day::DayTerm::drift,
-                            whole_day::DayTerm::warm_up, whole_day::DayTerm::scale}) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        correct_row(result.rows[i], i, adjusted, averaged[i]);
+    result.coefficients = coefficients_of(adjusted.fit());
+    for (const auto term :
+         {whole_day::DayTerm::level, whole_day::DayTerm::slow, whole_day::DayTerm::fast,
+          whole_day::DayTerm::drift, whole_day::DayTerm::warm_up, whole_day::DayTerm::scale}) {
         const auto at = whole_day::DayPriors::place_of(term);
         result.coefficients[static_cast<std::size_t>(term)].prior =
             adjustment::Prior{priors.mean(at) + (term == whole_day::DayTerm::scale ? 1.0 : 0.0),
-                  priors.factor.row(at).norm()};
+                              priors.factor.row(at).norm()};
     }
     const auto place = whole_day::DayPriors::place_of(whole_day::DayTerm::scale);
     const whole_day::Estimate& scale =
-        fits.all.fit.coefficients.at(static_cast<std::size_t>(whole_day::DayTerm::scale));
+        adjusted.fit().coefficients.at(static_cast<std::size_t>(whole_day::DayTerm::scale));
     result.scales.push_back({"",
                              1.0 + scale.value,
                              scale.standard_error,
                              {1.0 + priors.mean(place), priors.factor.row(place).norm()}});
-    set_day_stations(result, problem, choice, fits, priors);
+    set_day_stations(result, problem, choice, adjusted);
     if (options.calibration) {
         SurveyOptions without = options;
         without.calibration.reset();
-        const DayFits usual = fit_with_and_without(problem, choice, day_priors_of(without));
-        report_prior_use(result, *options.calibration, fits.all.fit, usual.all.fit,
+        const AdjustedDay usual = adjusted_day(problem, choice, day_priors_of(without));
+        report_prior_use(result, *options.calibration, adjusted.fit(), usual.fit(),
                          score_of(rows, choice.in_use, usual).loso_mgal);
     }
-    remark_sources(result, fits.all.fit, priors,
+    remark_sources(result, adjusted.fit(), priors,
                    options.calibration && options.calibration->thermal, day.temperature);
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
@@ -290,15 +253,18 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
             text::message("the temperature record begins {} min before the first occupation; its "
                           "slow effect needs two hours",
                           std::lround(lead_s / 60.0)));
-    remark_misfit(result, whole_day::goodness_of_fit(day, fits.all.stations, fits.all.fit, priors));
+    remark_misfit(result, whole_day::goodness_of_fit(adjusted.survey(), adjusted.fit()));
     return result;
 }
 
-/// Alternatives of a day: each is amended, and lags and noise are searched again.
+/// Alternatives of a day: each is amended, and the noise is searched again.
 class DayTrials final : public adjustment::Trials {
 public:
     DayTrials(const SurveyProblem& problem, const RowChoice& choice)
-        : problem_(problem), choice_(choice), priors_(day_priors_of(problem.options)) {}
+        : problem_(problem),
+          choice_(choice),
+          priors_(day_priors_of(problem.options)),
+          nearby_(problem.nearby == nullptr ? std::nullopt : std::optional(*problem.nearby)) {}
 
     [[nodiscard]] std::shared_ptr<const adjustment::Residuals> residuals(
         const std::vector<adjustment::Alternative>& known,
@@ -306,33 +272,37 @@ public:
         const auto is_same = [](const auto& a, const auto& b) { return a.is_same(b); };
         if (!of_quiet_ || !std::ranges::equal(quiet, last_quiet_, is_same)) {
             const AmendedSurvey without = amended(problem_.rows, problem_.options, quiet);
-            of_quiet_ = fit_of(without, nearby_ ? &*nearby_ : nullptr);
+            of_quiet_ = fit_of(without);
             last_quiet_ = quiet;
-            if (!nearby_) nearby_ = of_quiet_;
+            if (!nearby_ && of_quiet_) nearby_ = of_quiet_->point;
         }
         const AmendedSurvey with = amended(problem_.rows, problem_.options, known);
         if (!of_quiet_ || is_refused(with)) return nullptr;
-        return adjustment::dense_residuals(whole_day::set_up_residuals(
-            *problem_.day, stations_of({with.rows, with.options, problem_.day}, with.choice),
-            *of_quiet_, priors_));
+        return adjustment::dense_residuals(
+            whole_day::set_up_residuals(survey_of(with), *of_quiet_));
     }
 
 private:
     [[nodiscard]] bool is_refused(const AmendedSurvey& survey) const {
         return refusal_of({survey.rows, survey.options, problem_.day}, survey.choice).has_value();
     }
-    [[nodiscard]] std::optional<whole_day::DayFit> fit_of(const AmendedSurvey& survey,
-                                                          const whole_day::DayFit* nearby) const {
+    [[nodiscard]] whole_day::DaySurvey survey_of(const AmendedSurvey& survey) const {
+        return day_survey({survey.rows, survey.options, problem_.day}, survey.choice, priors_);
+    }
+    [[nodiscard]] std::optional<whole_day::DayFit> fit_of(const AmendedSurvey& survey) const {
         if (is_refused(survey)) return std::nullopt;
-        return whole_day::fit_day(
-            *problem_.day, stations_of({survey.rows, survey.options, problem_.day}, survey.choice),
-            nearby, priors_);
+        return whole_day::adjust_day(
+                   survey_of(survey), nearby_ ? &*nearby_ : nullptr,
+                   nearby_ ? whole_day::Searched::all_but_lags : whole_day::Searched::all)
+            .value()
+            .fit();
     }
 
     SurveyProblem problem_;
     RowChoice choice_;
     whole_day::DayPriors priors_;
-    std::optional<whole_day::DayFit> nearby_, of_quiet_;
+    std::optional<whole_day::SurveyPoint> nearby_;
+    std::optional<whole_day::DayFit> of_quiet_;
     std::vector<adjustment::Alternative> last_quiet_;
 };
 
@@ -363,8 +333,6 @@ std::optional<text::Message> day_refusal(const std::vector<reading::SurveyRow>& 
     return std::nullopt;
 }
 
-Model whole_day_model() {
-    return {kWholeDay, false, false, fit_whole_day, score_day, day_trials};
-}
+Model whole_day_model() { return {kWholeDay, false, false, fit_whole_day, score_day, day_trials}; }
 
 }  // namespace a351::corrector::model

@@ -34,8 +34,8 @@ namespace a351::corrector::model {
 /// - Acceleration and temperature of a row become means over its bins; start and end become the
 ///   times of their first and last sample.  Its time does not change, because its tide belongs to
 ///   that time.
-/// - The fit is repeated without each station.  u_corrected is the uncertainty that the row has if
-///   the reference of its station is unknown.  The studentised residual is the error of this
+/// - The adjustment is repeated without each station.  u_corrected is the uncertainty that the row has
+///   if the reference of its station is unknown.  The studentised residual is the error of this
 ///   prediction divided by sqrt(u_corrected^2 + u_reference^2).
 /// - A row that is excluded, or flagged and not used, gets its own unknown station, so that it has
 ///   a value and no influence.

@@ -58,14 +58,13 @@ PlacementSeries measure_placement(const reading::OccupationRows& read,
     // Gravity only shifts the constant.
     const MilliGal gravity =
         read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
-    std::vector<whole_day::DayStation> stations;
+    whole_day::DaySurvey day{&*read.day, {}, model::day_priors_of(known)};
     for (std::size_t i = 0; i < read.rows.size(); ++i) {
         whole_day::DayStation station{gravity, 0};
         if (!is_in_placement(read.rows[i])) station = {std::nullopt, i + 1};
-        stations.push_back(station);
+        day.stations.push_back(station);
     }
-    const whole_day::DayFit fit =
-        whole_day::fit_day(*read.day, stations, nullptr, model::day_priors_of(known)).value();
+    const whole_day::DayFit fit = whole_day::adjust_day(std::move(day)).value().fit();
     if (!fit.noise_log_errors || fit.noise_log_errors->front() > kGreatestLogError)
         refuse_placement(origin, "the set-ups do not determine it",
                          "more set-ups, or a quieter place");

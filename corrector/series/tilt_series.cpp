@@ -134,11 +134,12 @@ TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::str
     // effect is even in the tilt.
     const MilliGal gravity =
         read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
-    std::vector<whole_day::DayStation> stations;
+    whole_day::DaySurvey survey;
+    survey.priors.free_axes();
     for (std::size_t i = 0; i < read.rows.size(); ++i) {
         whole_day::DayStation station{gravity, 0};
         if (!is_in_series(read.rows[i])) station = {std::nullopt, i + 1};
-        stations.push_back(station);
+        survey.stations.push_back(station);
     }
     double mean = 0.0;
     for (const reading::DayBin& bin : read.day->bins)
@@ -150,11 +151,11 @@ TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::str
     reading::DayRecord day = *read.day;
     const auto x = whole_day::DayPriors::place_of(whole_day::DayTerm::x),
                y = whole_day::DayPriors::place_of(whole_day::DayTerm::y);
-    whole_day::DayPriors priors = whole_day::usual_day_priors();
-    priors.free_axes();
+    const whole_day::DayPriors& priors = survey.priors;
+    survey.record = &day;
     for (int round = 0; round < kRounds; ++round) {
         day.bins = freed_from(read.day->bins, biases);
-        const whole_day::DayFit fit = whole_day::fit_day(day, stations, nullptr, priors).value();
+        const whole_day::DayFit fit = whole_day::adjust_day(survey).value().fit();
         const whole_day::DayPriors::Vector change = priors.factor * fit.shift;
         const whole_day::DayPriors::Matrix covariance =
             priors.factor * fit.shift_covariance * priors.factor.transpose();

@@ -38,7 +38,7 @@ struct TiltSeries {
 ///
 /// The covariance contains the scatter of set-ups, flicker and the effect of the temperature.  With
 /// a scatter of 1.2 mGal and four set-ups at 2 degrees, the standard error is 17 mGal/g within 40 %
-/// (tilt_series_test.cpp).  Cost: three searches of fit_day().
+/// (tilt_series_test.cpp).  Cost: three searches of adjust_day().
 ///
 /// Accuracy (tilt_series_test.cpp): biases of -1200 and 700 mGal/g come out within 0.5 mGal/g for
 /// twelve set-ups at 0 and 2 degrees, and within 2 mGal/g without the site's gravity.

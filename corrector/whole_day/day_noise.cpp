@@ -74,15 +74,16 @@ double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const 
     Eigen::Matrix<double, kStates, kStates> covariance =
         Eigen::Matrix<double, kStates, kStates>::Zero();
     covariance.diagonal().setConstant(flicker_part);
-    Eigen::MatrixXd state = Eigen::MatrixXd::Zero(kStates, columns.cols());
+    Eigen::Matrix<double, kStates, Eigen::Dynamic> state(kStates, columns.cols());
+    state.setZero();
+    Eigen::MatrixXd values = columns.transpose();  // those of a bin are together: half the time
     double log_determinant = 0.0;
     for (Index row = 0; row < std::ssize(bins_); ++row) {
         const Bin& bin = bins_[static_cast<std::size_t>(row)];
         State keep;
         keep << bin.keep, bin.is_new_set_up ? 0.0 : 1.0;
         // Prediction: x = K x, P = K P K + Q.  A new set-up has a new placement.
-        state = keep.asDiagonal() * state;
-        covariance = keep.asDiagonal() * covariance * keep.asDiagonal();
+        covariance = covariance.cwiseProduct(keep * keep.transpose());
         for (Index k = 0; k < kProcesses; ++k)
             covariance(k, k) += flicker_part * (1.0 - keep(k) * keep(k));
         if (bin.is_new_set_up) covariance(kProcesses, kProcesses) = placement;
@@ -94,13 +95,20 @@ double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const 
         const State gain = covariance * h;
         const double variance =
             gain.dot(h) + flicker_part * bin.within + white_variance(noise, bin.samples);
-        const Eigen::RowVectorXd innovation = columns.row(row) - h.transpose() * state;
-        state += gain / variance * innovation;
         covariance -= gain * gain.transpose() / variance;
         // Innovations divided by their standard deviation are white.
-        columns.row(row) = innovation / std::sqrt(variance);
+        const State change = gain / variance;
+        const double scale = 1.0 / std::sqrt(variance);
+        for (Index column = 0; column < values.rows(); ++column) {
+            State x = keep.cwiseProduct(state.col(column));
+            const double innovation = values(column, row) - h.dot(x);
+            x += innovation * change;
+            state.col(column) = x;
+            values(column, row) = innovation * scale;
+        }
         log_determinant += std::log(variance);
     }
+    columns = values.transpose();
     return log_determinant;
 }
 

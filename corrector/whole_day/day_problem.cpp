@@ -4,149 +4,326 @@
 #include <cmath>
 #include <utility>
 
-#include "corrector/whole_day/search_grid.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
-#include "protocol/linear_algebra/normal_matrix.hpp"
-#include "protocol/signal/median.hpp"
 
 namespace a351::corrector::whole_day {
 namespace {
 
 using Index = Eigen::Index;
 
-// fit_day() lists the priors; corrector/methods.md gives their origin.
-constexpr LogNormalPrior kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
-constexpr double kWhiteFactor = 2.0;
+/// Returns true for a term that each survey has for itself.
+bool is_of_survey(Index term) {
+    return kDayTermList.at(static_cast<std::size_t>(term))->scope == adjustment::Scope::loop;
+}
 
-/// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
-/// at least 1e-3.  It is the median of the white noise's prior.
-double bin_scatter_mgal(const std::vector<reading::DayBin>& bins) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < bins.size(); ++i)
-        if (bins[i].set_up == bins[i - 1].set_up)
-            steps.push_back(std::abs((bins[i].reading - bins[i - 1].reading).value()));
-    if (steps.empty()) return 1.0;
-    return std::max(signal::kGaussianPerMad * signal::median(std::move(steps)) / std::sqrt(2.0),
-                    1e-3);
+/// Number of common columns of a unit without an outer oven: its terms, then its lags.
+Index columns_of_unit() {
+    Index count = kLags;
+    for (Index term = 0; term < kTerms; ++term)
+        count += is_of_survey(term) ? 0 : 1;
+    return count;
+}
+
+/// A set-up of a survey: its station in the adjustment, and the time of its bins.
+struct Stay {
+    std::size_t gravity = 0;
+    UtcTime first, last;
+};
+
+/// Returns the number of a survey's gravity in the adjustment.
+std::size_t number_of(const DaySurvey& survey, std::size_t number) {
+    return survey.gravities.empty() ? number : survey.gravities[number];
+}
+
+/// Returns the number of gravities of a survey.
+std::size_t count_of(const DaySurvey& survey) {
+    std::size_t count = 0;
+    for (const DayStation& station : survey.stations) count = std::max(count, station.number + 1);
+    return count;
+}
+
+std::vector<Stay> stays_of(const DaySurvey& survey) {
+    std::vector<Stay> stays(survey.stations.size());
+    for (std::size_t i = 0; i < stays.size(); ++i)
+        stays[i].gravity = number_of(survey, survey.stations[i].number);
+    std::vector<bool> is_begun(stays.size(), false);
+    for (const reading::DayBin& bin : survey.record->bins) {
+        Stay& stay = stays[bin.set_up];
+        if (!is_begun[bin.set_up]) stay.first = bin.times.front();
+        is_begun[bin.set_up] = true;
+        stay.last = bin.times.back();
+    }
+    return stays;
+}
+
+bool are_one(const Stay& a, const Stay& b) {
+    return a.gravity == b.gravity && a.first < b.last && b.first < a.last;
 }
 
 }  // namespace
 
-DayProblem::DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
-                       const DayPriors& priors, const std::vector<double>& rough_mgal)
-    : DayRegression(record, stations, priors, rough_mgal),
-      whitening_(record.bins),
-      white_mgal_{bin_scatter_mgal(record.bins), kWhiteFactor} {}
-
-DayNoise DayProblem::noise(const Point& u) const {
-    return {priors().placement_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
-            white_mgal_.at(u[kWhite])};
+Eigen::MatrixXd with_priors(const Eigen::MatrixXd& products, Index count) {
+    Eigen::MatrixXd information = products.topLeftCorner(count, count);
+    information.diagonal().array() += 1.0;
+    return information;
 }
 
-DayProblem::Point DayProblem::point_of(const DayNoise& noise) const {
-    Point u{};
-    u[kPlacement] = priors().placement_mgal.place_of(noise.placement_mgal);
-    u[kFlicker] = kFlickerPrior_mgal.place_of(noise.flicker_mgal);
-    u[kWhite] = white_mgal_.place_of(noise.white_mgal);
-    return u;
-}
-
-double DayProblem::cost(const Point& u, Eigen::MatrixXd columns) const {
-    const double log_determinant = whitening_.whiten(noise(u), columns);
-    const auto y = columns.col(0);
-    const auto x = columns.rightCols(estimated());
-    const linear_algebra::Cholesky factor(linear_algebra::normal_matrix(x));
-    if (!factor.is_positive_definite()) return HUGE_VAL;  // overflow, far from the priors
-    const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
-    // 2 cost = ln det C + ln det(X'C^-1 X + 1) + y'C^-1 y - |L^-1 X'C^-1 y|^2 + |u|^2,
-    // with L L' = X'C^-1 X + 1
-    double sum = log_determinant + factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
-    for (const double value : u) sum += value * value;
-    return 0.5 * sum;
-}
-
-DayProblem::Point DayProblem::most_likely(const std::optional<Point>& nearby) const {
-    Point start = nearby.value_or(Point{});
-    // From small biases the search may end where large ones are taken for a placement of 30 mGal.
-    for (const double bias_size : {2.0, 4.0}) {
-        Point other{};
-        other[kBiasSize] = bias_size;
-        if (!nearby && cost(other) < cost(start)) start = other;
-    }
-    LagColumns lagged;
-    return least_cost_point(
-        [&](const Point& u) { return cost(u, scaled(u, lagged)); }, start, nearby.has_value(),
-        {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000}, searched());
-}
-
-DayProblem::Point DayProblem::expected(const Point& u) const {
-    constexpr double kStep = 0.25;
-    const double least = cost(u);
-    Point expected = u;
-    const auto grow = [&](DayHyper place) {
-        Point more = u, less = u;
-        more.at(place) += kStep;
-        less.at(place) -= kStep;
-        const double curvature = (cost(more) - 2.0 * least + cost(less)) / (kStep * kStep);
-        // x = median factor^u.  If ln x is normal with the mean m and the variance v, the root of
-        // the mean square of x is exp(m + v), with v = (ln factor)^2 / curvature.
-        expected.at(place) += log_factor(place) / std::max(curvature, 1.0);
-    };
-    grow(kPlacement);
-    grow(kFlicker);
-    grow(kBiasSize);
-    if (has_outer()) grow(kOuterSize);
-    return expected;
-}
-
-double DayProblem::log_factor(DayHyper part) const {
-    switch (part) {
-        case kPlacement:
-            return std::log(priors().placement_mgal.factor);
-        case kFlicker:
-            return std::log(kFlickerPrior_mgal.factor);
-        case kOuterSize:
-            return std::log(kOuterSize_mgal_per_degc.factor);
-        default:
-            return std::log(priors().bias_factor);
-    }
-}
-
-std::optional<std::array<double, 3>> DayProblem::noise_log_errors(const Point& u) const {
-    constexpr double kStep = 0.25;
-    constexpr std::array<DayHyper, 3> kParts{kPlacement, kFlicker, kWhite};
-    const Eigen::MatrixXd columns = scaled(u);
-    const auto moved = [&](std::size_t i, double by_i, std::size_t k, double by_k) {
-        Point point = u;
-        point.at(kParts.at(i)) += by_i;
-        point.at(kParts.at(k)) += by_k;
-        return cost(point, columns);
-    };
-    Eigen::Matrix3d curvature;
-    for (std::size_t i = 0; i < kParts.size(); ++i)
-        for (std::size_t k = 0; k <= i; ++k) {
-            const double sum = moved(i, kStep, k, kStep) + moved(i, -kStep, k, -kStep) -
-                               moved(i, kStep, k, -kStep) - moved(i, -kStep, k, kStep);
-            curvature(static_cast<Index>(i), static_cast<Index>(k)) = sum / (4.0 * kStep * kStep);
-            curvature(static_cast<Index>(k), static_cast<Index>(i)) = sum / (4.0 * kStep * kStep);
+DayProblem::DayProblem(std::vector<DaySurvey> surveys, const std::vector<double>& rough_mgal)
+    : surveys_(std::move(surveys)) {
+    std::size_t gravities = 0;
+    for (const DaySurvey& survey : surveys_) {
+        std::vector<double> rough;
+        for (std::size_t number = 0; number < count_of(survey); ++number) {
+            gravities = std::max(gravities, number_of(survey, number) + 1);
+            if (!rough_mgal.empty()) rough.push_back(rough_mgal[number_of(survey, number)]);
         }
-    const linear_algebra::Cholesky factor(curvature);
-    if (!factor.is_positive_definite()) return std::nullopt;
-    const Eigen::MatrixXd covariance = factor.inverse();
-    const std::array<double, 3> factors{priors().placement_mgal.factor, kFlickerPrior_mgal.factor,
-                                        kWhiteFactor};
-    std::array<double, 3> errors{};
-    for (std::size_t i = 0; i < errors.size(); ++i)
-        errors.at(i) = std::log(factors.at(i)) *
-                       std::sqrt(covariance(static_cast<Index>(i), static_cast<Index>(i)));
-    return errors;
+        regressions_.push_back(std::make_unique<DayRegression>(survey, rough));
+        unit_count_ = std::max(unit_count_, survey.unit + 1);
+    }
+    places_.assign(gravities, -1);
+    set_groups();
+    set_hypers();
+    set_columns();
 }
 
-Eigen::MatrixXd DayProblem::linearised(const Point& expected, const Eigen::VectorXd& values) const {
-    Eigen::MatrixXd columns(readings_mgal().size(), estimated() + kLags);
-    columns << scaled(expected).rightCols(estimated()), lag_columns(expected, values);
-    whitening_.whiten(noise(expected), columns);
+void DayProblem::set_groups() {
+    std::vector<std::vector<Stay>> stays;
+    for (const DaySurvey& survey : surveys_) stays.push_back(stays_of(survey));
+    const auto is_of_group = [&](const Group& group, std::size_t survey) {
+        return std::ranges::any_of(group.surveys, [&](std::size_t other) {
+            return std::ranges::any_of(stays[survey], [&](const Stay& stay) {
+                return std::ranges::any_of(
+                    stays[other], [&](const Stay& of_other) { return are_one(stay, of_other); });
+            });
+        });
+    };
+    group_of_.resize(surveys_.size());
+    place_in_group_.resize(surveys_.size());
+    for (std::size_t k = 0; k < surveys_.size(); ++k) {
+        auto group =
+            std::ranges::find_if(groups_, [&](const Group& one) { return is_of_group(one, k); });
+        if (group == groups_.end()) group = groups_.insert(group, Group{});
+        std::vector<std::size_t> numbers;
+        for (const Stay& stay : stays[k]) {
+            std::size_t number = group->set_up_count;
+            for (std::size_t i = 0; i < group->surveys.size(); ++i)
+                for (std::size_t s = 0; s < stays[group->surveys[i]].size(); ++s)
+                    if (are_one(stay, stays[group->surveys[i]][s])) number = group->set_ups[i][s];
+            group->set_up_count = std::max(group->set_up_count, number + 1);
+            numbers.push_back(number);
+        }
+        group_of_[k] = static_cast<std::size_t>(group - groups_.begin());
+        place_in_group_[k] = group->surveys.size();
+        group->surveys.push_back(k);
+        group->set_ups.push_back(std::move(numbers));
+    }
+}
+
+void DayProblem::set_hypers() {
+    for (std::size_t unit = 0; unit < unit_count_; ++unit)
+        for (const DayHyper lag : {kFastLag, kSlowLag})
+            hypers_.push_back({lag, surveys_of_unit(unit)});
+    for (const Group& group : groups_) hypers_.push_back({kPlacement, group.surveys});
+    for (std::size_t k = 0; k < surveys_.size(); ++k)
+        for (const DayHyper part : {kFlicker, kWhite}) hypers_.push_back({part, {k}});
+    for (std::size_t unit = 0; unit < unit_count_; ++unit) {
+        hypers_.push_back({kBiasSize, surveys_of_unit(unit)});
+        if (!has_outer(unit)) continue;
+        for (const DayHyper part : {kOuterLag, kOuterSize})
+            hypers_.push_back({part, surveys_of_unit(unit)});
+    }
+}
+
+void DayProblem::set_columns() {
+    for (std::size_t unit = 0; unit < unit_count_; ++unit) {
+        unit_begin_.push_back(common_count_);
+        common_count_ += columns_of_unit() + (has_outer(unit) ? kOuterSlopes : 0);
+    }
+    for (std::size_t k = 0; k < surveys_.size(); ++k)
+        for (std::size_t number = 0; number < count_of(surveys_[k]); ++number) {
+            Index& place = places_[gravity_of(k, number)];
+            if (place < 0 && of(k).place_of(number) >= 0) place = common_count_++;
+        }
+    own_begin_.resize(surveys_.size());
+    for (Group& group : groups_) {
+        // A single sensor has no need of the columns of its set-ups.
+        group.own_count =
+            group.is_box() ? static_cast<Index>(group.set_up_count) : Index{0};
+        for (const std::size_t k : group.surveys) {
+            own_begin_[k] = group.own_count;
+            for (Index term = 0; term < kTerms; ++term)
+                group.own_count += is_of_survey(term) ? 1 : 0;
+            group.own_count += of(k).outer_begin() - of(k).steps_begin();
+        }
+    }
+}
+
+bool DayProblem::has_boxes() const {
+    return std::ranges::any_of(groups_, &Group::is_box);
+}
+
+bool DayProblem::has_outer(std::size_t unit) const {
+    return std::ranges::any_of(surveys_of_unit(unit),
+                               [this](std::size_t k) { return of(k).has_outer(); });
+}
+
+std::vector<std::size_t> DayProblem::surveys_of_unit(std::size_t unit) const {
+    std::vector<std::size_t> surveys;
+    for (std::size_t k = 0; k < surveys_.size(); ++k)
+        if (surveys_[k].unit == unit) surveys.push_back(k);
+    return surveys;
+}
+
+std::vector<Index> DayProblem::places_in_group(std::size_t survey, bool is_extended) const {
+    const Group& group = groups_[group_of_[survey]];
+    const DayRegression& problem = of(survey);
+    const Index common = group.own_count;
+    const Index unit = common + unit_begin_[surveys_[survey].unit];
+    const Index extra = is_extended ? std::ssize(places_) : 0;
+    std::vector<Index> places{common + common_count_ + extra};
+    Index own = own_begin_[survey], of_unit = unit;
+    for (Index term = 0; term < kTerms; ++term)
+        places.push_back(is_of_survey(term) ? own++ : of_unit++);
+    places.resize(static_cast<std::size_t>(problem.steps_begin()) + 1);
+    const std::size_t gravities = count_of(surveys_[survey]);
+    for (std::size_t number = 0; number < gravities; ++number)
+        if (const Index place = problem.place_of(number); place >= 0)
+            places[static_cast<std::size_t>(place) + 1] =
+                common + places_[gravity_of(survey, number)];
+    for (Index k = problem.steps_begin(); k < problem.outer_begin(); ++k) places.push_back(own++);
+    for (Index k = problem.outer_begin(); k < problem.estimated(); ++k)
+        places.push_back(unit + columns_of_unit() + k - problem.outer_begin());
+    if (group.is_box())
+        for (Index k = 0; k < static_cast<Index>(group.set_up_count); ++k) places.push_back(k);
+    if (!is_extended) return places;
+    for (Index lag = 0; lag < kLags; ++lag) places.push_back(of_unit++);
+    for (std::size_t number = 0; number < gravities; ++number)
+        places.push_back(common + own_place_of(gravity_of(survey, number)));
+    return places;
+}
+
+std::size_t DayProblem::gravity_of(std::size_t survey, std::size_t number) const {
+    return number_of(surveys_[survey], number);
+}
+
+SurveyPoint DayProblem::part_of(const DayPoint& point, std::size_t survey) const {
+    SurveyPoint part{};
+    for (std::size_t i = 0; i < hypers_.size(); ++i)
+        if (std::ranges::find(hypers_[i].surveys, survey) != hypers_[i].surveys.end())
+            part.at(hypers_[i].kind) = point.u[i];
+    return part;
+}
+
+DayNoise DayProblem::own_noise(const DayPoint& point, std::size_t survey) const {
+    DayNoise noise = of(survey).noise(part_of(point, survey));
+    if (groups_[group_of_[survey]].is_box())
+        noise.placement_mgal *= std::sqrt(1.0 - point.share);
+    return noise;
+}
+
+Eigen::MatrixXd DayProblem::whitened(const DayPoint& point, std::size_t survey,
+                                     const Eigen::MatrixXd& scaled, const Eigen::VectorXd* values,
+                                     double& log_determinant) const {
+    const Group& group = groups_[group_of_[survey]];
+    const DaySurvey& of_survey = surveys_[survey];
+    const auto& bins = of_survey.record->bins;
+    const SurveyPoint u = part_of(point, survey);
+    const Index in_box = group.is_box() ? static_cast<Index>(group.set_up_count) : Index{0};
+    const Index gravities = static_cast<Index>(count_of(of_survey));
+    const Index lags = scaled.cols() + in_box;
+    Eigen::MatrixXd columns =
+        Eigen::MatrixXd::Zero(scaled.rows(), lags + (values == nullptr ? 0 : kLags + gravities));
+    columns.leftCols(scaled.cols()) = scaled;
+    if (values != nullptr) columns.middleCols(lags, kLags) = of(survey).lag_columns(u, *values);
+    const double in_common_mgal = std::sqrt(point.share) * of(survey).noise(u).placement_mgal;
+    for (Index row = 0; row < columns.rows(); ++row) {
+        const std::size_t set_up = bins[static_cast<std::size_t>(row)].set_up;
+        if (group.is_box()) {
+            const std::size_t number = group.set_ups[place_in_group_[survey]][set_up];
+            columns(row, scaled.cols() + static_cast<Index>(number)) = in_common_mgal;
+        }
+        if (values != nullptr)
+            columns(row, lags + kLags + static_cast<Index>(of_survey.stations[set_up].number)) =
+                kFreeGravity_mgal;
+    }
+    log_determinant = of(survey).whiten(own_noise(point, survey), columns);
     return columns;
+}
+
+DayProblem::Normal DayProblem::of_survey(const DayPoint& point, std::size_t survey,
+                                         const Eigen::MatrixXd& scaled,
+                                         const Eigen::VectorXd* values) const {
+    Normal normal;
+    const Eigen::MatrixXd columns = whitened(point, survey, scaled, values, normal.log_determinant);
+    normal.products = columns.transpose() * columns;
+    return normal;
+}
+
+DayProblem::Normal DayProblem::of_group(const std::vector<Normal>& surveys, std::size_t group,
+                                            bool is_extended) const {
+    const Index extra = is_extended ? std::ssize(places_) : 0;
+    const Index size = groups_[group].own_count + common_count_ + extra + 1;
+    Normal normal{Eigen::MatrixXd::Zero(size, size), 0.0};
+    for (const std::size_t survey : groups_[group].surveys) {
+        const std::vector<Index> places = places_in_group(survey, is_extended);
+        normal.products(places, places) += surveys[survey].products;
+        normal.log_determinant += surveys[survey].log_determinant;
+    }
+    return normal;
+}
+
+DayProblem::Normal DayProblem::reduced(const Normal& normal, std::size_t group) const {
+    const Index own = groups_[group].own_count, rest = normal.products.rows() - own;
+    const linear_algebra::Cholesky factor(with_priors(normal.products, own));
+    if (!factor.is_positive_definite())
+        return {Eigen::MatrixXd::Zero(rest, rest), HUGE_VAL};  // overflow, far from the priors
+    return {normal.products.bottomRightCorner(rest, rest) -
+                normal.products.bottomLeftCorner(rest, own) *
+                    factor.solve(normal.products.topRightCorner(own, rest)),
+            normal.log_determinant + factor.log_determinant()};
+}
+
+double DayProblem::cost(const DayPoint& point, const Normal& sum) const {
+    const linear_algebra::Cholesky factor(with_priors(sum.products, common_count_));
+    if (!std::isfinite(sum.log_determinant) || !factor.is_positive_definite()) return HUGE_VAL;
+    const Eigen::VectorXd half =
+        factor.half_solve(sum.products.col(common_count_).head(common_count_));
+    double twice = sum.log_determinant + factor.log_determinant() +
+                   sum.products(common_count_, common_count_) - half.squaredNorm();
+    for (const double value : point.u) twice += value * value;
+    return 0.5 * twice;
+}
+
+std::vector<Eigen::VectorXd> DayProblem::solve(
+    const DayPoint& point, const std::vector<Eigen::MatrixXd>& scaled) const {
+    std::vector<Normal> surveys, groups;
+    for (std::size_t k = 0; k < surveys_.size(); ++k)
+        surveys.push_back(of_survey(point, k, scaled[k]));
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(common_count_ + 1, common_count_ + 1);
+    for (std::size_t group = 0; group < groups_.size(); ++group) {
+        groups.push_back(of_group(surveys, group));
+        products += reduced(groups.back(), group).products;
+    }
+    const Eigen::VectorXd common = linear_algebra::Cholesky(with_priors(products, common_count_))
+                                       .solve(products.col(common_count_).head(common_count_));
+    std::vector<Eigen::VectorXd> solution(surveys_.size());
+    for (std::size_t group = 0; group < groups_.size(); ++group) {
+        const Index own = groups_[group].own_count;
+        const Eigen::MatrixXd& all = groups[group].products;
+        Eigen::VectorXd coefficients(own + common_count_);
+        coefficients << linear_algebra::Cholesky(with_priors(all, own))
+                            .solve(all.col(own + common_count_).head(own) -
+                                   all.block(0, own, own, common_count_) * common),
+            common;
+        for (const std::size_t survey : groups_[group].surveys) {
+            const std::vector<Index> places = places_in_group(survey, false);
+            Eigen::VectorXd& of_one = solution[survey];
+            of_one.resize(std::ssize(places) - 1);
+            for (Index k = 0; k < of_one.size(); ++k)
+                of_one(k) = coefficients(places[static_cast<std::size_t>(k) + 1]);
+        }
+    }
+    return solution;
 }
 
 }  // namespace a351::corrector::whole_day

@@ -1,94 +1,159 @@
 #pragma once
 /// @file
-/// The likelihood of the whole-day model: of its lags, the size of the axis biases, an outer oven's
-/// effect and the noise.
+/// One adjustment of one or more surveys: the likelihood of their lags and noise, and its linear
+/// system.
 ///
-/// It is a part of fit_day().  A point u is that of day_regression.hpp; for a fixed one the model is
-/// linear:
+/// The surveys have columns in common, which is all that makes the adjustment joint:
 ///
-///     const DayProblem problem(record, stations, priors);
-///     const DayProblem::Point u = problem.most_likely(std::nullopt);
-///     Eigen::MatrixXd columns = problem.scaled(u);         // readings, then columns
-///     whiten(record.bins, problem.noise(u), columns);
-///     // (X'X + 1)^-1 X'y of the whitened columns: scaled coefficients
-///     problem.unscaled(u, scaled_coefficients);            // in the units of the terms
+/// - of a survey alone: the terms of a loop, steps, states after gaps;
+/// - of a unit: the other terms, the lags, and the slopes of an outer oven;
+/// - of all: the gravities;
+/// - of a box: the part of the placement that all sensors of a set-up have in common.  It is one more
+///   unknown for each set-up of the box, with the deviation sqrt(share) placement; the noise of each
+///   sensor keeps sqrt(1 - share) placement.
+///
+/// A *group* is the surveys that have set-ups in common: the sensors of a box on one day; mostly it is
+/// one survey.  What only a group has is eliminated in it, so that the cost of a likelihood grows
+/// with the number of surveys, and a search that moves one survey computes its group only.
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "corrector/whole_day/day_regression.hpp"
 
 namespace a351::corrector::whole_day {
 
-/// The regression of a day with its noise, and the search for the most likely point.
-///
-/// Accuracy: day_model_test.cpp, through fit_day().  ln(placement) of 20 made-up days scatters by 0.5
-/// to 1.6 of noise_log_errors() (station_system_test.cpp).
-///
-/// Constant members may be called from several threads at a time.
-class DayProblem : public DayRegression {
+/// Lags and noise of an adjustment.
+struct DayPoint {
+    std::vector<double> u;  ///< One for each DayProblem::hypers(), in deviations from its prior.
+    double share = 0.0;     ///< Share of the placement's variance that a box has, 0 to 1.
+};
+
+/// A number of a point.
+struct Hyper {
+    DayHyper kind{};
+    std::vector<std::size_t> surveys;  ///< Those whose equations it changes.
+    /// Returns true if it changes the columns, not only the noise.
+    [[nodiscard]] bool is_of_unit() const {
+        return kind != kPlacement && kind != kFlicker && kind != kWhite;
+    }
+};
+
+/// The surveys of an adjustment.  Constant members may be called from several threads at a time.
+class DayProblem {
 public:
-    /// All arguments are kept by reference and must exist as long as this object.
-    /// @param record, stations, priors, rough_mgal  as DayRegression.
-    DayProblem(const reading::DayRecord& record, const std::vector<DayStation>& stations,
-               const DayPriors& priors, const std::vector<double>& rough_mgal = {});
+    /// Surveys with set-ups in common.
+    struct Group {
+        std::vector<std::size_t> surveys;
+        /// The group's number of each set-up, by survey.
+        std::vector<std::vector<std::size_t>> set_ups;
+        std::size_t set_up_count = 0;
+        Eigen::Index own_count = 0;  ///< Columns that only the group has.
+        [[nodiscard]] bool is_box() const { return surveys.size() > 1; }
+    };
+    /// Products of whitened columns, and ln det of what is integrated out of them: noise, own columns.
+    struct Normal {
+        Eigen::MatrixXd products;
+        double log_determinant = 0.0;
+    };
 
-    /// Returns the number of parameters of a point that are searched; the others are those of an outer
-    /// oven.
-    [[nodiscard]] std::size_t searched() const { return has_outer() ? Point{}.size() : kOuterLag; }
+    /// @param surveys     at least one.
+    /// @param rough_mgal  gravity from which each unknown counts, by number in the adjustment.  Empty:
+    ///                    from the readings; then there is one survey, of which a set-up is held.
+    explicit DayProblem(std::vector<DaySurvey> surveys, const std::vector<double>& rough_mgal = {});
+    DayProblem(const DayProblem&) = delete;
+    DayProblem& operator=(const DayProblem&) = delete;
+    ~DayProblem() = default;
 
-    /// Returns the noise at a point.  The median of white noise is the scatter between neighbouring
-    /// bins of a set-up, at least 1e-3 mGal; 1 mGal if no set-up has two bins.
-    [[nodiscard]] DayNoise noise(const Point& u) const;
+    [[nodiscard]] const std::vector<DaySurvey>& surveys() const { return surveys_; }
+    [[nodiscard]] const DayRegression& of(std::size_t survey) const { return *regressions_[survey]; }
+    [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
+    [[nodiscard]] std::size_t group_of(std::size_t survey) const { return group_of_[survey]; }
+    /// Returns true if a group has several sensors, so that the share matters.
+    [[nodiscard]] bool has_boxes() const;
 
-    /// Returns the point with this noise, and with the medians of all other parameters.
-    /// @param noise  each part > 0.
-    [[nodiscard]] Point point_of(const DayNoise& noise) const;
+    /// Returns the numbers of a point: the lags of each unit, the placement of each group, flicker and
+    /// white noise of each survey, then of each unit the size of the axis biases, and lag and size of an
+    /// outer oven's effect if one of its surveys has its temperature.
+    [[nodiscard]] const std::vector<Hyper>& hypers() const { return hypers_; }
+    /// Returns a survey's part of a point; 0 where it has none.
+    [[nodiscard]] SurveyPoint part_of(const DayPoint& point, std::size_t survey) const;
+    /// Returns the noise of a survey's readings; of the placement only the sensor's part.
+    [[nodiscard]] DayNoise own_noise(const DayPoint& point, std::size_t survey) const;
 
-    /// Returns the point with the roots of the expected variances of placement, flicker, axis biases
-    /// and an outer oven's effect; the rest as in `u`.
-    ///
-    /// They are larger than the most likely ones, because the distribution is skew.  It is taken as
-    /// log-normal, with the variance from the curvature of the cost.
-    /// @param u  most likely point.  Elsewhere the curvature means nothing.
-    [[nodiscard]] Point expected(const Point& u) const;
-    /// Returns ln of the factor of one deviation.
-    /// @param part  placement, flicker, size of the axis biases or of an outer oven's effect.
-    [[nodiscard]] double log_factor(DayHyper part) const;
-    /// Returns the standard errors of the logarithms of placement, flicker and white noise, from the
-    /// curvature of the cost with the other numbers held; absent if it has no minimum there.
-    /// @param u  most likely point.
-    [[nodiscard]] std::optional<std::array<double, 3>> noise_log_errors(const Point& u) const;
+    /// Returns the number of gravities.
+    [[nodiscard]] std::size_t gravity_count() const { return places_.size(); }
+    /// Returns the number of a survey's gravity in the adjustment.
+    [[nodiscard]] std::size_t gravity_of(std::size_t survey, std::size_t number) const;
+    /// Returns the number of columns that groups have in common.
+    [[nodiscard]] Eigen::Index common_count() const { return common_count_; }
+    /// Returns the common column of a gravity; -1 if an exact reference is held.
+    [[nodiscard]] Eigen::Index place_of(std::size_t gravity) const { return places_[gravity]; }
+    /// Returns the further common column of a gravity without its reference.
+    [[nodiscard]] Eigen::Index own_place_of(std::size_t gravity) const {
+        return common_count_ + static_cast<Eigen::Index>(gravity);
+    }
+    /// Returns the place of each column of a survey in its group's products: the readings, the columns
+    /// of DayRegression::scaled(), the set-ups of a box, the lags, the gravities without reference.
+    /// @param is_extended  with the last two.
+    [[nodiscard]] std::vector<Eigen::Index> places_in_group(std::size_t survey,
+                                                            bool is_extended) const;
 
-    /// Returns the point with the least cost, on the grid of search_point(), at most 12 standard
-    /// deviations of the priors away.
-    ///
-    /// It evaluates cost() at most 2000 times and does not report if this was too few.
-    /// @param nearby  start of the search; absent: the priors' medians, with the size of the axis
-    ///                biases of 0, 2 and 4 deviations that has the least cost.
-    [[nodiscard]] Point most_likely(const std::optional<Point>& nearby) const;
+    /// Returns the whitened columns of a survey in this order.
+    /// @param scaled  DayRegression::scaled() of the survey at the point.
+    /// @param values  null: it is not extended.  Else the estimates of the survey, for the columns of
+    ///                its lags.
+    /// @param log_determinant  receives that of the noise's covariance.
+    [[nodiscard]] Eigen::MatrixXd whitened(const DayPoint& point, std::size_t survey,
+                                           const Eigen::MatrixXd& scaled,
+                                           const Eigen::VectorXd* values,
+                                           double& log_determinant) const;
+    /// Returns the products of whitened().
+    [[nodiscard]] Normal of_survey(const DayPoint& point, std::size_t survey,
+                                   const Eigen::MatrixXd& scaled,
+                                   const Eigen::VectorXd* values = nullptr) const;
+    /// Returns the products of a group's columns: its own, those common to all, the readings.
+    /// @param surveys      one of_survey() for each survey of the adjustment; those of the group are used.
+    /// @param is_extended  they have columns of lags and gravities.
+    [[nodiscard]] Normal of_group(const std::vector<Normal>& surveys, std::size_t group,
+                                  bool is_extended = false) const;
+    /// Returns the products of a group without its own columns, which are integrated out.
+    [[nodiscard]] Normal reduced(const Normal& normal, std::size_t group) const;
 
-    /// Returns -ln(restricted likelihood x priors), up to a constant; infinite if it overflows.
-    ///
-    /// Differences between points are meaningful, the value itself is not.  Cost: one lag filter of
-    /// the temperature for each lag, then O(n (1 + estimated)^2).
-    [[nodiscard]] double cost(const Point& u) const { return cost(u, scaled(u)); }
+    /// Returns -ln(restricted likelihood x priors) at a point, up to a constant; infinite if it
+    /// overflows.
+    /// @param sum  of the groups' reduced() equations.
+    [[nodiscard]] double cost(const DayPoint& point, const Normal& sum) const;
 
-    /// Returns the problem linearised at a fit: columns (n, estimated + 2) of coefficients whose
-    /// priors are independent and of variance 1, the lags last, whitened with the expected noise.
-    /// Their normal matrix plus 1 is the inverse of the posterior covariance.
-    /// @param values  (estimated) from unscaled().
-    [[nodiscard]] Eigen::MatrixXd linearised(const Point& expected,
-                                             const Eigen::VectorXd& values) const;
+    /// Returns the least-squares coefficients of each survey at a point: of scaled(), and of the set-ups
+    /// of a box.
+    /// @param scaled  DayRegression::scaled() of each survey at the point.
+    [[nodiscard]] std::vector<Eigen::VectorXd> solve(
+        const DayPoint& point, const std::vector<Eigen::MatrixXd>& scaled) const;
 
 private:
-    /// Returns cost(u) from the scaled() columns of a point that differs from `u` in its noise only.
-    [[nodiscard]] double cost(const Point& u, Eigen::MatrixXd columns) const;
+    void set_groups();
+    void set_hypers();
+    void set_columns();
+    [[nodiscard]] std::vector<std::size_t> surveys_of_unit(std::size_t unit) const;
+    [[nodiscard]] bool has_outer(std::size_t unit) const;
 
-    Whitening whitening_;
-    LogNormalPrior white_mgal_;
+    std::vector<DaySurvey> surveys_;
+    std::vector<std::unique_ptr<DayRegression>> regressions_;
+    std::vector<Group> groups_;
+    std::vector<std::size_t> group_of_, place_in_group_;  ///< One of each survey.
+    std::vector<Hyper> hypers_;
+    std::vector<Eigen::Index> own_begin_;   ///< First own column of each survey.
+    std::vector<Eigen::Index> unit_begin_;  ///< First common column of each unit.
+    std::vector<Eigen::Index> places_;
+    std::size_t unit_count_ = 0;
+    Eigen::Index common_count_ = 0;
 };
+
+/// Returns the normal matrix of the first unknowns: products, and the priors of variance 1.
+[[nodiscard]] Eigen::MatrixXd with_priors(const Eigen::MatrixXd& products, Eigen::Index count);
 
 }  // namespace a351::corrector::whole_day

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "protocol/core/units.hpp"
+#include "protocol/signal/median.hpp"
 
 namespace a351::corrector::whole_day {
 namespace {
@@ -12,15 +14,31 @@ using Index = Eigen::Index;
 
 constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
 
+// day_model.hpp lists the priors; corrector/methods.md gives their origin.
+constexpr LogNormalPrior kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
+constexpr double kWhiteFactor = 2.0;
+
+/// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
+/// at least 1e-3.  It is the median of the white noise's prior.
+double bin_scatter_mgal(const std::vector<reading::DayBin>& bins) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < bins.size(); ++i)
+        if (bins[i].set_up == bins[i - 1].set_up)
+            steps.push_back(std::abs((bins[i].reading - bins[i - 1].reading).value()));
+    if (steps.empty()) return 1.0;
+    return std::max(signal::kGaussianPerMad * signal::median(std::move(steps)) / std::sqrt(2.0),
+                    1e-3);
+}
+
 }  // namespace
 
-DayRegression::DayRegression(const reading::DayRecord& record,
-                             const std::vector<DayStation>& stations, const DayPriors& priors,
-                             const std::vector<double>& rough_mgal)
-    : record_(record),
-      stations_(stations),
-      priors_(priors),
-      means_(record.temperature.series, record.bins) {
+DayRegression::DayRegression(const DaySurvey& survey, const std::vector<double>& rough_mgal)
+    : record_(*survey.record),
+      stations_(survey.stations),
+      priors_(survey.priors),
+      whitening_(record_.bins),
+      white_mgal_{bin_scatter_mgal(record_.bins), kWhiteFactor},
+      means_(record_.temperature.series, record_.bins) {
     set_states();
     set_gravities();
     set_readings(rough_mgal);
@@ -209,9 +227,34 @@ Eigen::MatrixXd DayRegression::unscaling(const Point& u) const {
     return derivative;
 }
 
-Eigen::MatrixXd DayRegression::scaled(const Point& u) const {
-    LagColumns lagged;
-    return scaled(u, lagged);
+DayNoise DayRegression::noise(const Point& u) const {
+    return {priors_.placement_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
+            white_mgal_.at(u[kWhite])};
+}
+
+DayRegression::Point DayRegression::point_of(const DayNoise& noise) const {
+    Point u{};
+    u[kPlacement] = priors_.placement_mgal.place_of(noise.placement_mgal);
+    u[kFlicker] = kFlickerPrior_mgal.place_of(noise.flicker_mgal);
+    u[kWhite] = white_mgal_.place_of(noise.white_mgal);
+    return u;
+}
+
+double DayRegression::log_factor(DayHyper part) const {
+    switch (part) {
+        case kPlacement:
+            return std::log(priors_.placement_mgal.factor);
+        case kFlicker:
+            return std::log(kFlickerPrior_mgal.factor);
+        case kWhite:
+            return std::log(kWhiteFactor);
+        case kBiasSize:
+            return std::log(priors_.bias_factor);
+        case kOuterSize:
+            return std::log(kOuterSize_mgal_per_degc.factor);
+        default:
+            return 0.0;
+    }
 }
 
 Eigen::MatrixXd DayRegression::scaled(const Point& u, LagColumns& lagged) const {

@@ -2,14 +2,17 @@
 /// @file
 /// The whole-day model as a regression whose columns depend on the lags.
 ///
-/// It is a part of fit_day(); DayProblem adds noise and likelihood.  A point u has eight numbers: both
-/// lags, placement, flicker, white noise, the size of the axis biases, and lag and size of an outer
-/// oven's effect, each in standard deviations from its prior.  For a fixed point the model is linear.
-/// The regression depends on all numbers but those of the noise.
+/// At a fixed point the model is linear.  The columns depend on all numbers of the point but those of
+/// the noise:
+///
+///     const DayRegression regression(survey);
+///     Eigen::MatrixXd columns = regression.scaled(u);      // readings, then columns
+///     regression.whiten(regression.noise(u), columns);
+///     // (X'X + 1)^-1 X'y of the whitened columns: scaled coefficients
+///     regression.unscaled(u, scaled_coefficients);         // in the units of the terms
 ///
 /// T0, t and t0 are those of day_model.hpp: 42.5 degC, the time since the first sample of the
-/// temperature, and the middle between the first and the last bin.  The order of set-ups and bins
-/// that day_model.hpp requires is not checked here either.
+/// temperature, and the middle between the first and the last bin.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -17,39 +20,13 @@
 #include <vector>
 
 #include "corrector/whole_day/day_columns.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_fit.hpp"
+#include "corrector/whole_day/day_survey.hpp"
 #include "corrector/whole_day/lag_states.hpp"
 
 namespace a351::corrector::whole_day {
 
-/// Standard deviation of the constant, and of the gravity of a station of which nothing is known,
-/// mGal: practically no prior.
-inline constexpr double kFreeGravity_mgal = 1e4;
-
-/// kDayLags and kDayTerms as sizes of matrices.
-inline constexpr auto kLags = static_cast<Eigen::Index>(kDayLags);
-inline constexpr auto kTerms = static_cast<Eigen::Index>(kDayTerms);
-
-/// Number of slopes of an outer oven: oA, oS.
-inline constexpr Eigen::Index kOuterSlopes = 2;
-
-/// Places in DayFit::Point.  kFastLag and kSlowLag are also places in DayPriors.
-enum DayHyper : std::size_t {
-    kFastLag,
-    kSlowLag,
-    kPlacement,
-    kFlicker,
-    kWhite,
-    kBiasSize,
-    kOuterLag,
-    kOuterSize
-};
-
-/// Prior of the slopes of an outer oven.  Assumed, because nobody has measured a double oven: the wall
-/// hardly acts, or up to as much as the sensor's own slow response (two deviations are 27 mGal/degC).
-inline constexpr LogNormalPrior kOuterSize_mgal_per_degc{3.0, 3.0};
-
-/// Readings and columns of fit_day() for n bins.  The estimated quantities are the terms, then the
+/// Readings and columns of a survey with n bins.  The estimated quantities are the terms, then the
 /// gravities, then the steps, then for each gap of the temperature the effects of the fast and of
 /// the slow lag's state, mGal where the gap ends (lag_states.hpp), then the slopes of an outer oven.
 /// A reference that is held with an uncertainty is one of the gravities, with that prior; an exact one
@@ -61,20 +38,25 @@ inline constexpr LogNormalPrior kOuterSize_mgal_per_degc{3.0, 3.0};
 /// The column of the scale has the rough gravities of the unknowns.  Therefore the estimate of an
 /// unknown is (1 + k) (gravity - rough gravity).
 ///
-/// Accuracy: day_model_test.cpp, through fit_day(); the class has no test of its own.
+/// Accuracy: day_model_test.cpp, through adjust_day(); the class has no test of its own.
 ///
 /// All numbers of the record must be finite; this is not checked.
 /// Constant members may be called from several threads at a time.
 class DayRegression {
 public:
-    using Point = DayFit::Point;
+    using Point = SurveyPoint;
 
-    /// All arguments are kept by reference and must exist as long as this object.
-    /// @param record, stations, priors  as fit_day(); at least one set-up that is held has a bin.
+    /// The columns of two lags, kept from point to point of a search: many points differ in one of
+    /// them or in neither.
+    struct LagColumns {
+        double fast_s = 0.0, slow_s = 0.0;  ///< Their lags; 0: none yet.
+        Eigen::VectorXd fast, slow;
+    };
+
+    /// @param survey  kept by reference.
     /// @param rough_mgal  gravities from which the unknown ones count, by number; empty: from the
-    ///                    readings.  Then no set-up need be held.
-    DayRegression(const reading::DayRecord& record, const std::vector<DayStation>& stations,
-                  const DayPriors& priors, const std::vector<double>& rough_mgal = {});
+    ///                    readings.  Then a set-up must be held.
+    explicit DayRegression(const DaySurvey& survey, const std::vector<double>& rough_mgal = {});
 
     /// Returns the number of terms, gravities, states and slopes of an outer oven.
     [[nodiscard]] Eigen::Index estimated() const {
@@ -121,7 +103,25 @@ public:
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
     /// coefficients whose priors are independent and of variance 1.
-    [[nodiscard]] Eigen::MatrixXd scaled(const Point& u) const;
+    /// Columns of other lags than those in `lagged` are computed and kept there.
+    [[nodiscard]] Eigen::MatrixXd scaled(const Point& u, LagColumns& lagged) const;
+    [[nodiscard]] Eigen::MatrixXd scaled(const Point& u) const {
+        LagColumns lagged;
+        return scaled(u, lagged);
+    }
+
+    /// Returns the noise at a point.  The median of white noise is the scatter between neighbouring
+    /// bins of a set-up, at least 1e-3 mGal; 1 mGal if no set-up has two bins.
+    [[nodiscard]] DayNoise noise(const Point& u) const;
+    /// Returns the point with this noise, and with the medians of all other parameters.
+    /// @param noise  each part > 0.
+    [[nodiscard]] Point point_of(const DayNoise& noise) const;
+    /// Returns ln of the factor of one deviation of a number of a point; of the lags, 0.
+    [[nodiscard]] double log_factor(DayHyper part) const;
+    /// As whiten() of day_noise.hpp.
+    double whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const {
+        return whitening_.whiten(noise, columns);
+    }
 
     /// Returns the derivatives of the readings by the point's lags (n, 2), mGal per standard
     /// deviation of the prior.  With them as further columns, the errors of the lags enter those of
@@ -144,19 +144,6 @@ public:
                                                               const Eigen::VectorXd& values,
                                                               const Eigen::VectorXd& errors) const;
 
-protected:
-    /// The columns of two lags, kept from point to point of a search: many points differ in one of
-    /// them or in neither.
-    struct LagColumns {
-        double fast_s = 0.0, slow_s = 0.0;  ///< Their lags; 0: none yet.
-        Eigen::VectorXd fast, slow;
-    };
-
-    /// scaled(); columns of other lags are computed and kept in `lagged`.
-    [[nodiscard]] Eigen::MatrixXd scaled(const Point& u, LagColumns& lagged) const;
-
-    [[nodiscard]] const DayPriors& priors() const { return priors_; }
-
 private:
     void set_gravities();
     void set_readings(const std::vector<double>& rough_mgal);
@@ -174,6 +161,8 @@ private:
     const reading::DayRecord& record_;
     const std::vector<DayStation>& stations_;
     const DayPriors& priors_;
+    Whitening whitening_;
+    LogNormalPrior white_mgal_;
     std::vector<bool> is_held_;         ///< One per number: one of its set-ups has a reference.
     std::vector<Eigen::Index> places_;  ///< place_of() each number.
     /// Prior deviations of the gravities that are estimated, then of the steps.

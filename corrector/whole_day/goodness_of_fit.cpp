@@ -73,12 +73,10 @@ Statistic worst_quarter(std::vector<Direction> directions, const Residuals& r) {
 
 }  // namespace
 
-std::vector<FitTest> goodness_of_fit(const reading::DayRecord& record,
-                                     const std::vector<DayStation>& stations, const DayFit& fit,
-                                     const DayPriors& priors) {
-    const DayRegression problem(record, stations, priors);
-    const Eigen::MatrixXd mean = averaging(record, stations.size());
-    const residual::Residuals residuals = set_up_residuals(record, stations, fit, priors);
+std::vector<FitTest> goodness_of_fit(const DaySurvey& survey, const DayFit& fit) {
+    const DayRegression problem(survey);
+    const Eigen::MatrixXd mean = averaging(*survey.record, survey.stations.size());
+    const residual::Residuals residuals = set_up_residuals(survey, fit);
     const Index set_ups = mean.rows();
     if (set_ups - residuals.unknown.cols() < kFewestFitDof) return {};
 

@@ -2,7 +2,7 @@
 /// @file
 /// Tests whether the whole-day model fits a day.
 ///
-///     for (const FitTest& test : goodness_of_fit(record, stations, fit, priors))
+///     for (const FitTest& test : goodness_of_fit(survey, fit))
 ///         if (test.is_misfit()) warn(test.misfit, test.p);
 ///
 /// The means of the set-ups scatter about the model with a known covariance: that of the noise and of
@@ -27,8 +27,8 @@
 #include <string_view>
 #include <vector>
 
-#include "corrector/reading/day_record.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_fit.hpp"
+#include "corrector/whole_day/day_survey.hpp"
 
 namespace a351::corrector::whole_day {
 
@@ -69,12 +69,9 @@ inline constexpr int kFewestFitDof = 5;
 /// usual noise at most 2 of 30 tests name a misfit.  One day each: a step of 15 mGal is found at
 /// its set-up, a response of 150 mGal/degC^2 as curvature of the temperature, and of two set-ups
 /// that are off by 14 and -17 mGal the latter is named.
-/// @param record, stations, priors  those of the fit; finite.
-/// @param fit  fit_day() of them.
+/// @param fit  of the survey.
 /// @return one test of each kind; none with fewer than kFewestFitDof degrees of freedom.
 /// Source: B. D. Ripley, Stochastic Simulation, Wiley 1987, section 7.1 (Monte Carlo tests).
-[[nodiscard]] std::vector<FitTest> goodness_of_fit(const reading::DayRecord& record,
-                                                   const std::vector<DayStation>& stations,
-                                                   const DayFit& fit, const DayPriors& priors);
+[[nodiscard]] std::vector<FitTest> goodness_of_fit(const DaySurvey& survey, const DayFit& fit);
 
 }  // namespace a351::corrector::whole_day

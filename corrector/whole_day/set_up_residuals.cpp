@@ -1,6 +1,6 @@
 #include "corrector/whole_day/set_up_residuals.hpp"
 
-#include "corrector/whole_day/day_problem.hpp"
+#include "corrector/whole_day/day_regression.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 
 namespace a351::corrector::whole_day {
@@ -16,11 +16,10 @@ Eigen::MatrixXd averaging(const reading::DayRecord& record, std::size_t set_ups)
     return mean.array().colwise() / mean.rowwise().sum().array();
 }
 
-residual::Residuals set_up_residuals(const reading::DayRecord& record,
-                                     const std::vector<DayStation>& stations, const DayFit& fit,
-                                     const DayPriors& priors) {
-    const DayProblem problem(record, stations, priors);
-    const Eigen::MatrixXd mean = averaging(record, stations.size());
+residual::Residuals set_up_residuals(const DaySurvey& survey, const DayFit& fit) {
+    const DayRegression problem(survey);
+    const reading::DayRecord& record = *survey.record;
+    const Eigen::MatrixXd mean = averaging(record, survey.stations.size());
     const Eigen::MatrixXd scaled = mean * problem.scaled(fit.expected);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(problem.estimated());
     for (std::size_t k = 0; k < kDayTerms; ++k)
@@ -28,7 +27,7 @@ residual::Residuals set_up_residuals(const reading::DayRecord& record,
     const Eigen::MatrixXd lags = mean * problem.lag_columns(fit.expected, values);
     const Eigen::VectorXd deviations = problem.unscaling(fit.expected).diagonal();
     const Eigen::MatrixXd noise =
-        mean * noise_covariance(record.bins, problem.noise(fit.expected)) * mean.transpose();
+        mean * noise_covariance(record.bins, fit.expected_noise) * mean.transpose();
     Eigen::MatrixXd covariance = noise + lags * lags.transpose();
     std::vector<Index> unknown;
     for (Index k = 0; k < problem.estimated(); ++k) {

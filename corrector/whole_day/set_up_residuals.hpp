@@ -2,14 +2,15 @@
 /// @file
 /// Residuals of the means of the set-ups in the whole-day model.
 ///
-///     const auto residuals = set_up_residuals(record, stations, fit, priors);
+///     const auto residuals = set_up_residuals(survey, fit);
 ///     residuals.direction(Eigen::VectorXd::Unit(n, 3));   // set-up 3 reads 1 mGal too high
 
 #include <Eigen/Core>
 #include <vector>
 
 #include "corrector/residual/residuals.hpp"
-#include "corrector/whole_day/day_model.hpp"
+#include "corrector/whole_day/day_fit.hpp"
+#include "corrector/whole_day/day_survey.hpp"
 
 namespace a351::corrector::whole_day {
 
@@ -28,10 +29,8 @@ namespace a351::corrector::whole_day {
 ///
 /// Accuracy: no test of its own; goodness_of_fit_test.cpp and mistake_search_test.cpp find misfits
 /// and mistakes of known size in these residuals.  Cost: O(bins^2 + set-ups^3).
-/// @param record, stations, priors  as fit_day(); finite, each set-up has a bin.
+/// @param survey  finite, each set-up has a bin.
 /// @param fit  fit of these stations, or of others: then lags, noise and coefficients are those.
-[[nodiscard]] residual::Residuals set_up_residuals(const reading::DayRecord& record,
-                                                   const std::vector<DayStation>& stations,
-                                                   const DayFit& fit, const DayPriors& priors);
+[[nodiscard]] residual::Residuals set_up_residuals(const DaySurvey& survey, const DayFit& fit);
 
 }  // namespace a351::corrector::whole_day

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "corrector/whole_day/day_problem.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 
 namespace a351::corrector::whole_day {
@@ -33,9 +32,7 @@ DayPriors UnitPosterior::priors() const {
     return priors;
 }
 
-UnitPosterior unit_posterior(const reading::DayRecord& record,
-                             const std::vector<DayStation>& stations, const DayFit& fit,
-                             const DayPriors& priors) {
+UnitPosterior unit_posterior(const DayFit& fit, const DayPriors& priors) {
     DayPriors::Matrix factor = priors.factor;
     for (const DayTerm axis : {DayTerm::x, DayTerm::y})
         factor.row(DayPriors::place_of(axis)) *=
@@ -49,7 +46,7 @@ UnitPosterior unit_posterior(const reading::DayRecord& record,
     UnitPosterior unit;
     unit.values = values(kUnitPlaces);
     unit.covariance = covariance(kUnitPlaces, kUnitPlaces);
-    unit.noise = DayProblem(record, stations, priors).noise(fit.expected);
+    unit.noise = fit.expected_noise;
     return unit;
 }
 

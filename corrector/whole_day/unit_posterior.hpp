@@ -2,7 +2,7 @@
 /// @file
 /// Findings of a day about its unit, for another day of the same unit.
 ///
-///     const UnitPosterior unit = unit_posterior(record, stations, fit, priors);
+///     const UnitPosterior unit = unit_posterior(fit, priors);
 ///     const DayPriors next = unit.priors();     // of a later day
 
 #include <Eigen/Core>
@@ -10,8 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "corrector/whole_day/day_model.hpp"
-#include "corrector/whole_day/day_noise.hpp"
+#include "corrector/whole_day/day_fit.hpp"
 #include "protocol/unit/calibration.hpp"
 
 namespace a351::corrector::whole_day {
@@ -41,9 +40,7 @@ struct UnitPosterior {
 };
 
 /// Returns the posterior of a day's unit.
-/// @param record, stations, priors  those of the fit.
-[[nodiscard]] UnitPosterior unit_posterior(const reading::DayRecord& record,
-                                           const std::vector<DayStation>& stations,
-                                           const DayFit& fit, const DayPriors& priors);
+/// @param fit, priors  the priors are those of the fit.
+[[nodiscard]] UnitPosterior unit_posterior(const DayFit& fit, const DayPriors& priors);
 
 }  // namespace a351::corrector::whole_day

@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/whole_day/joint_model.hpp"
+#include "corrector/whole_day/day_model.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "sim/signal/earth_tide.hpp"
 #include "sim/signal/signal_source.hpp"
@@ -133,22 +133,23 @@ Trial try_box(std::uint64_t seed, std::size_t sensors, double share) {
     }
     std::vector<std::size_t> same(numbers.size());
     for (std::size_t k = 0; k < same.size(); ++k) same[k] = k;
-    std::vector<whole_day::JointSurvey> surveys;
+    std::vector<whole_day::DaySurvey> surveys;
     for (std::size_t k = 0; k < sensors; ++k)
         surveys.push_back({&records[k], stations, whole_day::usual_day_priors(), same, k});
-    const whole_day::JointFit fit = whole_day::fit_jointly(surveys);
+    const whole_day::DayAdjustment fit = whole_day::adjust_days(surveys);
     Trial trial;
     for (std::size_t k = 0; k < same.size(); ++k) {
         if (is_known[k]) continue;
-        trial.errors_mgal.push_back(fit.gravity_mgal[k].value - truth_mgal[k]);
-        trial.u_mgal.push_back(fit.gravity_mgal[k].standard_error);
+        const whole_day::Estimate gravity = fit.gravity(k);
+        trial.errors_mgal.push_back(gravity.value - truth_mgal[k]);
+        trial.u_mgal.push_back(gravity.standard_error);
     }
-    const double placement_mgal = fit.surveys.front().noise.placement_mgal;
+    const double placement_mgal = fit.fit().noise.placement_mgal;
     fmt::print("{}: placement {:.2f}", seed, placement_mgal);
-    if (fit.share) {
-        trial.is_share_inside = fit.share->lowest <= share && share <= fit.share->highest;
-        fmt::print(", share {:.2f} (expected {:.2f}, {:.2f} to {:.2f}{})", fit.share->most_likely,
-                   fit.share->expected, fit.share->lowest, fit.share->highest,
+    if (fit.share()) {
+        trial.is_share_inside = fit.share()->lowest <= share && share <= fit.share()->highest;
+        fmt::print(", share {:.2f} (expected {:.2f}, {:.2f} to {:.2f}{})", fit.share()->most_likely,
+                   fit.share()->expected, fit.share()->lowest, fit.share()->highest,
                    trial.is_share_inside ? "" : ", outside");
     }
     return trial;

@@ -11,8 +11,8 @@
 
 #include "corrector/job/reference_survey.hpp"
 #include "corrector/job/survey_readings.hpp"
+#include "corrector/model/adjusted_day.hpp"
 #include "corrector/model/calibration_use.hpp"
-#include "corrector/model/day_fits.hpp"
 
 int main(int argc, char** argv) {
     namespace corrector = a351::corrector;
@@ -25,17 +25,16 @@ int main(int argc, char** argv) {
     static_cast<void>(corrector::job::hold_reference_values(survey, read));
     const auto options = corrector::job::with_sites_of(read, survey.survey);
     const auto choice = corrector::model::choose_rows(read.rows, options.datum, options.use_flags);
-    const auto stations = corrector::model::stations_of({read.rows, options, &*read.day}, choice);
-    Priors priors = corrector::model::day_priors_of(options);
-    const whole_day::DayFit found =
-        whole_day::fit_day(*read.day, stations, nullptr, priors).value();
+    whole_day::DaySurvey day = corrector::model::day_survey(
+        {read.rows, options, &*read.day}, choice, corrector::model::day_priors_of(options));
+    const whole_day::DayFit found = whole_day::adjust_day(day).value().fit();
     constexpr double kKnown = 1e-8;  // relative to the prior: nothing is left to be found
     for (const Eigen::Index place :
          {Eigen::Index{0}, Eigen::Index{1}, Priors::place_of(Term::level),
           Priors::place_of(Term::slow), Priors::place_of(Term::fast)})
-        priors.factor.row(place) *= kKnown;
+        day.priors.factor.row(place) *= kKnown;
     const whole_day::DayNoise noise{std::atof(argv[2]), std::atof(argv[3]), found.noise.white_mgal};
-    const auto known = whole_day::fit_planned_day(*read.day, stations, noise, priors).value();
+    const auto known = whole_day::adjust_planned_day(*read.day, day, noise).value().fit();
     std::printf("%.6f\n",
                 known.coefficients.at(static_cast<std::size_t>(Term::scale)).standard_error);
 }

@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "corrector/job/survey_readings.hpp"
+#include "corrector/model/adjusted_day.hpp"
 #include "corrector/model/calibration_use.hpp"
-#include "corrector/model/model.hpp"
-#include "corrector/whole_day/day_problem.hpp"
+#include "corrector/whole_day/set_up_residuals.hpp"
 
 namespace {
 
@@ -148,12 +148,11 @@ int main(int argc, char** argv) {
     auto read = corrector::job::read_survey(survey, [](std::size_t, std::size_t) {});
     const auto options = corrector::job::with_sites_of(read, survey.survey);
     const auto choice = corrector::model::choose_rows(read.rows, options.datum, options.use_flags);
-    const auto& day = *corrector::model::find_model(corrector::model::kWholeDay);
-    const corrector::model::ChosenSurvey chosen{{read.rows, options, &*read.day}, choice};
-    const auto noise = day.noise(chosen, nullptr).value();
-    const Residuals residuals = day.residuals(chosen, noise).value();
-    const double placement_mgal = corrector::model::day_priors_of(options).placement_mgal.at(
-        std::get<corrector::whole_day::DayFit>(noise).expected[corrector::whole_day::kPlacement]);
+    const auto of_day = corrector::model::day_survey({read.rows, options, &*read.day}, choice,
+                                                     corrector::model::day_priors_of(options));
+    const auto fit = corrector::whole_day::adjust_day(of_day).value().fit();
+    const Residuals residuals = corrector::whole_day::set_up_residuals(of_day, fit);
+    const double placement_mgal = fit.expected_noise.placement_mgal;
     const double size = std::atof(argv[4]);
     const Misfit misfit =
         is_step ? a_step(residuals, size)

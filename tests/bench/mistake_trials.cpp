@@ -146,36 +146,42 @@ public:
             read_.rows, corrector::job::with_sites_of(read_, survey_.survey), &*read_.day);
         const auto choice =
             model::choose_rows(read_.rows, result.options.datum, result.options.use_flags);
-        const model::ChosenSurvey survey{{read_.rows, result.options, &*read_.day}, choice};
-        const model::Model& applied = *model::find_model(result.model);
-        const auto residuals = applied.residuals(survey, applied.noise(survey, nullptr).value());
-        std::vector<corrector::residual::Direction> directions;
+        const auto trials = model::find_model(result.model)
+                                ->trials({read_.rows, result.options, &*read_.day}, choice);
+        const auto residuals = trials->residuals({}, {});
+        std::vector<corrector::adjustment::Effect> effects;
+        std::vector<double> information;
         for (const std::string& site : station_names()) {
-            Eigen::VectorXd effect(std::ssize(read_.rows));
+            corrector::adjustment::Effect& effect = effects.emplace_back();
             for (std::size_t i = 0; i < read_.rows.size(); ++i)
-                effect(static_cast<Eigen::Index>(i)) = read_.rows[i].site == site ? 1.0 : 0.0;
-            directions.push_back(residuals.value().direction(effect));
+                if (read_.rows[i].site == site) effect.push_back(i);
+            information.push_back(residuals->information(effect, effect));
         }
-        const auto largest = [&](const Eigen::VectorXd& values) {
+        // t = d'q / sqrt(d'Md); with an effect of size s the readings have q + s M c.
+        const auto largest = [&](const corrector::adjustment::Seen& seen,
+                                 const corrector::adjustment::Effect& off, double size) {
             std::pair<double, std::size_t> most{0.0, 0};
-            for (std::size_t k = 0; k < directions.size(); ++k)
-                most = std::max(most, {std::abs(directions[k].unit.dot(values)), k});
+            for (std::size_t k = 0; k < effects.size(); ++k) {
+                double sum = off.empty() ? 0.0 : size * residuals->information(effects[k], off);
+                for (const std::size_t i : effects[k])
+                    sum += seen.weighted(static_cast<Eigen::Index>(i));
+                most = std::max(most, {std::abs(sum) / std::sqrt(information[k]), k});
+            }
             return most;
         };
         std::mt19937_64 generator(1);
         std::vector<double> clean;
         for (int k = 0; k < kDraws; ++k)
-            clean.push_back(largest(residuals->simulated(generator)).first);
+            clean.push_back(largest(residuals->simulated(generator), {}, 0.0).first);
         const auto limit =
-            clean.begin() +
-            static_cast<std::ptrdiff_t>((1.0 - corrector::judgement::kWholeDayMistakeAlpha) * kDraws);
+            clean.begin() + static_cast<std::ptrdiff_t>(
+                                (1.0 - corrector::judgement::kWholeDayMistakeAlpha) * kDraws);
         std::nth_element(clean.begin(), limit, clean.end());
         Count total;
         for (total.trials = 0; total.trials < kDraws; ++total.trials) {
-            const std::size_t off = draw_() % directions.size();
+            const std::size_t off = draw_() % effects.size();
             const auto [t, found] =
-                largest(residuals->simulated(generator) +
-                        size_mgal * directions[off].length * directions[off].unit);
+                largest(residuals->simulated(generator), effects[off], size_mgal);
             if (t > *limit && found == off) ++total.named;
         }
         print(("attainable_" + std::to_string(static_cast<int>(size_mgal))).c_str(), total);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "corrector/design/planned_day.hpp"
+#include "corrector/whole_day/day_model.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/design/made_up_plan.hpp"
 
@@ -68,9 +69,11 @@ TEST_CASE("eight times as many courses of the temperature give the same uncertai
     constexpr std::size_t kMany = 128;
     for (std::size_t course = 0; course < kMany; ++course) {
         PlannedDay day = planned_day(plan, sites, unit, course);
-        const auto fit =
-            whole_day::fit_planned_day(day.record, day.stations, unit.noise, unit.priors).value();
-        for (const auto& gravity : fit.gravity_mgal) {
+        const auto adjusted = whole_day::adjust_planned_day(
+                                  day.record, {nullptr, day.stations, unit.priors}, unit.noise)
+                                  .value();
+        for (std::size_t number = 0; number < day.sites.size(); ++number) {
+            const auto gravity = adjusted.gravity(number);
             if (gravity.standard_error == 0.0) continue;
             sum += gravity.standard_error * gravity.standard_error;
             count += 1.0;

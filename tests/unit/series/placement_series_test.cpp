@@ -131,6 +131,6 @@ TEST_CASE("a measured placement is the prior of a day", "[survey][placement]") {
     // The readings of this day would have it 2 mGal.
     const OccupationRows read = repeated(20, {2.0, 0.3, 0.2}, 3);
     std::vector<whole_day::DayStation> stations(20, {MilliGal(kGravity_mgal), 0});
-    CHECK(whole_day::fit_day(*read.day, stations)->noise.placement_mgal > 1.4);
-    CHECK(whole_day::fit_day(*read.day, stations, nullptr, priors)->noise.placement_mgal < 0.7);
+    CHECK(whole_day::adjust_day({&*read.day, stations})->fit().noise.placement_mgal > 1.4);
+    CHECK(whole_day::adjust_day({&*read.day, stations, priors})->fit().noise.placement_mgal < 0.7);
 }

@@ -108,10 +108,10 @@ TEST_CASE("a planned day has the uncertainties of a measured one of the same uni
     const DayRecord measured = MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record();
     DayPriors usual = usual_day_priors();
     usual.set_scale(1.0, 1e-6);  // the plan does not know where the unknown stations are
-    const DayFit fit = fit_day(measured, stations, nullptr, usual).value();
+    const FittedDay fit = fit_day(measured, stations, nullptr, usual).value();
 
     // The plan knows what the day has found: the means of the priors and the size of the biases.
-    const UnitPosterior found = unit_posterior(measured, stations, fit, usual);
+    const UnitPosterior found = unit_posterior(fit, usual);
     DayPriors priors = usual;
     priors.mean = found.priors().mean;
     for (std::size_t k = 0; k < kDayTerms; ++k)
@@ -122,7 +122,8 @@ TEST_CASE("a planned day has the uncertainties of a measured one of the same uni
     priors.bias_factor = 1.0;
     DayRecord plan = measured;
     for (DayBin& bin : plan.bins) bin.reading = MilliGal(0.0);
-    const DayFit planned = fit_planned_day(plan, stations, found.noise, priors).value();
+    const FittedDay planned(
+        adjust_planned_day(plan, {nullptr, stations, priors}, found.noise).value());
     for (const std::size_t number : {3U, 9U}) {
         const GravityEstimate &one = planned.gravity_mgal[number],
                               &other = fit.gravity_mgal[number];
@@ -144,7 +145,7 @@ TEST_CASE("a day finds the scale of its sensor, and the unknown stations with it
     for (const std::size_t s : {3U, 14U}) stations[s].gravity.reset();  // one site
     DayPriors priors = usual_day_priors();
     priors.set_scale(1.0, 0.05);
-    const DayFit fit = fit_day(record, stations, nullptr, priors).value();
+    const FittedDay fit = fit_day(record, stations, nullptr, priors).value();
     const Estimate& scale = fit.coefficients.at(static_cast<std::size_t>(DayTerm::scale));
     std::printf("scale %.6f +- %.6f, unknown station off by %.4f mGal\n", 1.0 + scale.value,
                 scale.standard_error, fit.gravity_mgal[3].value - MadeUpDay::gravity_mgal(3));
@@ -160,7 +161,7 @@ TEST_CASE("a day finds the scale of its sensor, and the unknown stations with it
 
     // A scale that is held at 1 moves the unknown station by the error that it hides.
     priors.set_scale(1.0, 1e-6);
-    const DayFit held = fit_day(record, stations, nullptr, priors).value();
+    const FittedDay held = fit_day(record, stations, nullptr, priors).value();
     CHECK(held.gravity_mgal[3].parts_mgal.at(static_cast<std::size_t>(ErrorSource::scale)) < 1e-3);
     CHECK(held.noise.placement_mgal > 2.0 * fit.noise.placement_mgal);
 }
@@ -168,8 +169,8 @@ TEST_CASE("a day finds the scale of its sensor, and the unknown stations with it
 TEST_CASE("what a day has found of its unit is the prior of the next", "[day]") {
     const DayRecord record = MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record();
     const DayPriors usual = usual_day_priors();
-    const DayFit fit = fit_day(record, MadeUpDay::stations(), nullptr, usual).value();
-    const UnitPosterior found = unit_posterior(record, MadeUpDay::stations(), fit, usual);
+    const FittedDay fit = fit_day(record, MadeUpDay::stations(), nullptr, usual).value();
+    const UnitPosterior found = unit_posterior(fit, usual);
     const DayPriors next = found.priors();
     const DayPriors::Matrix covariance = next.factor * next.factor.transpose();
     for (const DayTerm term :
@@ -300,7 +301,7 @@ TEST_CASE("biases far above the usual size are not taken for placement", "[day]"
             bin.y = StandardGravity(0.002 * std::sin(2.4 * static_cast<double>(bin.set_up + seed)));
             bin.reading = bin.reading + MilliGal(kY_mgal_per_g * bin.y.value());
         }
-        const DayFit fit = fit_day(record, MadeUpDay::stations()).value();
+        const FittedDay fit = fit_day(record, MadeUpDay::stations()).value();
         CAPTURE(seed, fit.coefficients.at(static_cast<std::size_t>(DayTerm::x)).value);
         CHECK(fit.noise.placement_mgal < 3.0);
     }

@@ -16,7 +16,7 @@ const MadeUpDay kScattered{.placement_mgal = 1.2, .white_mgal = 0.2};
 std::vector<FitTest> tests_of(const DayRecord& record,
                               const std::vector<DayStation>& stations = MadeUpDay::stations()) {
     const DayPriors priors = usual_day_priors();
-    return goodness_of_fit(record, stations, fit_day(record, stations).value(), priors);
+    return goodness_of_fit({&record, stations, priors}, fit_day(record, stations).value());
 }
 
 /// Returns a made-up day to whose readings the function adds an effect, bin by bin.

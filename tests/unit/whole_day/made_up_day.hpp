@@ -88,6 +88,27 @@ struct MadeUpDay {
     }
 };
 
+/// What an adjustment says of its first survey, and the gravities.
+struct FittedDay : DayFit {
+    explicit FittedDay(const DayAdjustment& adjustment) : DayFit(adjustment.fit()) {
+        for (std::size_t k = 0; k < adjustment.problem().gravity_count(); ++k)
+            gravity_mgal.push_back(adjustment.gravity(k));
+    }
+    std::vector<GravityEstimate> gravity_mgal;
+};
+
+/// Returns the fit of a day; std::nullopt if no set-up is held.
+/// @param nearby  fit of a similar problem, or null.
+inline std::optional<FittedDay> fit_day(const reading::DayRecord& record,
+                                        const std::vector<DayStation>& stations,
+                                        const DayFit* nearby = nullptr,
+                                        const DayPriors& priors = usual_day_priors()) {
+    const auto adjusted =
+        adjust_day({&record, stations, priors}, nearby == nullptr ? nullptr : &nearby->point);
+    if (!adjusted) return std::nullopt;
+    return FittedDay(*adjusted);
+}
+
 /// Returns the day in a box with an outer oven, which has a slow course and a cycle of its own, and the
 /// effect level To + slow lag(To, 900 s) on the readings, without a constant.
 inline reading::DayRecord with_outer_oven(reading::DayRecord day, double level, double slow) {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include "tests/support/catch.hpp"
 
-#include "corrector/whole_day/joint_model.hpp"
+#include "corrector/whole_day/day_model.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;
@@ -66,7 +66,7 @@ TEST_CASE("days of one unit share its slopes by the outer oven", "[day][joint][o
     for (std::uint64_t seed = 11; seed <= 13; ++seed)
         records.push_back(with_outer_oven(day.record(seed), 4.0, 12.0));
     records[0].outer.reset();  // a day on which it was not recorded
-    std::vector<JointSurvey> surveys;
+    std::vector<DaySurvey> surveys;
     std::vector<std::size_t> numbers(MadeUpDay::kSites);
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
     for (std::size_t k = 0; k < records.size(); ++k) {
@@ -82,13 +82,16 @@ TEST_CASE("days of one unit share its slopes by the outer oven", "[day][joint][o
         surveys.push_back(
             {&records[k], MadeUpDay::stations(), usual_day_priors(), numbers, std::size_t{0}});
     }
-    const JointFit joint = fit_jointly(surveys);
+    const DayAdjustment joint = adjust_days(surveys);
     const Estimate alone =
         fit_day(records[1], MadeUpDay::stations()).value().outer.value().mgal_per_degc[1];
-    for (const JointSurveyFit& survey : joint.surveys) {
+    const DayFit last = joint.fit(2);
+    CHECK_FALSE(joint.fit(0).outer);  // its day has no column for it
+    for (const std::size_t k : {1U, 2U}) {
+        const DayFit survey = joint.fit(k);
         REQUIRE(survey.outer);
         const Estimate& slow = survey.outer->mgal_per_degc[1];
-        CHECK(slow.value == joint.surveys.back().outer->mgal_per_degc[1].value);
+        CHECK(slow.value == last.outer->mgal_per_degc[1].value);
         CHECK(slow.standard_error < 0.85 * alone.standard_error);
         CHECK(std::abs(slow.value - 12.0) < 3.0 * slow.standard_error);
     }

@@ -1,5 +1,5 @@
 #include <Eigen/Core>
-#include "corrector/whole_day/search_grid.hpp"
+#include "corrector/whole_day/least_cost.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace a351;

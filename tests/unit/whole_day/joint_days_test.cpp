@@ -1,4 +1,4 @@
-#include "corrector/whole_day/joint_model.hpp"
+#include "corrector/whole_day/day_model.hpp"
 
 #include <cmath>
 #include <map>
@@ -6,7 +6,6 @@
 #include <random>
 #include "tests/support/catch.hpp"
 
-#include "corrector/whole_day/joint_problem.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
@@ -27,8 +26,8 @@ std::vector<DayStation> some_known() {
     return stations;
 }
 
-JointSurvey survey_of(const DayRecord& record, std::size_t unit,
-                      std::vector<DayStation> stations = some_known()) {
+DaySurvey survey_of(const DayRecord& record, std::size_t unit,
+                    std::vector<DayStation> stations = some_known()) {
     std::vector<std::size_t> numbers(MadeUpDay::kSites);
     std::iota(numbers.begin(), numbers.end(), 0);
     return {&record, std::move(stations), usual_day_priors(), numbers, unit};
@@ -67,19 +66,19 @@ std::vector<DayRecord> box_of(std::size_t sensors, double share, std::uint64_t s
 
 /// Returns twice the cost and the gravities by dense matrices: the readings of all surveys have the
 /// covariance of noise, common placement and unknowns.
-std::pair<double, std::vector<double>> dense(const std::vector<JointSurvey>& surveys,
-                                             const JointProblem& problem, const JointPoint& point,
+std::pair<double, std::vector<double>> dense(const std::vector<DaySurvey>& surveys,
+                                             const DayProblem& problem, const DayPoint& point,
                                              const std::vector<double>& rough_mgal) {
     Eigen::Index rows = 0;
-    for (const JointSurvey& survey : surveys) rows += std::ssize(survey.record->bins);
+    for (const DaySurvey& survey : surveys) rows += std::ssize(survey.record->bins);
     Eigen::VectorXd y(rows);
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(rows, rows);
     std::map<std::string, Eigen::VectorXd> columns;  // of the unknowns, by name
     Eigen::Index begin = 0;
     for (std::size_t k = 0; k < surveys.size(); ++k) {
-        const JointSurvey& survey = surveys[k];
+        const DaySurvey& survey = surveys[k];
         const Eigen::Index count = std::ssize(survey.record->bins);
-        const Eigen::MatrixXd scaled = problem.scaled(point, k);
+        const Eigen::MatrixXd scaled = problem.of(k).scaled(problem.part_of(point, k));
         y.segment(begin, count) = scaled.col(0);
         covariance.block(begin, begin, count, count) =
             noise_covariance(survey.record->bins, problem.own_noise(point, k));
@@ -106,7 +105,7 @@ std::pair<double, std::vector<double>> dense(const std::vector<JointSurvey>& sur
         // Bins of one set-up, of whichever sensor, have the common placement together.
         const double variance =
             point.share *
-            std::pow(problem.of(0).noise(problem.point_of(point, 0)).placement_mgal, 2);
+            std::pow(problem.of(0).noise(problem.part_of(point, 0)).placement_mgal, 2);
         const auto count = static_cast<Eigen::Index>(surveys.front().record->bins.size());
         for (Eigen::Index i = 0; i < rows; ++i)
             for (Eigen::Index j = 0; j < rows; ++j)
@@ -117,11 +116,7 @@ std::pair<double, std::vector<double>> dense(const std::vector<JointSurvey>& sur
     for (const auto& [name, column] : columns) covariance += column * column.transpose();
     const linear_algebra::Cholesky factor(covariance);
     double twice = factor.log_determinant() + factor.half_solve(y).squaredNorm();
-    for (const auto& unit : point.units)
-        for (const double u : unit) twice += u * u;
-    for (const auto& survey : point.surveys)
-        for (const double u : survey) twice += u * u;
-    for (const double u : point.placements) twice += u * u;
+    for (const double u : point.u) twice += u * u;
     // Expectation of a coefficient of variance 1, given the readings: column' covariance^-1 y.
     const Eigen::VectorXd solved = factor.solve(y);
     std::vector<double> gravities = rough_mgal;
@@ -136,49 +131,39 @@ std::pair<double, std::vector<double>> dense(const std::vector<JointSurvey>& sur
 TEST_CASE("the likelihood and the gravities of a box are those of dense matrices", "[day][joint]") {
     std::vector<DayRecord> records = box_of(2, 0.5, 5);
     records[0] = with_outer_oven(records[0], 2.0, 5.0);
-    const std::vector<JointSurvey> surveys{survey_of(records[0], 0), survey_of(records[1], 1)};
+    const std::vector<DaySurvey> surveys{survey_of(records[0], 0), survey_of(records[1], 1)};
     std::vector<double> rough_mgal;
     for (std::size_t s = 0; s < MadeUpDay::kSites; ++s)
         rough_mgal.push_back(MadeUpDay::gravity_mgal(s) + 0.5);
-    const JointProblem problem(surveys, rough_mgal);
+    const DayProblem problem(surveys, rough_mgal);
     REQUIRE(problem.groups().size() == 1);
-    const std::vector<JointPoint> points{
-        {{{0.1, -0.2, 0.3, 0.6, 0.4}, {-0.4, 0.2, 0.0}}, {0.2}, {{-1.0, 0.1}, {-0.5, 0.0}}, 0.6},
-        {{{0.1, -0.2, 0.3}, {-0.4, 0.2, 0.0}}, {0.7}, {{-1.0, 0.1}, {-0.5, 0.2}}, 1.0},
-        {{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, {0.0}, {{0.0, 0.0}, {0.0, 0.0}}, 0.0}};
+    // Both lags of either unit; placement; flicker and white noise of either survey; size of the biases,
+    // lag and size of the outer oven's effect of the first unit; size of the biases of the second.
+    const std::vector<DayPoint> points{
+        {{0.1, -0.2, -0.4, 0.2, 0.2, -1.0, 0.1, -0.5, 0.0, 0.3, 0.6, 0.4, 0.0}, 0.6},
+        {{0.1, -0.2, -0.4, 0.2, 0.7, -1.0, 0.1, -0.5, 0.2, 0.3, 0.0, 0.0, 0.0}, 1.0},
+        {std::vector<double>(13), 0.0}};
+    REQUIRE(problem.hypers().size() == points.front().u.size());
     // Lags, placement, flicker, white, size of the biases, lag and size of the outer oven's effect.
-    CHECK(problem.point_of(points[0], 0) ==
-          DayProblem::Point{0.1, -0.2, 0.2, -1.0, 0.1, 0.3, 0.6, 0.4});
-    for (const JointPoint& point : points) {
-        std::vector<JointProblem::Normal> normals;
-        for (std::size_t k = 0; k < surveys.size(); ++k)
-            normals.push_back(problem.of_survey(point, k, problem.scaled(point, k)));
+    CHECK(problem.part_of(points[0], 0) == SurveyPoint{0.1, -0.2, 0.2, -1.0, 0.1, 0.3, 0.6, 0.4});
+    CHECK(problem.part_of(points[0], 1) == SurveyPoint{-0.4, 0.2, 0.2, -0.5, 0.0, 0.0, 0.0, 0.0});
+    for (const DayPoint& point : points) {
+        std::vector<DayProblem::Normal> normals;
+        std::vector<Eigen::MatrixXd> scaled;
+        for (std::size_t k = 0; k < surveys.size(); ++k) {
+            scaled.push_back(problem.of(k).scaled(problem.part_of(point, k)));
+            normals.push_back(problem.of_survey(point, k, scaled[k]));
+        }
         const auto reduced = problem.reduced(problem.of_group(normals, 0), 0);
         const auto [twice, gravities] = dense(surveys, problem, point, rough_mgal);
         CHECK(2.0 * problem.cost(point, reduced) == Approx(twice).margin(1e-3));
-        const auto solution = problem.solve(point);
+        const auto solution = problem.solve(point, scaled);
         for (const std::size_t number : kUnknown)
-            CHECK(rough_mgal[number] +
-                      kFreeGravity_mgal * solution.common(problem.place_of(number)) ==
-                  Approx(gravities[number]).margin(1e-4));
+            for (const std::size_t k : {0U, 1U})
+                CHECK(rough_mgal[number] +
+                          kFreeGravity_mgal * solution[k](problem.of(k).place_of(number)) ==
+                      Approx(gravities[number]).margin(1e-4));
     }
-}
-
-TEST_CASE("one survey alone is fitted as a day", "[day][joint]") {
-    const MadeUpDay day{.placement_mgal = 1.2, .white_mgal = 0.2};
-    const DayRecord record = day.record(3);
-    const JointFit joint = fit_jointly({survey_of(record, 0)});
-    const DayFit fit = fit_day(record, some_known()).value();
-    const StationSystem system(record, some_known(), fit, usual_day_priors());
-    for (std::size_t number = 0; number < MadeUpDay::kSites; ++number) {
-        const Estimate expected = system.left_out(number), found = joint.system.left_out(number);
-        CHECK(found.value == Approx(expected.value).margin(0.02));
-        CHECK(found.standard_error == Approx(expected.standard_error).epsilon(0.03));
-    }
-    for (std::size_t term = 0; term < kDayTerms; ++term)
-        CHECK(joint.surveys.front().coefficients.at(term).standard_error ==
-              Approx(fit.coefficients.at(term).standard_error).epsilon(0.03));
-    CHECK_FALSE(joint.share);
 }
 
 TEST_CASE("days of one unit share its response, and have their own constants", "[day][joint]") {
@@ -187,25 +172,26 @@ TEST_CASE("days of one unit share its response, and have their own constants", "
     second.constant += 400.0;
     second.drift = -0.7;
     const DayRecord a = first.record(11), b = later(second.record(12), 1);
-    const JointFit joint = fit_jointly({survey_of(a, 0), survey_of(b, 0)});
-    const DayFit alone = fit_day(a, some_known()).value(), other = fit_day(b, some_known()).value();
+    const DayAdjustment joint = adjust_days({survey_of(a, 0), survey_of(b, 0)});
+    const FittedDay alone = fit_day(a, some_known()).value(),
+                    other = fit_day(b, some_known()).value();
     const auto level = static_cast<std::size_t>(DayTerm::level);
     const auto constant = static_cast<std::size_t>(DayTerm::constant);
-    CHECK(joint.surveys[0].coefficients.at(level).value ==
-          Approx(joint.surveys[1].coefficients.at(level).value));
-    CHECK(joint.surveys[0].coefficients.at(level).standard_error <
+    CHECK(joint.fit(0).coefficients.at(level).value ==
+          Approx(joint.fit(1).coefficients.at(level).value));
+    CHECK(joint.fit(0).coefficients.at(level).standard_error <
           0.85 * alone.coefficients.at(level).standard_error);
-    CHECK(joint.surveys[1].coefficients.at(constant).value -
-              joint.surveys[0].coefficients.at(constant).value ==
+    CHECK(joint.fit(1).coefficients.at(constant).value -
+              joint.fit(0).coefficients.at(constant).value ==
           Approx(400.0).margin(6.0));
     for (const std::size_t number : kUnknown) {
-        const Estimate& gravity = joint.gravity_mgal[number];
+        const Estimate gravity = joint.gravity(number);
         CHECK(gravity.standard_error < alone.gravity_mgal[number].standard_error);
         CHECK(gravity.standard_error < other.gravity_mgal[number].standard_error);
         CHECK(std::abs(gravity.value - MadeUpDay::gravity_mgal(number)) <
               3.0 * gravity.standard_error);
     }
-    CHECK_FALSE(joint.share);
+    CHECK_FALSE(joint.share());
 }
 
 TEST_CASE("units with only stations in common give the weighted mean of their days",
@@ -213,17 +199,18 @@ TEST_CASE("units with only stations in common give the weighted mean of their da
     const MadeUpDay first{.placement_mgal = 1.2, .white_mgal = 0.2};
     const MadeUpDay second{.placement_mgal = 1.2, .white_mgal = 0.2};
     const DayRecord a = first.record(21), b = later(second.record(22), 1);
-    const JointFit joint = fit_jointly({survey_of(a, 0), survey_of(b, 1)});
-    const DayFit of_a = fit_day(a, some_known()).value(), of_b = fit_day(b, some_known()).value();
+    const DayAdjustment joint = adjust_days({survey_of(a, 0), survey_of(b, 1)});
+    const FittedDay of_a = fit_day(a, some_known()).value(),
+                    of_b = fit_day(b, some_known()).value();
     for (const std::size_t number : kUnknown) {
         const double u_a = of_a.gravity_mgal[number].standard_error,
                      u_b = of_b.gravity_mgal[number].standard_error;
         const double weight = 1.0 / (u_a * u_a), other = 1.0 / (u_b * u_b);
-        CHECK(joint.gravity_mgal[number].value == Approx((weight * of_a.gravity_mgal[number].value +
-                                                          other * of_b.gravity_mgal[number].value) /
-                                                         (weight + other))
-                                                      .margin(0.25));
-        CHECK(joint.gravity_mgal[number].standard_error ==
+        CHECK(joint.gravity(number).value == Approx((weight * of_a.gravity_mgal[number].value +
+                                                     other * of_b.gravity_mgal[number].value) /
+                                                    (weight + other))
+                                                 .margin(0.25));
+        CHECK(joint.gravity(number).standard_error ==
               Approx(1.0 / std::sqrt(weight + other)).epsilon(0.15));
     }
 }
@@ -232,17 +219,17 @@ TEST_CASE("the share of the placement that a box has is found", "[day][joint]") 
     double last_u_mgal = 0.0;
     for (const double share : {0.0, 1.0}) {
         const std::vector<DayRecord> records = box_of(3, share, 8);
-        std::vector<JointSurvey> surveys;
+        std::vector<DaySurvey> surveys;
         for (std::size_t k = 0; k < records.size(); ++k)
             surveys.push_back(survey_of(records[k], k));
-        const JointFit joint = fit_jointly(surveys);
-        REQUIRE(joint.share);
-        CHECK(joint.share->lowest <= share);
-        CHECK(joint.share->highest >= share);
-        CHECK(std::abs(joint.share->expected - share) < 0.4);
-        CHECK(joint.surveys.front().noise.placement_mgal == Approx(1.2).epsilon(0.4));
+        const DayAdjustment joint = adjust_days(surveys);
+        REQUIRE(joint.share());
+        CHECK(joint.share()->lowest <= share);
+        CHECK(joint.share()->highest >= share);
+        CHECK(std::abs(joint.share()->expected - share) < 0.4);
+        CHECK(joint.fit().noise.placement_mgal == Approx(1.2).epsilon(0.4));
         // More sensors do not help against what they have in common.
-        const double u_mgal = joint.gravity_mgal[9].standard_error;
+        const double u_mgal = joint.gravity(9).standard_error;
         CHECK(u_mgal > last_u_mgal);
         last_u_mgal = u_mgal;
     }
@@ -252,13 +239,12 @@ TEST_CASE("the order of surveys has no effect on the gravities", "[day][joint]")
     const std::vector<DayRecord> records = box_of(2, 0.5, 9);
     const MadeUpDay day{.placement_mgal = 1.2, .white_mgal = 0.2};
     const DayRecord next = later(day.record(31), 1);
-    const JointFit one =
-        fit_jointly({survey_of(records[0], 0), survey_of(records[1], 1), survey_of(next, 0)});
-    const JointFit other =
-        fit_jointly({survey_of(next, 1), survey_of(records[1], 0), survey_of(records[0], 1)});
-    REQUIRE(one.share);
-    CHECK(other.share->expected == Approx(one.share->expected).margin(0.02));
+    const DayAdjustment one =
+        adjust_days({survey_of(records[0], 0), survey_of(records[1], 1), survey_of(next, 0)});
+    const DayAdjustment other =
+        adjust_days({survey_of(next, 1), survey_of(records[1], 0), survey_of(records[0], 1)});
+    REQUIRE(one.share());
+    CHECK(other.share()->expected == Approx(one.share()->expected).margin(0.02));
     for (const std::size_t number : kUnknown)
-        CHECK(other.gravity_mgal[number].value ==
-              Approx(one.gravity_mgal[number].value).margin(0.02));
+        CHECK(other.gravity(number).value == Approx(one.gravity(number).value).margin(0.02));
 }

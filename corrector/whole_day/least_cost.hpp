@@ -12,17 +12,14 @@
 /// Use it for a negative log likelihood plus priors, in which every parameter counts in standard
 /// deviations of its prior.  A cost of another size does not suit the steps.
 ///
-///     const auto u = least_cost_point<2>(cost, {0.0, 0.0}, false,
+///     const auto u = least_cost_point(cost, {0.0, 0.0}, false,
 ///         {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000});
 ///
 /// All functions are pure; searches in several threads do not influence each other.
 
-#include <nlopt.h>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
+#include <functional>
+#include <vector>
 
 namespace a351::corrector::whole_day {
 
@@ -56,38 +53,14 @@ struct SearchLimits {
 ///
 /// The search finds a local minimum.  If it ends early, by `most_costs` or an error of NLopt, the
 /// best point so far is returned, and this is not reported.
-/// @tparam kCount  number of parameters.
 /// @param cost       returns the cost of a point; HUGE_VAL if it overflows.  Called by one thread.
 ///                   It must not throw, because NLopt is written in C.
 /// @param start      start of the search, within `limits.farthest` of 0; another one is returned
 ///                   without a search, on the grid.
 /// @param is_nearby  true if the start is close to the minimum.
 /// @param limits     see SearchLimits.
-/// @param count      only the first `count` parameters are searched; the others are 0.
-template <std::size_t kCount, class Cost>
-std::array<double, kCount> least_cost_point(Cost cost, const std::array<double, kCount>& start,
-                                            bool is_nearby, const SearchLimits& limits,
-                                            std::size_t count = kCount) {
-    const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
-        nlopt_create(is_nearby ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX, static_cast<unsigned>(count)),
-        &nlopt_destroy);
-    const auto cost_of = [](unsigned searched, const double* at, double*, void* costs) {
-        std::array<double, kCount> point{};
-        std::transform(at, at + searched, point.begin(), search_point);
-        return search_cost((*static_cast<Cost*>(costs))(point));
-    };
-    nlopt_set_min_objective(search.get(), cost_of, &cost);
-    nlopt_set_lower_bounds1(search.get(), -limits.farthest);
-    nlopt_set_upper_bounds1(search.get(), limits.farthest);
-    nlopt_set_initial_step1(search.get(), limits.first_step);
-    nlopt_set_xtol_abs1(search.get(), limits.tolerance);
-    nlopt_set_maxeval(search.get(), limits.most_costs);
-    std::array<double, kCount> u{};
-    std::copy_n(start.begin(), count, u.begin());
-    double least = 0.0;
-    nlopt_optimize(search.get(), u.data(), &least);
-    for (double& value : u) value = search_point(value);
-    return u;
-}
+[[nodiscard]] std::vector<double> least_cost_point(
+    const std::function<double(const std::vector<double>&)>& cost, std::vector<double> start,
+    bool is_nearby, const SearchLimits& limits);
 
 }  // namespace a351::corrector::whole_day

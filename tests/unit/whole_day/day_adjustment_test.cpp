@@ -1,4 +1,4 @@
-#include "corrector/whole_day/station_system.hpp"
+#include "corrector/whole_day/day_adjustment.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -32,14 +32,13 @@ double squares(const std::array<double, kErrorSources>& parts_mgal) {
 TEST_CASE("a difference is that of a fit without both references", "[day]") {
     const auto record = kScatteredDay.record();
     const auto stations = MadeUpDay::stations();
-    const DayPriors priors = usual_day_priors();
-    const DayFit all = fit_day(record, stations).value();
-    const StationSystem system(record, stations, all, priors);
+    const DayAdjustment system = adjust_day({&record, stations}).value();
+    const FittedDay all(system);
     double worst_mgal = 0.0, worst_ratio = 0.0;
     for (const auto& [from, to] : {std::pair(0U, 7U), std::pair(3U, 9U), std::pair(2U, 5U)}) {
         const auto hidden = stations_without({from, to});
-        const DayFit fit = fit_day(record, hidden, &all).value();
-        const StationSystem own(record, hidden, fit, priors);
+        const DayAdjustment own = adjust_day({&record, hidden}, &all.point).value();
+        const FittedDay fit(own);
         const Estimate expected = own.difference(from, to), found = system.difference(from, to);
         CHECK(expected.value ==
               Approx(fit.gravity_mgal[to].value - fit.gravity_mgal[from].value).margin(1e-6));
@@ -58,8 +57,8 @@ TEST_CASE("a difference is that of a fit without both references", "[day]") {
 TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
     const auto record = kScatteredDay.record();
     const auto stations = stations_without({3, 9});
-    const DayFit fit = fit_day(record, stations).value();
-    const StationSystem system(record, stations, fit, usual_day_priors());
+    const DayAdjustment system = adjust_day({&record, stations}).value();
+    const FittedDay fit(system);
     const Eigen::MatrixXd correlation = system.correlation();
     REQUIRE(correlation.rows() == static_cast<Eigen::Index>(MadeUpDay::kSites));
     CHECK((correlation.diagonal().array() - 1.0).abs().maxCoeff() < 1e-9);
@@ -74,8 +73,8 @@ TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
 TEST_CASE("the only reference stays held, and differences do not need it", "[day]") {
     const auto record = kScatteredDay.record();
     auto stations = stations_without({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
-    const DayFit fit = fit_day(record, stations).value();
-    const StationSystem system(record, stations, fit, usual_day_priors());
+    const DayAdjustment system = adjust_day({&record, stations}).value();
+    const FittedDay fit(system);
     CHECK(system.correlation().row(0).norm() == 0.0);
     const Estimate difference = system.difference(0, 4);
     CHECK(difference.standard_error == Approx(fit.gravity_mgal[4].standard_error).epsilon(1e-4));
@@ -83,19 +82,19 @@ TEST_CASE("the only reference stays held, and differences do not need it", "[day
           Approx(fit.gravity_mgal[4].value - fit.gravity_mgal[0].value).margin(1e-4));
     // An uncertain datum shifts every other station by as much.
     for (DayStation& station : stations) station.u_gravity = MilliGal(2.0);
-    const DayFit loose = fit_day(record, stations).value();
+    const DayAdjustment uncertain = adjust_day({&record, stations}).value();
+    const FittedDay loose(uncertain);
     CHECK(loose.gravity_mgal[4].standard_error ==
           Approx(std::hypot(2.0, fit.gravity_mgal[4].standard_error)).epsilon(1e-3));
     CHECK(loose.gravity_mgal[4].parts_mgal.at(static_cast<std::size_t>(ErrorSource::datum)) ==
           Approx(2.0).epsilon(1e-3));
-    const StationSystem uncertain(record, stations, loose, usual_day_priors());
     CHECK(uncertain.correlation()(0, 4) ==
           Approx(2.0 / loose.gravity_mgal[4].standard_error).epsilon(1e-3));
 }
 
 TEST_CASE("the sources of an uncertainty add up to it", "[day]") {
     const auto record = kScatteredDay.record();
-    const DayFit fit = fit_day(record, stations_without({3, 9})).value();
+    const FittedDay fit = fit_day(record, stations_without({3, 9})).value();
     for (const std::size_t number : {3U, 9U}) {
         const GravityEstimate& gravity = fit.gravity_mgal[number];
         CHECK(squares(gravity.parts_mgal) ==
@@ -117,7 +116,7 @@ TEST_CASE("a reference with an uncertainty gives way to the readings", "[day]") 
         if (station.number == 6) station.gravity = *station.gravity + MilliGal(kWrong_mgal);
     for (const double u_mgal : {0.0, 30.0}) {
         stations[6].u_gravity = MilliGal(u_mgal);
-        const DayFit fit = fit_day(record, stations).value();
+        const FittedDay fit = fit_day(record, stations).value();
         const double error = fit.gravity_mgal[6].value - MadeUpDay::gravity_mgal(6);
         if (u_mgal == 0.0)
             CHECK(error == Approx(kWrong_mgal));
@@ -132,7 +131,7 @@ TEST_CASE("a gravity follows the references and the scale's prior as its shared 
     auto stations = stations_without({2, 3, 4, 5, 6, 7, 8, 9, 10});
     for (DayStation& station : stations) station.u_gravity = MilliGal(2.0);
     DayPriors priors = usual_day_priors();
-    const DayFit fit = fit_day(record, stations, nullptr, priors).value();
+    const FittedDay fit = fit_day(record, stations, nullptr, priors).value();
     const GravityEstimate& gravity = fit.gravity_mgal[9];
     // The values have the most likely noise, the errors the expected one.
     constexpr double kMargin = 0.02;
@@ -142,7 +141,7 @@ TEST_CASE("a gravity follows the references and the scale's prior as its shared 
         constexpr double kMove_mgal = 0.2;
         for (DayStation& station : moved)
             if (station.number == number) station.gravity = *station.gravity + MilliGal(kMove_mgal);
-        const DayFit other = fit_day(record, moved, &fit, priors).value();
+        const FittedDay other = fit_day(record, moved, &fit, priors).value();
         const double answer = (other.gravity_mgal[9].value - gravity.value) / kMove_mgal;
         CHECK(2.0 * answer == Approx(gravity.of_gravities_mgal[number]).margin(kMargin));
         CHECK(answer > 0.2);
@@ -152,7 +151,7 @@ TEST_CASE("a gravity follows the references and the scale's prior as its shared 
     CHECK(std::abs(gravity.of_gravities_mgal[5]) < 1e-3);
     constexpr double kMove = 0.25;  // deviations of the prior
     priors.set_scale(1.0 + kMove * unit::kUsualScaleDeviation, unit::kUsualScaleDeviation);
-    const DayFit other = fit_day(record, stations, &fit, priors).value();
+    const FittedDay other = fit_day(record, stations, &fit, priors).value();
     const double answer = (other.gravity_mgal[9].value - gravity.value) / kMove;
     CHECK(answer == Approx(gravity.shared_mgal.back()).margin(kMargin));
     CHECK(answer < -0.1);
@@ -163,7 +162,7 @@ TEST_CASE("the errors of the noise cover its scatter", "[day]") {
     double sum = 0.0;
     constexpr int kDays = 20;
     for (std::uint64_t seed = 1; seed <= kDays; ++seed) {
-        const DayFit fit = fit_day(kScatteredDay.record(seed), MadeUpDay::stations()).value();
+        const FittedDay fit = fit_day(kScatteredDay.record(seed), MadeUpDay::stations()).value();
         REQUIRE(fit.noise_log_errors);
         CHECK(fit.noise_log_errors->front() > 0.1);
         CHECK(fit.noise_log_errors->front() < 0.5);

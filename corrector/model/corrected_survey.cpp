@@ -1,0 +1,30 @@
+#include "corrector/model/corrected_survey.hpp"
+
+namespace a351::corrector::model {
+
+void CorrectedRow::subtract(adjustment::Correction correction, MilliGal effect) {
+    switch (correction) {
+        case adjustment::Correction::temperature:
+            temperature_correction = temperature_correction - effect;
+            break;
+        case adjustment::Correction::rate:
+            rate_correction = rate_correction - effect;
+            break;
+        case adjustment::Correction::drift:
+            drift_correction = drift_correction - effect;
+            break;
+        case adjustment::Correction::tilt:
+            tilt_correction = tilt_correction_or_zero() - effect;
+            break;
+        case adjustment::Correction::scale:
+            scale_correction = scale_correction.value_or(MilliGal(0.0)) - effect;
+            break;
+        case adjustment::Correction::pressure:
+            if (!row.pressure_correction) break;
+            row.acceleration = row.acceleration - effect;
+            *row.pressure_correction = *row.pressure_correction - effect;
+            break;
+    }
+}
+
+}  // namespace a351::corrector::model

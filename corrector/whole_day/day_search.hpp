@@ -1,0 +1,61 @@
+#pragma once
+/// @file
+/// Search for the most likely lags and noise of an adjustment, and for the share of the placement that
+/// the sensors of a box have in common.
+
+#include <array>
+#include <optional>
+
+#include "corrector/whole_day/day_problem.hpp"
+
+namespace a351::corrector::whole_day {
+
+/// The share of the placement's variance that the sensors of a box have in common.
+struct PlacementShare {
+    double most_likely = 0.0;
+    double expected = 0.0;               ///< Mean over the likelihood, which the adjustment takes.
+    double lowest = 0.0, highest = 1.0;  ///< 95 % limits.
+};
+
+/// What is found.
+struct DaySearch {
+    DayPoint most_likely;  ///< The point of least cost, but with the expected share.
+    /// The same with the roots of the expected variances of placements, flicker, axis biases and an outer
+    /// oven's effect.  They are larger than the most likely ones, because the distribution is skew.  It
+    /// is taken as log-normal, with the variance from the curvature of the cost.
+    DayPoint expected;
+    std::optional<PlacementShare> share;  ///< Absent without a box.
+    /// Standard errors of the logarithms of placement, flicker and white noise of a single survey, from
+    /// the curvature of the cost with the other numbers held; absent if it has no minimum there.
+    std::optional<std::array<double, 3>> noise_log_errors;
+};
+
+/// Numbers of a point that are searched.
+enum class Searched { all, all_but_lags };
+
+/// Searches the numbers of a single survey at once.
+///
+/// It evaluates the cost at most 2000 times and does not report if this was too few.
+/// @param nearby  start of the search; null: the priors' medians, with the size of the axis biases of
+///                0, 2 and 4 deviations that has the least cost.
+/// @param searched  without a start nearby, all.
+[[nodiscard]] DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby,
+                                     Searched searched = Searched::all);
+
+/// Searches several surveys: in turn the lags and the size of the axis biases of each unit, the placement
+/// of each group, and flicker and white noise of each survey, until nothing moves by more than 0.02
+/// deviations, at most eight times.
+///
+/// The share is searched at 0, 0.1, ... 1, each with the placement and the noise that suit it.  Its
+/// most likely value is the least of a parabola through three of them; its limits are where the
+/// logarithm of the likelihood is 1.92 below the largest (chi-square of one degree of freedom), so that
+/// 0 and 1 may be within them.  The adjustment takes its mean over the likelihood, because the expected
+/// variance of either part is linear in it.
+/// @param start  for example the points of the surveys alone.
+[[nodiscard]] DaySearch search_together(const DayProblem& problem, DayPoint start);
+
+/// Returns the point at which each number is the mean of what the surveys have.
+/// @param parts  one for each survey.
+[[nodiscard]] DayPoint mean_point(const DayProblem& problem, const std::vector<SurveyPoint>& parts);
+
+}  // namespace a351::corrector::whole_day

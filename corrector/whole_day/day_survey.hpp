@@ -1,0 +1,44 @@
+#pragma once
+/// @file
+/// A survey of the whole-day model: one unit on one day, with its record.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "corrector/reading/day_record.hpp"
+#include "corrector/whole_day/day_priors.hpp"
+
+namespace a351::corrector::whole_day {
+
+/// The station of a set-up: its gravity is held or unknown.
+struct DayStation {
+    std::optional<MilliGal> gravity;  ///< Reference that is held; absent: unknown.
+    /// Number of the station from 0.  Set-ups of one number share gravity; it is held if
+    /// one of them has a reference.
+    std::size_t number = 0;
+    MilliGal u_gravity{};  ///< Standard uncertainty of the reference; 0: it is exact.
+    /// Number of steps before the set-up: its reading has the offsets of all of them.
+    std::size_t steps = 0;
+};
+
+/// One unit on one day.
+///
+/// Order of the set-ups: they are numbered from 0 in order of time.  The bins are in order of
+/// set-up, and in order of time within it; all bins of a set-up are together.  Element s of the
+/// stations belongs to set-up s.  Nothing of this is checked: another order gives a wrong
+/// covariance of the noise, without an error.
+///
+/// Begin the temperature two hours or more before the first bin, because tS is 45 min and the lags
+/// begin in equilibrium.  Drives between the set-ups belong to it.
+struct DaySurvey {
+    const reading::DayRecord* record = nullptr;  ///< Finite; each set-up has a bin.  Not owned.
+    std::vector<DayStation> stations;  ///< One per set-up, numbered within this survey.
+    DayPriors priors = usual_day_priors();  ///< Equal for all surveys of a unit.
+    /// Number in the adjustment of each number of `stations`; empty: the same.  A gravity that one
+    /// survey holds is held, with the same value, in all surveys that have it.
+    std::vector<std::size_t> gravities = {};
+    std::size_t unit = 0;  ///< Number of the unit from 0.
+};
+
+}  // namespace a351::corrector::whole_day

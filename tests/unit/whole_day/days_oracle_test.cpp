@@ -1,0 +1,337 @@
+// One adjustment against plain dense matrices in long double: all readings of all surveys at once, the
+// noise as a covariance, every unknown a column.
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+#include <set>
+#include "tests/support/catch.hpp"
+
+#include "corrector/whole_day/day_model.hpp"
+#include "tests/unit/whole_day/made_up_day.hpp"
+
+using namespace a351;
+using namespace a351::corrector::whole_day;
+using corrector::reading::DayBin;
+using corrector::reading::DayRecord;
+
+namespace {
+
+using Real = long double;
+using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
+/// Surveys at a point that is given.
+struct RandomDays {
+    std::vector<std::unique_ptr<DayRecord>> records;
+    std::shared_ptr<const DayProblem> problem;
+    DayPoint point;
+};
+
+/// Returns a made-up day of a few bins, a number of days later.
+std::unique_ptr<DayRecord> day_of(std::uint64_t seed, std::size_t bins_of_set_up, int days) {
+    auto record = std::make_unique<DayRecord>(
+        MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record(seed));
+    const auto shift = std::chrono::hours(24 * days);
+    auto& series = record->temperature.series;
+    series = TimeSeries<DegC>(series.start() + shift, series.rate(), series.values());
+    std::vector<DayBin> kept;
+    for (std::size_t i = 0; i < record->bins.size(); ++i) {
+        if (i % MadeUpDay::kBins >= bins_of_set_up) continue;
+        DayBin bin = record->bins[i];
+        bin.time += shift;
+        for (UtcTime& time : bin.times) time += shift;
+        bin.y = StandardGravity(0.001 * std::sin(1.7 * static_cast<double>(bin.set_up + seed)));
+        kept.push_back(std::move(bin));
+    }
+    record->bins = std::move(kept);
+    return record;
+}
+
+/// @param lag_factor  factor of the deviations of the lags' priors.
+RandomDays random_days(std::uint64_t seed, double lag_factor) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform;
+    const auto number = [&](std::size_t below) {
+        return static_cast<std::size_t>(uniform(random) * static_cast<double>(below));
+    };
+    RandomDays days;
+    const std::size_t count = 1 + number(4);
+    const bool is_one_unit = uniform(random) < 0.5;
+    const bool is_box = !is_one_unit && uniform(random) < 0.5;
+    const std::size_t steps = number(3);
+    std::vector<std::optional<double>> u_held(MadeUpDay::kSites);
+    for (auto& u : u_held)
+        if (uniform(random) < 0.4) u = uniform(random) < 0.5 ? 0.0 : 0.01 + 3.0 * uniform(random);
+    u_held[number(MadeUpDay::kSites)] = 0.0;
+    std::vector<DaySurvey> surveys;
+    std::vector<double> rough_mgal;
+    for (std::size_t site = 0; site < MadeUpDay::kSites; ++site)
+        rough_mgal.push_back(u_held[site] ? 0.0 : MadeUpDay::gravity_mgal(site) + 2.0 * uniform(random));
+    const double tight = std::pow(10.0, -2.0 * uniform(random));
+    for (std::size_t k = 0; k < count; ++k) {
+        days.records.push_back(day_of(100 * seed + k, 2, is_box ? 0 : static_cast<int>(k)));
+        DaySurvey& survey = surveys.emplace_back();
+        survey.record = days.records.back().get();
+        survey.unit = is_one_unit ? 0 : k;
+        survey.stations = MadeUpDay::stations();
+        for (std::size_t s = 0; s < survey.stations.size(); ++s) {
+            DayStation& station = survey.stations[s];
+            station.steps = steps * s / survey.stations.size();
+            station.u_gravity = MilliGal(u_held[station.number].value_or(0.0));
+            if (!u_held[station.number]) station.gravity.reset();
+        }
+        for (std::size_t site = 0; site < MadeUpDay::kSites; ++site)
+            survey.gravities.push_back(site);
+        survey.priors.factor *= tight;
+        survey.priors.factor.topRows<kLags>() *= lag_factor / tight;
+        survey.priors.factor(DayPriors::place_of(DayTerm::constant),
+                             DayPriors::place_of(DayTerm::constant)) = kFreeGravity_mgal;
+    }
+    days.problem = std::make_shared<const DayProblem>(std::move(surveys), rough_mgal);
+    for (std::size_t i = 0; i < days.problem->hypers().size(); ++i)
+        days.point.u.push_back(2.0 * uniform(random) - 1.0);
+    if (days.problem->has_boxes()) days.point.share = uniform(random);
+    return days;
+}
+
+/// All readings with one column for each unknown, in units of the standard deviations of the priors.
+class Dense {
+public:
+    explicit Dense(const RandomDays& days) : days_(days) {
+        const DayProblem& problem = *days.problem;
+        Eigen::Index rows = 0;
+        for (const DaySurvey& survey : problem.surveys()) rows += std::ssize(survey.record->bins);
+        readings_ = Vector::Zero(rows);
+        noise_ = Matrix::Zero(rows, rows);
+        Eigen::Index begin = 0;
+        for (std::size_t k = 0; k < problem.surveys().size(); ++k) add(k, begin, rows);
+        add_box();
+        root_ = Eigen::LLT<Matrix>(noise_).matrixL();
+        root_.triangularView<Eigen::Lower>().solveInPlace(readings_);
+        for (auto& [name, column] : columns_)
+            root_.triangularView<Eigen::Lower>().solveInPlace(column);
+    }
+
+    /// Adds the derivatives of the readings by the lags, by finite differences of the whole model.
+    void add_lags(const DayAdjustment& adjustment) {
+        const DayProblem& problem = *days_.problem;
+        std::map<std::string, Vector> lags;
+        Eigen::Index begin = 0;
+        for (std::size_t k = 0; k < problem.surveys().size(); ++k) {
+            const DayRegression& regression = problem.of(k);
+            const DayFit fit = adjustment.fit(k);
+            const Eigen::Index count = std::ssize(problem.surveys()[k].record->bins);
+            for (const DayHyper lag : {kFastLag, kSlowLag}) {
+                const auto effects = [&](double move) -> Eigen::VectorXd {
+                    SurveyPoint u = fit.point;
+                    u.at(lag) += move;
+                    return regression.design(u) *
+                           regression.unscaled(u, adjustment.scaled(k).head(regression.estimated()));
+                };
+                constexpr double kStep = 0.1;
+                lags.emplace("unit " + std::to_string(problem.surveys()[k].unit) + " lag " +
+                                 std::to_string(lag),
+                             Vector::Zero(readings_.size()))
+                    .first->second.segment(begin, count) =
+                    ((effects(kStep) - effects(-kStep)) / (2.0 * kStep)).cast<Real>();
+            }
+            begin += count;
+        }
+        for (auto& [name, column] : lags) {
+            root_.triangularView<Eigen::Lower>().solveInPlace(column);
+            columns_[name] = column;
+        }
+    }
+
+    struct Solution {
+        std::vector<std::string> names;
+        Vector values;
+        Matrix covariance;
+    };
+
+    /// Returns the least-squares solution by a QR decomposition of the rows and the priors.
+    /// @param without  names of columns that are not in the system.
+    [[nodiscard]] Solution solve(const std::set<std::string>& without) const {
+        Solution solution;
+        for (const auto& [name, column] : columns_)
+            if (!without.contains(name)) solution.names.push_back(name);
+        const Eigen::Index rows = readings_.size(), count = std::ssize(solution.names);
+        Matrix all = Matrix::Zero(rows + count, count);
+        for (Eigen::Index k = 0; k < count; ++k) {
+            all.col(k).head(rows) = columns_.at(solution.names[static_cast<std::size_t>(k)]);
+            all(rows + k, k) = 1.0L;
+        }
+        Vector right = Vector::Zero(rows + count);
+        right.head(rows) = readings_;
+        const Eigen::HouseholderQR<Matrix> qr(all);
+        solution.values = qr.solve(right);
+        const Matrix r = qr.matrixQR().topRows(count);
+        const Matrix inverse =
+            r.triangularView<Eigen::Upper>().solve(Matrix::Identity(count, count));
+        solution.covariance = inverse * inverse.transpose();
+        return solution;
+    }
+
+    static std::string gravity(std::size_t site) { return "gravity " + std::to_string(site); }
+    static std::string own(std::size_t site) { return "own " + std::to_string(site); }
+
+private:
+    void add(std::size_t k, Eigen::Index& begin, Eigen::Index rows) {
+        const DayProblem& problem = *days_.problem;
+        const DaySurvey& survey = problem.surveys()[k];
+        const DayRegression& regression = problem.of(k);
+        const SurveyPoint u = problem.part_of(days_.point, k);
+        const Eigen::Index count = std::ssize(survey.record->bins);
+        const Eigen::MatrixXd scaled = regression.scaled(u);
+        readings_.segment(begin, count) = scaled.col(0).cast<Real>();
+        noise_.block(begin, begin, count, count) =
+            noise_covariance(survey.record->bins, problem.own_noise(days_.point, k)).cast<Real>();
+        const auto column = [&](const std::string& name, const Eigen::VectorXd& values) {
+            columns_.emplace(name, Vector::Zero(rows))
+                .first->second.segment(begin, count) += values.cast<Real>();
+        };
+        const std::string of_survey = "survey " + std::to_string(k) + " ",
+                          of_unit = "unit " + std::to_string(survey.unit) + " ";
+        const std::set<DayTerm> own_terms{DayTerm::constant, DayTerm::drift, DayTerm::warm_up};
+        for (Eigen::Index term = 0; term < kTerms; ++term)
+            column((own_terms.contains(static_cast<DayTerm>(term)) ? of_survey : of_unit) +
+                       std::to_string(term),
+                   scaled.col(term + 1));
+        for (Eigen::Index step = regression.steps_begin(); step < regression.states_begin(); ++step)
+            column(of_survey + "step " + std::to_string(step), scaled.col(step + 1));
+        for (std::size_t site = 0; site < survey.gravities.size(); ++site) {
+            Eigen::VectorXd ones = Eigen::VectorXd::Zero(count);
+            for (Eigen::Index i = 0; i < count; ++i)
+                if (survey.stations[survey.record->bins[static_cast<std::size_t>(i)].set_up].number ==
+                    site)
+                    ones(i) = 1.0;
+            if (const Eigen::Index place = regression.place_of(site); place >= 0)
+                column(gravity(site), scaled.col(place + 1));
+            column(own(site), kFreeGravity_mgal * ones);
+        }
+        begin += count;
+    }
+
+    void add_box() {
+        const DayProblem& problem = *days_.problem;
+        if (!problem.has_boxes()) return;
+        const double variance = days_.point.share *
+                                std::pow(problem.of(0).noise(problem.part_of(days_.point, 0))
+                                             .placement_mgal, 2);
+        const auto& bins = problem.surveys().front().record->bins;
+        const auto count = static_cast<std::size_t>(bins.size());
+        for (Eigen::Index i = 0; i < noise_.rows(); ++i)
+            for (Eigen::Index j = 0; j < noise_.cols(); ++j)
+                if (bins[static_cast<std::size_t>(i) % count].set_up ==
+                    bins[static_cast<std::size_t>(j) % count].set_up)
+                    noise_(i, j) += variance;
+    }
+
+    const RandomDays& days_;
+    Vector readings_;
+    Matrix noise_, root_;
+    std::map<std::string, Vector> columns_;
+};
+
+/// Names of the columns that a system lacks: those of hidden references, and own ones of the others.
+std::set<std::string> lacking(const DayAdjustment& adjustment, const std::set<std::size_t>& hidden) {
+    std::set<std::string> names;
+    for (std::size_t site = 0; site < MadeUpDay::kSites; ++site) {
+        const bool is_own = adjustment.is_held(site) && hidden.contains(site);
+        names.insert(is_own ? Dense::gravity(site) : Dense::own(site));
+    }
+    return names;
+}
+
+/// Largest differences between an adjustment and dense matrices.
+struct Worst {
+    double value_mgal = 0.0, left_out_mgal = 0.0, u = 0.0;  ///< u: relative.
+    void add(double& worst, double found, Real expected, double unit = 1.0) const {
+        worst = std::max(worst, std::abs(found - static_cast<double>(expected)) / unit);
+    }
+};
+
+/// Compares gravities and differences of one problem.
+void compare(const RandomDays& days, bool has_lags, Worst& worst) {
+    const DayAdjustment adjustment(days.problem, {days.point, days.point, std::nullopt, std::nullopt});
+    Dense dense(days);
+    if (has_lags) dense.add_lags(adjustment);
+    const std::vector<DaySurvey>& surveys = days.problem->surveys();
+    const auto u_held = [&](std::size_t site) { return surveys.front().stations[site].u_gravity; };
+    // A gravity is the sum of its column and its own one, of which a system has one or none.
+    const auto parts_of = [&](const Dense::Solution& system, std::size_t site) {
+        Vector parts = Vector::Zero(std::ssize(system.names));
+        const double deviation =
+            adjustment.is_held(site) ? u_held(site).value() : kFreeGravity_mgal;
+        for (std::size_t k = 0; k < system.names.size(); ++k)
+            if (system.names[k] == Dense::gravity(site))
+                parts(static_cast<Eigen::Index>(k)) = deviation;
+            else if (system.names[k] == Dense::own(site))
+                parts(static_cast<Eigen::Index>(k)) = kFreeGravity_mgal;
+        return parts;
+    };
+    const auto compare_u = [&](double found, const Dense::Solution& system, const Vector& parts) {
+        const Real expected = std::sqrt(parts.dot(system.covariance * parts));
+        worst.add(worst.u, found, expected, std::max(0.01, found));
+    };
+    const Dense::Solution all = dense.solve(lacking(adjustment, {}));
+    // Estimates are (1 + k) times their distance from the base.
+    const double scale =
+        1.0 + adjustment.fit(surveys.size() - 1)
+                  .coefficients.at(static_cast<std::size_t>(DayTerm::scale))
+                  .value;
+    std::vector<std::size_t> held;
+    for (std::size_t site = 0; site < MadeUpDay::kSites; ++site) {
+        if (adjustment.is_held(site)) held.push_back(site);
+        const GravityEstimate gravity = adjustment.gravity(site);
+        const Vector parts = parts_of(all, site);
+        compare_u(gravity.standard_error, all, parts);
+        if (!has_lags)
+            worst.add(worst.value_mgal, (gravity.value - days.problem->of(0).base_mgal()[site]) * scale,
+                      parts.dot(all.values));
+    }
+    const auto hide = [&](const std::set<std::size_t>& hidden, std::size_t from, std::size_t to,
+                          const Estimate& found, double fitted_mgal) {
+        const Dense::Solution system = dense.solve(lacking(adjustment, hidden));
+        const auto change = [&](std::size_t site) -> Real {
+            return parts_of(system, site).dot(system.values) - parts_of(all, site).dot(all.values);
+        };
+        Vector parts = parts_of(system, to);
+        Real changed = change(to);
+        if (from != to) {
+            parts -= parts_of(system, from);
+            changed -= change(from);
+        }
+        compare_u(found.standard_error, system, parts);
+        if (!has_lags) worst.add(worst.left_out_mgal, found.value - fitted_mgal, changed);
+    };
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, held.size()); ++k)
+        if (held.size() > 1)
+            hide({held[k]}, held[k], held[k], adjustment.left_out(held[k]),
+                 adjustment.value_mgal(held[k]));
+    if (held.size() > 2)
+        hide({held[0], held[1]}, held[0], held[1], adjustment.difference(held[0], held[1]),
+             adjustment.value_mgal(held[1]) - adjustment.value_mgal(held[0]));
+}
+
+}  // namespace
+
+TEST_CASE("gravities of days, with and without their references, are those of dense matrices",
+          "[day][oracle]") {
+    Worst worst;
+    for (std::uint64_t seed = 1; seed <= 500; ++seed)
+        compare(random_days(seed, 1e-9), false, worst);  // the lags are known: all is linear
+    // The prior of a free gravity, 1e4 mGal, costs six digits of what a hidden reference changes.
+    CHECK(worst.value_mgal < 1e-9);
+    CHECK(worst.left_out_mgal < 1e-6);
+    CHECK(worst.u < 1e-9);
+}
+
+TEST_CASE("the uncertainty of gravities contains that of the lags", "[day][oracle]") {
+    Worst worst;
+    for (std::uint64_t seed = 1001; seed <= 1050; ++seed) compare(random_days(seed, 1.0), true, worst);
+    CHECK(worst.u < 1e-9);
+}
