@@ -21,8 +21,8 @@ void AlternatingKnots::add_ends(std::span<const double> curve, EndRule rule) noe
     end_ = kMostAdded + extrema_count_;
     ends_at_last_sample_ = rule != EndRule::mirror || extrema_count_ < 3;
     if (!ends_at_last_sample_) {
-        mirror_left_end(curve.front());
-        mirror_right_end(curve.back(), static_cast<double>(curve.size() - 1));
+        mirror_end(0.0, curve.front(), 1);
+        mirror_end(static_cast<double>(curve.size() - 1), curve.back(), -1);
     } else {
         add_end_samples(curve);
     }
@@ -54,37 +54,27 @@ void AlternatingKnots::add_end_samples(std::span<const double> curve) noexcept {
     end_ += 2;
 }
 
-void AlternatingKnots::mirror_left_end(double sample) noexcept {
-    const double* const x = extrema_positions().data();
-    const double* const y = extrema_values().data();
-    const bool within = is_maximum(kMostAdded) ? sample > y[1] : sample < y[1];
-    const bool about_extremum = within && 2.0 * x[0] - x[1] <= 0.0;
-    const double centre = about_extremum ? x[0] : 0.0;
-    if (!about_extremum) {
-        positions_[--begin_] = 0.0;
-        values_[begin_] = sample;
-    }
-    for (std::size_t j = about_extremum ? 1 : 0; begin_ > 0 && j < extrema_count_; ++j) {
-        positions_[--begin_] = 2.0 * centre - x[j];
-        values_[begin_] = y[j];
-    }
-}
-
-void AlternatingKnots::mirror_right_end(double sample, double last_sample) noexcept {
-    const std::size_t last = kMostAdded + extrema_count_ - 1;
-    const double* const x = positions_.data() + last;
-    const double* const y = values_.data() + last;
-    const bool within = is_maximum(last) ? sample > y[-1] : sample < y[-1];
-    const bool about_extremum = within && 2.0 * x[0] - x[-1] >= last_sample;
-    const double centre = about_extremum ? x[0] : last_sample;
-    if (!about_extremum) {
-        positions_[end_] = last_sample;
-        values_[end_++] = sample;
-    }
-    for (std::size_t j = about_extremum ? 1 : 0; end_ <= last + kMostAdded && j < extrema_count_;
-         ++j) {
-        positions_[end_] = 2.0 * centre - *(x - j);
-        values_[end_++] = *(y - j);
+void AlternatingKnots::mirror_end(double end, double sample, std::ptrdiff_t inwards) noexcept {
+    const auto outermost =
+        static_cast<std::ptrdiff_t>(inwards > 0 ? kMostAdded : kMostAdded + extrema_count_ - 1);
+    const double* const x = positions_.data() + outermost;
+    const double* const y = values_.data() + outermost;
+    const bool within =
+        is_maximum(static_cast<std::size_t>(outermost)) ? sample > y[inwards] : sample < y[inwards];
+    const double reflected = 2.0 * x[0] - x[inwards];
+    const bool about_extremum = within && (inwards > 0 ? reflected <= end : reflected >= end);
+    const double centre = about_extremum ? x[0] : end;
+    std::size_t added = 0;
+    const auto add = [&](double position, double value) {
+        const std::size_t knot = inwards > 0 ? --begin_ : end_++;
+        positions_[knot] = position;
+        values_[knot] = value;
+        ++added;
+    };
+    if (!about_extremum) add(end, sample);
+    for (std::size_t j = about_extremum ? 1 : 0; added < kMostAdded && j < extrema_count_; ++j) {
+        const std::ptrdiff_t from = inwards * static_cast<std::ptrdiff_t>(j);
+        add(2.0 * centre - x[from], y[from]);
     }
 }
 

@@ -126,8 +126,10 @@ public:
     [[nodiscard]] std::size_t first_segment() const noexcept { return kMostAdded - begin_ - 1; }
 
 private:
-    void mirror_left_end(double sample) noexcept;
-    void mirror_right_end(double sample, double last_sample) noexcept;
+    /// Adds the extrema reflected at one end.
+    /// @param end, sample  position and value of the end sample.
+    /// @param inwards      1 at the first sample, -1 at the last.
+    void mirror_end(double end, double sample, std::ptrdiff_t inwards) noexcept;
     void add_end_samples(std::span<const double> curve) noexcept;
     [[nodiscard]] bool is_maximum(std::size_t knot) const noexcept {
         return ((knot - kMostAdded) % 2 == 0) == first_is_maximum_;
