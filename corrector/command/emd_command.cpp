@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -101,10 +102,7 @@ void write_modes(const EmdCommandOptions& options) {
     for (std::size_t row = 0; row < table.row_count(); ++row)
         signal.push_back(table.number(row, options.column, -1e300, 1e300));
     ProgressBar bar(options.column);
-    eemd_options.progress = [&bar](int done, int members) {
-        bar(static_cast<std::size_t>(done), static_cast<std::size_t>(members));
-        return true;
-    };
+    eemd_options.progress = std::ref(bar);
     const eemd::Result result = eemd::eemd(signal, eemd_options);
     write_or_print(options.output, to_csv(result));
     write_or_print("", report_csv(result));

@@ -142,22 +142,10 @@ public:
             static_cast<std::size_t>(options.mode_count.value_or(default_mode_count(n)));
         plan.sifting = {options.stopping, options.finish, options.ends};
         plan.seed = options.seed;
-        threads_ = options.threads;
-        if (options.progress) {
-            progress_ = [&options, members = plan.members](int done) {
-                return options.progress(done, members);
-            };
-        }
     }
     Preparation(const Preparation&) = delete;  // the plan refers to this object's record
     Preparation& operator=(const Preparation&) = delete;
 
-    /// @throws Cancelled
-    [[nodiscard]] EnsembleSums sum(const EnsemblePlan& of) const {
-        auto sums = sum_ensemble(of, threads_, progress_);
-        if (!sums) throw Cancelled();
-        return *std::move(sums);
-    }
     /// Returns the ensemble mean of a sum over the members, not yet in the unit of the record.
     [[nodiscard]] std::vector<double> mean(std::span<const double> sum) const {
         std::vector<double> values(sum.size());
@@ -179,8 +167,6 @@ private:
     }
 
     std::vector<double> scaled_;
-    int threads_ = 1;
-    std::function<bool(int)> progress_;
 };
 
 }  // namespace
@@ -193,7 +179,7 @@ Result eemd(std::span<const double> signal, const Options& options) {
     const Preparation prepared(signal, options);
     const EnsemblePlan& plan = prepared.plan;
     const std::size_t n = signal.size();
-    const EnsembleSums sums = prepared.sum(plan);
+    const EnsembleSums sums = sum_ensemble(plan, options.threads, options.progress);
 
     const int draw_size = plan.pairs ? 2 : 1;
     const auto component = [&](std::size_t k, double origin) {
@@ -234,7 +220,8 @@ Trend eemd_trend(std::span<const double> signal, std::size_t most_extrema, const
     plan.mode_count = 0;
     Trend trend;
     for (;; ++trend.removed_modes) {
-        trend.values = prepared.mean(prepared.sum(plan).values);
+        const EnsembleSums sums = sum_ensemble(plan, options.threads, options.progress);
+        trend.values = prepared.mean(sums.values);
         prepared.restore_unit(trend.values);
         const bool is_slow = count_extrema(trend.values) <= most_extrema;
         if (is_slow || trend.removed_modes == static_cast<int>(prepared.plan.mode_count)) break;

@@ -25,7 +25,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <optional>
 #include <span>
@@ -68,16 +67,10 @@ struct Options {
     std::uint64_t seed = 0;  ///< Seed of the noise; the same seed gives the same bits.
     int threads = 1;         ///< Number of threads, >= 1; the result does not depend on it.
     /// Called in the caller's thread with the members done, in steps of any size, and with the
-    /// number of all members; false cancels.
-    /// Empty: no reports.  Without noise there is one member.  Unless cancelled, the last call has
-    /// `done` equal to `members`.
-    std::function<bool(int done, int members)> progress;
-};
-
-/// Thrown by eemd() and eemd_trend() if `progress` returned false.
-/// No result is returned then, not even a part of it.
-struct Cancelled : std::exception {
-    [[nodiscard]] const char* what() const noexcept override { return "eemd: cancelled"; }
+    /// number of all members.
+    /// Empty: no reports.  Without noise there is one member.  The last call has `done` equal to
+    /// `members`.
+    std::function<void(std::size_t done, std::size_t members)> progress;
 };
 
 /// One mode, or the residue, averaged over the ensemble.
@@ -158,7 +151,6 @@ struct Result {
 /// @return components of n samples each, in the unit of the signal.
 /// @throws std::invalid_argument  naming the argument, its value and its limit; a bad sample is
 ///                                named by its index.
-/// @throws Cancelled          if `options.progress` returned false.
 /// @throws std::bad_alloc, std::system_error  if memory or threads are not available.
 /// @throws  the exceptions of `options.progress`.
 [[nodiscard]] Result eemd(std::span<const double> signal, const Options& options = {});

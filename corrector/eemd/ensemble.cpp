@@ -49,37 +49,27 @@ public:
 
 private:
     void add_member(int member) noexcept {
-        if (!plan_.left.empty()) {
-            remove_modes(member);
-            return;
-        }
-        add_noise(member);
-        std::size_t k = 0;
-        for (; k < plan_.mode_count; ++k) {
+        if (plan_.pairs && member % 2 == 0) std::fill(pair_.begin(), pair_.end(), 0.0);
+        const std::span<double> residue = emd_.residue();
+        const bool has_room = !plan_.left.empty();
+        const std::span<double> left =
+            has_room ? plan_.left.subspan(static_cast<std::size_t>(member) * residue.size(),
+                                          residue.size())
+                     : std::span<double>();
+        if (plan_.continues)
+            std::copy(left.begin(), left.end(), residue.begin());
+        else
+            add_noise(member);
+        for (std::size_t k = 0; k < plan_.mode_count; ++k) {
             const std::span<const double> mode = emd_.next_mode(plan_.sifting);
             if (mode.empty()) break;
-            take(member, k, mode);
+            if (!has_room) take(k, mode);
         }
-        if (plan_.pairs) {
-            for (; k < plan_.mode_count; ++k) take_zero(member, k);
-        }
-        take(member, plan_.mode_count, emd_.residue());
-    }
-
-    void remove_modes(int member) noexcept {
-        const std::span<double> residue = emd_.residue();
-        const std::span<double> left =
-            plan_.left.subspan(static_cast<std::size_t>(member) * residue.size(), residue.size());
-        if (plan_.continues) {
-            std::copy(left.begin(), left.end(), residue.begin());
-        } else {
-            add_noise(member);
-        }
-        for (std::size_t k = 0; k < plan_.mode_count; ++k) {
-            if (emd_.next_mode(plan_.sifting).empty()) break;
-        }
-        std::copy(residue.begin(), residue.end(), left.begin());
-        take(member, 0, residue);
+        if (has_room) std::copy(residue.begin(), residue.end(), left.begin());
+        take(has_room ? 0 : plan_.mode_count, residue);
+        if (!plan_.pairs || member % 2 == 0) return;
+        for (std::size_t k = 0; k < sums_.squares.size(); ++k)
+            add_draw(k, pair_.data() + k * sum_length(plan_));
     }
 
     void add_noise(int member) noexcept {
@@ -97,34 +87,24 @@ private:
             noisy[i] = plan_.signal[i] + level * noisy[i];
     }
 
-    void take(int member, std::size_t k, std::span<const double> component) noexcept {
+    /// Takes component k of a member; the mode of a pair that a member does not have stays 0.
+    void take(std::size_t k, std::span<const double> component) noexcept {
         const std::size_t n = sum_length(plan_);
-        const std::span<const double> values = component.subspan(plan_.margin, n);
-        const double origin = k == plan_.mode_count ? plan_.residue_origin : 0.0;
-        double* const sum = sums_.values.data() + k * n;
+        const double* const values = component.data() + plan_.margin;
         if (!plan_.pairs) {
-            sums_.squares[k] += plan_.kernels->accumulate(values.data(), n, origin, sum);
+            add_draw(k, values);
             return;
         }
-        const std::span<double> pair = std::span(pair_).subspan(k * n, n);
-        if (member % 2 == 0) {
-            std::copy(values.begin(), values.end(), pair.begin());
-        } else {
-            for (std::size_t i = 0; i < n; ++i) pair[i] += values[i];
-            sums_.squares[k] += plan_.kernels->accumulate(pair.data(), n, 2.0 * origin, sum);
-        }
+        double* const pair = pair_.data() + k * n;
+        for (std::size_t i = 0; i < n; ++i) pair[i] += values[i];
     }
 
-    /// Takes zeroes as mode `k` of a member of a pair that does not have this mode.
-    void take_zero(int member, std::size_t k) noexcept {
+    /// Adds component k of a member, or of a pair, to the sums.
+    void add_draw(std::size_t k, const double* values) noexcept {
         const std::size_t n = sum_length(plan_);
-        const std::span<double> pair = std::span(pair_).subspan(k * n, n);
-        if (member % 2 == 0) {
-            std::fill(pair.begin(), pair.end(), 0.0);
-        } else {
-            sums_.squares[k] +=
-                plan_.kernels->accumulate(pair.data(), n, 0.0, sums_.values.data() + k * n);
-        }
+        const double origin = k == plan_.mode_count ? plan_.residue_origin : 0.0;
+        sums_.squares[k] += plan_.kernels->accumulate(values, n, (plan_.pairs ? 2.0 : 1.0) * origin,
+                                                      sums_.values.data() + k * n);
     }
 
     const EnsemblePlan& plan_;
@@ -135,8 +115,8 @@ private:
 
 }  // namespace
 
-std::optional<EnsembleSums> sum_ensemble(const EnsemblePlan& plan, int threads,
-                                         const std::function<bool(int)>& progress) {
+EnsembleSums sum_ensemble(const EnsemblePlan& plan, int threads,
+                          const std::function<void(std::size_t, std::size_t)>& progress) {
     const int blocks = (plan.members + kMembersPerBlock - 1) / kMembersPerBlock;
     std::vector<BlockWorker> workers;
     const int worker_count = std::min(threads, blocks);
@@ -160,38 +140,29 @@ std::optional<EnsembleSums> sum_ensemble(const EnsemblePlan& plan, int threads,
         committed.notify_all();
         return true;
     };
-    struct Stop {
-        ~Stop() { next_block = blocks; }
-        std::atomic<int>& next_block;
-        int blocks;
-    };
     int reported = 0;
-    bool cancelled = false;
     const auto report = [&](int done) {
-        if (!progress || done == reported) return;
+        if (progress && done != reported)
+            progress(static_cast<std::size_t>(done), static_cast<std::size_t>(plan.members));
         reported = done;
-        cancelled = !progress(done);
     };
     {
         std::vector<std::jthread> helpers;
         helpers.reserve(workers.size());
-        // Destroyed before the helpers, which therefore end before they are joined.
-        const Stop stop{next_block, blocks};
         for (std::size_t i = 1; i < workers.size(); ++i) {
             helpers.emplace_back([&work_on_next, &worker = workers[i]] {
                 while (work_on_next(worker)) {
                 }
             });
         }
-        while (!cancelled && work_on_next(workers.front())) {
+        while (work_on_next(workers.front())) {
             std::unique_lock lock(mutex);
             const int done = std::min(commit_block * kMembersPerBlock, plan.members);
             lock.unlock();
             report(done);
         }
     }
-    if (!cancelled) report(plan.members);
-    if (cancelled) return std::nullopt;
+    report(plan.members);
     return total;
 }
 

@@ -19,7 +19,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -81,14 +80,12 @@ struct EnsembleSums {
 ///
 /// @param plan      see EnsemblePlan; signal.size() >= 2 margin.
 /// @param threads   number of threads, >= 1; more than the number of blocks are not used.
-/// @param progress  may be empty; called in the caller's thread with the members summed so far, in
-///                  steps of any size; false ends the work early.  Other threads finish their
-///                  blocks first.  Unless cancelled, the last call has the number of all members.
-/// @return the sums; nothing if progress() returned false, even in the last call.  Rests in `left`
-///         are then those of some members only.
+/// @param progress  may be empty; called in the caller's thread with the members summed so far and
+///                  those of the plan, in steps of any size; the last call has all members.
 /// @throws std::bad_alloc, std::system_error  if memory or threads are not available.
-/// @throws  the exceptions of progress().
-[[nodiscard]] std::optional<EnsembleSums> sum_ensemble(const EnsemblePlan& plan, int threads,
-                                                       const std::function<bool(int)>& progress);
+/// @throws  the exceptions of progress(), after the other threads have finished all blocks.
+[[nodiscard]] EnsembleSums sum_ensemble(
+    const EnsemblePlan& plan, int threads,
+    const std::function<void(std::size_t done, std::size_t members)>& progress);
 
 }  // namespace a351::corrector::eemd

@@ -21,11 +21,8 @@ eemd::Result decompose(const std::vector<double>& values, const RecordAnalysisOp
     eemd_options.ensemble_size = options.ensemble_size;
     eemd_options.seed = options.seed;
     eemd_options.threads = options.threads;
-    eemd_options.progress = [&](int done, int members) {
-        if (options.progress)
-            options.progress(before + static_cast<std::size_t>(done),
-                             2 * static_cast<std::size_t>(members));
-        return true;
+    eemd_options.progress = [&](std::size_t done, std::size_t members) {
+        if (options.progress) options.progress(before + done, 2 * members);
     };
     return eemd::eemd(values, eemd_options);
 }

@@ -76,8 +76,8 @@ void compare_kernels(const std::vector<double>& signal, const eemd::Options& opt
     for (const SiftKernels* const kernels : available_kernels()) {
         plan.kernels = kernels;
         const auto sums = sum_ensemble(plan, 1, {});
-        for (std::size_t i = 0; i < sums->values.size(); ++i) {
-            require(bits(sums->values[i]) == bits(portable->values[i]));
+        for (std::size_t i = 0; i < sums.values.size(); ++i) {
+            require(bits(sums.values[i]) == bits(portable.values[i]));
         }
     }
 }

@@ -69,11 +69,11 @@ TEST_CASE("every instruction set gives the same ensemble, bit for bit") {
     plan.members = 9;
     plan.mode_count = 9;
     plan.kernels = &portable_kernels();
-    const EnsembleSums portable = *sum_ensemble(plan, 1, {});
+    const EnsembleSums portable = sum_ensemble(plan, 1, {});
     for (const SiftKernels* const kernels : faster_kernels()) {
         INFO(kernels->name);
         plan.kernels = kernels;
-        const EnsembleSums sums = *sum_ensemble(plan, 1, {});
+        const EnsembleSums sums = sum_ensemble(plan, 1, {});
         CHECK(bits(sums.values) == bits(portable.values));
         CHECK(bits(sums.squares) == bits(portable.squares));
     }
