@@ -83,15 +83,10 @@ AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcT
 AirPressure AirPressure::read(const std::filesystem::path& file) {
     const text::CsvTable table = text::read_csv(file);
     AirPressure pressure;
-    for (std::size_t row = 0; row < table.row_count(); ++row) {
-        const auto time = parse_rfc3339(table.cell(row, "time"));
-        if (!time) table.refuse(row, "time", "not an instant", "YYYY-MM-DDThh:mm:ss with zone");
-        if (!pressure.times_.empty() && *time <= pressure.times_.back())
-            table.refuse(row, "time", "not after the row before it", "ascending times");
-        pressure.times_.push_back(*time);
+    pressure.times_ = table.ascending_times("time");
+    for (std::size_t row = 0; row < table.row_count(); ++row)
         pressure.values_hpa_.push_back(
             table.number(row, "pressure_hpa", kLeastPressure_hpa, kGreatestPressure_hpa));
-    }
     if (pressure.times_.size() < 2)
         throw InputError(file.string() + ": too few rows; allowed: 2 or more");
     return pressure;

@@ -14,15 +14,10 @@ constexpr std::size_t kPoints = 4;  // points that determine a cubic
 Series Series::read(const std::filesystem::path& file) {
     const text::CsvTable table = text::read_csv(file);
     Series series;
-    for (std::size_t row = 0; row < table.row_count(); ++row) {
-        const auto time = parse_rfc3339(table.cell(row, "time"));
-        if (!time) table.refuse(row, "time", "not an instant", "YYYY-MM-DDThh:mm:ss with zone");
-        if (!series.times_.empty() && *time <= series.times_.back())
-            table.refuse(row, "time", "not after the row before it", "ascending times");
-        series.times_.push_back(*time);
-        // No solid-Earth tide exceeds 0.3 mGal; the limit 1 finds a wrong unit.
+    series.times_ = table.ascending_times("time");
+    // No solid-Earth tide exceeds 0.3 mGal; the limit 1 finds a wrong unit.
+    for (std::size_t row = 0; row < table.row_count(); ++row)
         series.values_mgal_.push_back(table.number(row, "tide_mgal", -1.0, 1.0));
-    }
     if (series.times_.size() < kPoints)
         throw InputError(
             fmt::format("{}: too few rows; allowed: {} or more", file.string(), kPoints));

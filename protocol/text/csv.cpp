@@ -47,6 +47,18 @@ std::optional<double> CsvTable::number_if_given(std::size_t row, std::string_vie
     return number(row, column, low, high);
 }
 
+std::vector<UtcTime> CsvTable::ascending_times(std::string_view column) const {
+    std::vector<UtcTime> times;
+    for (std::size_t row = 0; row < row_count(); ++row) {
+        const auto time = parse_rfc3339(cell(row, column));
+        if (!time) refuse(row, column, "not an instant", "YYYY-MM-DDThh:mm:ss with zone");
+        if (!times.empty() && *time <= times.back())
+            refuse(row, column, "not after the row before it", "ascending times");
+        times.push_back(*time);
+    }
+    return times;
+}
+
 void CsvTable::refuse(std::size_t row, std::string_view column, std::string_view trouble,
                       std::string_view allowed) const {
     throw InputError(fmt::format("{}:{}: {} = {}: {}; allowed: {}", origin_.string(),

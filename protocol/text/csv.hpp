@@ -22,6 +22,8 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/core/utc_time.hpp"
+
 namespace a351::text {
 
 /// Table in memory, read by row number and column name.
@@ -61,6 +63,11 @@ public:
         std::size_t row, std::string_view column,
         double low = std::numeric_limits<double>::lowest(),
         double high = std::numeric_limits<double>::max()) const;
+
+    /// Returns the instants of a column, which must ascend.
+    /// @throws InputError  there is no such column, a cell is not an RFC 3339 time with zone, or it
+    ///                     is not after the row before it.
+    [[nodiscard]] std::vector<UtcTime> ascending_times(std::string_view column) const;
 
     /// Throws the InputError about a cell, for rules that only the caller knows.
     /// @param trouble  what is wrong, in a few words: "not an instant".
