@@ -21,29 +21,26 @@ constexpr double kLeastGradient_mgal_per_m = 0.1, kGreatestGradient_mgal_per_m =
 /// and 1084 hPa, which is 143 below and 71 above the standard.
 constexpr double kMostExcess_hpa = 150.0;
 
-const text::Site& site_of(const reading::SurveyRow& row, const std::vector<text::Site>& sites) {
-    const text::Site* const site = text::find_site(sites, row.site);
-    if (site == nullptr)
-        throw InputError(
-            fmt::format("site {}: unknown; allowed: a name of the table of sites", row.site));
-    return *site;
-}
-
-/// Returns a warning if only some of the rows have a value; `taken_as` says what the others are.
-void warn_of_missing(std::vector<text::Message>& warnings, std::ptrdiff_t missing, std::size_t rows,
-                     const text::Message& value, const text::Message& taken_as) {
-    if (missing > 0 && missing < static_cast<std::ptrdiff_t>(rows))
+/// Returns true if a row has the value, with a warning if only some of them have it.
+/// @param taken_as  words for what the others are.
+template <class Value>
+bool is_given(const std::vector<reading::SurveyRow>& rows,
+              std::optional<Value> reading::SurveyRow::*value, const text::Message& name,
+              const text::Message& taken_as, std::vector<text::Message>& warnings) {
+    const auto missing = std::ranges::count_if(
+        rows, [value](const reading::SurveyRow& row) { return !(row.*value); });
+    if (missing == std::ssize(rows)) return false;
+    if (missing > 0)
         warnings.push_back(text::message("{} of {} readings have no {}: they are taken as {}",
-                                         missing, rows, value, taken_as));
+                                         missing, rows.size(), name, taken_as));
+    return true;
 }
 
 void reduce_heights(std::vector<reading::SurveyRow>& rows, const Gradients& gradients,
                     std::vector<text::Message>& warnings) {
-    const auto missing = std::ranges::count_if(
-        rows, [](const reading::SurveyRow& row) { return !row.instrument_height; });
-    if (missing == std::ssize(rows)) return;
-    warn_of_missing(warnings, missing, rows.size(), "instrument_height_m",
-                    text::message("at the mark"));
+    if (!is_given(rows, &reading::SurveyRow::instrument_height, "instrument_height_m",
+                  text::message("at the mark"), warnings))
+        return;
     for (reading::SurveyRow& row : rows) {
         const auto own = gradients.find(row.site);
         const double gradient = own == gradients.end() ? kNormalGradient_mgal_per_m : own->second;
@@ -55,13 +52,11 @@ void reduce_heights(std::vector<reading::SurveyRow>& rows, const Gradients& grad
 
 void reduce_pressures(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
                       double admittance_mgal_per_hpa, std::vector<text::Message>& warnings) {
-    const auto missing = std::ranges::count_if(
-        rows, [](const reading::SurveyRow& row) { return !row.pressure_hpa; });
-    if (missing == std::ssize(rows)) return;
-    warn_of_missing(warnings, missing, rows.size(), text::message("air pressure"),
-                    text::message("at that of the standard atmosphere"));
+    if (!is_given(rows, &reading::SurveyRow::pressure_hpa, text::message("air pressure"),
+                  text::message("at that of the standard atmosphere"), warnings))
+        return;
     for (reading::SurveyRow& row : rows) {
-        const text::Site& site = site_of(row, sites);
+        const text::Site& site = text::required_site(sites, row.site);
         if (row.pressure_hpa && !site.has_altitude)
             throw InputError(row.site +
                              ": its readings have an air pressure, but its altitude is not known; "

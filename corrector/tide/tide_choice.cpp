@@ -17,52 +17,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 5> kNames{"given", "direct", "catalogue", "longman", "none"};
 
-/// The chosen tide at any instant.
-class ChosenTide {
-public:
-    ChosenTide(const std::vector<text::Site>& sites, const Choice& choice)
-        : sites_(sites), choice_(choice) {
-        if (!choice.series.empty()) series_ = Series::read(choice.series);
-    }
-
-    /// Returns the tide at the site of a row.
-    [[nodiscard]] MilliGal at(const reading::SurveyRow& row, UtcTime time) const {
-        if (series_) return of_series(row, time);
-        if (choice_.source == "given") return given(row);
-        const Model model = tide_model(choice_.source);
-        const text::Site* const site = text::find_site(sites_, row.site);
-        if (site == nullptr)
-            throw InputError(
-                fmt::format("site {}: unknown; allowed: a name of the table of sites", row.site));
-        return earth_tide(model, time, {site->latitude, site->longitude, site->altitude},
-                          choice_.factors);
-    }
-
-    /// Returns false if the tide comes from a series that does not have this time.
-    [[nodiscard]] bool covers(UtcTime time) const { return !series_ || series_->at(time); }
-
-private:
-    [[nodiscard]] MilliGal of_series(const reading::SurveyRow& row, UtcTime time) const {
-        if (const auto tide = series_->at(time)) return *tide;
-        throw InputError(fmt::format(
-            "{}: time = {}, site {}: outside the series, or in one of its gaps; "
-            "allowed: {} to {} in steps of at most {} s",
-            choice_.series.string(), to_rfc3339(time), row.site, to_rfc3339(series_->first()),
-            to_rfc3339(series_->last()), kLongestTideStep.count()));
-    }
-
-    static MilliGal given(const reading::SurveyRow& row) {
-        if (row.given_tide) return *row.given_tide;
+/// Returns the tide at the site of a row; absent if it comes from a series without this time.
+std::optional<MilliGal> chosen_tide(const reading::SurveyRow& row, UtcTime time,
+                                    const std::vector<text::Site>& sites, const Choice& choice,
+                                    const std::optional<Series>& series) {
+    if (series) return series->at(time);
+    if (choice.source == "given") {
+        if (row.given_tide) return row.given_tide;
         throw InputError(
             fmt::format("tide = given: {} has no earth_tide_mgal; allowed: direct, catalogue, "
                         "longman, none, or a CSV time,tide_mgal",
                         row.site));
     }
-
-    const std::vector<text::Site>& sites_;
-    const Choice& choice_;
-    std::optional<Series> series_;
-};
+    const Model model = tide_model(choice.source);
+    const text::Site& site = text::required_site(sites, row.site);
+    return earth_tide(model, time, {site.latitude, site.longitude, site.altitude}, choice.factors);
+}
 
 std::string_view model_text(const Choice& choice) {
     if (!choice.series.empty()) return "series of the file, cubic between its rows";
@@ -107,12 +77,22 @@ Model tide_model(const std::string& source) {
 
 void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
                 const Choice& choice, reading::DayRecord* day) {
-    const ChosenTide tide(sites, choice);
-    for (reading::SurveyRow& row : rows) row.tide = tide.at(row, row.time);
+    std::optional<Series> series;
+    if (!choice.series.empty()) series = Series::read(choice.series);
+    for (reading::SurveyRow& row : rows) {
+        const auto tide = chosen_tide(row, row.time, sites, choice, series);
+        if (!tide)
+            throw InputError(fmt::format(
+                "{}: time = {}, site {}: outside the series, or in one of its gaps; "
+                "allowed: {} to {} in steps of at most {} s",
+                choice.series.string(), to_rfc3339(row.time), row.site, to_rfc3339(series->first()),
+                to_rfc3339(series->last()), kLongestTideStep.count()));
+        row.tide = *tide;
+    }
     if (day == nullptr) return;
     for (reading::DayBin& bin : day->bins) {
         const reading::SurveyRow& row = rows[bin.set_up];
-        bin.tide = tide.covers(bin.time) ? tide.at(row, bin.time) : row.tide;
+        bin.tide = chosen_tide(row, bin.time, sites, choice, series).value_or(row.tide);
     }
 }
 

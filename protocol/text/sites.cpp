@@ -144,6 +144,11 @@ const Site* find_site(const std::vector<Site>& sites, std::string_view name) {
     return found == sites.end() ? nullptr : &*found;
 }
 
+const Site& required_site(const std::vector<Site>& sites, const std::string& name) {
+    if (const Site* const site = find_site(sites, name)) return *site;
+    throw InputError(fmt::format("site {}: unknown; allowed: a name of the table of sites", name));
+}
+
 const Site* similar_site(const std::vector<Site>& sites, std::string_view name) {
     const Site* similar = nullptr;
     const std::string wanted = bare(name);

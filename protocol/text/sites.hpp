@@ -69,6 +69,10 @@ struct Site {
 /// list does not change.  The names are compared in turn, exactly.
 [[nodiscard]] const Site* find_site(const std::vector<Site>& sites, std::string_view name);
 
+/// Returns the site of that name, as find_site().
+/// @throws InputError  if no site of the list has it.
+[[nodiscard]] const Site& required_site(const std::vector<Site>& sites, const std::string& name);
+
 /// Returns the only site whose name differs from a mistyped one in case, blanks or punctuation of
 /// ASCII; null if there is none or more than one.  no.6 and NO 6 are like No.6.
 [[nodiscard]] const Site* similar_site(const std::vector<Site>& sites, std::string_view name);

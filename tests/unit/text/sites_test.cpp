@@ -33,6 +33,9 @@ TEST_CASE("the calibration line has 14 sites with a gravity range of 192.941 mGa
     CHECK(base->gravity == MilliGal(979860.210));
     CHECK(base->altitude == Metres(532.442));
     CHECK(find_site(sites, "No.99") == nullptr);
+    CHECK(&required_site(sites, "No.0") == base);
+    CHECK_THROWS_WITH(required_site(sites, "No.99"),
+                      "site No.99: unknown; allowed: a name of the table of sites");
 }
 
 TEST_CASE("an unknown station has no reference value", "[text][sites]") {
