@@ -10,8 +10,8 @@
 #include "corrector/correlation/fourier.hpp"
 #include "corrector/correlation/regression.hpp"
 #include "protocol/core/units.hpp"
-#include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/unit/combined_estimates.hpp"
 
 namespace a351::corrector::long_record {
 namespace {
@@ -25,20 +25,7 @@ constexpr double kLeastRatioToError = 2.0;  // least ratio of a part to its erro
 /// Returns the response with the parameters that are applied; the others are 0.
 unit::ThermalEffect effect_of(const unit::ThermalResponse& thermal,
                               std::vector<text::Message>& remarks) {
-    constexpr int kTerms = static_cast<int>(unit::kThermalTerms);
-    using Vector = Eigen::Matrix<double, kTerms, 1>;
-    using Matrix = Eigen::Matrix<double, kTerms, kTerms>;
-    // Calibration and priors: inverse covariances and weighted values are added.
-    const Matrix information = linear_algebra::Cholesky(thermal.covariance).inverse();
-    Matrix together = information;
-    Vector weighted = information * thermal.values;
-    for (Eigen::Index k = 0; k < kTerms; ++k) {
-        const unit::ThermalPrior prior = unit::record_prior(static_cast<unit::ThermalTerm>(k));
-        together(k, k) += 1.0 / (prior.deviation * prior.deviation);
-        weighted(k) += prior.mean / (prior.deviation * prior.deviation);
-    }
-    const Matrix covariance = linear_algebra::Cholesky(together).inverse();
-    const Vector values = covariance * weighted;
+    const auto [values, covariance] = unit::combined(std::vector{thermal, unit::record_priors()});
 
     unit::ThermalEffect response;
     response.fast_lag_s = std::exp(values(3));

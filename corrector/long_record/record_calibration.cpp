@@ -35,13 +35,8 @@ TwoPathTerm term_of(Index k) { return kThermalOfTwoPath.at(static_cast<std::size
 
 /// Means and deviations of the priors.
 std::pair<Vector, Vector> thermal_priors() {
-    Vector means, deviations;
-    for (Index k = 0; k < kCount; ++k) {
-        const unit::ThermalPrior prior = unit::record_prior(static_cast<unit::ThermalTerm>(k));
-        means(k) = prior.mean;
-        deviations(k) = prior.deviation;
-    }
-    return {means, deviations};
+    const unit::ThermalResponse priors = unit::record_priors();
+    return {priors.values, priors.covariance.diagonal().cwiseSqrt()};
 }
 
 Information information_of(const TwoPathFit& fit) {
@@ -62,55 +57,49 @@ Information information_of(const TwoPathFit& fit) {
     return {0.5 * (posterior + posterior.transpose()) - Matrix::Identity(), posterior * estimate};
 }
 
-/// Returns the part in directions with at least kLeastInformation, and the number of these
-/// directions.
-std::pair<Information, int> told(const Information& all) {
-    const linear_algebra::SymmetricEigen axes = linear_algebra::symmetric_eigen(all.matrix);
-    Information part;
-    int count = 0;
-    for (Index k = 0; k < kCount; ++k) {
-        if (axes.values(k) < kLeastInformation) continue;
-        const Vector axis = axes.vectors.col(k);
-        part.matrix += axes.values(k) * axis * axis.transpose();
-        part.vector += axis * axis.dot(all.vector);
-        ++count;
-    }
-    return {part, count};
-}
+/// The part M of an information in the directions in which there is much of it.
+struct InformedPart {
+    Information information;
+    double square = 0.0;  ///< v' M^+ v (M^+ pseudoinverse of the matrix, v the vector).
+    int rank = 0;         ///< Number of these directions.
+};
 
-/// Returns v' M^+ v (M^+ pseudoinverse of the matrix, v the vector) and the rank of M.
-std::pair<double, int> explained(const Information& part) {
-    constexpr double kNothing = 1e-6;
-    const linear_algebra::SymmetricEigen axes = linear_algebra::symmetric_eigen(part.matrix);
-    double sum = 0.0;
-    int rank = 0;
+/// @param least  information of a direction that is in the part.
+InformedPart part_of(const Information& all, double least) {
+    const linear_algebra::SymmetricEigen axes = linear_algebra::symmetric_eigen(all.matrix);
+    InformedPart part;
     for (Index k = 0; k < kCount; ++k) {
-        if (axes.values(k) < kNothing) continue;
-        const double along = axes.vectors.col(k).dot(part.vector);
-        sum += along * along / axes.values(k);
-        ++rank;
+        if (axes.values(k) < least) continue;
+        const Vector axis = axes.vectors.col(k);
+        const double along = axis.dot(all.vector);
+        part.information.matrix += axes.values(k) * axis * axis.transpose();
+        part.information.vector += axis * along;
+        part.square += along * along / axes.values(k);
+        ++part.rank;
     }
-    return {sum, rank};
+    return part;
 }
 
 /// Returns the probability of the differences between records: chi-square = sum v_i' M_i^+ v_i
 /// - v' M^+ v of all together, divided by kThermalErrorFactor^2.
 double agreement(const std::vector<Information>& records) {
+    constexpr double kNothing = 1e-6;
     Information together;
     double sum = 0.0;
     int dof = 0;
     for (const Information& record : records) {
-        const auto [part, count] = told(record);
-        together.matrix += part.matrix;
-        together.vector += part.vector;
-        sum += explained(part).first;
-        dof += count;
+        const InformedPart part = part_of(record, kLeastInformation);
+        together.matrix += part.information.matrix;
+        together.vector += part.information.vector;
+        sum += part.square;
+        dof += part.rank;
     }
-    const auto [common, rank] = explained(together);
-    if (dof == rank) return 1.0;
+    const InformedPart common = part_of(together, kNothing);
+    if (dof == common.rank) return 1.0;
     return signal::chi_square_exceedance(
-        static_cast<double>(dof - rank),
-        std::max(0.0, sum - common) / (unit::kThermalErrorFactor * unit::kThermalErrorFactor));
+        static_cast<double>(dof - common.rank),
+        std::max(0.0, sum - common.square) /
+            (unit::kThermalErrorFactor * unit::kThermalErrorFactor));
 }
 
 /// Returns the response for a calibration file; undetermined directions have kOpenDeviation.

@@ -9,9 +9,9 @@
 #include "corrector/whole_day/day_model.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
-#include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/unit/combined_estimates.hpp"
 
 namespace a351::corrector::series {
 namespace {
@@ -169,19 +169,9 @@ TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::str
 }
 
 unit::AxisBias combine(const std::vector<TiltSeries>& series) {
-    if (series.size() == 1) return series.front().bias;
-    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d weighted = Eigen::Vector2d::Zero();
-    for (const TiltSeries& one : series) {
-        const Eigen::Matrix2d inverse = linear_algebra::Cholesky(one.bias.covariance).inverse();
-        information += inverse;
-        weighted += inverse * one.bias.values;
-    }
-    unit::AxisBias bias;
-    const Eigen::Matrix2d covariance = linear_algebra::Cholesky(information).inverse();
-    bias.covariance << covariance(0, 0), covariance(0, 1), covariance(0, 1), covariance(1, 1);
-    bias.values = covariance * weighted;
-    return bias;
+    std::vector<unit::AxisBias> estimates;
+    for (const TiltSeries& one : series) estimates.push_back(one.bias);
+    return unit::combined(estimates);
 }
 
 }  // namespace a351::corrector::series

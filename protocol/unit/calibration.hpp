@@ -65,6 +65,9 @@ using ThermalResponse = CalibratedCoefficients<static_cast<int>(kThermalTerms)>;
     return response.values(static_cast<Eigen::Index>(term));
 }
 
+/// Returns record_prior() of all coefficients as an estimate with a diagonal covariance.
+[[nodiscard]] ThermalResponse record_priors();
+
 /// Factor on the standard errors of a thermal response, dimensionless.  Errors estimated from a
 /// record at one point are too small by 1.4 to 2.3 on simulated records.  A user of the covariance
 /// multiplies it by the square of this factor.

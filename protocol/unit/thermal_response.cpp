@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "protocol/unit/calibration.hpp"
+
 namespace a351::unit {
 
 namespace {
@@ -56,6 +58,17 @@ ThermalPrior record_prior(ThermalTerm term) {
                                    of_lag(kTypicalUnit.slow_lag_s, kRecordLagFactor)};
     static_assert(priors.size() == kThermalTerms);
     return priors.at(static_cast<std::size_t>(term));
+}
+
+ThermalResponse record_priors() {
+    ThermalResponse priors;
+    for (std::size_t k = 0; k < kThermalTerms; ++k) {
+        const ThermalPrior prior = record_prior(static_cast<ThermalTerm>(k));
+        const auto place = static_cast<Eigen::Index>(k);
+        priors.values(place) = prior.mean;
+        priors.covariance(place, place) = prior.deviation * prior.deviation;
+    }
+    return priors;
 }
 
 std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {

@@ -4,6 +4,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/unit/combined_estimates.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
@@ -108,4 +109,19 @@ TEST_CASE("SHA-256 of a file agrees with the example of the standard", "[calibra
     // A million times "a": more than one block.
     CHECK(text::sha256_of_file(folder.write("a", std::string(1'000'000, 'a'))) ==
           "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST_CASE("independent estimates are combined with weights from their covariances",
+          "[calibration]") {
+    const AxisBias sharp{{10.0, -4.0}, (Eigen::Matrix2d() << 1.0, 0.5, 0.5, 4.0).finished()};
+    CHECK(combined(std::vector{sharp}) == sharp);
+    const AxisBias again = combined(std::vector{sharp, sharp, sharp, sharp});
+    CHECK((again.values - sharp.values).norm() < 1e-12);
+    CHECK((again.covariance - 0.25 * sharp.covariance).norm() < 1e-12);
+    // Without correlation each coefficient is a weighted mean: (10 / 1 + 40 / 2) / (1 / 1 + 1 / 2).
+    const AxisBias one{{10.0, 0.0}, Eigen::Matrix2d::Identity()},
+        other{{40.0, 0.0}, 2.0 * Eigen::Matrix2d::Identity()};
+    const AxisBias mean = combined(std::vector{one, other});
+    CHECK(mean.values(0) == Approx(20.0));
+    CHECK(mean.covariance(0, 0) == Approx(2.0 / 3.0));
 }
