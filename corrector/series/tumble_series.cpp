@@ -10,6 +10,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
+#include "protocol/linear_algebra/normal_matrix.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::series {
@@ -148,29 +149,26 @@ struct Solution {
 
 Solution solve(const std::vector<Position>& positions, const Parameters& deviations) {
     constexpr int kRounds = 12;  // each leaves about 2 % of the change of the round before
+    const auto count = static_cast<Index>(positions.size());
     Solution found;
+    // In units of the priors' deviations, so that the normal matrix is 1 + data.
+    Eigen::MatrixXd rows(count, kParameters);
+    Eigen::VectorXd residuals(count);
     for (int round = 0; round < kRounds; ++round) {
-        // In units of the priors' deviations, so that the normal matrix is 1 + data.
-        Covariance normal = Covariance::Identity();
-        Parameters right = Parameters::Zero();
-        Covariance data = Covariance::Zero();
-        found.chi_square = 0.0;
-        for (const Position& position : positions) {
+        for (Index i = 0; i < count; ++i) {
+            const Position& position = positions[std::size_t(i)];
             const Eigen::Vector3d a = true_vector(position, found.values);
-            const Parameters row =
-                row_of(position, a).cwiseProduct(deviations) / position.error_mgal;
-            const double residual =
+            rows.row(i) = row_of(position, a).cwiseProduct(deviations) / position.error_mgal;
+            residuals(i) =
                 (a.norm() - position.gravity_mgal - found.values(kGravity)) / position.error_mgal;
-            data += row * row.transpose();
-            right += row * (residual + row.dot(found.values.cwiseQuotient(deviations)));
-            found.chi_square += residual * residual;
         }
-        normal += data;
-        const linear_algebra::Cholesky cholesky(normal);
-        const Covariance inverse = cholesky.inverse();
-        found.values = (inverse * right).cwiseProduct(deviations);
-        found.left_over = static_cast<double>(positions.size()) - (inverse * data).trace();
+        const Covariance inverse =
+            linear_algebra::Cholesky(linear_algebra::normal_matrix(rows)).inverse();
+        const Eigen::VectorXd readings = residuals + rows * found.values.cwiseQuotient(deviations);
+        found.values = (inverse * rows.transpose() * readings).cwiseProduct(deviations);
         found.covariance = deviations.asDiagonal() * inverse * deviations.asDiagonal();
+        found.chi_square = residuals.squaredNorm();
+        found.left_over = static_cast<double>(count - kParameters) + inverse.trace();
     }
     return found;
 }
