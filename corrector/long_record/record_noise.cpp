@@ -1,7 +1,7 @@
 #include "corrector/long_record/record_noise.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,8 +10,6 @@
 
 namespace a351::corrector::long_record {
 namespace {
-
-using Three = std::array<double, 3>;
 
 /// Ratio to the least scatter below which an average is as good.
 constexpr double kHardlyMore = 1.1;
@@ -45,35 +43,29 @@ std::vector<NoiseBand> noise_spectrum(const std::vector<double>& values, double 
 }
 
 /// Returns the effect of the three squared noises on the variance of averages over t, unit noises.
-Three variances_at(double t_s) {
+Eigen::Vector3d variances_at(double t_s) {
     return {1.0 / t_s, 2.0 * std::numbers::ln2 / std::numbers::pi, t_s / 3.0};
 }
 
 /// Fits the squares of the noises, not negative, by coordinate descent, which converges because the
 /// squares of the misfits are convex.
-Three fit_noises(const std::vector<AllanDeviation>& allan, double duration_s) {
-    std::array<Three, 3> normal{};
-    Three right{};
+Eigen::Vector3d fit_noises(const std::vector<AllanDeviation>& allan, double duration_s) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const AllanDeviation& point : allan) {
         const double variance = point.deviation_mgal * point.deviation_mgal;
         if (!(variance > 0.0)) continue;
         const double weight = duration_s / point.averaging_s;
-        const Three row = variances_at(point.averaging_s);
-        for (std::size_t i = 0; i < 3; ++i) {
-            right.at(i) += weight * row.at(i) / variance;
-            for (std::size_t k = 0; k < 3; ++k)
-                normal.at(i).at(k) += weight * row.at(i) * row.at(k) / (variance * variance);
-        }
+        const Eigen::Vector3d row = variances_at(point.averaging_s) / variance;
+        normal += weight * row * row.transpose();
+        right += weight * row;
     }
-    Three squares{};
+    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
     constexpr int kRounds = 10'000;
     for (int round = 0; round < kRounds; ++round)
-        for (std::size_t i = 0; i < 3; ++i) {
-            double rest = right.at(i);
-            for (std::size_t k = 0; k < 3; ++k)
-                if (k != i) rest -= normal.at(i).at(k) * squares.at(k);
-            squares.at(i) =
-                normal.at(i).at(i) > 0.0 ? std::max(0.0, rest / normal.at(i).at(i)) : 0.0;
+        for (Eigen::Index i = 0; i < squares.size(); ++i) {
+            const double rest = right(i) - normal.row(i).dot(squares) + normal(i, i) * squares(i);
+            squares(i) = normal(i, i) > 0.0 ? std::max(0.0, rest / normal(i, i)) : 0.0;
         }
     return squares;
 }
@@ -103,15 +95,13 @@ RecordNoise record_noise(const std::vector<double>& values, double step_s) {
     for (std::size_t samples = 1; samples <= values.size() / 4; samples *= 2)
         noise.allan.push_back(
             {static_cast<double>(samples) * step_s, allan_deviation(values, samples), 0.0});
-    const Three squares = fit_noises(noise.allan, static_cast<double>(values.size()) * step_s);
+    const Eigen::Vector3d squares =
+        fit_noises(noise.allan, static_cast<double>(values.size()) * step_s);
     noise.white_mgal_sqrt_s = std::sqrt(squares[0]);
     noise.flicker_mgal = std::sqrt(squares[1]);
     noise.walk_mgal_per_sqrt_s = std::sqrt(squares[2]);
-    for (AllanDeviation& point : noise.allan) {
-        const Three row = variances_at(point.averaging_s);
-        point.model_mgal =
-            std::sqrt(row[0] * squares[0] + row[1] * squares[1] + row[2] * squares[2]);
-    }
+    for (AllanDeviation& point : noise.allan)
+        point.model_mgal = std::sqrt(variances_at(point.averaging_s).dot(squares));
     const auto apart = static_cast<std::size_t>(std::lround(kBetweenStays_s / step_s));
     if (values.size() < 3 * apart) return noise;
     for (std::size_t samples = 1; samples <= apart; samples *= 2)
