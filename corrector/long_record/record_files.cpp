@@ -80,8 +80,8 @@ Json two_paths_json(const TwoPathFit& fit) {
             {"determined", parameter.is_determined},
             {"needed", parameter.is_determined ? Json(nullptr) : Json(parameter.needed.english())}};
     };
-    for (const FittedParameter& parameter : fit.parameters) add("parameters", parameter);
-    for (const FittedParameter& parameter : fit.outer) add("outer_oven", parameter);
+    for (std::size_t k = 0; k < fit.parameters.size(); ++k)
+        add(k < kTwoPathTerms ? "parameters" : "outer_oven", fit.parameters[k]);
     // Covariance of the coefficients in their units, and of the logarithms of lags and times.
     for (Eigen::Index row = 0; row < fit.covariance.rows(); ++row) {
         Json cells = Json::array();

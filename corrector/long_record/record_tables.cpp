@@ -150,9 +150,7 @@ TextTable two_paths_table(const RecordResult& result) {
     TextTable rows{{text::tr("two paths"), text::tr("value"), text::tr("standard error"),
                     text::tr("unit"), text::tr("needed to determine it")}};
     const TwoPathFit& fit = result.analysis.two_paths;
-    std::vector<FittedParameter> parameters(fit.parameters.begin(), fit.parameters.end());
-    parameters.insert(parameters.end(), fit.outer.begin(), fit.outer.end());
-    for (const FittedParameter& parameter : parameters) {
+    for (const FittedParameter& parameter : fit.parameters) {
         const int decimals = parameter.unit == "s" ? 0 : parameter.unit == "mGal/h" ? 4 : 2;
         rows.push_back({text::in_words(text::marked_message(parameter.name)),
                         text::fixed(parameter.value, decimals),

@@ -66,26 +66,16 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         const bool is_lag = is_outer ? place + 1 == scaled.rows() : place >= kTwoPathLinear;
         const std::size_t lag = is_outer ? 3 : k - static_cast<std::size_t>(kTwoPathLinear);
         const Index column = is_outer ? place - units.size() + kTwoPathLinear : place;
-        const double one = is_lag ? two_path_log_factor(lag)
-                                  : two_path_deviation(static_cast<std::size_t>(column));
+        const double one = is_lag ? std::log(kTwoPathLags_s.at(lag).factor)
+                                  : kTwoPathDeviations.at(static_cast<std::size_t>(column));
         const double deviation = one * std::sqrt(scaled(place, place));
-        const double value = is_lag ? two_path_lag_s(u, lag) : one * beta(column);
+        const double value = is_lag ? kTwoPathLags_s.at(lag).at(u.at(lag)) : one * beta(column);
         const bool is_determined = std::sqrt(scaled(place, place)) < kDeterminedDeviation;
         const Named& named = kNamed.at(k);
-        FittedParameter parameter{
-            named.key,
-            named.name,
-            named.unit,
-            value,
-            is_lag ? value * deviation : deviation,
-            is_determined,
-            is_determined ? text::Message() : text::marked_message(named.needed)};
-        if (is_outer) {
-            fit.outer.push_back(std::move(parameter));
-            continue;
-        }
-        units(place) = one;
-        fit.parameters.at(k) = std::move(parameter);
+        fit.parameters.push_back(
+            {named.key, named.name, named.unit, value, is_lag ? value * deviation : deviation,
+             is_determined, is_determined ? text::Message() : text::marked_message(named.needed)});
+        if (!is_outer) units(place) = one;
     }
     const auto of_terms = scaled.topLeftCorner(units.size(), units.size());
     fit.covariance = units.asDiagonal() * of_terms * units.asDiagonal();
@@ -99,12 +89,13 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
 
     const TimeSeries<DegC> whole({}, Hertz(1.0 / step_s), temperature_degc);
     const auto columns = regression.columns(whole, u);
-    constexpr auto kInner = static_cast<std::size_t>(kTwoPathLinear);
+    constexpr auto kInner = static_cast<std::size_t>(kTwoPathLinear),
+                   kLags = kTwoPathTerms - kInner;
     fit.residual_mgal = acceleration_mgal;
     for (std::size_t i = 0; i < fit.residual_mgal.size(); ++i)
         for (std::size_t k = 0; k < columns.size(); ++k)
             fit.residual_mgal[i] -=
-                columns[k][i] * (k < kInner ? fit.parameters.at(k) : fit.outer[k - kInner]).value;
+                columns[k][i] * fit.parameters[k < kInner ? k : k + kLags].value;
     const double mean = correlation::mean_of(fit.residual_mgal);
     for (double& value : fit.residual_mgal) value -= mean;
     fit.residual_rms_mgal = std::sqrt(correlation::variance_of(fit.residual_mgal));

@@ -70,11 +70,11 @@ struct FittedParameter {
 /// The constant c is no parameter: the residual has no mean.  The sum rA + rS is often determined
 /// where its parts are not, because a record shows them apart only by the slow lag.
 struct TwoPathFit {
-    std::array<FittedParameter, kTwoPathTerms> parameters;
+    /// In the order of TwoPathTerm; with an outer oven then oA, oS and tO.
+    std::vector<FittedParameter> parameters;
     /// (kTwoPathTerms, kTwoPathTerms) Covariance of the coefficients in their units, and of the
     /// natural logarithms of lags and times.
     Eigen::MatrixXd covariance;
-    std::vector<FittedParameter> outer;  ///< oA, oS and tO; empty without an outer oven.
     double static_slope = 0.0, static_slope_error = 0.0;  ///< rA + rS, mGal/degC.
     /// True: static_slope_error is below half of the prior standard deviation of rA + rS.
     bool is_static_slope_determined = false;

@@ -22,34 +22,10 @@ using Lags = TwoPathLags;
 
 constexpr double kShortest_s = 240.0;  // at shorter periods the thermometer's noise dominates
 constexpr Index kLinear = kTwoPathLinear;
-constexpr double kDriftDeviation_mgal_per_h = 1.0;  // assumed: the linear drift of a record
-constexpr double kWarmUpDeviation_mgal = 60.0;      // more than the warm-up of the typical unit
-constexpr double kWarmUpTimeFactor = 1.5;           // assumed: how much the times of units differ
-/// Priors of the linear terms, then of the outer oven's slopes, which may be as large as those of the
-/// sensor; their means are 0.
-constexpr std::array<double, kLinear + 2> kPriorDeviation{
-    kDriftDeviation_mgal_per_h,
-    kWarmUpDeviation_mgal,
-    unit::kRecordSlopeDeviation_mgal_per_degc,
-    unit::kRecordFastDeviation_mgal_per_degc_per_h,
-    unit::kRecordSlopeDeviation_mgal_per_degc,
-    unit::kRecordSlopeDeviation_mgal_per_degc,
-    unit::kRecordSlopeDeviation_mgal_per_degc};
-constexpr Lags kLagMedian_s{unit::kTypicalUnit.fast_lag_s, unit::kTypicalUnit.slow_lag_s,
-                            unit::kTypicalUnit.warm_up_h* kSecondsPerHour,
-                            whole_day::kOuterLag_s.median};
-constexpr Lags kLagFactor{unit::kRecordLagFactor, unit::kRecordLagFactor, kWarmUpTimeFactor,
-                          whole_day::kOuterLag_s.factor};
+
+double lag_s(const Lags& u, std::size_t k) { return kTwoPathLags_s.at(k).at(u.at(k)); }
 
 }  // namespace
-
-double two_path_deviation(std::size_t term) { return kPriorDeviation.at(term); }
-
-double two_path_log_factor(std::size_t k) { return std::log(kLagFactor.at(k)); }
-
-double two_path_lag_s(const TwoPathLags& u, std::size_t k) {
-    return kLagMedian_s.at(k) * std::pow(kLagFactor.at(k), u.at(k));
-}
 
 TwoPathRegression::TwoPathRegression(const std::vector<double>& temperature,
                                      const std::vector<double>& acceleration, double step_s,
@@ -77,18 +53,18 @@ std::vector<std::vector<double>> TwoPathRegression::columns(const TimeSeries<Deg
                                                             const Lags& u) const {
     const std::vector<double>& t = temperature.values();
     std::vector<std::vector<double>> all(kLinear, std::vector<double>(t.size()));
-    all[3] = unit::fast_rate_degc_per_h(temperature, two_path_lag_s(u, 0));
-    all[4] = unit::lagged(temperature, two_path_lag_s(u, 1));
+    all[3] = unit::fast_rate_degc_per_h(temperature, lag_s(u, 0));
+    all[4] = unit::lagged(temperature, lag_s(u, 1));
     for (std::size_t i = 0; i < t.size(); ++i) {
         const double time_h = static_cast<double>(i) * step_s_ / kSecondsPerHour;
         all[0][i] = time_h;
-        all[1][i] = std::exp(-time_h * kSecondsPerHour / two_path_lag_s(u, 2));
+        all[1][i] = std::exp(-time_h * kSecondsPerHour / lag_s(u, 2));
         all[2][i] = t[i] - mean_degc_;
         all[4][i] -= mean_degc_;
     }
     if (outer_)
         for (const std::vector<double>& outer :
-             {outer_->values(), unit::lagged(*outer_, two_path_lag_s(u, 3))})
+             {outer_->values(), unit::lagged(*outer_, lag_s(u, 3))})
             all.emplace_back(outer.begin(), outer.begin() + std::ssize(t));
     return all;
 }
@@ -101,7 +77,7 @@ Eigen::MatrixXd TwoPathRegression::design(const Lags& u) const {
         Eigen::VectorXd column = transformed(all[place]);
         if (place >= static_cast<std::size_t>(TwoPathTerm::level) && k < kLinear)
             column = trusted(std::move(column), correlation::fit_line(numbers_, all[place]).slope);
-        x.col(k) = kPriorDeviation.at(place) * whitened(std::move(column));
+        x.col(k) = kTwoPathDeviations.at(place) * whitened(std::move(column));
     }
     return x;
 }

@@ -6,8 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "corrector/whole_day/day_model.hpp"
 #include "protocol/core/time_series.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::long_record {
 
@@ -18,13 +20,23 @@ using TwoPathLags = std::array<double, 4>;
 /// Number of linear terms: drift ... slow of TwoPathTerm.
 constexpr Eigen::Index kTwoPathLinear = 5;
 
-/// Returns the standard deviation of the prior of a linear term, in the term's unit; its mean is 0.
-/// @param term  in the order of TwoPathTerm, then the two slopes of the outer oven.
-[[nodiscard]] double two_path_deviation(std::size_t term);
-/// Returns ln of the factor that is one standard deviation of the prior of lag k.
-[[nodiscard]] double two_path_log_factor(std::size_t k);
-/// Returns lag k at the point u, s: median x factor^u.
-[[nodiscard]] double two_path_lag_s(const TwoPathLags& u, std::size_t k);
+/// Standard deviations of the priors of the linear terms, in their units and the order of
+/// TwoPathTerm, then of the slopes by the outer oven, which may be as large as those of the sensor.
+/// Their means are 0.  The drift is assumed; the warm-up is larger than that of the typical unit.
+inline constexpr std::array kTwoPathDeviations{1.0,
+                                               60.0,
+                                               unit::kRecordSlopeDeviation_mgal_per_degc,
+                                               unit::kRecordFastDeviation_mgal_per_degc_per_h,
+                                               unit::kRecordSlopeDeviation_mgal_per_degc,
+                                               unit::kRecordSlopeDeviation_mgal_per_degc,
+                                               unit::kRecordSlopeDeviation_mgal_per_degc};
+
+/// Priors of tF, tS, tW and tO.  The factor 1.5 of tW is assumed.
+inline constexpr std::array<whole_day::LogNormalPrior, 4> kTwoPathLags_s{
+    {{unit::kTypicalUnit.fast_lag_s, unit::kRecordLagFactor},
+     {unit::kTypicalUnit.slow_lag_s, unit::kRecordLagFactor},
+     {unit::kTypicalUnit.warm_up_h * kSecondsPerHour, 1.5},
+     whole_day::kOuterLag_s}};
 
 /// The regression by frequency of a two-path fit: series, spectra, noise, and the cost of the lags.
 /// Model, priors, source and accuracy: two_path_fit.hpp.
