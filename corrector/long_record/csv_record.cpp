@@ -21,7 +21,6 @@ namespace {
 constexpr std::size_t kBlockRows = 16384;
 constexpr std::size_t kFirstRows = 1000;  // rows from whose steps the rate is found, despite gaps
 constexpr double kStepTolerance = 0.1;    // relative
-constexpr double kMostSeconds = 9e9;      // limit of from_seconds()
 
 /// A row of the table.
 struct Row {
@@ -55,7 +54,7 @@ public:
     /// Reads the next row in the window; returns false at the end.
     [[nodiscard]] bool read(Row& row) {
         while (reader_.next()) {
-            row.time = time();
+            row.time = reader_.instant(time_);
             if (last_ && row.time <= *last_)
                 reader_.refuse(time_, "not after the row before it", "times that ascend");
             last_ = row.time;
@@ -65,7 +64,8 @@ public:
             row.line = reader_.line();
             row.values.clear();
             for (const std::size_t column : values_)
-                row.values.push_back(value(column) * (column == values_.back() ? 1.0 : unit_mgal_));
+                row.values.push_back(reader_.sample(column, reading::kLargestSample) *
+                                     (column == values_.back() ? 1.0 : unit_mgal_));
             return true;
         }
         return false;
@@ -77,25 +77,6 @@ public:
     }
 
 private:
-    [[nodiscard]] UtcTime time() const {
-        const std::string_view cell = reader_.cells()[time_];
-        if (const auto instant = parse_rfc3339(cell)) return *instant;
-        const auto seconds = text::parse_number(cell);
-        if (!seconds || std::abs(*seconds) >= kMostSeconds)
-            reader_.refuse(time_, "not a time", "an RFC 3339 time, or seconds");
-        return UtcTime(from_seconds(*seconds));
-    }
-
-    [[nodiscard]] double value(std::size_t column) const {
-        const std::string_view cell = reader_.cells()[column];
-        if (cell.empty()) return kNaN;
-        const auto number = text::parse_number(cell);
-        if (!number || std::abs(*number) > reading::kLargestSample)
-            reader_.refuse(column, number ? "out of range" : "not a finite number",
-                           "a number with a decimal point, or nothing for a missing sample");
-        return *number;
-    }
-
     std::ifstream in_;
     text::CsvReader reader_;
     const RecordWindow& window_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -88,6 +89,24 @@ bool CsvReader::next_line() {
                                      origin_.string(), line_));
     }
     return false;
+}
+
+UtcTime CsvReader::instant(std::size_t column) const {
+    constexpr double kMostSeconds = 9e9;  // limit of from_seconds()
+    if (const auto instant = parse_rfc3339(cells_[column])) return *instant;
+    const auto seconds = parse_number(cells_[column]);
+    if (!seconds || std::abs(*seconds) >= kMostSeconds)
+        refuse(column, "not a time", "an RFC 3339 time, or seconds");
+    return UtcTime(from_seconds(*seconds));
+}
+
+double CsvReader::sample(std::size_t column, double largest) const {
+    if (cells_[column].empty()) return std::numeric_limits<double>::quiet_NaN();
+    const auto number = parse_number(cells_[column]);
+    if (!number || std::abs(*number) > largest)
+        refuse(column, number ? "out of range" : "not a finite number",
+               "a number with a decimal point, or nothing for a missing sample");
+    return *number;
 }
 
 void CsvReader::refuse(std::size_t column, std::string_view trouble,

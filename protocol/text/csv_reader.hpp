@@ -21,6 +21,8 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/core/utc_time.hpp"
+
 namespace a351::text {
 
 /// Reads one row at a time.  Lines end with LF or CRLF; a byte-order mark and blank lines are
@@ -53,6 +55,16 @@ public:
     /// of next().  Call it only after next() has returned true: there are then as many cells as
     /// columns.
     [[nodiscard]] const std::vector<std::string_view>& cells() const noexcept { return cells_; }
+
+    /// Returns the instant in a cell of the current row: RFC 3339 with zone, or seconds since 1970,
+    /// below 9e9 in magnitude.
+    /// @throws InputError  the cell is neither.
+    [[nodiscard]] UtcTime instant(std::size_t column) const;
+
+    /// Returns the number in a cell of the current row; NaN for an empty cell, a missing sample.
+    /// @param largest  greatest magnitude.
+    /// @throws InputError  the cell is neither empty nor such a number.
+    [[nodiscard]] double sample(std::size_t column, double largest) const;
 
     /// Throws the InputError about a cell of the current row, for rules that only the caller knows.
     /// @param column   position of the column, from 0.
