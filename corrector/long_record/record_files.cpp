@@ -201,12 +201,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["program"] = "a351-correct";
     json["version"] = A351_VERSION;
     json["settings"] = settings;
-    for (const text::InputFile& input : result.record.inputs) {
-        json["inputs"].push_back({{"role", input.role},
-                                  {"name", input.name},
-                                  {"byte_count", input.byte_count},
-                                  {"crc32", input.crc32}});
-    }
+    json["inputs"] = result.record.inputs;
     json["serial_number"] = serial_json(result.segment());
     json["raw_rate_hz"] = result.record.raw_rate_hz;
     json["step_s"] = result.record.step_s;

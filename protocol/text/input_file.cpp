@@ -7,12 +7,20 @@
 #include <boost/crc.hpp>
 #include <memory>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "protocol/text/text_file.hpp"
 
 namespace a351::text {
+
+void to_json(nlohmann::ordered_json& json, const InputFile& input) {
+    json = {{"role", input.role},
+            {"name", input.name},
+            {"byte_count", input.byte_count},
+            {"crc32", input.crc32}};
+}
 
 InputFile describe_input(std::string role, const std::filesystem::path& file) {
     boost::crc_32_type crc;

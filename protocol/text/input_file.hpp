@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace a351::text {
@@ -26,6 +27,10 @@ struct InputFile {
     std::uint32_t crc32 = 0;
     std::filesystem::path path = {};  ///< Path from which it was read.
 };
+
+/// Writes an input for result.json: role, name, byte_count and crc32.  With it nlohmann/json converts
+/// InputFile, and a vector of it, by itself.
+void to_json(nlohmann::ordered_json& json, const InputFile& input);
 
 /// Reads a file and returns its name, size and CRC-32.
 /// @param role  text for InputFile::role; it is not interpreted.
