@@ -21,8 +21,7 @@ namespace a351::corrector::eemd {
 /// @param curve  (n), any n and unit; fewer than three samples have no extremum.  A NaN counts as
 ///               equal to its neighbours.  The jump from one side of a NaN to the other is not
 ///               seen.  Infinite samples are compared like others.
-/// @return the number; nothing is allocated.
-[[nodiscard]] std::size_t count_extrema(std::span<const double> curve) noexcept;
+[[nodiscard]] std::size_t count_extrema(std::span<const double> curve);
 
 /// Returns the sample indices of the interior extrema of `curve`, in ascending order.  The index of
 /// a plateau is its middle, rounded down.  NaN as in count_extrema().
