@@ -83,13 +83,7 @@ Eigen::MatrixXd TwoPathRegression::design(const Lags& u) const {
 }
 
 double TwoPathRegression::cost(const Lags& u) const {
-    const Eigen::MatrixXd x = design(u);
-    const Eigen::VectorXd y = readings();
-    const linear_algebra::Cholesky factor(linear_algebra::normal_matrix(x));
-    if (!factor.is_positive_definite()) return HUGE_VAL;  // overflow
-    const Eigen::VectorXd half = factor.half_solve(x.transpose() * y);
-    // 2 cost = ln det(X'X + 1) + y'y - |L^-1 X'y|^2 + |u|^2, with L L' = X'X + 1
-    double sum = factor.log_determinant() + y.squaredNorm() - half.squaredNorm();
+    double sum = linear_algebra::marginal_cost(design(u), readings());
     for (const double value : u) sum += value * value;
     return 0.5 * sum;
 }

@@ -28,4 +28,17 @@ namespace a351::linear_algebra {
 /// @return (p, p), dimensionless.
 [[nodiscard]] Eigen::MatrixXd normal_matrix(const Eigen::Ref<const Eigen::MatrixXd>& columns);
 
+/// Returns -2 ln of the likelihood of readings whose unknowns are integrated out with their priors,
+/// up to a constant:
+///
+///     ln det(X'X + I) + y'y - |L^-1 X'y|^2,  L L' = X'X + I
+///
+/// This is ln det C + y' C^-1 y with the covariance C = I + XX' of the readings
+/// (linear_algebra_test.cpp).
+/// @param columns   X (n, p), as for normal_matrix().
+/// @param readings  y (n), in units of the standard deviation of their noise.
+/// @return infinite if X'X overflows.
+[[nodiscard]] double marginal_cost(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                                   const Eigen::Ref<const Eigen::VectorXd>& readings);
+
 }  // namespace a351::linear_algebra

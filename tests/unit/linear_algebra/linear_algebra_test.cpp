@@ -88,3 +88,14 @@ TEST_CASE("a normal matrix includes a unit prior for each unknown on its diagona
     const Eigen::MatrixXd excess = normal_matrix(design()) - design().transpose() * design();
     CHECK((excess - Eigen::MatrixXd::Identity(2, 2)).norm() < 1e-11);
 }
+
+TEST_CASE("the marginal cost is that of readings with noise and priors in one covariance",
+          "[linear_algebra]") {
+    const Eigen::Vector4d readings(3.0, -1.0, 2.0, 0.5);
+    const Eigen::MatrixXd x = 0.01 * design();
+    const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(4, 4) + x * x.transpose();
+    const Cholesky factor(covariance);
+    const double expected = factor.log_determinant() + readings.dot(factor.solve(readings).col(0));
+    CHECK(marginal_cost(x, readings) == Approx(expected).epsilon(1e-12));
+    CHECK(marginal_cost(Eigen::MatrixXd::Constant(4, 2, 1e200), readings) == HUGE_VAL);
+}
