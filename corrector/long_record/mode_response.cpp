@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,23 +16,14 @@ namespace a351::corrector::long_record {
 namespace {
 
 using Complex = std::complex<double>;
+using Series = std::span<const Complex>;
 constexpr double kCyclesPerBlock = 3.0;  // blocks with fewer cycles are not independent
 constexpr std::size_t kFewestBlocks = 4, kMostBlocks = 24;
 
-/// Sums over a block.
-struct Sums {
-    Complex acceleration, temperature;  ///< Sums of the series times the conjugate of the mode.
-    Sums& operator+=(const Sums& other) {
-        acceleration += other.acceleration;
-        temperature += other.temperature;
-        return *this;
-    }
-};
+/// Sums over a block of acceleration and temperature, each times the conjugate of the mode.
+using Sums = Eigen::Vector2cd;
 
-/// Returns the response H without a block.
-Complex without(const Sums& all, const Sums& block) {
-    return (all.acceleration - block.acceleration) / (all.temperature - block.temperature);
-}
+Complex response_of(const Sums& sums) { return sums(0) / sums(1); }
 
 /// Returns the period (s) of the mean frequency of a mode's power; 0 for a constant.
 double period_of(std::span<const double> mode, double step_s) {
@@ -45,15 +37,12 @@ double period_of(std::span<const double> mode, double step_s) {
     return frequency > 0.0 ? static_cast<double>(length) * step_s * power / frequency : 0.0;
 }
 
-std::vector<Sums> sums_of_blocks(const correlation::Spectrum& mode,
-                                 const correlation::Spectrum& temperature,
-                                 const correlation::Spectrum& acceleration, std::size_t margin,
+std::vector<Sums> sums_of_blocks(Series mode, Series temperature, Series acceleration,
                                  std::size_t blocks) {
-    std::vector<Sums> sums(blocks);
-    const std::size_t count = mode.size() - 2 * margin;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Complex z = std::conj(mode[margin + i]);
-        sums[i * blocks / count] += {acceleration[margin + i] * z, temperature[margin + i] * z};
+    std::vector<Sums> sums(blocks, Sums::Zero());
+    for (std::size_t i = 0; i < mode.size(); ++i) {
+        const Complex z = std::conj(mode[i]);
+        sums[i * blocks / mode.size()] += Sums(acceleration[i] * z, temperature[i] * z);
     }
     return sums;
 }
@@ -67,22 +56,21 @@ std::vector<Sums> sums_of_blocks(const correlation::Spectrum& mode,
 ///
 /// Reason: |gain|^2 / s^2 has the distribution F(2, 2 f), of which this is the quantile.  f is half
 /// the number of cycles in the record, at most 40.
-double chance_gain(const correlation::Spectrum& mode, const correlation::Spectrum& temperature,
-                   const correlation::Spectrum& acceleration, Complex gain, std::size_t margin,
+double chance_gain(Series mode, Series temperature, Series acceleration, Complex gain,
                    double cycles) {
     constexpr std::size_t kShifts = 40;
-    const std::size_t count = mode.size() - 2 * margin;
+    const std::size_t count = mode.size();
     correlation::Spectrum rest(count);
     double power = 0.0, square = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-        rest[i] = acceleration[margin + i] - gain * temperature[margin + i];
-        power += std::norm(mode[margin + i]);
+        rest[i] = acceleration[i] - gain * temperature[i];
+        power += std::norm(mode[i]);
     }
     for (std::size_t k = 1; k <= kShifts; ++k) {
         const std::size_t shift = k * count / (kShifts + 1);
         Complex sum = 0.0;
         for (std::size_t i = 0; i < count; ++i)
-            sum += rest[(i + shift) % count] * std::conj(mode[margin + i]);
+            sum += rest[(i + shift) % count] * std::conj(mode[i]);
         square += std::norm(sum / power) / static_cast<double>(kShifts);
     }
     const double freedom = std::min(static_cast<double>(kShifts), cycles / 2.0);
@@ -98,7 +86,7 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, const Sums&
     const auto blocks = static_cast<double>(sums.size());
     Complex mean = 0.0;
     std::vector<Complex> deviations;
-    for (const Sums& block : sums) deviations.push_back(std::log(without(all, block) / gain));
+    for (const Sums& block : sums) deviations.push_back(std::log(response_of(all - block) / gain));
     for (const Complex& deviation : deviations) mean += deviation / blocks;
     double along = 0.0, across = 0.0;
     for (const Complex& deviation : deviations) {
@@ -107,8 +95,7 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, const Sums&
     }
     // Jackknife variance of ln H: (B - 1) / B sum of (deviation - mean)^2
     const double share = (blocks - 1.0) / blocks;
-    const double quantile =
-        signal::students_t_quantile(blocks - 1.0, 1.0 - 0.5 * kSignificance);
+    const double quantile = signal::students_t_quantile(blocks - 1.0, 1.0 - 0.5 * kSignificance);
     const double factor = std::exp(quantile * std::sqrt(share * along));
     const double size = std::abs(gain), phase = std::arg(gain) * kDegPerRad;
     const double of_chance = chance < size ? std::asin(chance / size) * kDegPerRad : 180.0;
@@ -121,12 +108,11 @@ bool set_limits(ResponsePoint& point, const std::vector<Sums>& sums, const Sums&
     return factor < kMostFactor && chance * kMostFactor < size;
 }
 
-/// Returns |sum y x*|^2 / (sum |x|^2 sum |y|^2) without the margins; 0 for a constant.
-double squared_correlation(const correlation::Spectrum& x, const correlation::Spectrum& y,
-                           std::size_t margin) {
+/// Returns |sum y x*|^2 / (sum |x|^2 sum |y|^2); 0 for a constant.
+double squared_correlation(Series x, Series y) {
     Complex xy = 0.0;
     double xx = 0.0, yy = 0.0;
-    for (std::size_t i = margin; i + margin < x.size(); ++i) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
         xy += y[i] * std::conj(x[i]);
         xx += std::norm(x[i]);
         yy += std::norm(y[i]);
@@ -165,13 +151,18 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
                 "a record of {} h", text::fixed(std::ceil(kNeeded * point.period_s / 3600.0), 0));
             continue;
         }
-        const correlation::Spectrum z = correlation::analytic_signal(mode);
-        const auto sums = sums_of_blocks(z, temperature, acceleration, margin, blocks);
-        point.coherence = squared_correlation(z, acceleration, margin);
-        Sums all;
+        // Half a period at either end is left out, where the analytic signals are wrong.
+        const auto inner = [margin](Series whole) {
+            return whole.subspan(margin, whole.size() - 2 * margin);
+        };
+        const correlation::Spectrum analytic = correlation::analytic_signal(mode);
+        const Series z = inner(analytic), t = inner(temperature), a = inner(acceleration);
+        const auto sums = sums_of_blocks(z, t, a, blocks);
+        point.coherence = squared_correlation(z, a);
+        Sums all = Sums::Zero();
         for (const Sums& block : sums) all += block;
-        const Complex gain = all.acceleration / all.temperature;
-        const double chance = chance_gain(z, temperature, acceleration, gain, margin, cycles);
+        const Complex gain = response_of(all);
+        const double chance = chance_gain(z, t, a, gain, cycles);
         if (!std::isnormal(std::abs(gain)) || !std::isfinite(chance)) {
             point.refusal = text::message("temperature or acceleration is constant");
             point.needed = text::message("a record in which both vary");
