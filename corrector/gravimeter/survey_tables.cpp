@@ -16,9 +16,8 @@ namespace {
 constexpr int kDecimals = 5;
 
 /// Returns the number with few decimals, or an empty cell.
-template <class Quantity>
-std::string cell(const std::optional<Quantity>& value) {
-    return value ? text::fixed(value->value(), kDecimals) : "";
+std::string cell(const std::optional<MilliGal>& value) {
+    return text::fixed_or(value, kDecimals, "");
 }
 
 std::string exact_cell(const std::optional<Metres>& value) {
@@ -35,11 +34,6 @@ std::string safe_cell(std::string_view text) {
     return safe;
 }
 
-/// Returns the effect on gravity of the tide that a correction removed.
-std::optional<MilliGal> tide_of(const std::optional<MilliGal>& correction) {
-    return correction ? std::optional(-*correction) : std::nullopt;
-}
-
 std::string observations_csv(const std::vector<Stay>& stays, const TableOptions& options) {
     std::string csv = fmt::format(
         "site,occupation,outlier,time_utc,{}acceleration_mgal,temperature_degc,instrument,loop,"
@@ -47,17 +41,17 @@ std::string observations_csv(const std::vector<Stay>& stays, const TableOptions&
         options.keeps_tide ? "earth_tide_mgal," : "");
     for (const Stay& stay : stays) {
         const StayAverage average = average_of(stay, options.average);
-        const std::optional<MilliGal> tide = tide_of(average.tide_correction);
-        if (options.keeps_tide && !tide)
+        const std::optional<MilliGal>& correction = average.tide_correction;
+        if (options.keeps_tide && !correction)
             throw InputError(
                 fmt::format("{} ({}): {} removed no tide from its readings; allowed: --tide remove",
                             stay.site, stay.occupation, stay.instrument));
         // The instrument corrects its readings for temperature, so temperature_degc stays empty.
-        csv += fmt::format("{},{},0,{},{}{},,{},{},{},,{},{}\n", stay.site, stay.occupation,
-                           to_rfc3339(average.time), options.keeps_tide ? cell(tide) + "," : "",
-                           cell(std::optional(average.value + tide.value_or(MilliGal(0.0)))),
-                           stay.instrument, stay.loop, exact_cell(stay.readings.front()->height),
-                           cell(average.sd), average.count);
+        csv += fmt::format(
+            "{},{},0,{},{}{},,{},{},{},,{},{}\n", stay.site, stay.occupation,
+            to_rfc3339(average.time), options.keeps_tide ? cell(-*correction) + "," : "",
+            cell(average.value - correction.value_or(MilliGal(0.0))), stay.instrument, stay.loop,
+            exact_cell(stay.readings.front()->height), cell(average.sd), average.count);
     }
     return csv;
 }
