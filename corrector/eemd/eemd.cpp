@@ -126,10 +126,10 @@ double energy(std::span<const double> values) {
 /// The record scaled for the decomposition, and the scale back to its unit.
 class Preparation {
 public:
-    Preparation(std::span<const double> signal, const Options& options)
-        : exponent(checked_exponent(signal, options)), scaled_(signal.size()) {
-        std::transform(signal.begin(), signal.end(), scaled_.begin(),
-                       [this](double value) { return std::ldexp(value, -exponent); });
+    Preparation(std::span<const double> signal, const Options& options) {
+        validate(options);
+        exponent = common_exponent(signal);
+        for (const double value : signal) scaled_.push_back(std::ldexp(value, -exponent));
         const std::size_t n = signal.size();
         plan.noise_level = options.noise_ratio * standard_deviation(scaled_);
         plan.residue_origin = mean_of(scaled_);
@@ -148,24 +148,18 @@ public:
 
     /// Returns the ensemble mean of a sum over the members, not yet in the unit of the record.
     [[nodiscard]] std::vector<double> mean(std::span<const double> sum) const {
-        std::vector<double> values(sum.size());
-        std::transform(sum.begin(), sum.end(), values.begin(),
-                       [this](double value) { return value / plan.members; });
+        std::vector<double> values(sum.begin(), sum.end());
+        for (double& value : values) value /= plan.members;
         return values;
     }
     void restore_unit(std::span<double> values) const {
         for (double& value : values) value = std::ldexp(value, exponent);
     }
 
-    const int exponent;
+    int exponent = 0;
     EnsemblePlan plan;
 
 private:
-    static int checked_exponent(std::span<const double> signal, const Options& options) {
-        validate(options);
-        return common_exponent(signal);
-    }
-
     std::vector<double> scaled_;
 };
 

@@ -4,25 +4,19 @@ namespace a351::corrector::eemd {
 namespace {
 
 /// Counts the consecutive sifts in which the number of extrema changed by at most one.
-class Stability {
-public:
-    void observe(std::size_t extrema, bool first_is_maximum) noexcept {
-        const std::size_t maxima = (extrema + (first_is_maximum ? 1 : 0)) / 2;
-        const std::size_t minima = extrema - maxima;
-        const auto distance = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
-        const std::size_t change = distance(maxima, maxima_) + distance(minima, minima_);
-        repeats_ = !first_ && change <= 1 ? repeats_ + 1 : 0;
-        first_ = false;
-        maxima_ = maxima;
-        minima_ = minima;
-    }
-    [[nodiscard]] int repeats() const noexcept { return repeats_; }
+struct Stability {
+    std::size_t maxima = 0, minima = 0;
+    int repeats = -1;  ///< -1 before the first curve.
 
-private:
-    bool first_ = true;
-    std::size_t maxima_ = 0;
-    std::size_t minima_ = 0;
-    int repeats_ = 0;
+    void observe(std::size_t extrema, bool first_is_maximum) noexcept {
+        const std::size_t maxima_now = (extrema + (first_is_maximum ? 1 : 0)) / 2;
+        const std::size_t minima_now = extrema - maxima_now;
+        const auto distance = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
+        const std::size_t change = distance(maxima_now, maxima) + distance(minima_now, minima);
+        repeats = repeats >= 0 && change <= 1 ? repeats + 1 : 0;
+        maxima = maxima_now;
+        minima = minima_now;
+    }
 };
 
 }  // namespace
@@ -49,7 +43,7 @@ std::span<const double> EmdWorkspace::next_mode(const SiftOptions& options) noex
         if (sifts > 0) find_extrema(curve);
         if (s_number != nullptr) {
             stability.observe(knots_.extrema_count(), knots_.first_is_maximum());
-            if (stability.repeats() >= s_number->repeats && has_extrema_of_correct_sign()) break;
+            if (stability.repeats >= s_number->repeats && has_extrema_of_correct_sign()) break;
         }
         sift(curve, options.ends);
         curve = mode_.data();
