@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// White Gaussian noise in plain loops over blocks, compiled once for every instruction set.  The
-/// rules are in sift_kernels.hpp, the formula is in noise.hpp.
+/// rules are in sift_kernels.hpp, the formula is there too.
 ///
 /// Only additions, multiplications, divisions and roots of doubles are used, which IEEE 754 rounds
 /// exactly, and operations on integers.  The logarithm and the sine are series, written out below.
@@ -72,7 +72,7 @@ inline double natural_log(double u) {
 /// @param member  upper half of the counter.
 /// @param seed  key of the generator.
 /// @param w0, w1, w2, w3  receive kNoiseBlock words each, one per pair of samples.
-/// Source of the constants: J. K. Salmon et al., SC11, 2011 (noise.hpp).
+/// Source of the constants: J. K. Salmon et al., SC11, 2011 (sift_kernels.hpp).
 inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::uint64_t seed,
                          std::uint32_t* w0, std::uint32_t* w1, std::uint32_t* w2,
                          std::uint32_t* w3) {
@@ -112,7 +112,7 @@ inline void philox_block(std::uint64_t first_pair, std::uint64_t member, std::ui
 /// w3 give the angle, as a fraction of a turn.
 ///
 /// The angle is reduced to an eighth of a turn by symmetry.  Sine and cosine there are Taylor
-/// series to the powers 17 and 16 (the first term left out is below 2^-53).  Accuracy: noise.hpp.
+/// series to the powers 17 and 16 (the first term left out is below 2^-53).  Accuracy: sift_kernels.hpp.
 inline void transform_block(const std::uint32_t* w0, const std::uint32_t* w1,
                             const std::uint32_t* w2, const std::uint32_t* w3, double* cosine,
                             double* sine) {

@@ -69,8 +69,26 @@ struct SiftKernels {
                                    const std::uint64_t* starts, const double* x,
                                    std::size_t first_segment, const SplineArrays& arrays);
 
-    /// Fills n samples with white noise, see noise.hpp.
-    /// @param noise  (n); nothing beyond is written.
+    /// Fills n samples with independent Gaussian noise of mean 0 and variance 1, as a function of
+    /// seed, member and sample, so that any thread can make any part of it.
+    ///
+    /// Samples 2 i and 2 i + 1 are sqrt(-2 ln u) cos(2 pi v) and sqrt(-2 ln u) sin(2 pi v), with u and
+    /// v uniform on multiples of 2^-53, 0 < u <= 1 and 0 <= v < 1, from the words of Philox 4x32-10
+    /// with counter (i, member) and key seed.  Hence a longer request begins with the shorter one, and
+    /// the largest magnitude is sqrt(2 ln 2^53) = 8.6.
+    ///
+    /// Only exactly rounded operations are used, so that the bits do not depend on the platform's
+    /// mathematical library.  Accuracy: within 1e-13 of the formula (tests/unit/eemd/noise_test.cpp).
+    ///
+    /// Mean, variance, fourth moment and correlation of neighbours are those of white Gaussian noise
+    /// within four standard errors of 10^6 samples (noise_test.cpp).
+    ///
+    /// @param seed, member  any; each pair of values gives a different series.  Neighbouring values
+    ///                      give unrelated series.
+    /// @param noise         (n), any n, also 0; nothing beyond is written.
+    /// Sources: J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC11, 2011,
+    /// doi:10.1145/2063384.2063405; G. E. P. Box and M. E. Muller, Ann. Math. Stat. 29(2), 610-611,
+    /// 1958.
     void (*fill_white_noise)(std::uint64_t seed, std::uint64_t member, double* noise,
                              std::size_t n);
 

@@ -7,8 +7,8 @@
 
 #include "corrector/eemd/eemd.hpp"
 #include "corrector/eemd/ensemble.hpp"
-#include "corrector/eemd/noise.hpp"
 #include "protocol/signal/decimation.hpp"
+#include "tests/support/white_noise.hpp"
 
 namespace {
 

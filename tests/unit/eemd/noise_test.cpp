@@ -1,8 +1,8 @@
-#include "corrector/eemd/noise.hpp"
 
 #include <array>
 #include "tests/support/catch.hpp"
 
+#include "tests/support/white_noise.hpp"
 #include "tests/unit/eemd/series.hpp"
 
 namespace a351::corrector::eemd {

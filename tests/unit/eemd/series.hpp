@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "corrector/eemd/eemd.hpp"
-#include "corrector/eemd/noise.hpp"
+#include "tests/support/white_noise.hpp"
 
 namespace a351::corrector::eemd {
 

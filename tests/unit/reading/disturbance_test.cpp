@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include "tests/support/catch.hpp"
-
-#include "corrector/eemd/noise.hpp"
+#include "tests/support/white_noise.hpp"
 
 using namespace a351::corrector::eemd;
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "corrector/eemd/noise.hpp"
 #include "corrector/reading/representative_value.hpp"
+#include "tests/support/white_noise.hpp"
 
 namespace a351::corrector::reading {
 

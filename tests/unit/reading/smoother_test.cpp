@@ -6,8 +6,7 @@
 #include <limits>
 #include <numbers>
 #include "tests/support/catch.hpp"
-
-#include "corrector/eemd/noise.hpp"
+#include "tests/support/white_noise.hpp"
 
 using namespace a351::corrector::eemd;
 

@@ -5,8 +5,8 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/eemd/extrema.hpp"
-#include "corrector/eemd/noise.hpp"
 #include "corrector/reading/smoother.hpp"
+#include "tests/support/white_noise.hpp"
 
 using namespace a351::corrector::eemd;
 
