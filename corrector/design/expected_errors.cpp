@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/archive_series/on_all_cores.hpp"
 #include "corrector/design/planned_day.hpp"
-#include "corrector/reading/on_all_cores.hpp"
 #include "corrector/whole_day/day_model.hpp"
 
 namespace a351::corrector::design {
@@ -42,7 +42,7 @@ Squares squares_of(PlannedDay day, const PlannedUnit& unit, bool has_differences
 std::vector<Squares> squares_of_courses(const Plan& plan, const std::vector<text::Site>& sites,
                                         const PlannedUnit& unit, bool has_differences) {
     std::vector<Squares> all(kCourses);
-    reading::on_all_cores(kCourses, [&](std::size_t course) {
+    archive_series::on_all_cores(kCourses, [&](std::size_t course) {
         all[course] = squares_of(planned_day(plan, sites, unit, course), unit, has_differences);
     });
     return all;

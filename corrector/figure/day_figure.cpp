@@ -115,7 +115,7 @@ void plot_samples(Panel& panel, const model::SurveyCorrection& result,
 }
 
 void plot_temperatures(Figure& figure, const model::SurveyCorrection& result,
-                       const std::vector<reading::MinuteTemperature>& course) {
+                       const std::vector<archive_series::MinuteTemperature>& course) {
     std::string course_lines, reading_lines;
     for (std::size_t i = 0; i < course.size(); ++i) {
         const bool is_gap =
@@ -171,7 +171,7 @@ Axis time_axis(UtcTime first, UtcTime last) {
 }  // namespace
 
 Figure day_figure(const model::SurveyCorrection& result, const std::vector<ReadingRecord>& records,
-                  const std::vector<reading::MinuteTemperature>& course,
+                  const std::vector<archive_series::MinuteTemperature>& course,
                   const std::vector<reading::VerdictSpan>& verdicts) {
     const std::vector<Stay> stays = stays_of(result, records);
     UtcTime first = stays.front().start, last = first;

@@ -16,10 +16,10 @@
 #include <optional>
 #include <vector>
 
+#include "corrector/archive_series/temperature_course.hpp"
 #include "corrector/figure/figure.hpp"
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/representative_value.hpp"
-#include "corrector/reading/temperature_course.hpp"
 #include "corrector/reading/verdict_course.hpp"
 #include "protocol/text/sites.hpp"
 
@@ -104,7 +104,7 @@ struct ReadingRecord {
 /// @param verdicts  a state that is not known is left out; may be empty.
 [[nodiscard]] Figure day_figure(const model::SurveyCorrection& result,
                                 const std::vector<ReadingRecord>& records,
-                                const std::vector<reading::MinuteTemperature>& course,
+                                const std::vector<archive_series::MinuteTemperature>& course,
                                 const std::vector<reading::VerdictSpan>& verdicts);
 
 }  // namespace a351::corrector::figure

@@ -49,7 +49,8 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey, 
 
 }  // namespace
 
-reading::OccupationRows read_survey(const SurveyFile& survey, const reading::Progress& progress) {
+reading::OccupationRows read_survey(const SurveyFile& survey,
+                                    const archive_series::Progress& progress) {
     const reading::SurveySource source = source_of(survey);
     const reading::SurveyStays stays = reading::read_survey_inputs(source);
     std::vector<text::Message> warnings;

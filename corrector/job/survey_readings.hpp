@@ -34,7 +34,7 @@ namespace a351::corrector::job {
 /// @throws InputError  metadata or occupations cannot be read; no occupation has a value; the
 ///                     calibration is of another unit; the tide is not known for all readings.
 [[nodiscard]] reading::OccupationRows read_survey(const SurveyFile& survey,
-                                                  const reading::Progress& progress);
+                                                  const archive_series::Progress& progress);
 
 /// Completes the options of a survey with what its readings allow: sets the steps of the amendments
 /// that divide the readings, and removes base and datum stations without a row, with a warning for

@@ -225,7 +225,7 @@ void describe_inputs(LongRecord& record, const std::filesystem::path& root,
         for (auto& file : archive_series::files_of(root, epoch, {begin, begin, end}))
             if (std::ranges::find(files, file) == files.end()) files.push_back(std::move(file));
     std::vector<text::InputFile> inputs(files.size());
-    reading::on_all_cores(files.size(), [&](std::size_t i) {
+    archive_series::on_all_cores(files.size(), [&](std::size_t i) {
         inputs[i] = text::describe_input("archive", files[i]);
     });
     record.inputs.insert(record.inputs.end(), inputs.begin(), inputs.end());
@@ -234,7 +234,7 @@ void describe_inputs(LongRecord& record, const std::filesystem::path& root,
 }  // namespace
 
 LongRecord read_archive_record(const std::filesystem::path& root, const RecordWindow& window,
-                               const reading::Progress& progress) {
+                               const archive_series::Progress& progress) {
     const std::filesystem::path metadata = root / "metadata" / "station.xml";
     const std::vector<Epoch> epochs = archive_series::read_epochs(metadata);
     const UtcTime begin = window.from.value_or(UtcTime::min());

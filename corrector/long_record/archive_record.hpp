@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "corrector/archive_series/on_all_cores.hpp"
 #include "corrector/long_record/long_record.hpp"
-#include "corrector/reading/on_all_cores.hpp"
 
 namespace a351::corrector::long_record {
 
@@ -49,6 +49,6 @@ struct RecordWindow {
 ///                     within 10 %, or if a part would have another step than the rest.
 [[nodiscard]] LongRecord read_archive_record(const std::filesystem::path& root,
                                              const RecordWindow& window,
-                                             const reading::Progress& progress);
+                                             const archive_series::Progress& progress);
 
 }  // namespace a351::corrector::long_record

@@ -173,7 +173,7 @@ std::optional<int> record_stages(double step_s) {
 }
 
 LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow& window,
-                           const reading::Progress& progress) {
+                           const archive_series::Progress& progress) {
     constexpr std::size_t kMegabyte = 1'000'000;
     Rows rows(file, window);
     std::vector<Row> first;

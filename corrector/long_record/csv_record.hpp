@@ -38,7 +38,7 @@ namespace a351::corrector::long_record {
 ///                     and line.
 [[nodiscard]] LongRecord read_csv_record(const std::filesystem::path& file,
                                          const RecordWindow& window,
-                                         const reading::Progress& progress);
+                                         const archive_series::Progress& progress);
 
 /// Returns the number of decimation stages of 10 from a step to 20 s, 0 to kMostRecordStages: 3 for
 /// 0.02 s, 0 for 20 s.

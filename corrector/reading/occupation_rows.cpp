@@ -212,7 +212,7 @@ SurveyStays read_survey_inputs(const SurveySource& source) {
 }
 
 OccupationRows average_occupations(const SurveySource& source, const SurveyStays& stays,
-                                   const Progress& progress) {
+                                   const archive_series::Progress& progress) {
     const auto& [sites, list, amendments, metadata, epoch_of_file] = stays;
     OccupationRows result;
     Epoch epoch = epoch_of_file;
@@ -231,7 +231,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
                                       : put_vertical_last(samples, epoch, windows, metadata);
 
     std::vector<AveragedSetUp> set_ups(windows.size());
-    on_all_cores(
+    archive_series::on_all_cores(
         windows.size(),
         [&](std::size_t i) { set_ups[i] = average(samples, epoch, windows[i], source.averaging); },
         progress);

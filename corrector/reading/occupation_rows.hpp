@@ -19,14 +19,14 @@
 #include <vector>
 
 #include "corrector/archive_series/epoch.hpp"
+#include "corrector/archive_series/on_all_cores.hpp"
+#include "corrector/archive_series/temperature_course.hpp"
 #include "corrector/reading/amendments.hpp"
 #include "corrector/reading/day_record.hpp"
 #include "corrector/reading/finding.hpp"
 #include "corrector/reading/occupation_list.hpp"
-#include "corrector/reading/on_all_cores.hpp"
 #include "corrector/reading/representative_value.hpp"
 #include "corrector/reading/survey_row.hpp"
-#include "corrector/reading/temperature_course.hpp"
 #include "corrector/reading/verdict_course.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
@@ -76,7 +76,8 @@ struct SurveyStays {
 struct OccupationRows {
     std::vector<SurveyRow> rows;  ///< In order of time, with references; tides are 0.
     std::vector<RepresentativeValue> records;           ///< Record of each row.
-    std::vector<MinuteTemperature> temperature_course;  ///< Temperature over the whole survey.
+    /// Temperature over the whole survey.
+    std::vector<archive_series::MinuteTemperature> temperature_course;
     std::vector<VerdictSpan> verdicts;    ///< Verdicts of the recorder in this time, if logged.
     std::optional<DayRecord> day;         ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;        ///< Occupations without a value, by start.
@@ -124,6 +125,6 @@ struct OccupationRows {
 /// @throws std::system_error      a file of the archive cannot be read, or no thread started.
 [[nodiscard]] OccupationRows average_occupations(const SurveySource& source,
                                                  const SurveyStays& stays,
-                                                 const Progress& progress);
+                                                 const archive_series::Progress& progress);
 
 }  // namespace a351::corrector::reading

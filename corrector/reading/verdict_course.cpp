@@ -5,8 +5,9 @@
 
 namespace a351::corrector::reading {
 
-std::vector<VerdictSpan> verdict_course(std::vector<events::Event> events,
-                                        const std::vector<MinuteTemperature>& course) {
+std::vector<VerdictSpan> verdict_course(
+    std::vector<events::Event> events,
+    const std::vector<archive_series::MinuteTemperature>& course) {
     std::erase_if(events, [](const events::Event& event) {
         return event.type != "verdict" || !event.details.contains("state");
     });

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "corrector/reading/temperature_course.hpp"
+#include "corrector/archive_series/temperature_course.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/event_log.hpp"
 
@@ -25,7 +25,8 @@ struct VerdictSpan {
 /// before a pause of the recorder does not fill the pause.
 /// @param events  in any order.
 /// @param course  in order of time.
-[[nodiscard]] std::vector<VerdictSpan> verdict_course(std::vector<events::Event> events,
-                                                      const std::vector<MinuteTemperature>& course);
+[[nodiscard]] std::vector<VerdictSpan> verdict_course(
+    std::vector<events::Event> events,
+    const std::vector<archive_series::MinuteTemperature>& course);
 
 }  // namespace a351::corrector::reading

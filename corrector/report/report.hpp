@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
+#include "corrector/archive_series/temperature_course.hpp"
 #include "corrector/long_record/record_result.hpp"
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/representative_value.hpp"
-#include "corrector/reading/temperature_course.hpp"
 #include "corrector/reading/verdict_course.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
@@ -37,9 +37,10 @@ namespace a351::corrector::report {
 struct ReportSources {
     std::string title;
     std::vector<text::Site> sites;
-    std::vector<reading::RepresentativeValue> records;           ///< Records of the rows.
-    std::vector<reading::MinuteTemperature> temperature_course;  ///< Temperature of the sensor.
-    std::vector<reading::VerdictSpan> verdicts;                  ///< Verdicts of the recorder.
+    std::vector<reading::RepresentativeValue> records;  ///< Records of the rows.
+    /// Temperature of the sensor.
+    std::vector<archive_series::MinuteTemperature> temperature_course;
+    std::vector<reading::VerdictSpan> verdicts;         ///< Verdicts of the recorder.
     std::vector<text::InputFile> inputs;
     /// Entries skipped or left out, with reasons; the report adds the remarks of the result.
     std::vector<text::Message> warnings;

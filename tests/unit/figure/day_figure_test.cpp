@@ -68,7 +68,7 @@ TEST_CASE("a stay without a value is on the axis of the day", "[report][figures]
 TEST_CASE("the curve of the day's temperature is interrupted where nothing was recorded",
           "[report][figures]") {
     const SurveyCorrection result = corrected(made_up::day());
-    std::vector<MinuteTemperature> course;
+    std::vector<archive_series::MinuteTemperature> course;
     for (const int minute : {0, 1, 5})
         course.push_back({made_up::kMorning + std::chrono::minutes(minute), DegC(42.0 + minute)});
     CHECK_THAT(day_figure(result, {}, course, {}).data,

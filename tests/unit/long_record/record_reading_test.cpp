@@ -11,12 +11,12 @@
 
 using namespace a351;
 using namespace a351::corrector::long_record;
-using namespace a351::corrector::reading;
+using namespace a351::corrector;
 
 namespace {
 
 const UtcTime kReadingStart = *parse_rfc3339("2026-03-01T00:00:00Z");
-const Progress kSilent = [](std::size_t, std::size_t) {};
+const archive_series::Progress kSilent = [](std::size_t, std::size_t) {};
 
 std::string rows(double step_s, int first, int behind) {
     std::string text;

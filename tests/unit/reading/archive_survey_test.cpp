@@ -9,6 +9,7 @@
 
 using namespace a351;
 using namespace a351::corrector::job;
+using namespace a351::corrector;
 using namespace a351::corrector::reading;
 using namespace a351::corrector::tide;
 using namespace std::chrono_literals;
@@ -71,7 +72,7 @@ TEST_CASE("the result contains the record of each row and the temperature of the
     // From a minute before the first start to a minute after the last stop, as far as there is a
     // record.
     REQUIRE(result.temperature_course.size() == 16);
-    for (const MinuteTemperature& minute : result.temperature_course) {
+    for (const archive_series::MinuteTemperature& minute : result.temperature_course) {
         const double seconds = seconds_between(Morning::kBegin, minute.middle);
         CHECK(minute.mean.value() ==
               Approx(Morning::temperature_degc(seconds)).epsilon(0).margin(kHalfCount_degc));

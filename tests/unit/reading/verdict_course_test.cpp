@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace a351;
+using namespace a351::corrector;
 using namespace a351::corrector::reading;
 using namespace std::chrono_literals;
 
@@ -11,7 +12,7 @@ TEST_CASE("a verdict lasts until the next one, but not over a pause of the recor
     const auto minute = [](int k) {
         return parse_rfc3339("2020-01-01T00:00:00Z").value() + k * 1min;
     };
-    std::vector<MinuteTemperature> course;
+    std::vector<archive_series::MinuteTemperature> course;
     for (const int k : {0, 1, 2, 10, 11}) course.push_back({minute(k) + 30s, DegC(40.0)});
     const auto event = [&](int k, const char* state) {
         return events::Event{"verdict", minute(k), {}, {}, {{"state", state}}};
