@@ -30,6 +30,7 @@
 #include "corrector/result/table_text.hpp"
 #include "corrector/result/unit_history.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/or_null.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::command {
@@ -82,16 +83,12 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
     nlohmann::ordered_json settings;
     settings["command"] = "survey";
     settings["name"] = survey.name;
-    settings["serial_number"] = read.serial_number.empty()
-                                    ? nlohmann::ordered_json(nullptr)
-                                    : nlohmann::ordered_json(read.serial_number);
+    settings["serial_number"] = text::or_null(read.serial_number);
     settings["model"] = survey.survey.model;
     settings["flags"] = survey.survey.use_flags ? "use" : "ignore";
     tide::describe_tide(settings, survey.tide);
     reduction::describe_reduction(settings, survey.reduction);
-    settings["bouguer_density_kg_per_m3"] =
-        survey.bouguer_density_kg_per_m3 ? nlohmann::ordered_json(*survey.bouguer_density_kg_per_m3)
-                                         : nullptr;
+    settings["bouguer_density_kg_per_m3"] = text::or_null(survey.bouguer_density_kg_per_m3);
     settings["base"] = result.options.base;
     settings["datum"] = survey.survey.datum;
     settings["trend"] =

@@ -19,6 +19,7 @@
 #include "corrector/result/table_text.hpp"
 #include "corrector/tide/tide_choice.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/or_null.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::command {
@@ -81,7 +82,7 @@ void correct_table(TableOptions options) {
     settings["flags"] = options.flags;
     tide::describe_tide(settings, tide);
     reduction::describe_reduction(settings, reduction);
-    settings["bouguer_density_kg_per_m3"] = density ? nlohmann::ordered_json(*density) : nullptr;
+    settings["bouguer_density_kg_per_m3"] = text::or_null(density);
     settings["base"] = result.options.base;
     settings["datum"] = options.survey.datum;
     settings["rate"] = "backward";

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/or_null.hpp"
 #include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector::reading {
@@ -287,16 +288,12 @@ std::string amendments_text(const std::vector<Amendment>& amendments) {
 nlohmann::ordered_json amendments_json(const std::vector<Amendment>& amendments) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Amendment& amendment : amendments) {
-        nlohmann::ordered_json& json = list.emplace_back();
-        json["kind"] = amendment.kind;
-        json["site"] = nullptr;
-        if (!amendment.site.empty()) json["site"] = amendment.site;
-        json["occupation"] = nullptr;
-        if (amendment.occupation) json["occupation"] = *amendment.occupation;
-        json["set_up"] = nullptr;
-        if (amendment.set_up) json["set_up"] = *amendment.set_up;
-        json["change"] = amendment.change;
-        json["reason"] = amendment.reason;
+        list.push_back({{"kind", amendment.kind},
+                        {"site", text::or_null(amendment.site)},
+                        {"occupation", text::or_null(amendment.occupation)},
+                        {"set_up", text::or_null(amendment.set_up)},
+                        {"change", amendment.change},
+                        {"reason", amendment.reason}});
     }
     return list;
 }

@@ -5,19 +5,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "protocol/text/or_null.hpp"
 #include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector::reading {
-namespace {
-
-template <class Value>
-nlohmann::ordered_json json_or_null(const Value& value, bool is_there) {
-    if (!is_there) return nullptr;
-    return value;
-}
-
-}  // namespace
-
 std::string_view to_text(FindingKind kind) {
     // In the order of the enumerators.
     constexpr std::array<std::string_view, 15> kTexts{
@@ -63,24 +54,20 @@ std::string amendment_head(std::string_view kind, const ListedSetUp& listed) {
 nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
     auto list = nlohmann::ordered_json::array();
     for (const Finding& finding : findings) {
-        nlohmann::ordered_json one;
-        one["kind"] = to_text(finding.kind);
-        one["code"] = finding.code;
-        one["is_headline"] = finding.is_headline;
-        one["site"] = json_or_null(finding.site, !finding.site.empty());
-        one["occupation"] =
-            json_or_null(finding.occupation.value_or(0), finding.occupation.has_value());
-        one["key"] = json_or_null(finding.key, !finding.key.empty());
-        one["time_utc"] = json_or_null(finding.time ? to_rfc3339(*finding.time, 3) : "",
-                                       finding.time.has_value());
-        one["size_mgal"] =
-            json_or_null(finding.size_mgal.value_or(0.0), finding.size_mgal.has_value());
-        one["u_mgal"] = json_or_null(finding.u_mgal.value_or(0.0), finding.u_mgal.has_value());
-        one["other_site"] = json_or_null(finding.other_site, !finding.other_site.empty());
-        one["text"] = finding.text.english();
-        one["text_parts"] = finding.text.to_json();
-        one["amendment"] = json_or_null(finding.amendment, !finding.amendment.empty());
-        list.push_back(std::move(one));
+        const auto time = finding.time ? to_rfc3339(*finding.time, 3) : "";
+        list.push_back({{"kind", to_text(finding.kind)},
+                        {"code", finding.code},
+                        {"is_headline", finding.is_headline},
+                        {"site", text::or_null(finding.site)},
+                        {"occupation", text::or_null(finding.occupation)},
+                        {"key", text::or_null(finding.key)},
+                        {"time_utc", text::or_null(time)},
+                        {"size_mgal", text::or_null(finding.size_mgal)},
+                        {"u_mgal", text::or_null(finding.u_mgal)},
+                        {"other_site", text::or_null(finding.other_site)},
+                        {"text", finding.text.english()},
+                        {"text_parts", finding.text.to_json()},
+                        {"amendment", text::or_null(finding.amendment)}});
     }
     return list;
 }

@@ -9,17 +9,13 @@
 #include <vector>
 
 #include "corrector/judgement/reading_grade.hpp"
+#include "corrector/result/joint_table.hpp"
+#include "protocol/text/or_null.hpp"
 
 namespace a351::corrector::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number_or_null(const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 /// Refusals that are usual in the field; the others keep their message.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kRefusals{{
@@ -65,16 +61,10 @@ std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
     return stays;
 }
 
-const model::StationValue* station_of(const model::SurveyCorrection& result,
-                                      const std::string& site) {
-    const auto station = std::ranges::find(result.stations, site, &model::StationValue::site);
-    return station == result.stations.end() ? nullptr : &*station;
-}
-
 /// Sets the value of a stay with rows.
 void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& result) {
     if (stay.rows.empty()) return;
-    const model::StationValue* const station = station_of(result, stay.site);
+    const model::StationValue* const station = result::find_station(result, stay.site);
     const bool is_whole_station = station != nullptr && station->row_count == stay.rows.size();
     double corrected = 0.0, left_out = 0.0;
     std::size_t predicted = 0;
@@ -92,7 +82,7 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
     if (is_whole_station && stay.rows.size() > 1 && station->u_gravity)
         u = station->u_gravity->value();
     json["gravity_mgal"] = corrected / n;
-    json["u_mgal"] = number_or_null(u);
+    json["u_mgal"] = text::or_null(u);
     const auto& reference = result.rows[stay.rows.front()].row.reference;
     if (!reference) return;
     if (predicted == stay.rows.size())
@@ -142,8 +132,8 @@ Json to_json(const GravitySoFar& so_far) {
     Json json;
     json["as_of_utc"] = instant(so_far.as_of);
     json["data_to_utc"] = instant(so_far.read ? so_far.read->data_end : std::nullopt);
-    json["reason"] = text_or_null(so_far.reason);
-    json["reason_text"] = text_or_null(so_far.reason_text);
+    json["reason"] = text::or_null(so_far.reason);
+    json["reason_text"] = text::or_null(so_far.reason_text);
     json["reason_parts"] = so_far.reason_text.empty()
                                ? Json(nullptr)
                                : Json(text::marked_message(so_far.reason_text).to_json());
@@ -155,7 +145,7 @@ Json to_json(const GravitySoFar& so_far) {
         so_far.result ? judgement::grade_readings(*so_far.result) : std::vector<judgement::ReadingGrade>();
     for (const Stay& stay : stays_of(rows_of(so_far), left_out)) {
         Json one;
-        one["key"] = text_or_null(stay.key);
+        one["key"] = text::or_null(stay.key);
         one["site"] = stay.site;
         one["occupation"] = stay.occupation;
         one["set_ups"] = stay.rows.size() + stay.left_out.size();

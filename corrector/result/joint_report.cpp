@@ -7,6 +7,7 @@
 #include "corrector/result/result_files.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
+#include "protocol/text/or_null.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -18,14 +19,8 @@ Json terms_json(const std::vector<model::JointTerms>& all, bool are_surveys) {
     for (const model::JointTerms& terms : all) {
         Json one;
         if (are_surveys) one["name"] = terms.name;
-        one["serial_number"] =
-            terms.serial_number.empty() ? Json(nullptr) : Json(terms.serial_number);
-        one["coefficients"] = Json::array();
-        for (const model::Coefficient& c : terms.coefficients)
-            one["coefficients"].push_back(
-                {{"name", c.name},
-                 {"value", c.value},
-                 {"standard_error", c.standard_error ? Json(*c.standard_error) : Json(nullptr)}});
+        one["serial_number"] = text::or_null(terms.serial_number);
+        one["coefficients"] = coefficients_json(terms.coefficients);
         list.push_back(std::move(one));
     }
     return list;
@@ -48,18 +43,22 @@ std::string joint_json(const JointResult& joint, const JointTables& tables) {
     json["program"] = "a351-correct";
     json["version"] = A351_VERSION;
     json["method"] = adjustment != nullptr ? "adjustment" : "none";
-    json["reason"] =
-        adjustment != nullptr ? Json(nullptr) : Json(std::get<text::Message>(joint).english());
-    json["units"] = adjustment != nullptr ? terms_json(adjustment->units, false) : Json(nullptr);
-    json["surveys"] = adjustment != nullptr ? terms_json(adjustment->surveys, true) : Json(nullptr);
-    json["placement_share"] = adjustment != nullptr ? share_json(adjustment->share) : Json(nullptr);
-    json["uncertainty_factor"] =
-        adjustment != nullptr ? Json(adjustment->uncertainty_factor) : Json(nullptr);
+    for (const char* const key :
+         {"reason", "units", "surveys", "placement_share", "uncertainty_factor"})
+        json[key] = nullptr;
+    std::optional<model::StationCovariance> covariance;
+    if (adjustment != nullptr) {
+        json["units"] = terms_json(adjustment->units, false);
+        json["surveys"] = terms_json(adjustment->surveys, true);
+        json["placement_share"] = share_json(adjustment->share);
+        json["uncertainty_factor"] = adjustment->uncertainty_factor;
+        covariance = adjustment->covariance;
+    } else {
+        json["reason"] = std::get<text::Message>(joint).english();
+    }
     json["stations"] = json_array(joint_columns(), tables.stations);
     json["differences"] = json_array(difference_columns(), tables.differences);
-    json["station_covariance"] =
-        covariance_json(adjustment != nullptr ? std::optional(adjustment->covariance)
-                                              : std::optional<model::StationCovariance>());
+    json["station_covariance"] = covariance_json(covariance);
     // Names of sites may be in any encoding, but JSON is UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

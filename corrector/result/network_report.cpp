@@ -8,6 +8,7 @@
 
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/or_null.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -17,7 +18,7 @@ using Json = nlohmann::ordered_json;
 /// Comparison of adjusted stations with references that the network does not hold.
 struct ReferenceCheck {
     std::size_t station_count = 0;
-    double rms_mgal = 0.0;
+    std::optional<double> rms_mgal = {};  ///< Absent without a station.
 };
 
 ReferenceCheck check_references(const model::SurveyCorrection& result,
@@ -69,11 +70,11 @@ std::string network_text(const model::SurveyCorrection& result) {
         "stations.csv\n",
         sd);
     const ReferenceCheck check = check_references(result, network);
-    if (check.station_count > 0) {
+    if (check.rms_mgal) {
         text += fmt::format(
             "stations whose reference is known but not held: {}, off by {} mGal rms (not in "
             "sample)\n",
-            check.station_count, text::fixed(check.rms_mgal, 3));
+            check.station_count, text::fixed(*check.rms_mgal, 3));
     }
     return text;
 }
@@ -83,7 +84,6 @@ Json network_json(const model::SurveyCorrection& result) {
     if (adjusted == nullptr) return nullptr;
     const model::NetworkPart& network = *adjusted;
     const auto passes = network.passes_global_test();
-    const auto s0 = network.s0();
     const ReferenceCheck check = check_references(result, network);
     Json json;
     json["datum_sd_mgal"] = result.options.network.datum_sd_mgal;
@@ -94,12 +94,11 @@ Json network_json(const model::SurveyCorrection& result) {
     json["global_test"] = {{"alpha", model::kGlobalTestAlpha},
                            {"low", network.chi_square_low},
                            {"high", network.chi_square_high},
-                           {"passed", passes ? Json(*passes) : Json(nullptr)}};
-    json["s0"] = s0 ? Json(*s0) : Json(nullptr);
+                           {"passed", text::or_null(passes)}};
+    json["s0"] = text::or_null(network.s0());
     json["u_gravity"] = "a priori";
-    json["references_not_held"] = {
-        {"stations", check.station_count},
-        {"rms_mgal", check.station_count > 0 ? Json(check.rms_mgal) : Json(nullptr)}};
+    json["references_not_held"] = {{"stations", check.station_count},
+                                   {"rms_mgal", text::or_null(check.rms_mgal)}};
     json["rows"] = Json::array();
     for (const model::NetworkRow& row : network.rows) {
         json["rows"].push_back({{"row", row.label},

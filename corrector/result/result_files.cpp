@@ -13,13 +13,12 @@
 #include "corrector/result/network_report.hpp"
 #include "corrector/result/scale_report.hpp"
 #include "corrector/result/side_by_side_report.hpp"
+#include "protocol/text/or_null.hpp"
 
 namespace a351::corrector::result {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json interval_json(const std::optional<model::Interval>& interval) {
     return interval ? Json{interval->low, interval->high} : Json(nullptr);
@@ -76,6 +75,15 @@ Json priors_json(const model::SurveyCorrection& result) {
 
 }  // namespace
 
+Json coefficients_json(const std::vector<model::Coefficient>& coefficients) {
+    Json list = Json::array();
+    for (const model::Coefficient& c : coefficients)
+        list.push_back({{"name", c.name},
+                        {"value", c.value},
+                        {"standard_error", text::or_null(c.standard_error)}});
+    return list;
+}
+
 Json covariance_json(const std::optional<model::StationCovariance>& covariance) {
     if (!covariance) return nullptr;
     return {{"sites", covariance->sites}, {"mgal2", matrix_json(covariance->mgal2)}};
@@ -127,24 +135,20 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
         json["reference_time_h_after_first_row"] = adjustment::kReferenceTime_h;
     }
     json["priors"] = priors_json(result);
-    json["coefficients"] = Json::array();
-    for (const model::Coefficient& c : result.coefficients) {
-        json["coefficients"].push_back(
-            {{"name", c.name}, {"value", c.value}, {"standard_error", json_of(c.standard_error)}});
-    }
+    json["coefficients"] = coefficients_json(result.coefficients);
     json["scales"] = scales_json(result.scales);
     json["side_by_side"] = side_by_side_json(result);
-    json["in_sample"] = {{"n", result.score.row_count},
-                         {"rms_mgal", json_of(result.score.rms_mgal)},
-                         {"s_mgal", json_of(result.score.s_mgal)},
-                         {"rms_before_drift_mgal", json_of(result.score.rms_before_drift_mgal)}};
-    json["cross_validated"] = {
-        {"loo_mgal", json_of(result.score.loo_mgal)},
-        {"loso_mgal", json_of(result.score.loso_mgal)},
-        {"choice_loso_mgal", json_of(result.choice_loso_mgal)},
-        {"loo_interval_95_mgal", interval_json(result.loo_interval_mgal)},
-        {"bootstrap_draws", model::kBootstrapDraws},
-        {"bootstrap_seed", result.options.seed}};
+    json["in_sample"] = {
+        {"n", result.score.row_count},
+        {"rms_mgal", text::or_null(result.score.rms_mgal)},
+        {"s_mgal", text::or_null(result.score.s_mgal)},
+        {"rms_before_drift_mgal", text::or_null(result.score.rms_before_drift_mgal)}};
+    json["cross_validated"] = {{"loo_mgal", text::or_null(result.score.loo_mgal)},
+                               {"loso_mgal", text::or_null(result.score.loso_mgal)},
+                               {"choice_loso_mgal", text::or_null(result.choice_loso_mgal)},
+                               {"loo_interval_95_mgal", interval_json(result.loo_interval_mgal)},
+                               {"bootstrap_draws", model::kBootstrapDraws},
+                               {"bootstrap_seed", result.options.seed}};
     json["choice_limit_mgal"] = result.choice ? Json(result.choice->limit_mgal) : Json(nullptr);
     json["network"] = network_json(result);
     json["goodness_of_fit"] = fit_tests_json(result);

@@ -46,6 +46,10 @@ namespace a351::corrector::result {
                                       const nlohmann::ordered_json& settings,
                                       const std::vector<text::InputFile>& inputs);
 
+/// Returns `coefficients` of result.json: name, value and standard error of each.
+[[nodiscard]] nlohmann::ordered_json coefficients_json(
+    const std::vector<model::Coefficient>& coefficients);
+
 /// Returns `station_covariance` of result.json; null without one.
 [[nodiscard]] nlohmann::ordered_json covariance_json(
     const std::optional<model::StationCovariance>& covariance);

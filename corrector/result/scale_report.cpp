@@ -6,6 +6,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/message.hpp"
+#include "protocol/text/or_null.hpp"
 
 namespace a351::corrector::result {
 
@@ -32,13 +33,12 @@ Json scales_json(const std::vector<model::ScaleEstimate>& scales) {
     Json list = Json::array();
     for (const model::ScaleEstimate& scale : scales) {
         const model::Interval limits = scale.limits();
-        list.push_back(
-            {{"instrument", scale.instrument.empty() ? Json(nullptr) : Json(scale.instrument)},
-             {"value", scale.value},
-             {"u", scale.u},
-             {"limits_95", {limits.low, limits.high}},
-             {"prior", {{"mean", scale.prior.mean}, {"sd", scale.prior.sd}}},
-             {"prior_share", scale.prior_share()}});
+        list.push_back({{"instrument", text::or_null(scale.instrument)},
+                        {"value", scale.value},
+                        {"u", scale.u},
+                        {"limits_95", {limits.low, limits.high}},
+                        {"prior", {{"mean", scale.prior.mean}, {"sd", scale.prior.sd}}},
+                        {"prior_share", scale.prior_share()}});
     }
     return list;
 }

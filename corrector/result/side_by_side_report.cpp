@@ -6,6 +6,7 @@
 #include "corrector/result/scale_report.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
+#include "protocol/text/or_null.hpp"
 
 namespace a351::corrector::result {
 
@@ -57,17 +58,15 @@ std::vector<Column<model::ComparedStation>> side_by_side_columns() {
 Json side_by_side_json(const model::SurveyCorrection& result) {
     if (!result.side_by_side) return nullptr;
     const model::SideBySide& both = *result.side_by_side;
-    const auto scatter = both.scatter_mgal();
     Json bias = nullptr;
     if (both.bias)
-        bias = {{"value", both.bias->value},
-                {"u", both.bias->standard_error ? Json(*both.bias->standard_error) : Json()}};
+        bias = {{"value", both.bias->value}, {"u", text::or_null(both.bias->standard_error)}};
     return {{"reference_scales", scales_json(both.scales)},
             {"reference_readings", both.reading_count},
-            {"reference_s0", both.s0 ? Json(*both.s0) : Json(nullptr)},
+            {"reference_s0", text::or_null(both.s0)},
             {"is_level_known", both.is_level_known},
             {"bias_mgal", bias},
-            {"scatter_mgal", scatter ? Json(*scatter) : Json(nullptr)},
+            {"scatter_mgal", text::or_null(both.scatter_mgal())},
             {"stations", json_array(side_by_side_columns(), both.stations)}};
 }
 
