@@ -40,38 +40,39 @@ namespace a351::corrector::result {
 /// for people.  In JSON it becomes null when the JSON is written.
 using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::string, UtcTime>;
 
-/// Returns the value as a cell; without a value an empty cell.
-///
-/// Gravity and acceleration become numbers in mGal.  std::string, bool and std::int64_t need no
-/// function: they convert to a cell by themselves.
+/// Returns the value as a cell; without a value an empty cell.  Quantities become numbers in their
+/// own unit, and a number of things is written without decimals.
 [[nodiscard]] inline Cell cell(double value) { return value; }
-[[nodiscard]] inline Cell cell(const std::optional<double>& value) {
-    return value ? Cell(*value) : Cell();
-}
-[[nodiscard]] inline Cell cell(MilliGal value) { return value.value(); }
-[[nodiscard]] inline Cell cell(const std::optional<MilliGal>& value) {
-    return value ? Cell(value->value()) : Cell();
-}
-/// Returns a number of things as a cell, which is written without decimals.
-[[nodiscard]] inline Cell cell_of_count(std::size_t count) {
-    return static_cast<std::int64_t>(count);
-}
-
+[[nodiscard]] inline Cell cell(bool is_so) { return is_so; }
+[[nodiscard]] inline Cell cell(int number) { return std::int64_t{number}; }
+[[nodiscard]] inline Cell cell(std::size_t count) { return static_cast<std::int64_t>(count); }
+[[nodiscard]] inline Cell cell(const std::string& text) { return text; }
 [[nodiscard]] inline Cell cell(UtcTime time) { return time; }
-[[nodiscard]] inline Cell cell(const std::optional<UtcTime>& time) {
-    return time ? Cell(*time) : Cell();
+template <class Unit>
+[[nodiscard]] Cell cell(Quantity<Unit> value) {
+    return value.value();
+}
+template <class Value>
+[[nodiscard]] Cell cell(const std::optional<Value>& value) {
+    return value ? cell(*value) : Cell();
 }
 
 /// Returns a function that gives a member of a row as its cell.
 template <class Row, class Value>
 [[nodiscard]] std::function<Cell(const Row&)> of(Value Row::*member) {
-    return [member](const Row& row) -> Cell {
-        if constexpr (std::is_same_v<Value, std::size_t>)
-            return cell_of_count(row.*member);
-        else if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, std::string>)
-            return row.*member;
+    return [member](const Row& row) { return cell(row.*member); };
+}
+
+/// Returns a function that gives a member of a part of a row as its cell, for example of a reading.
+/// @param part  a member of the row: a value, or an optional or a pointer, without which the cell is
+///              empty.
+template <class Row, class Holder, class Part, class Value>
+[[nodiscard]] std::function<Cell(const Row&)> of(Holder Row::*part, Value Part::*member) {
+    return [part, member](const Row& row) {
+        if constexpr (std::is_same_v<Holder, Part>)
+            return cell((row.*part).*member);
         else
-            return cell(row.*member);
+            return row.*part ? cell((*(row.*part)).*member) : Cell();
     };
 }
 

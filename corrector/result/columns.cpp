@@ -42,12 +42,12 @@ Column<model::CorrectedRow> of_model(std::string_view key, Value Part::*member, 
 Columns columns_of_records() {
     using R = const reading::RecordSummary&;
     return {
-        {"key", [](const model::CorrectedRow& row) { return row.row.key; }},
+        {"key", of(&model::CorrectedRow::row, &reading::SurveyRow::key)},
         of_record("series_mean_mgal", [](R r) { return cell(r.series_mean); }),
         of_record("series_minus_curve_mgal",
                   [](R r) { return cell(r.series_mean - r.curve_mean); }),
         of_record("standard_error_mgal", [](R r) { return cell(r.standard_error); }),
-        of_record("temperature_range_degc", [](R r) { return cell(r.temperature_range.value()); }),
+        of_record("temperature_range_degc", [](R r) { return cell(r.temperature_range); }),
         of_shape("temperature_is_monotone", reading::TemperatureShape::monotone),
         of_shape("temperature_is_half_wave", reading::TemperatureShape::half_wave),
         of_record("valid_samples", [](R r) { return cell(static_cast<double>(r.counts.valid)); }),
@@ -55,11 +55,11 @@ Columns columns_of_records() {
                   [](R r) { return cell(static_cast<double>(r.counts.partial)); }),
         of_record("missing_samples",
                   [](R r) { return cell(static_cast<double>(r.counts.missing)); }),
-        of_record("mean_x_g", [](R r) { return cell(r.x.mean.value()); }),
+        of_record("mean_x_g", [](R r) { return cell(r.x.mean); }),
         of_record("rms_x_mgal", [](R r) { return cell(r.x.rms); }),
-        of_record("mean_y_g", [](R r) { return cell(r.y.mean.value()); }),
+        of_record("mean_y_g", [](R r) { return cell(r.y.mean); }),
         of_record("rms_y_mgal", [](R r) { return cell(r.y.rms); }),
-        of_record("mean_z_g", [](R r) { return cell(r.z.mean.value()); }),
+        of_record("mean_z_g", [](R r) { return cell(r.z.mean); }),
         of_record("rms_z_mgal", [](R r) { return cell(r.z.rms); }),
         of_record("rectification_mgal", [](R r) { return cell(r.rectification); }),
         of_record("eemd_mgal", [](R r) { return cell(r.eemd_mean); }),
@@ -97,23 +97,17 @@ Cell expanded_uncertainty(const model::StationValue& station) {
     return station.u_gravity->value() * *station.coverage_factor;
 }
 
-/// Returns the column of a contribution to u, which only the whole-day model gives.
-Column<model::StationValue> part_column(std::string_view key, std::string_view heading,
-                                        whole_day::ErrorSource source) {
-    const auto cell_of = [source](const model::StationValue& station) -> Cell {
-        if (!station.errors) return {};
-        return station.errors->parts_mgal.at(static_cast<std::size_t>(source));
-    };
-    return {key, cell_of, {heading, 2}};
-}
-
-Column<model::StationValue> anomaly_column(std::string_view key, std::string_view heading,
-                                           MilliGal model::Anomalies::*member) {
-    const auto cell_of = [member](const model::StationValue& station) {
-        return station.anomalies ? cell((*station.anomalies).*member) : Cell();
-    };
-    return {key, cell_of, {heading}};
-}
+/// Contributions to u, which only the whole-day model gives: key of the column and heading, in the
+/// order of whole_day::ErrorSource.
+constexpr std::array<std::pair<std::string_view, std::string_view>, whole_day::kErrorSources>
+    kContributions{{{"u_placement_mgal", text::marked("Placement")},
+                    {"u_flicker_mgal", text::marked("Flicker")},
+                    {"u_white_mgal", text::marked("White")},
+                    {"u_levelling_mgal", text::marked("Levelling")},
+                    {"u_thermal_mgal", text::marked("Thermal")},
+                    {"u_drift_mgal", text::marked("Drift")},
+                    {"u_datum_mgal", text::marked("Datum")},
+                    {"u_scale_mgal", text::marked("Scale")}}};
 
 Columns columns_of_day() {
     using Day = model::WholeDayRow;
@@ -127,170 +121,149 @@ Columns columns_of_day() {
 }  // namespace
 
 std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyCorrection& result) {
-    using Row = const model::CorrectedRow&;
+    using Row = model::CorrectedRow;
+    using Read = reading::SurveyRow;
+    const auto read = [](auto member) { return of(&Row::row, member); };
     Columns columns{
-        {"site", [](Row row) { return row.row.site; }, {text::marked("Site"), 0, 'n'}},
-        {"occupation",
-         [](Row row) { return static_cast<std::int64_t>(row.row.occupation); },
-         {text::marked("Occ.")}},
-        {"time_utc",
-         [](Row row) { return cell(row.row.time); },
-         {text::marked("Time UTC"), 0, 'n'}},
-        {"start_utc", [](Row row) { return cell(row.row.start); }},
-        {"end_utc", [](Row row) { return cell(row.row.end); }},
-        {"used", of(&model::CorrectedRow::is_used), {text::marked("In fit"), 0, 'l'}},
+        {"site", read(&Read::site), {text::marked("Site"), 0, 'n'}},
+        {"occupation", read(&Read::occupation), {text::marked("Occ.")}},
+        {"time_utc", read(&Read::time), {text::marked("Time UTC"), 0, 'n'}},
+        {"start_utc", read(&Read::start)},
+        {"end_utc", read(&Read::end)},
+        {"used", of(&Row::is_used), {text::marked("In fit"), 0, 'l'}},
         {"flags",
-         [&result](Row row) { return flags_of(row, result.options); },
+         [&result](const Row& row) { return flags_of(row, result.options); },
          {text::marked("Flags"), 0, 'l'}},
         {"acceleration_mgal",
-         [](Row row) { return cell(row.row.measured()); },
+         [](const Row& row) { return cell(row.row.measured()); },
          {text::marked("Acceleration")}},
         {"temperature_degc",
-         [](Row row) {
-             return row.row.has_temperature ? Cell(row.row.temperature.value()) : Cell();
+         [](const Row& row) {
+             return row.row.has_temperature ? cell(row.row.temperature) : Cell();
          },
          {"T degC"}},
-        {"rate_degc_per_h", [](Row row) { return row.row.rate_degc_per_h; }, {"degC/h"}},
-        {"tide_mgal", [](Row row) { return cell(row.row.tide); }, {text::marked("Tide")}},
-        {"difference_mgal", of(&model::CorrectedRow::difference), {text::marked("Difference")}},
+        {"rate_degc_per_h", read(&Read::rate_degc_per_h), {"degC/h"}},
+        {"tide_mgal", read(&Read::tide), {text::marked("Tide")}},
+        {"difference_mgal", of(&Row::difference), {text::marked("Difference")}},
         {"temperature_correction_mgal",
-         of(&model::CorrectedRow::temperature_correction),
+         of(&Row::temperature_correction),
          {text::marked("T corr.")}},
-        {"rate_correction_mgal",
-         of(&model::CorrectedRow::rate_correction),
-         {text::marked("Rate corr.")}},
-        {"drift_correction_mgal",
-         of(&model::CorrectedRow::drift_correction),
-         {text::marked("Drift corr.")}},
-        {"corrected_mgal", of(&model::CorrectedRow::corrected), {text::marked("Corrected")}},
-        {"reference_mgal",
-         [](Row row) { return cell(row.row.reference); },
-         {text::marked("Reference")}},
-        {"residual_mgal", of(&model::CorrectedRow::residual), {text::marked("Residual")}},
-        {"leverage", of(&model::CorrectedRow::leverage)},
-        {"u_corrected_mgal", of(&model::CorrectedRow::u_corrected), {"u", 2}},
-        {"studentised_residual", of(&model::CorrectedRow::studentised_residual), {"t", 2}},
+        {"rate_correction_mgal", of(&Row::rate_correction), {text::marked("Rate corr.")}},
+        {"drift_correction_mgal", of(&Row::drift_correction), {text::marked("Drift corr.")}},
+        {"corrected_mgal", of(&Row::corrected), {text::marked("Corrected")}},
+        {"reference_mgal", read(&Read::reference), {text::marked("Reference")}},
+        {"residual_mgal", of(&Row::residual), {text::marked("Residual")}},
+        {"leverage", of(&Row::leverage)},
+        {"u_corrected_mgal", of(&Row::u_corrected), {"u", 2}},
+        {"studentised_residual", of(&Row::studentised_residual), {"t", 2}},
         of_model("corrected1_mgal", &model::PaperRow::corrected1),
         // The publication's Error (1) (Table 2); residual_mgal is its Error (2).
         of_model("residual1_mgal", &model::PaperRow::residual1),
     };
     const model::CorrectedRow& first = result.rows.front();
     if (first.row.height_correction)
-        append(columns, {{"instrument_height_m",
-                          [](Row row) {
-                              const auto height = row.row.instrument_height;
-                              return height ? Cell(height->value()) : Cell();
-                          }},
-                         {"height_correction_mgal",
-                          [](Row row) { return cell(row.row.height_correction); },
-                          {"Height corr."}}});
+        append(columns,
+               {{"instrument_height_m", read(&Read::instrument_height)},
+                {"height_correction_mgal", read(&Read::height_correction), {"Height corr."}}});
     if (first.row.pressure_correction)
-        append(columns, {{"pressure_hpa", [](Row row) { return cell(row.row.pressure_hpa); }},
+        append(columns, {{"pressure_hpa", read(&Read::pressure_hpa)},
                          {"pressure_correction_mgal",
-                          [](Row row) { return cell(row.row.pressure_correction); },
+                          read(&Read::pressure_correction),
                           {"Pressure corr.", 4}}});
     if (first.scale_correction)
-        columns.push_back({"scale_correction_mgal",
-                           of(&model::CorrectedRow::scale_correction),
-                           {text::marked("Scale corr.")}});
+        columns.push_back(
+            {"scale_correction_mgal", of(&Row::scale_correction), {text::marked("Scale corr.")}});
     if (!first.row.instrument.empty())
-        append(columns, {{"instrument",
-                          [](Row row) { return row.row.instrument; },
-                          {text::marked("Instrument"), 0, 'n'}},
-                         {"loop",
-                          [](Row row) { return static_cast<std::int64_t>(row.row.loop); },
-                          {text::marked("Loop")}}});
+        append(columns,
+               {{"instrument", read(&Read::instrument), {text::marked("Instrument"), 0, 'n'}},
+                {"loop", read(&Read::loop), {text::marked("Loop")}}});
     if (first.row.record) append(columns, columns_of_records());
     if (first.as<model::WholeDayRow>() != nullptr)
         append(columns, columns_of_day());
     else if (first.tilt_correction)
         columns.push_back(tilt_column());
-    columns.push_back({"doubt_physical", of(&model::CorrectedRow::doubt_physical)});
+    columns.push_back({"doubt_physical", of(&Row::doubt_physical)});
     append(columns, columns_of_grades(result));
     return columns;
 }
 
 std::vector<Column<model::StationValue>> station_columns(
     const std::vector<model::StationValue>& stations) {
-    std::vector<Column<model::StationValue>> columns{
-        {"site", of(&model::StationValue::site), {text::marked("Station"), 0, 'n'}},
-        {"n", of(&model::StationValue::row_count), {"n"}},
-        {"gravity_mgal", of(&model::StationValue::gravity), {text::marked("Gravity mGal")}},
-        {"u_gravity_mgal", of(&model::StationValue::u_gravity), {"u mGal", 2}},
-        {"reference_mgal", of(&model::StationValue::reference), {text::marked("Reference mGal")}},
-        {"residual_mgal", of(&model::StationValue::residual), {text::marked("Residual mGal")}},
-        {"redundancy", of(&model::StationValue::redundancy), {text::marked("Redundancy"), 2}},
-        {"flagged_only",
-         of(&model::StationValue::is_flagged_only),
-         {text::marked("Flagged only"), 0, 'l'}},
-        {"u_a_posteriori_mgal", of(&model::StationValue::u_a_posteriori)},
-        {"left_out_mgal", of(&model::StationValue::left_out), {text::marked("Left out mGal")}},
-        {"u_left_out_mgal", of(&model::StationValue::u_left_out)},
-        {"dof", of(&model::StationValue::dof)},
-        {"k_95", of(&model::StationValue::coverage_factor)},
+    using Row = model::StationValue;
+    std::vector<Column<Row>> columns{
+        {"site", of(&Row::site), {text::marked("Station"), 0, 'n'}},
+        {"n", of(&Row::row_count), {"n"}},
+        {"gravity_mgal", of(&Row::gravity), {text::marked("Gravity mGal")}},
+        {"u_gravity_mgal", of(&Row::u_gravity), {"u mGal", 2}},
+        {"reference_mgal", of(&Row::reference), {text::marked("Reference mGal")}},
+        {"residual_mgal", of(&Row::residual), {text::marked("Residual mGal")}},
+        {"redundancy", of(&Row::redundancy), {text::marked("Redundancy"), 2}},
+        {"flagged_only", of(&Row::is_flagged_only), {text::marked("Flagged only"), 0, 'l'}},
+        {"u_a_posteriori_mgal", of(&Row::u_a_posteriori)},
+        {"left_out_mgal", of(&Row::left_out), {text::marked("Left out mGal")}},
+        {"u_left_out_mgal", of(&Row::u_left_out)},
+        {"dof", of(&Row::dof)},
+        {"k_95", of(&Row::coverage_factor)},
         {"expanded_u_mgal", expanded_uncertainty, {text::marked("U 95 % mGal"), 2}},
-        part_column("u_placement_mgal", text::marked("Placement"),
-                    whole_day::ErrorSource::placement),
-        part_column("u_flicker_mgal", text::marked("Flicker"), whole_day::ErrorSource::flicker),
-        part_column("u_white_mgal", text::marked("White"), whole_day::ErrorSource::white),
-        part_column("u_levelling_mgal", text::marked("Levelling"),
-                    whole_day::ErrorSource::levelling),
-        part_column("u_thermal_mgal", text::marked("Thermal"), whole_day::ErrorSource::thermal),
-        part_column("u_drift_mgal", text::marked("Drift"), whole_day::ErrorSource::drift),
-        part_column("u_datum_mgal", text::marked("Datum"), whole_day::ErrorSource::datum),
-        part_column("u_scale_mgal", text::marked("Scale"), whole_day::ErrorSource::scale),
     };
-    if (std::ranges::any_of(stations, [](const auto& one) { return one.anomalies.has_value(); }))
-        for (auto& column : {anomaly_column("normal_gravity_mgal", text::marked("Normal mGal"),
-                                            &model::Anomalies::normal_gravity),
-                             anomaly_column("free_air_anomaly_mgal", text::marked("Free air mGal"),
-                                            &model::Anomalies::free_air),
-                             anomaly_column("bouguer_anomaly_mgal", text::marked("Bouguer mGal"),
-                                            &model::Anomalies::bouguer)})
-            columns.push_back(column);
+    for (std::size_t k = 0; k < kContributions.size(); ++k) {
+        const auto contribution = [k](const Row& station) {
+            return station.errors ? cell(station.errors->parts_mgal.at(k)) : Cell();
+        };
+        columns.push_back(
+            {kContributions.at(k).first, contribution, {kContributions.at(k).second, 2}});
+    }
+    if (std::ranges::none_of(stations, [](const Row& one) { return one.anomalies.has_value(); }))
+        return columns;
+    const auto anomaly = [](auto member) { return of(&Row::anomalies, member); };
+    using model::Anomalies;
+    columns.insert(
+        columns.end(),
+        {{"normal_gravity_mgal",
+          anomaly(&Anomalies::normal_gravity),
+          {text::marked("Normal mGal")}},
+         {"free_air_anomaly_mgal", anomaly(&Anomalies::free_air), {text::marked("Free air mGal")}},
+         {"bouguer_anomaly_mgal", anomaly(&Anomalies::bouguer), {text::marked("Bouguer mGal")}}});
     return columns;
 }
 
 std::vector<Column<model::StationDifference>> difference_columns() {
-    using Row = const model::StationDifference&;
+    using Row = model::StationDifference;
+    const auto residual = [](const Row& row) {
+        return row.reference ? cell(*row.reference - row.difference) : Cell();
+    };
     return {
-        {"from", of(&model::StationDifference::from)},
-        {"to", of(&model::StationDifference::to)},
-        {"difference_mgal", of(&model::StationDifference::difference)},
-        {"u_difference_mgal", of(&model::StationDifference::u)},
-        {"reference_difference_mgal", of(&model::StationDifference::reference)},
-        {"residual_mgal",
-         [](Row row) { return row.reference ? cell(*row.reference - row.difference) : Cell(); }},
+        {"from", of(&Row::from)},
+        {"to", of(&Row::to)},
+        {"difference_mgal", of(&Row::difference)},
+        {"u_difference_mgal", of(&Row::u)},
+        {"reference_difference_mgal", of(&Row::reference)},
+        {"residual_mgal", residual},
     };
 }
 
 std::vector<Column<ScoreRow>> score_columns(const model::SurveyCorrection& result) {
-    using Row = const ScoreRow&;
+    using model::Score;
+    const auto score = [](auto member) { return of(&ScoreRow::score, member); };
+    const auto rows = of(&ScoreRow::set, &model::ScoredRowSet::rows);
+    const auto selected = [&result](const ScoreRow& row) { return is_selected(result, row); };
+    const auto calibration = [&result](const ScoreRow& row) {
+        return std::string(model::calibration_in(result, *row.score));
+    };
     return {
-        {"model", [](Row row) { return row.score->model; }, {text::marked("Model"), 0, 'n'}},
-        {"rows", [](Row row) { return row.set->rows; }, {text::marked("Rows"), 0, 'l'}},
-        {"n", [](Row row) { return cell_of_count(row.score->row_count); }, {"n"}},
-        {"p", [](Row row) { return cell_of_count(row.score->parameter_count); }, {"p"}},
-        {"rms_mgal",
-         [](Row row) { return cell(row.score->rms_mgal); },
-         {text::marked("RMS mGal (in sample)")}},
-        {"s_mgal",
-         [](Row row) { return cell(row.score->s_mgal); },
-         {text::marked("s mGal (in sample)")}},
-        {"loo_mgal",
-         [](Row row) { return cell(row.score->loo_mgal); },
-         {text::marked("LOO mGal (cross-validated)")}},
-        {"loso_mgal",
-         [](Row row) { return cell(row.score->loso_mgal); },
-         {text::marked("LOSO mGal (cross-validated)")}},
-        {"aicc", [](Row row) { return cell(row.score->aicc); }, {"AICc", 2}},
-        {"selected",
-         [&result](Row row) { return is_selected(result, row); },
-         {text::marked("Applied"), 0, 'l'}},
-        {"rms_before_drift_mgal", [](Row row) { return cell(row.score->rms_before_drift_mgal); }},
-        {"dof", [](Row row) { return cell_of_count(row.score->dof); }, {"dof"}},
-        {"calibration",
-         [&result](Row row) { return std::string(model::calibration_in(result, *row.score)); }},
+        {"model", score(&Score::model), {text::marked("Model"), 0, 'n'}},
+        {"rows", rows, {text::marked("Rows"), 0, 'l'}},
+        {"n", score(&Score::row_count), {"n"}},
+        {"p", score(&Score::parameter_count), {"p"}},
+        {"rms_mgal", score(&Score::rms_mgal), {text::marked("RMS mGal (in sample)")}},
+        {"s_mgal", score(&Score::s_mgal), {text::marked("s mGal (in sample)")}},
+        {"loo_mgal", score(&Score::loo_mgal), {text::marked("LOO mGal (cross-validated)")}},
+        {"loso_mgal", score(&Score::loso_mgal), {text::marked("LOSO mGal (cross-validated)")}},
+        {"aicc", score(&Score::aicc), {"AICc", 2}},
+        {"selected", selected, {text::marked("Applied"), 0, 'l'}},
+        {"rms_before_drift_mgal", score(&Score::rms_before_drift_mgal)},
+        {"dof", score(&Score::dof), {"dof"}},
+        {"calibration", calibration},
     };
 }
 

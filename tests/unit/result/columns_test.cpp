@@ -65,8 +65,8 @@ TEST_CASE(
     CHECK(json_value(cell(1.0 / 3.0)) == 1.0 / 3.0);
     CHECK(csv_text(Cell(true)) == "1");
     CHECK(json_value(Cell(false)) == false);
-    CHECK(csv_text(cell_of_count(19)) == "19");
-    CHECK(json_value(cell_of_count(19)) == 19);
+    CHECK(csv_text(cell(std::size_t{19})) == "19");
+    CHECK(json_value(cell(std::size_t{19})) == 19);
     CHECK(csv_text(cell(std::optional<MilliGal>())).empty());
     CHECK(json_value(cell(std::optional<double>())).is_null());
     CHECK(csv_text(cell(UtcTime{})) == "1970-01-01T00:00:00.000Z");
