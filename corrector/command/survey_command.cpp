@@ -64,7 +64,7 @@ job::SurveyFile with_overrides(job::SurveyFile survey, const SurveyCommandOption
     if (!options.flags.empty()) survey.survey.use_flags = options.flags == "use";
     if (!options.tide.empty()) tide::set_tide_option(survey.tide, options.tide);
     if (!options.trend.empty())
-        survey.trend =
+        survey.averaging.trend =
             options.trend == "eemd" ? reading::TrendMethod::eemd : reading::TrendMethod::smoother;
     if (!options.calibration.empty()) job::use_calibration(survey, options.calibration);
     if (!options.from.empty()) survey.from = instant_option("--from", options.from);
@@ -91,18 +91,17 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
     settings["bouguer_density_kg_per_m3"] = text::or_null(survey.bouguer_density_kg_per_m3);
     settings["base"] = result.options.base;
     settings["datum"] = survey.survey.datum;
-    settings["trend"] =
-        job::trend_method_of(survey) == reading::TrendMethod::eemd ? "eemd" : "smoother";
-    settings["cutoff_s"] = survey.cutoff_s;
-    settings["curve"] =
-        job::trend_curve_of(survey) == reading::TrendCurve::paper ? "paper" : "slow";
+    const reading::RepresentativeOptions averaging = job::averaging_of(survey);
+    settings["trend"] = averaging.trend == reading::TrendMethod::eemd ? "eemd" : "smoother";
+    settings["cutoff_s"] = averaging.cutoff_s;
+    settings["curve"] = averaging.curve == reading::TrendCurve::paper ? "paper" : "slow";
     settings["norm"] =
-        survey.norm == reading::NormOrder::decimate_first ? "decimate-first" : "as-published";
+        averaging.norm == reading::NormOrder::decimate_first ? "decimate-first" : "as-published";
     settings["rate"] = "interval";
     settings["calibration"] = survey.calibration.filename().string();
     settings["reference"] =
         survey.reference ? survey.reference->observations.filename().string() : "";
-    settings["seed"] = survey.seed;
+    settings["seed"] = survey.survey.seed;
     settings["from_utc"] = survey.from ? to_rfc3339(*survey.from) : "";
     settings["to_utc"] = survey.to ? to_rfc3339(*survey.to) : "";
     settings["amendments"] = reading::amendments_json(read.amendments.list);

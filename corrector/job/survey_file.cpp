@@ -22,14 +22,6 @@ std::filesystem::path path_or(text::TomlTable& table, std::string_view key,
     return path.empty() ? fallback : path;
 }
 
-void require_site(const text::TomlTable& table, std::string_view key,
-                  const std::vector<text::Site>& sites, const std::string& name) {
-    if (text::find_site(sites, name) != nullptr) return;
-    std::string names;
-    for (const text::Site& site : sites) names += (names.empty() ? "" : ", ") + site.name;
-    table.refuse(key, "no such site", names);
-}
-
 ReferenceSurvey read_reference(text::TomlTable table) {
     ReferenceSurvey reference;
     reference.observations = table.path_or_empty("observations");
@@ -118,16 +110,17 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.bouguer_density_kg_per_m3 =
         table.number("bouguer_density_kg_per_m3", reduction::kLeastDensity_kg_per_m3,
                      reduction::kGreatestDensity_kg_per_m3);
-    survey.trend = table.choice_or("trend", "eemd", {"eemd", "smoother"}) == "eemd"
-                       ? reading::TrendMethod::eemd
-                       : reading::TrendMethod::smoother;
-    survey.cutoff_s = table.number_or("cutoff_s", survey.cutoff_s, reading::kShortestCutoff_s,
-                                      reading::kLongestCutoff_s);
-    survey.norm = table.choice_or("norm", "decimate-first", {"decimate-first", "as-published"}) ==
-                          "decimate-first"
-                      ? reading::NormOrder::decimate_first
-                      : reading::NormOrder::as_published;
-    survey.seed = static_cast<std::uint64_t>(
+    survey.averaging.trend = table.choice_or("trend", "eemd", {"eemd", "smoother"}) == "eemd"
+                                 ? reading::TrendMethod::eemd
+                                 : reading::TrendMethod::smoother;
+    survey.averaging.cutoff_s =
+        table.number_or("cutoff_s", survey.averaging.cutoff_s, reading::kShortestCutoff_s,
+                        reading::kLongestCutoff_s);
+    survey.averaging.norm = table.choice_or("norm", "decimate-first",
+                                            {"decimate-first", "as-published"}) == "decimate-first"
+                                ? reading::NormOrder::decimate_first
+                                : reading::NormOrder::as_published;
+    survey.survey.seed = static_cast<std::uint64_t>(
         table.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
     if (const auto calibration = table.path_or_empty("calibration"); !calibration.empty()) {
         if (!std::filesystem::exists(calibration))
@@ -143,7 +136,6 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
                         adjustment::kGreatestSd_mgal);
     survey.survey.network.drift_degree = static_cast<int>(table.integer_or(
         "drift_degree", survey.survey.network.drift_degree, 0, model::kGreatestDriftDegree));
-    survey.survey.seed = survey.seed;
     refuse_removed_keys(table);
     table.require_all_read();
     adjustment::read_priors(survey.survey.priors, document.table("prior"));
@@ -153,8 +145,10 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     if (!std::filesystem::is_directory(survey.root))
         table.refuse("root", "no such directory: " + survey.root.string(), "a data root");
     const std::vector<text::Site> sites = text::read_sites(survey.sites);
-    if (!survey.survey.base.empty()) require_site(table, "base", sites, survey.survey.base);
-    for (const std::string& name : survey.survey.datum) require_site(table, "datum", sites, name);
+    if (!survey.survey.base.empty())
+        reading::require_site(table, "base", sites, survey.survey.base);
+    for (const std::string& name : survey.survey.datum)
+        reading::require_site(table, "datum", sites, name);
     return survey;
 }
 
@@ -172,13 +166,13 @@ void use_calibration(SurveyFile& survey, const std::filesystem::path& file) {
     survey.survey.calibration = unit::read_calibration(file);
 }
 
-reading::TrendMethod trend_method_of(const SurveyFile& survey) noexcept {
-    return survey.survey.model == model::kPaper ? reading::TrendMethod::eemd : survey.trend;
-}
-
-reading::TrendCurve trend_curve_of(const SurveyFile& survey) noexcept {
-    return survey.survey.model == model::kPaper ? reading::TrendCurve::paper
-                                                : reading::TrendCurve::slow;
+reading::RepresentativeOptions averaging_of(const SurveyFile& survey) {
+    reading::RepresentativeOptions averaging = survey.averaging;
+    averaging.seed = survey.survey.seed;
+    if (survey.survey.model != model::kPaper) return averaging;
+    averaging.trend = reading::TrendMethod::eemd;
+    averaging.curve = reading::TrendCurve::paper;
+    return averaging;
 }
 
 }  // namespace a351::corrector::job

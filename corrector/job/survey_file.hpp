@@ -9,7 +9,6 @@
 /// is `sites.csv` beside it.  Its keys are in the manual page a351-survey.toml(5).  Options of the
 /// command line are set in the struct after reading; the file itself is never changed.
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -33,18 +32,13 @@ struct ReferenceSurvey {
 inline constexpr double kReferenceReadingSd_mgal = 0.01;
 
 /// One survey day, from table [survey] of its TOML file.  Paths in the file are relative to it.
-/// The options of the average are those below; read_survey() sets `averaging` from them.
 ///
 /// - `survey`: options of the correction, with the priors of table [prior].  `calibration` and
 ///   `survey.calibration` belong together; use_calibration() sets both.
 /// - `tide`: source of the tide; a file is relative to the survey file.
 /// - `reduction`: heights and air pressure of the readings.
-/// - `trend`: as written in the file.  What is used depends on the model too: see
-///   trend_method_of().
-/// - `cutoff_s`: kShortestCutoff_s to kLongestCutoff_s; it has an effect with any `trend`, because
-///   the other trend is computed for comparison.
-/// - `norm`: order of norm and decimation.
-/// - `seed`: also that of the bootstrap, survey.seed.  The same seed gives the same result.
+/// - `averaging`: as written in the file.  What is used depends on the model too: see averaging_of().
+/// - `survey.seed`: of the decomposition and of the bootstrap.  The same seed gives the same result.
 ///
 /// A default-constructed object has the defaults of the file, but no paths.
 struct SurveyFile : reading::SurveySource {
@@ -54,10 +48,6 @@ struct SurveyFile : reading::SurveySource {
     tide::Choice tide;
     reduction::ReductionChoice reduction;
     std::optional<double> bouguer_density_kg_per_m3;  ///< Absent: no anomalies.
-    reading::TrendMethod trend = reading::TrendMethod::eemd;
-    double cutoff_s = 300.0;  ///< Cut-off period of the smoother's trend, s.
-    reading::NormOrder norm = reading::NormOrder::decimate_first;
-    std::uint64_t seed = 1;  ///< Seed of the decomposition's noise.
     std::optional<ReferenceSurvey> reference;
 };
 
@@ -85,13 +75,12 @@ struct SurveyFile : reading::SurveySource {
 /// @throws InputError  as read_calibration(); the survey has then the new path and its old numbers.
 void use_calibration(SurveyFile& survey, const std::filesystem::path& file);
 
-/// Returns the trend that is used: the publication's decomposition for model `paper`, else that of
-/// the file.  Use it instead of SurveyFile::trend in every output.
-[[nodiscard]] reading::TrendMethod trend_method_of(const SurveyFile& survey) noexcept;
-
-/// Returns the trend curve of the decomposition: the publication's for model `paper`, else the slow
-/// one.  With the smoother as trend it changes only eemd_mgal and the difference from it, which are
-/// for comparison.
-[[nodiscard]] reading::TrendCurve trend_curve_of(const SurveyFile& survey) noexcept;
+/// Returns the options of the averages that are used: for model `paper` the publication's
+/// decomposition and its curve, else those of the file with the slow curve.  Use it instead of
+/// SurveyFile::averaging in every output.
+///
+/// The cut-off has an effect with any trend, because the other trend is computed for comparison; so
+/// has the curve with the smoother, on eemd_mgal.
+[[nodiscard]] reading::RepresentativeOptions averaging_of(const SurveyFile& survey);
 
 }  // namespace a351::corrector::job

@@ -12,16 +12,6 @@
 namespace a351::corrector::job {
 namespace {
 
-reading::SurveySource source_of(const SurveyFile& survey) {
-    reading::SurveySource source = survey;
-    source.averaging.norm = survey.norm;
-    source.averaging.trend = trend_method_of(survey);
-    source.averaging.cutoff_s = survey.cutoff_s;
-    source.averaging.curve = trend_curve_of(survey);
-    source.averaging.seed = survey.seed;
-    return source;
-}
-
 /// Adds the other files that a survey file names, in the order of result.json: the survey file
 /// first, calibration and tide before the archive.
 /// @param first, last  times of the first and the last reading.
@@ -51,7 +41,8 @@ void add_inputs(std::vector<text::InputFile>& inputs, const SurveyFile& survey, 
 
 reading::OccupationRows read_survey(const SurveyFile& survey,
                                     const archive_series::Progress& progress) {
-    const reading::SurveySource source = source_of(survey);
+    reading::SurveySource source = survey;
+    source.averaging = averaging_of(survey);
     const reading::SurveyStays stays = reading::read_survey_inputs(source);
     std::vector<text::Message> warnings;
     if (survey.survey.calibration)

@@ -11,7 +11,6 @@
 
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/or_null.hpp"
-#include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -78,7 +77,7 @@ public:
     Amendment rename(text::TomlTable& table) {
         Amendment amendment = read(table, "rename");
         const std::string to = required_string(table, "to", "the name of the site");
-        require_site(table, "to", to);
+        require_site(table, "to", sites_, to);
         if (to == amendment.site) table.refuse("to", "already its name", "another site");
         const auto matches = matching(table, amendment, "name");
         const int number = free_number(to, *amendment.occupation);
@@ -126,7 +125,7 @@ public:
     Amendment reference(text::TomlTable& table, std::vector<std::string>& refused) {
         Amendment amendment{.kind = "reference"};
         amendment.site = required_string(table, "site", "the name of a site");
-        require_site(table, "site", amendment.site);
+        require_site(table, "site", sites_, amendment.site);
         amendment.reason = required_string(table, "reason", kReason);
         const bool is_used = table.boolean_or("use", true);
         const auto gravity =
@@ -168,13 +167,6 @@ private:
         const auto time = table.instant("time_utc");
         if (!time) table.refuse("time_utc", "missing", "an instant");
         return *time;
-    }
-
-    void require_site(text::TomlTable& table, std::string_view key, const std::string& name) const {
-        if (text::find_site(sites_, name) != nullptr) return;
-        std::vector<std::string> names;
-        for (const text::Site& site : sites_) names.push_back(site.name);
-        table.refuse(key, "no such site", text::joined(names));
     }
 
     static Amendment read(text::TomlTable& table, const std::string& kind) {
@@ -246,6 +238,14 @@ private:
 };
 
 }  // namespace
+
+void require_site(const text::TomlTable& table, std::string_view key,
+                  const std::vector<text::Site>& sites, const std::string& name) {
+    if (text::find_site(sites, name) != nullptr) return;
+    std::vector<std::string> names;
+    for (const text::Site& site : sites) names.push_back(site.name);
+    table.refuse(key, "no such site", text::joined(names));
+}
 
 Amendments amend(Windows& windows, const std::filesystem::path& file,
                  std::vector<text::Site>& sites) {

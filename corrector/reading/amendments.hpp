@@ -35,6 +35,7 @@
 #include <vector>
 
 #include "corrector/reading/occupation_list.hpp"
+#include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector::reading {
 
@@ -87,6 +88,11 @@ struct Amendments {
 ///                     file cannot be read.  The message has line, key, value and what is allowed.
 Amendments amend(std::vector<OccupationWindow>& windows, const std::filesystem::path& file,
                  std::vector<text::Site>& sites);
+
+/// Refuses the value of a key that is not the name of a site; the message has all names.
+/// @throws InputError  `name` is not in the table of sites.
+void require_site(const text::TomlTable& table, std::string_view key,
+                  const std::vector<text::Site>& sites, const std::string& name);
 
 /// Returns one line per amendment, each with a line end, for the printed report:
 ///

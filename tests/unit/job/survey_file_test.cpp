@@ -64,10 +64,10 @@ TEST_CASE("an empty survey file has the documented defaults", "[survey][survey_f
     CHECK(survey.tide.source == "direct");
     CHECK(survey.tide.factors.delta2 == 1.16);
     CHECK(survey.tide.factors.delta3 == 1.07);
-    CHECK(survey.norm == NormOrder::decimate_first);
-    CHECK(survey.seed == 1);
-    CHECK(survey.trend == TrendMethod::eemd);
-    CHECK(survey.cutoff_s == RepresentativeOptions().cutoff_s);
+    CHECK(survey.averaging.norm == NormOrder::decimate_first);
+    CHECK(survey.survey.seed == 1);
+    CHECK(survey.averaging.trend == TrendMethod::eemd);
+    CHECK(survey.averaging.cutoff_s == RepresentativeOptions().cutoff_s);
 }
 
 TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
@@ -89,10 +89,10 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
     CHECK_FALSE(survey.survey.use_flags);
     CHECK(survey.tide.source == "longman");
     CHECK(survey.tide.factors.delta2 == 1.2);
-    CHECK(survey.seed == 9);
-    CHECK(survey.trend == TrendMethod::smoother);
-    CHECK(survey.cutoff_s == 240.0);
-    CHECK(survey.norm == NormOrder::as_published);
+    CHECK(survey.survey.seed == 9);
+    CHECK(survey.averaging.trend == TrendMethod::smoother);
+    CHECK(survey.averaging.cutoff_s == 240.0);
+    CHECK(survey.averaging.norm == NormOrder::as_published);
 }
 
 TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_file]") {
@@ -110,11 +110,11 @@ TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_f
 TEST_CASE("the model paper uses the publication's trend and curve, whatever is configured",
           "[survey][survey_file]") {
     const Desk desk;
-    CHECK(trend_curve_of(desk.read("[survey]\nmodel='paper'\n")) == TrendCurve::paper);
-    CHECK(trend_curve_of(desk.read("[survey]\nmodel='t'\n")) == TrendCurve::slow);
-    CHECK(trend_method_of(desk.read("[survey]\nmodel='paper'\ntrend='smoother'\n")) ==
+    CHECK(averaging_of(desk.read("[survey]\nmodel='paper'\n")).curve == TrendCurve::paper);
+    CHECK(averaging_of(desk.read("[survey]\nmodel='t'\n")).curve == TrendCurve::slow);
+    CHECK(averaging_of(desk.read("[survey]\nmodel='paper'\ntrend='smoother'\n")).trend ==
           TrendMethod::eemd);
-    CHECK(trend_method_of(desk.read("[survey]\nmodel='t'\ntrend='smoother'\n")) ==
+    CHECK(averaging_of(desk.read("[survey]\nmodel='t'\ntrend='smoother'\n")).trend ==
           TrendMethod::smoother);
 }
 
