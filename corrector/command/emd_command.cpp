@@ -21,47 +21,34 @@ constexpr int kMostModes = 64;  // Above floor(log2 n) of any record.
 constexpr int kMostThreads = 256;
 
 struct EmdCommandOptions {
-    std::string input;
-    std::string column;
-    std::optional<int> modes;
-    int ensemble = eemd::Options{}.ensemble_size;
-    double noise = eemd::Options{}.noise_ratio;
+    std::string input, column, output;
+    eemd::Options eemd;
     int sifts = eemd::FixedSifts{}.count;
     std::optional<int> s_number;
-    std::string finish = "extrema";
-    std::string ends = "line";
-    bool pairs = false;
-    std::uint64_t seed = 0;
-    int threads = 1;
-    std::string output;
+    std::string finish = "extrema", ends = "line";
 };
 
+/// Checks the options of the decomposition, and sets those that have another form.
 eemd::Options decomposition(const EmdCommandOptions& options) {
-    eemd::Options eemd_options;
-    if (options.modes) number_option("--modes", *options.modes, 0, kMostModes);
-    eemd_options.mode_count = options.modes;
-    number_option("--ensemble", options.ensemble, 1, kMostMembers);
-    eemd_options.ensemble_size = options.ensemble;
-    eemd_options.noise_ratio = number_option("--noise", options.noise, 0.0, 1e6);
+    eemd::Options eemd = options.eemd;
+    if (eemd.mode_count) number_option("--modes", *eemd.mode_count, 0, kMostModes);
+    number_option("--ensemble", eemd.ensemble_size, 1, kMostMembers);
+    number_option("--noise", eemd.noise_ratio, 0.0, 1e6);
     number_option("--sifts", options.sifts, 1, eemd::kMaxSifts);
-    eemd_options.stopping = eemd::FixedSifts{options.sifts};
+    eemd.stopping = eemd::FixedSifts{options.sifts};
     if (options.s_number) {
         number_option("--s-number", *options.s_number, 1, eemd::kMostSNumberSifts);
-        eemd_options.stopping = eemd::SNumber{*options.s_number};
+        eemd.stopping = eemd::SNumber{*options.s_number};
     }
-    eemd_options.finish = options.finish == "always" ? eemd::FinishRule::always
-                                                     : eemd::FinishRule::at_most_two_extrema;
-    eemd_options.ends = options.ends == "mirror" ? eemd::EndRule::mirror : eemd::EndRule::line;
-    eemd_options.reflect_ends = options.ends == "reflect";
-    eemd_options.complementary_pairs = options.pairs;
-    if (options.pairs && options.ensemble % 2 != 0) {
-        throw InputError(
-            fmt::format("--ensemble = {}; allowed with --pairs: an even number", options.ensemble));
-    }
-    eemd_options.seed = options.seed;
-    number_option("--threads", options.threads, 1, kMostThreads);
-    eemd_options.threads = options.threads;
-    return eemd_options;
+    eemd.finish = options.finish == "always" ? eemd::FinishRule::always
+                                             : eemd::FinishRule::at_most_two_extrema;
+    eemd.ends = options.ends == "mirror" ? eemd::EndRule::mirror : eemd::EndRule::line;
+    eemd.reflect_ends = options.ends == "reflect";
+    if (eemd.complementary_pairs && eemd.ensemble_size % 2 != 0)
+        throw InputError(fmt::format("--ensemble = {}; allowed with --pairs: an even number",
+                                     eemd.ensemble_size));
+    number_option("--threads", eemd.threads, 1, kMostThreads);
+    return eemd;
 }
 
 std::string to_csv(const eemd::Result& result) {
@@ -121,12 +108,12 @@ void add_emd_command(CLI::App& program) {
     add_required(command, "--column", "NAME", options->column,
                  "Column to read; no cell may be empty");
     add_option(
-        command, "--modes", "K", options->modes,
+        command, "--modes", "K", options->eemd.mode_count,
         "Number of modes without the residue, 0-64 (default: floor(log2 n) - 1 for n samples)");
-    add_with_default(command, "--ensemble", "N", options->ensemble,
+    add_with_default(command, "--ensemble", "N", options->eemd.ensemble_size,
                      "Number of noise realisations that are averaged");
     add_with_default(
-        command, "--noise", "RATIO", options->noise,
+        command, "--noise", "RATIO", options->eemd.noise_ratio,
         "Standard deviation of the noise, divided by that of the column; 0 is plain EMD");
     CLI::Option* const sifts =
         add_with_default(command, "--sifts", "S", options->sifts, "Number of sifts per mode");
@@ -144,10 +131,10 @@ void add_emd_command(CLI::App& program) {
         "nearest extrema; mirror: reflected extrema; reflect: the record reflected about its ends")
         ->check(CLI::IsMember({"line", "mirror", "reflect"}));
     command.add_flag(
-        "--pairs", options->pairs,
+        "--pairs", options->eemd.complementary_pairs,
         "Use every noise realisation twice, once negated, so that none remains in the sum");
-    add_with_default(command, "--seed", "N", options->seed, "Seed of the noise generator");
-    add_with_default(command, "--threads", "T", options->threads,
+    add_with_default(command, "--seed", "N", options->eemd.seed, "Seed of the noise generator");
+    add_with_default(command, "--threads", "T", options->eemd.threads,
                      "Number of threads; the result does not depend on it");
     add_required(command, "--output", "CSV", options->output,
                  "Table to write: imf1, imf2, ..., residue");
