@@ -142,8 +142,7 @@ void read_series(unit::Calibration& calibration, const std::vector<std::string>&
         survey.is_tumbled = is_tumbled;
         ProgressBar bar(survey.name);
         const reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
-        for (const text::Message& warning : read.warnings)
-            std::cerr << "a351-correct: " << survey.name << ": " << text::in_words(warning) << '\n';
+        print_warnings(read.warnings, survey.name + ": ");
         measure(read, survey.name, file);
         const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
         counted.add(read.rows,

@@ -36,8 +36,8 @@ void design_survey(const DesignOptions& options) {
     figure::Drawing drawing = figure::draw(figures, options.figures);
     report::add_figure_files(files, figures, drawing);
     text::write_together(options.out, files);
-    for (const std::string& warning : report::missing_lines(drawing.troubles))
-        std::cerr << "a351-correct: " << warning << '\n';
+    const std::vector<std::string> missing = report::missing_lines(drawing.troubles);
+    print_warnings({missing.begin(), missing.end()});
     if (options.is_json)
         std::cout << design::design_json(design, inputs);
     else

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <iostream>
+
 #include "corrector/figure/drawing.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
@@ -78,6 +80,11 @@ void require_file_option(std::string_view name, const std::filesystem::path& pat
 
 void require_folder_option(std::string_view name, const std::filesystem::path& path) {
     require_folder(name, path, std::filesystem::absolute(path), "a folder");
+}
+
+void print_warnings(const std::vector<text::Message>& warnings, const std::string& prefix) {
+    for (const text::Message& warning : warnings)
+        std::cerr << "a351-correct: " << prefix << text::in_words(warning) << '\n';
 }
 
 }  // namespace a351::corrector::command

@@ -20,6 +20,7 @@
 
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::command {
 
@@ -86,6 +87,10 @@ void require_file_option(std::string_view name, const std::filesystem::path& pat
 /// The same for a folder, which may exist.
 /// @throws InputError  the path, or the longest part of it that exists, is not a folder.
 void require_folder_option(std::string_view name, const std::filesystem::path& path);
+
+/// Writes warnings to standard error, each as a line.
+/// @param prefix  of each warning, after the name of the program.
+void print_warnings(const std::vector<text::Message>& warnings, const std::string& prefix = "");
 
 /// Exit status of a command that has done its work although a part of its input was damaged.
 inline constexpr int kDoneInPart = 4;

@@ -26,10 +26,7 @@ struct RecordCommandOptions {
     std::vector<std::string> files;
     std::string from, to, apply;
     std::string out = "result";
-    double cycle_s = long_record::RecordAnalysisOptions{}.cycle_s;
-    double shift_s = long_record::RecordAnalysisOptions{}.shift_s;
-    int ensemble = long_record::RecordAnalysisOptions{}.ensemble_size;
-    std::uint64_t seed = long_record::RecordAnalysisOptions{}.seed;
+    long_record::RecordAnalysisOptions analysis;
     std::vector<std::string> figures;
 };
 
@@ -44,17 +41,17 @@ long_record::LongRecord read_record(const RecordCommandOptions& options) {
 
 long_record::RecordResult analysed(const RecordCommandOptions& options) {
     long_record::RecordResult result;
-    result.options.cycle_s = number_option("--cycle", options.cycle_s, 200.0, 7200.0);
-    result.options.shift_s = number_option("--shift", options.shift_s, 0.0, options.cycle_s);
-    number_option("--ensemble", options.ensemble, 1, kMostMembers);
-    result.options.ensemble_size = options.ensemble;
-    result.options.seed = options.seed;
+    result.options = options.analysis;
+    number_option("--cycle", result.options.cycle_s, 200.0, 7200.0);
+    number_option("--shift", result.options.shift_s, 0.0, result.options.cycle_s);
+    number_option("--ensemble", result.options.ensemble_size, 1, kMostMembers);
     result.options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 
     result.record = read_record(options);
     long_record::SegmentOptions segments;
-    segments.shortest = std::max(
-        segments.shortest, long_record::least_record_length(options.cycle_s, result.record.step_s));
+    segments.shortest =
+        std::max(segments.shortest,
+                 long_record::least_record_length(options.analysis.cycle_s, result.record.step_s));
     result.parts = divide_or_refuse(result.record, segments, options.files.front());
     const auto longest =
         std::ranges::max_element(result.parts.segments, {}, &long_record::RecordSegment::size);
@@ -119,17 +116,16 @@ void analyse(const RecordCommandOptions& options) {
     settings["command"] = "record";
     settings["from"] = options.from;
     settings["to"] = options.to;
-    settings["cycle_s"] = options.cycle_s;
-    settings["shift_s"] = options.shift_s;
-    settings["ensemble"] = options.ensemble;
+    settings["cycle_s"] = result.options.cycle_s;
+    settings["shift_s"] = result.options.shift_s;
+    settings["ensemble"] = result.options.ensemble_size;
     settings["noise_ratio"] = eemd::Options{}.noise_ratio;
-    settings["seed"] = options.seed;
+    settings["seed"] = result.options.seed;
     settings["apply"] = options.apply;
     std::vector<text::NamedText> files = long_record::record_files(result, settings);
     report::Report page = report::make_long_record_page(result, settings, options.figures);
-    std::move(page.files.begin(), page.files.end(), std::back_inserter(files));
-    for (const std::string& warning : page.warnings)
-        std::cerr << "a351-correct: " << warning << '\n';
+    files.insert(files.end(), page.files.begin(), page.files.end());
+    print_warnings({page.warnings.begin(), page.warnings.end()});
     text::write_together(options.out, files);
     std::cout << long_record::record_text(result) << "\nwritten to " << options.out << '\n';
 }
@@ -153,12 +149,13 @@ void add_record_command(CLI::App& program) {
                "Correct the record with this calibration of the unit, in two ways")
         ->check(CLI::ExistingFile);
     add_with_default(command, "--out", "DIR", options->out, "Folder of the result");
-    add_with_default(command, "--cycle", "S", options->cycle_s, "Cycle of the oven, 200-7200 s");
-    add_with_default(command, "--shift", "S", options->shift_s,
+    add_with_default(command, "--cycle", "S", options->analysis.cycle_s,
+                     "Cycle of the oven, 200-7200 s");
+    add_with_default(command, "--shift", "S", options->analysis.shift_s,
                      "Time by which the acceleration is moved earlier, as published");
-    add_with_default(command, "--ensemble", "N", options->ensemble,
+    add_with_default(command, "--ensemble", "N", options->analysis.ensemble_size,
                      "Number of noise realisations that are averaged");
-    add_with_default(command, "--seed", "N", options->seed, "Seed of the noise generator");
+    add_with_default(command, "--seed", "N", options->analysis.seed, "Seed of the noise generator");
     add_figures_option(command, options->figures);
     command.callback([options] { analyse(*options); });
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 
+#include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/long_record/csv_record.hpp"
 #include "protocol/core/input_error.hpp"
@@ -44,9 +44,7 @@ std::vector<long_record::LongRecord> read_records(const std::vector<std::string>
             }
         }
     }
-    for (const long_record::LongRecord& record : records)
-        for (const text::Message& warning : record.warnings)
-            std::cerr << "a351-correct: " << text::in_words(warning) << '\n';
+    for (const long_record::LongRecord& record : records) print_warnings(record.warnings);
     return records;
 }
 

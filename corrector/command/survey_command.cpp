@@ -15,7 +15,6 @@
 #include "corrector/command/options.hpp"
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_day.hpp"
-#include "corrector/job/survey_file.hpp"
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/model/joint_adjustment.hpp"
 #include "corrector/model/model.hpp"
@@ -84,13 +83,7 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
     settings["command"] = "survey";
     settings["name"] = survey.name;
     settings["serial_number"] = text::or_null(read.serial_number);
-    settings["model"] = survey.survey.model;
-    settings["flags"] = survey.survey.use_flags ? "use" : "ignore";
-    tide::describe_tide(settings, survey.tide);
-    reduction::describe_reduction(settings, survey.reduction);
-    settings["bouguer_density_kg_per_m3"] = text::or_null(survey.bouguer_density_kg_per_m3);
-    settings["base"] = result.options.base;
-    settings["datum"] = survey.survey.datum;
+    job::describe_correction(settings, survey, result.options.base);
     const reading::RepresentativeOptions averaging = job::averaging_of(survey);
     settings["trend"] = averaging.trend == reading::TrendMethod::eemd ? "eemd" : "smoother";
     settings["cutoff_s"] = averaging.cutoff_s;
@@ -139,14 +132,13 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
     day.amendments = reading::amendments_text(read.amendments.list);
     const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
     day.files = result::result_files(day.result, settings, read.inputs, read.sites);
-    report::Report report = report::make_report(
+    const report::Report report = report::make_report(
         day.result, settings,
         {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
          std::move(read.verdicts), read.inputs, read.warnings, picture_formats});
-    std::move(report.files.begin(), report.files.end(), std::back_inserter(day.files));
+    day.files.insert(day.files.end(), report.files.begin(), report.files.end());
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
-    for (const text::Message& warning : read.warnings)
-        std::cerr << "a351-correct: " << survey.name << ": " << text::in_words(warning) << '\n';
+    print_warnings(read.warnings, survey.name + ": ");
     return day;
 }
 
@@ -183,10 +175,9 @@ void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
         {"history.csv", result::csv_table(result::unit_day_columns(), units)},
         {"terms.csv", result::csv_table(result::term_summary_columns(), result::summarise(units))}};
     report::Report page = report::make_joint_page(pages, joint, units, picture_formats);
-    std::move(page.files.begin(), page.files.end(), std::back_inserter(files));
+    files.insert(files.end(), page.files.begin(), page.files.end());
     text::write_together(out, files);
-    for (const std::string& warning : page.warnings)
-        std::cerr << "a351-correct: " << warning << '\n';
+    print_warnings({page.warnings.begin(), page.warnings.end()});
     std::cout << (are_all ? "all days\n" : "all corrected days\n");
     for (const std::string& sentence : result::joint_sentences(joint))
         std::cout << sentence << '\n';

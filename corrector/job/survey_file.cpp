@@ -7,6 +7,7 @@
 #include "corrector/model/model.hpp"
 #include "corrector/reading/representative_value.hpp"
 #include "corrector/reduction/normal_gravity.hpp"
+#include "protocol/text/or_null.hpp"
 #include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector::job {
@@ -164,6 +165,17 @@ SurveyFile survey_of_root(const std::filesystem::path& root, const std::filesyst
 void use_calibration(SurveyFile& survey, const std::filesystem::path& file) {
     survey.calibration = file;
     survey.survey.calibration = unit::read_calibration(file);
+}
+
+void describe_correction(nlohmann::ordered_json& settings, const SurveyFile& survey,
+                         const std::string& base) {
+    settings["model"] = survey.survey.model;
+    settings["flags"] = survey.survey.use_flags ? "use" : "ignore";
+    tide::describe_tide(settings, survey.tide);
+    reduction::describe_reduction(settings, survey.reduction);
+    settings["bouguer_density_kg_per_m3"] = text::or_null(survey.bouguer_density_kg_per_m3);
+    settings["base"] = base;
+    settings["datum"] = survey.survey.datum;
 }
 
 reading::RepresentativeOptions averaging_of(const SurveyFile& survey) {

@@ -10,6 +10,7 @@
 /// command line are set in the struct after reading; the file itself is never changed.
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -74,6 +75,11 @@ struct SurveyFile : reading::SurveySource {
 /// The unit and the validity are compared with the record later, by check_calibration().
 /// @throws InputError  as read_calibration(); the survey has then the new path and its old numbers.
 void use_calibration(SurveyFile& survey, const std::filesystem::path& file);
+
+/// Adds the options of the correction to the settings of result.json, from `model` to `datum`.
+/// @param base  of the corrected survey.
+void describe_correction(nlohmann::ordered_json& settings, const SurveyFile& survey,
+                         const std::string& base);
 
 /// Returns the options of the averages that are used: for model `paper` the publication's
 /// decomposition and its curve, else those of the file with the slow curve.  Use it instead of
