@@ -226,9 +226,11 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         journal_end = archive_series::add_journaled(samples, source.root, epoch, span);
     std::vector<OccupationWindow> windows = list.windows;
     end_with_record(windows, samples[kVertical]);
-    const VerticalAxis vertical = source.is_tumbled
-                                      ? put_named_vertical_last(samples, epoch)
-                                      : put_vertical_last(samples, epoch, windows, metadata);
+    text::Message mounting;
+    if (source.is_tumbled)
+        put_named_vertical_last(samples, epoch);
+    else
+        mounting = put_vertical_last(samples, epoch, windows, metadata);
 
     std::vector<AveragedSetUp> set_ups(windows.size());
     archive_series::on_all_cores(
@@ -241,7 +243,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     result.left_out = list.left_out;
     result.warnings = list.warnings;
     if (result.day) add_outer(*result.day, samples, epoch, windows, result.warnings);
-    if (!vertical.warning.empty()) result.warnings.push_back(vertical.warning);
+    if (!mounting.empty()) result.warnings.push_back(mounting);
     result.amendments = amendments;
     result.sites = sites;
     for (const archive::ChannelData& channel : samples)

@@ -61,10 +61,10 @@ std::string in_g(double value) { return text::fixed(value, 4) + " g"; }
 
 }  // namespace
 
-VerticalAxis put_vertical_last(std::vector<archive::ChannelData>& samples,
-                               archive_series::Epoch& epoch,
-                               const std::vector<OccupationWindow>& windows,
-                               const std::filesystem::path& file) {
+text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
+                                archive_series::Epoch& epoch,
+                                const std::vector<OccupationWindow>& windows,
+                                const std::filesystem::path& file) {
     const std::vector<station::ChannelScale>& axes = epoch.channels;
     std::array<double, kVertical + 1> means{};
     std::string list;
@@ -78,29 +78,29 @@ VerticalAxis put_vertical_last(std::vector<archive::ChannelData>& samples,
     const auto distance = [](double mean) { return std::abs(std::abs(mean) - 1.0); };
     const auto nearest =
         static_cast<std::size_t>(std::ranges::min_element(means, {}, distance) - means.begin());
-    if (!is_complete) return {axes[kVertical].code, StandardGravity(0.0), {}};
+    if (!is_complete) return {};
     if (std::abs(means[nearest]) < kLeastVertical.value())
         throw InputError(fmt::format(
             "{}: no axis is vertical: {}; allowed: an axis with at least {} along gravity",
             file.string(), list, in_g(kLeastVertical.value())));
-    VerticalAxis vertical{axes[nearest].code, StandardGravity(means[nearest]), {}};
+    const std::string code = axes[nearest].code;
+    text::Message warning;
     if (const auto named = named_vertical(epoch); named && *named != nearest)
-        vertical.warning = text::message(
+        warning = text::message(
             "{}: {} is vertical by its dip, but gravity is along {} ({}); {} is used; the axis "
             "biases of a calibration belong to the usual mounting",
-            file.string(), axes[*named].code, vertical.code, list, vertical.code);
+            file.string(), axes[*named].code, code, list, code);
     if (means[nearest] < 0.0)
-        vertical.warning += text::message("{}the sensor is mounted upside down: {} has {}",
-                                          vertical.warning.empty() ? file.string() + ": " : "; ",
-                                          vertical.code, in_g(means[nearest]));
+        warning += text::message("{}the sensor is mounted upside down: {} has {}",
+                                 warning.empty() ? file.string() + ": " : "; ", code,
+                                 in_g(means[nearest]));
     put_last(samples, epoch, nearest);
-    return vertical;
+    return warning;
 }
 
-VerticalAxis put_named_vertical_last(std::vector<archive::ChannelData>& samples,
-                                     archive_series::Epoch& epoch) {
+void put_named_vertical_last(std::vector<archive::ChannelData>& samples,
+                             archive_series::Epoch& epoch) {
     if (const auto named = named_vertical(epoch)) put_last(samples, epoch, *named);
-    return {epoch.channels[kVertical].code, StandardGravity(0.0), {}};
 }
 
 }  // namespace a351::corrector::reading

@@ -5,9 +5,9 @@
 /// Gravity itself says it.  The order of the channels in station.xml does not: another program may
 /// write the vertical channel first, and a sensor may be mounted on its side.
 ///
-///     const VerticalAxis vertical = put_vertical_last(samples, epoch, windows, file);
+///     const text::Message warning = put_vertical_last(samples, epoch, windows, file);
 ///     // epoch.channels[kVertical] is the vertical axis now
-///     if (!vertical.warning.empty()) warnings.push_back(vertical.warning);
+///     if (!warning.empty()) warnings.push_back(warning);
 
 #include <filesystem>
 #include <string>
@@ -25,32 +25,23 @@ namespace a351::corrector::reading {
 /// box is not level.
 inline constexpr StandardGravity kLeastVertical{0.9};
 
-/// The vertical axis of a survey.
-struct VerticalAxis {
-    std::string code;       ///< Channel, e.g. BNZ.
-    StandardGravity mean;   ///< Mean over the windows; negative: mounted upside down.
-    text::Message warning;  ///< Sentence for the user; empty if there is nothing to say.
-};
-
 /// Finds the axis whose |mean| is nearest to 1 g, and exchanges axes of samples and epoch so
 /// that it is the last.  The horizontal axes keep their order.
-///
-/// The warning says if another axis has a dip of more than 45 deg in the metadata, or if the sensor
-/// is upside down; the norm is the same then.
 ///
 /// The mean is over one sample per second, within the windows.
 /// @param windows  occupations; if an axis has no sample in them, nothing is exchanged.
 /// @param file     name of the metadata, for messages.
+/// @return a sentence for the user if another axis has a dip of more than 45 deg in the metadata, or
+///         if the sensor is upside down; the norm is the same then.  Otherwise empty.
 /// @throws InputError  no axis has |mean| >= kLeastVertical; the message has all three.
-VerticalAxis put_vertical_last(std::vector<archive::ChannelData>& samples,
-                               archive_series::Epoch& epoch,
-                               const std::vector<OccupationWindow>& windows,
-                               const std::filesystem::path& file);
+[[nodiscard]] text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
+                                              archive_series::Epoch& epoch,
+                                              const std::vector<OccupationWindow>& windows,
+                                              const std::filesystem::path& file);
 
 /// Exchanges axes so that the one with a dip of more than 45 deg in the metadata is the last; without
 /// one nothing is exchanged.  For a sensor that is laid down in several positions.
-/// @return the axis; its mean is 0 and it has no warning.
-VerticalAxis put_named_vertical_last(std::vector<archive::ChannelData>& samples,
-                                     archive_series::Epoch& epoch);
+void put_named_vertical_last(std::vector<archive::ChannelData>& samples,
+                             archive_series::Epoch& epoch);
 
 }  // namespace a351::corrector::reading
