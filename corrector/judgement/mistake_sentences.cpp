@@ -58,7 +58,7 @@ private:
     [[nodiscard]] Finding finding_of(const Mistake& mistake, FindingKind kind, std::string code,
                                      const SurveyRow& row) const {
         Finding finding{.kind = kind, .code = std::move(code)};
-        set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
+        set_stay(finding, row, row.start.value_or(row.time));
         finding.size_mgal = mistake.size_mgal;
         finding.u_mgal = mistake.u_mgal;
         finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;

@@ -64,7 +64,7 @@ void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& fi
         }
         const SurveyRow& row = result.rows[test.place].row;
         finding.code = "misfit_step";
-        set_stay(finding, row.site, row.occupation, row.key, row.start.value_or(row.time));
+        set_stay(finding, row, row.start.value_or(row.time));
         finding.text = text::message(
             "the model does not fit this day: the readings from {} ({}) on seem to be off by a "
             "step",

@@ -83,7 +83,7 @@ public:
         const int number = free_number(to, *amendment.occupation);
         for (const std::size_t i : matches) {
             windows_[i].site = to;
-            windows_[i].number = number;
+            windows_[i].occupation = number;
             windows_[i].notes.emplace_back("renamed");
         }
         amendment.change = fmt::format("to {} ({})", to, number);
@@ -189,7 +189,7 @@ private:
         for (std::size_t i = 0; i < before_.size(); ++i) {
             if (before_[i].site != amendment.site) continue;
             of_site.push_back(before_[i]);
-            if (before_[i].number == amendment.occupation) stay.push_back(i);
+            if (before_[i].occupation == amendment.occupation) stay.push_back(i);
         }
         if (of_site.empty()) {
             table.refuse(
@@ -199,7 +199,7 @@ private:
         if (stay.empty()) {
             table.refuse("occupation", "no such occupation of " + amendment.site,
                          list_of(of_site, [](const OccupationWindow& window) {
-                             return std::to_string(window.number);
+                             return std::to_string(window.occupation);
                          }));
         }
         if (amendment.set_up) {
@@ -222,8 +222,8 @@ private:
         for (const Windows* const list : {&before_, &std::as_const(windows_)}) {
             for (const OccupationWindow& window : *list) {
                 if (window.site != site) continue;
-                largest = std::max(largest, window.number);
-                is_taken = is_taken || window.number == wanted;
+                largest = std::max(largest, window.occupation);
+                is_taken = is_taken || window.occupation == wanted;
             }
         }
         return is_taken ? largest + 1 : wanted;

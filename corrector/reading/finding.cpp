@@ -37,11 +37,10 @@ std::string in_minutes(Nanoseconds time) {
     return fmt::format("{:.1f} min", std::chrono::duration<double, std::ratio<60>>(time).count());
 }
 
-void set_stay(Finding& finding, const std::string& site, int occupation, const std::string& key,
-              UtcTime time) {
-    finding.site = site;
-    finding.occupation = occupation;
-    finding.key = key;
+void set_stay(Finding& finding, const SetUp& set_up, UtcTime time) {
+    finding.site = set_up.site;
+    finding.occupation = set_up.occupation;
+    finding.key = set_up.key;
     finding.time = time;
 }
 

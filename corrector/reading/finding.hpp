@@ -75,8 +75,7 @@ struct Finding {
 [[nodiscard]] std::string in_minutes(Nanoseconds time);
 
 /// Sets the stay of a finding.
-void set_stay(Finding& finding, const std::string& site, int occupation, const std::string& key,
-              UtcTime time);
+void set_stay(Finding& finding, const SetUp& set_up, UtcTime time);
 
 /// Returns the first lines of an amendment: [[KIND]], site, occupation and, if the stay has several,
 /// set_up.

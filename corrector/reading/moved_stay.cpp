@@ -53,7 +53,7 @@ Finding missed_set_up(const OccupationWindow& window,
         const UtcTime before = samples[move.before].time;
         return before + (samples[move.after].time - before) / 2;
     };
-    set_stay(finding, window.site, window.number, window.key, time_of(moves.front()));
+    set_stay(finding, window, time_of(moves.front()));
     std::string times;
     ListedSetUp listed = window.listed;
     listed.set_up.reset();  // the instant says which
@@ -66,7 +66,7 @@ Finding missed_set_up(const OccupationWindow& window,
     finding.text = text::message(
         "{} ({}): box lifted and set down at {} without a set-up (its level changed by "
         "{:.3f} deg); only the part before is used",
-        window.site, window.number, times, moves.front().tilt_deg);
+        window.site, window.occupation, times, moves.front().tilt_deg);
     return finding;
 }
 
@@ -87,10 +87,10 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
             .kind = FindingKind::bad_reading,
             .code = "never_at_rest",
             .text = text::message("{} ({}): the box was never at rest: repeat the reading",
-                                  window.site, window.number),
+                                  window.site, window.occupation),
             .amendment = amendment_head("exclude", window.listed) + "reason = \"never at rest\"\n",
             .is_headline = true};
-        set_stay(moved.finding, window.site, window.number, window.key, window.start);
+        set_stay(moved.finding, window, window.start);
         return moved;
     }
     still.notes.emplace_back("moved");
@@ -104,27 +104,23 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
         finding = missed_set_up(window, samples, moves);
         return moved;
     }
-    finding = {.kind = FindingKind::moved_box, .code = "moved_at_end", .is_headline = true};
-    set_stay(finding, window.site, window.number, window.key, still.end);
+    const bool is_early = still.start != window.start, is_late = still.end != window.end;
+    const bool is_end = is_late || !is_early;  // an early start alone is a remark
+    finding = {.kind = is_end ? FindingKind::moved_box : FindingKind::early_start,
+               .code = !is_end    ? "early_start"
+                       : is_early ? "moved_at_both_ends"
+                                  : "moved_at_end",
+               .is_headline = is_end};
+    set_stay(finding, window, is_end ? still.end : still.start);
     text::Message what;
-    if (still.start != window.start) {
-        finding.time = still.start;
-        finding.kind = FindingKind::early_start;
-        finding.code = "early_start";
-        finding.is_headline = false;
+    if (is_early)
         what = text::message("moved until {}, {} after its start; the stay begins there",
                              to_rfc3339(still.start), in_minutes(still.start - window.start));
-    }
-    if (still.end != window.end) {
-        finding.time = still.end;
-        finding.kind = FindingKind::moved_box;
-        finding.is_headline = true;
-        finding.code = what.empty() ? "moved_at_end" : "moved_at_both_ends";
-        if (!what.empty()) what += "; ";
+    if (is_early && is_late) what += "; ";
+    if (is_late)
         what += text::message("moved at {}, {} before its end was entered; the stay ends there",
                               to_rfc3339(still.end), in_minutes(window.end - still.end));
-    }
-    finding.text = text::message("{} ({}): box {}", window.site, window.number, what);
+    finding.text = text::message("{} ({}): box {}", window.site, window.occupation, what);
     finding.amendment =
         amendment_head("retime", window.listed) +
         fmt::format("start_utc = \"{}\"\nend_utc = \"{}\"\nreason = \"box moved\"\n",

@@ -14,13 +14,13 @@ namespace a351::corrector::reading {
 namespace {
 
 std::string named(const OccupationWindow& window) {
-    return fmt::format("{} ({}) at {}", window.site, window.number, to_rfc3339(window.start));
+    return fmt::format("{} ({}) at {}", window.site, window.occupation, to_rfc3339(window.start));
 }
 
 void sort_by_start(std::vector<OccupationWindow>& windows) {
     std::stable_sort(windows.begin(), windows.end(), [](const auto& a, const auto& b) {
-        return std::tie(a.start, a.end, a.site, a.number) <
-               std::tie(b.start, b.end, b.site, b.number);
+        return std::tie(a.start, a.end, a.site, a.occupation) <
+               std::tie(b.start, b.end, b.site, b.occupation);
     });
 }
 
@@ -129,8 +129,8 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
         if (text::find_site(sites, window.site) == nullptr)
             table.refuse(row, "site", "unknown", "a name of the table of sites");
         const double number = table.number(row, "occupation", 1.0, 1e6);
-        window.number = static_cast<int>(number);
-        if (static_cast<double>(window.number) != number)
+        window.occupation = static_cast<int>(number);
+        if (static_cast<double>(window.occupation) != number)
             table.refuse(row, "occupation", "not whole", "1, 2, ...");
         window.start = instant(table, row, "start_utc");
         window.end = instant(table, row, "end_utc");
@@ -168,8 +168,8 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     if (!from && !to) keep_last_day(occupations, list, events);
     for (const events::Occupation& occupation : occupations) {
         for (const events::Occupation::SetUp& set_up : occupation.set_ups) {
-            list.windows.push_back({occupation.site, occupation.number, set_up.start, set_up.end});
-            list.windows.back().key = occupation.key;
+            list.windows.push_back(
+                {{occupation.site, occupation.number, occupation.key}, set_up.start, set_up.end});
             list.windows.back().not_moved_until = occupation.not_moved_until;
         }
         const bool is_last = occupation.key == last_key;
@@ -223,7 +223,8 @@ OccupationList drop_invalid_occupations(OccupationList list, const std::vector<t
 void leave_out(std::vector<LeftOut>& left_out, std::vector<text::Message>& warnings,
                const OccupationWindow& window, const std::string& reason,
                const text::Message& detail) {
-    left_out.push_back({window.site, window.number, window.start, window.end, reason, window.key});
+    left_out.push_back(
+        {window.site, window.occupation, window.start, window.end, reason, window.key});
     warnings.push_back(
         text::message("{} is left out: {}{}", named(window), text::marked_message(reason), detail));
 }

@@ -28,23 +28,14 @@ namespace a351::corrector::reading {
 ///
 /// Invariant after drop_invalid_occupations(): the site is known, start < end, and no two windows
 /// overlap.
-struct OccupationWindow {
-    std::string site;
-    int number = 1;  ///< Number of the stay at this site; all set-ups of one stay share it.
+struct OccupationWindow : SetUp {
     /// First instant of the set-up.
     UtcTime start;
     /// End of the set-up.  Samples before this instant are used.
     UtcTime end;
-    bool is_flagged = false;                       ///< Marked as not to be used in the fit.
-    std::optional<MilliGal> given_tide = {};       ///< Effect of the tide on gravity.
-    std::optional<Metres> instrument_height = {};  ///< Height of the sensor above the mark.
-    bool is_excluded = false;                      ///< Excluded from every fit by an amendment.
-    std::vector<std::string> notes = {};           ///< Flags for the table, e.g. "no-stop".
-    bool is_last = false;                          ///< The log ends without its stop.
-    std::string key = {};                          ///< Key of the stay in the event log, if any.
+    bool is_last = false;  ///< The log ends without its stop.
     /// The operator says that the box was not moved before this instant.
     std::optional<UtcTime> not_moved_until = {};
-    ListedSetUp listed = {};  ///< Names before all amendments.
 };
 
 /// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`, except those

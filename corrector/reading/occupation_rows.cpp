@@ -97,7 +97,8 @@ void add_outer(DayRecord& day, const Samples& samples, const Epoch& epoch,
 std::optional<int> set_up_number(const std::vector<OccupationWindow>& windows, std::size_t i) {
     int number = 1, count = 0;
     for (std::size_t k = 0; k < windows.size(); ++k) {
-        if (windows[k].site != windows[i].site || windows[k].number != windows[i].number) continue;
+        if (windows[k].site != windows[i].site || windows[k].occupation != windows[i].occupation)
+            continue;
         ++count;
         if (k < i) ++number;
     }
@@ -112,7 +113,7 @@ std::pair<OccupationList, Amendments> read_occupations(const SurveySource& sourc
         is_logged ? read_logged_occupations(origin, source.from, source.to, source.running_until)
                   : read_occupation_table(origin, sites, source.from, source.to);
     for (std::size_t i = 0; i < list.windows.size(); ++i)
-        list.windows[i].listed = {list.windows[i].site, list.windows[i].number,
+        list.windows[i].listed = {list.windows[i].site, list.windows[i].occupation,
                                   set_up_number(list.windows, i)};
     Amendments amendments;
     if (!source.amendments.empty()) amendments = amend(list.windows, source.amendments, sites);
@@ -161,18 +162,10 @@ SurveyRow row_of(const AveragedSetUp& set_up, const SurveyStays& stays) {
     const TemperatureSummary& temperature = value.temperature.value();
     const text::Site& site = *text::find_site(stays.sites, window.site);
     SurveyRow row;
-    row.site = window.site;
-    row.occupation = window.number;
-    row.key = window.key;
-    row.listed = window.listed;
+    static_cast<SetUp&>(row) = window;
     row.start = value.interval_start;
     row.end = value.interval_end;
     row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;
-    row.is_flagged = window.is_flagged;
-    row.is_excluded = window.is_excluded;
-    row.given_tide = window.given_tide;
-    row.instrument_height = window.instrument_height;
-    row.notes = window.notes;
     for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));
     row.acceleration = value.curve_mean;
     row.temperature = temperature.mean;

@@ -27,7 +27,7 @@ bool has_note(const OccupationWindow& window, const char* note) {
 
 Finding remark(FindingKind kind, const OccupationWindow& window, UtcTime time) {
     Finding finding{.kind = kind, .code = std::string(to_text(kind))};
-    set_stay(finding, window.site, window.number, window.key, time);
+    set_stay(finding, window, time);
     return finding;
 }
 
@@ -42,7 +42,7 @@ void add_missing_stops(std::vector<Finding>& findings,
         Finding& finding = findings.emplace_back(remark(FindingKind::no_stop, window, window.end));
         if (window.is_last) finding.code = "no_stop_last";
         finding.text = text::message(
-            "{} ({}) has no stop: it lasts until the {}, at {}", window.site, window.number,
+            "{} ({}) has no stop: it lasts until the {}, at {}", window.site, window.occupation,
             window.is_last ? text::message("end of the record") : text::message("next start"),
             to_rfc3339(window.end));
     }
@@ -58,7 +58,7 @@ void add_short_stays(std::vector<Finding>& findings, const std::vector<Occupatio
     std::map<std::pair<std::string, int>, std::size_t> places;
     for (const OccupationWindow& window : windows) {
         const auto [place, is_new] =
-            places.emplace(std::pair(window.site, window.number), stays.size());
+            places.emplace(std::pair(window.site, window.occupation), stays.size());
         if (is_new) stays.push_back({&window});
         Stay& stay = stays[place->second];
         stay.length += window.end - window.start;
@@ -77,7 +77,7 @@ void add_short_stays(std::vector<Finding>& findings, const std::vector<Occupatio
             findings.emplace_back(remark(FindingKind::short_stay, *stay.first, stay.first->start));
         finding.text = text::message(
             "{} ({}) has {}, less than half the day's median of {}: its noise is averaged less",
-            stay.first->site, stay.first->number, in_minutes(stay.length), in_minutes(median));
+            stay.first->site, stay.first->occupation, in_minutes(stay.length), in_minutes(median));
     }
 }
 

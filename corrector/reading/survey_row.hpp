@@ -32,20 +32,29 @@ struct ListedSetUp {
     std::optional<int> set_up;  ///< From 1; absent if the stay has one set-up.
 };
 
+/// Names and marks of a set-up that a person gives, the same in its window and in its row.  The
+/// set-ups of one stay share `site` and `occupation`.
+struct SetUp {
+    std::string site = {};     ///< Name in the table of sites; in an event log it may be a slip.
+    int occupation = 1;        ///< Number of the stay at this site, from 1.
+    std::string key = {};      ///< Key of the stay in the event log; empty if not from there.
+    ListedSetUp listed = {};   ///< Names for amendments; no site if there can be none.
+    bool is_flagged = false;   ///< Marked by the operator as not to be used.
+    bool is_excluded = false;  ///< Excluded from every fit by an amendment.
+    std::vector<std::string> notes = {};  ///< Reasons for doubt, e.g. "fallback" or "no-stop".
+    /// Tide that came with it, effect on gravity; used by the tide `given` only.
+    std::optional<MilliGal> given_tide = {};
+    std::optional<Metres> instrument_height =
+        {};  ///< Height of the sensor above the mark, if given.
+};
+
 /// The averages of one occupation, or one set-up of it, over an interval without disturbance.
-/// The set-ups of one stay share `site` and `occupation` and differ in `time`.  In a
-/// default-constructed row all numbers are 0 except `occupation`.
-struct SurveyRow {
-    std::string site;              ///< Name in the table of sites.
-    int occupation = 1;            ///< Number of the stay at this site, from 1.
-    std::string key;               ///< Key of the stay in the event log; empty if not from there.
-    ListedSetUp listed;            ///< Names for amendments; no site if there can be none.
+/// The set-ups of one stay differ in `time`.  In a default-constructed row all numbers are 0 except
+/// `occupation`.
+struct SurveyRow : SetUp {
     UtcTime time;                  ///< Middle of the averaging interval.
     std::optional<UtcTime> start;  ///< Start of the averaging interval, if known; `end` alike.
     std::optional<UtcTime> end;
-    bool is_flagged = false;         ///< Marked by the operator as not to be used.
-    bool is_excluded = false;        ///< Excluded from every fit by an amendment.
-    std::vector<std::string> notes;  ///< Reasons for doubt, e.g. "fallback".
     /// Mean with the reductions below.  The full value, or from a gravimeter the value above the zero of its own scale.
     MilliGal acceleration;
     /// Standard deviation of the average, from the scatter of its readings; 0 if not given.
@@ -60,10 +69,7 @@ struct SurveyRow {
     /// Rate of the temperature, degC/h.  From a record: the slope within the interval.  From a
     /// table: that of set_backward_rates(); 0 for a gravimeter.
     double rate_degc_per_h = 0.0;
-    /// Tide that came with the row, effect on gravity; used by the tide `given` only.
-    std::optional<MilliGal> given_tide;
-    std::optional<Metres> instrument_height;  ///< Height of the sensor above the mark, if given.
-    std::optional<double> pressure_hpa;       ///< Air pressure at the site, if given.
+    std::optional<double> pressure_hpa;  ///< Air pressure at the site, if given.
     /// Air pressure minus that of the standard atmosphere at the altitude of the site.
     std::optional<double> excess_pressure_hpa;
     /// Reductions to the mark and to the pressure of the standard atmosphere, which `acceleration`

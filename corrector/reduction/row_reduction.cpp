@@ -23,10 +23,10 @@ constexpr double kMostExcess_hpa = 150.0;
 
 /// Returns true if a row has the value, with a warning if only some of them have it.
 /// @param taken_as  words for what the others are.
-template <class Value>
-bool is_given(const std::vector<reading::SurveyRow>& rows,
-              std::optional<Value> reading::SurveyRow::*value, const text::Message& name,
-              const text::Message& taken_as, std::vector<text::Message>& warnings) {
+template <class Row, class Value>
+bool is_given(const std::vector<reading::SurveyRow>& rows, std::optional<Value> Row::*value,
+              const text::Message& name, const text::Message& taken_as,
+              std::vector<text::Message>& warnings) {
     const auto missing = std::ranges::count_if(
         rows, [value](const reading::SurveyRow& row) { return !(row.*value); });
     if (missing == std::ssize(rows)) return false;

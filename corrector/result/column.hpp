@@ -69,7 +69,7 @@ template <class Row, class Value>
 template <class Row, class Holder, class Part, class Value>
 [[nodiscard]] std::function<Cell(const Row&)> of(Holder Row::*part, Value Part::*member) {
     return [part, member](const Row& row) {
-        if constexpr (std::is_same_v<Holder, Part>)
+        if constexpr (std::is_base_of_v<Part, Holder>)
             return cell((row.*part).*member);
         else
             return row.*part ? cell((*(row.*part)).*member) : Cell();

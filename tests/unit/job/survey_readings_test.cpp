@@ -20,7 +20,7 @@ TEST_CASE("a calibration of another unit is refused, an old one gives a remark",
     survey.calibration = "unit.toml";
     survey.survey.calibration = known;
     const std::vector<OccupationWindow> windows{
-        {"S0", 1, start + std::chrono::hours(1), start + std::chrono::hours(2)}};
+        {{"S0"}, start + std::chrono::hours(1), start + std::chrono::hours(2)}};
     CHECK(check_calibration(survey, "7", windows).empty());
     CHECK_THROWS_WITH(check_calibration(survey, "8", windows),
                       "day.toml: calibration = unit.toml: of unit 7, the record is of unit 8; "

@@ -19,11 +19,11 @@ UtcTime at(const std::string& clock) { return parse_rfc3339("2020-01-01T" + cloc
 
 /// Returns A (1) with two set-ups, B (1), A (2), and an occupation at an unknown site.
 std::vector<OccupationWindow> list() {
-    return {{"A", 1, at("00:00:00"), at("00:06:00"), false},
-            {"A", 1, at("00:07:00"), at("00:13:00"), false},
-            {"B", 1, at("01:00:00"), at("01:12:00"), true},
-            {"A", 2, at("02:00:00"), at("02:12:00"), false},
-            {"BB", 1, at("03:00:00"), at("03:12:00"), false}};
+    return {{{.site = "A", .occupation = 1}, at("00:00:00"), at("00:06:00")},
+            {{.site = "A", .occupation = 1}, at("00:07:00"), at("00:13:00")},
+            {{.site = "B", .occupation = 1, .is_flagged = true}, at("01:00:00"), at("01:12:00")},
+            {{.site = "A", .occupation = 2}, at("02:00:00"), at("02:12:00")},
+            {{.site = "BB", .occupation = 1}, at("03:00:00"), at("03:12:00")}};
 }
 
 std::vector<Amendment> amended(std::vector<OccupationWindow>& windows, const std::string& toml) {
@@ -51,7 +51,7 @@ TEST_CASE("amendments change occupations, add notes, and are reported with their
     CHECK(windows[3].start == at("02:01:00"));
     CHECK(windows[3].end == at("02:12:00"));
     CHECK(windows[4].site == "B");
-    CHECK(windows[4].number == 2);
+    CHECK(windows[4].occupation == 2);
     CHECK(amendments_text(amendments) ==
           "amended: exclude A (1), set-up 2: knock\n"
           "amended: include B (1): was good\n"
@@ -70,7 +70,7 @@ TEST_CASE("an amendment without a set-up applies to the whole stay", "[survey][a
     for (const std::size_t i : {0U, 1U}) {
         CHECK(windows[i].is_excluded);
         CHECK(windows[i].site == "B");
-        CHECK(windows[i].number == 2);
+        CHECK(windows[i].occupation == 2);
         CHECK(windows[i].notes == std::vector<std::string>{"excluded", "renamed"});
     }
 }
@@ -82,9 +82,9 @@ TEST_CASE("amendments refer to the original list, so that two names can be excha
             "[[rename]]\nsite='A'\noccupation=1\nto='B'\nreason='r'\n"
             "[[rename]]\nsite='B'\noccupation=1\nto='A'\nreason='r'\n");
     CHECK(windows[0].site == "B");
-    CHECK(windows[0].number == 2);
+    CHECK(windows[0].occupation == 2);
     CHECK(windows[2].site == "A");
-    CHECK(windows[2].number == 3);
+    CHECK(windows[2].occupation == 3);
 }
 
 TEST_CASE("set-ups, steps and references are amended", "[survey][amendments]") {
@@ -108,7 +108,7 @@ TEST_CASE("set-ups, steps and references are amended", "[survey][amendments]") {
     CHECK(windows[2].end == at("00:10:00"));
     CHECK(windows[3].start == at("00:10:00"));
     CHECK(windows[3].end == at("00:13:00"));
-    CHECK(windows[3].number == 1);
+    CHECK(windows[3].occupation == 1);
     CHECK(amendments.steps == std::vector{at("00:30:00"), at("02:30:00")});
     CHECK(amendments.refused_references == std::vector<std::string>{"A"});
     CHECK(sites[1].gravity == MilliGal(979950.5));

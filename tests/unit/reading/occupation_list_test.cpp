@@ -31,7 +31,7 @@ TEST_CASE("occupations are sorted by time, with several set-ups of one stay",
         "A,1,2020-01-01T00:07:00Z,2020-01-01T00:13:00Z,,second set-up\n");
     REQUIRE(list.windows.size() == 3);
     CHECK(list.windows[0].site == "A");
-    CHECK(list.windows[1].number == 1);
+    CHECK(list.windows[1].occupation == 1);
     CHECK_FALSE(list.windows[1].is_flagged);
     CHECK(list.windows[2].is_flagged);
     CHECK(list.windows[2].end - list.windows[2].start == std::chrono::minutes(12));
@@ -102,7 +102,7 @@ TEST_CASE("the last day of a log of several days is taken, or the requested time
     const auto last = read_logged_occupations(events);
     REQUIRE(last.windows.size() == 2);
     CHECK(last.windows[0].start == at("2020-01-02T08:00:00Z"));
-    CHECK(last.windows[0].number == 3);
+    CHECK(last.windows[0].occupation == 3);
     CHECK(last.windows[0].key == "20200102T080000Z");
     REQUIRE(last.warnings.size() == 1);
     CHECK(last.warnings[0] ==
@@ -148,7 +148,7 @@ TEST_CASE(
         "A,2,2020-01-01T02:06:00Z,2020-01-01T02:00:00Z,1,\n"
         "B,2,2020-01-01T03:00:00Z,2020-01-01T03:06:00Z,1,\n");
     REQUIRE(list.windows.size() == 1);
-    CHECK(list.windows[0].number == 2);
+    CHECK(list.windows[0].occupation == 2);
     REQUIRE(list.left_out.size() == 3);
     CHECK(list.left_out[0].reason == "ends before it starts");
     CHECK(list.left_out[1].reason == "overlaps another");

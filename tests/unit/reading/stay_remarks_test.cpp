@@ -16,7 +16,8 @@ const UtcTime kMorning = parse_rfc3339("2020-05-01T06:00:00Z").value();
 std::vector<OccupationWindow> day() {
     std::vector<OccupationWindow> windows;
     for (int k = 0; k < 6; ++k)
-        windows.push_back({std::string(1, static_cast<char>('A' + k)), 1, kMorning + k * 30min,
+        windows.push_back({{std::string(1, static_cast<char>('A' + k))},
+                           kMorning + k * 30min,
                            kMorning + k * 30min + 12min});
     return windows;
 }
@@ -70,7 +71,7 @@ TEST_CASE("a stay much shorter than the others is named with both lengths", "[su
     windows[3].is_last = true;  // it may still run
     CHECK(stay_remarks(windows, record()).empty());
     windows[3].is_last = false;
-    windows.push_back({"D", 1, windows[3].end + 1min, windows[3].end + 5min});  // set-ups add up
+    windows.push_back({{"D"}, windows[3].end + 1min, windows[3].end + 5min});  // set-ups add up
     CHECK(stay_remarks(windows, record()).empty());
 }
 
