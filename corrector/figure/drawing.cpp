@@ -9,6 +9,7 @@
 
 #include "corrector/figure/gnuplot_script.hpp"
 #include "protocol/child/child_program.hpp"
+#include "protocol/text/removed_at_end.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::corrector::figure {
@@ -16,27 +17,12 @@ namespace {
 
 using child::Outcome;
 
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "a351-figures-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr)
-            throw std::system_error(errno, std::generic_category(), "folder for figures");
-        path_ = name;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
+std::filesystem::path new_folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "a351-figures-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+        throw std::system_error(errno, std::generic_category(), "folder for figures");
+    return name;
+}
 
 child::ChildEnd run_gnuplot(const std::filesystem::path& folder,
                             const std::vector<std::string>& names, const std::string& format) {
@@ -97,7 +83,7 @@ Drawing draw(const std::vector<Figure>& figures, const std::vector<std::string>&
     Drawing drawing;
     if (figures.empty()) return drawing;
     try {
-        const TemporaryFolder folder;
+        const text::RemovedAtEnd folder(new_folder());
         text::write_together(folder.path(), figure_files(figures));
         std::vector<std::string> names;
         for (const Figure& figure : figures) names.push_back(figure.name);

@@ -5,30 +5,14 @@
 #include <algorithm>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/removed_at_end.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/text/text_file.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::job {
 namespace {
-
-/// Removes a file at the end of a scope.
-class Candidate {
-public:
-    explicit Candidate(std::filesystem::path file) : file_(std::move(file)) {}
-    Candidate(const Candidate&) = delete;
-    Candidate& operator=(const Candidate&) = delete;
-    Candidate(Candidate&&) = delete;
-    Candidate& operator=(Candidate&&) = delete;
-    ~Candidate() {
-        std::error_code ignored;
-        std::filesystem::remove(file_, ignored);
-    }
-    [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-
-private:
-    std::filesystem::path file_;
-};
 
 /// Returns the lines of a text with their ends.
 std::vector<std::string> lines_of(const std::string& text) {
@@ -57,26 +41,21 @@ std::string comment_of(std::string sentence) {
 
 std::string with_amendments_key(const std::string& text, const std::string& value) {
     const std::string line = "amendments = " + text::toml_string(value) + '\n';
-    std::string changed;
-    bool is_set = false;
-    for (const std::string& old : lines_of(text)) {
-        const std::string key = without_blanks(old);
-        const bool is_key = !is_set && key.starts_with("amendments=");
-        changed += is_key ? line : old;
-        is_set = is_set || is_key;
-    }
-    if (is_set) return changed;
-    changed.clear();
-    for (const std::string& old : lines_of(text)) {
-        changed += old;
-        if (is_set || !without_blanks(old).starts_with("[survey]")) continue;
-        if (!changed.ends_with('\n')) changed += '\n';
-        changed += line;
-        is_set = true;
-    }
-    if (!is_set)
+    std::vector<std::string> lines = lines_of(text);
+    const auto begins_with = [&lines](std::string_view beginning) {
+        return std::ranges::find_if(lines, [beginning](const std::string& one) {
+            return without_blanks(one).starts_with(beginning);
+        });
+    };
+    if (const auto key = begins_with("amendments="); key != lines.end()) {
+        *key = line;
+    } else if (const auto table = begins_with("[survey]"); table != lines.end()) {
+        if (!table->ends_with('\n')) *table += '\n';
+        lines.insert(table + 1, line);
+    } else {
         throw InputError("no line [survey]; allowed: one, behind which the key amendments is put");
-    return changed;
+    }
+    return text::joined(lines, "");
 }
 
 std::filesystem::path add_amendments(const SurveyFile& survey,
@@ -108,22 +87,17 @@ std::filesystem::path add_amendments(const SurveyFile& survey,
             throw InputError(survey.path.string() + ": " + error.what());
         }
 
-    const Candidate candidate(file.string() + ".candidate");
-    text::write_together(folder_of(file), {{candidate.file().filename().string(), text}});
+    const text::RemovedAtEnd candidate(file.string() + ".candidate");
+    text::write_together(folder_of(file), {{candidate.path().filename().string(), text}});
     SurveyFile tried = survey;
-    tried.amendments = candidate.file();
+    tried.amendments = candidate.path();
     static_cast<void>(reading::read_survey_inputs(tried));  // refuses what contradicts
-
-    if (file == origin) {
-        text::write_together(folder_of(file), {{file.filename().string(), text}});
-    } else if (folder_of(file) == folder_of(survey.path)) {
-        text::write_together(folder_of(file), {{file.filename().string(), text},
-                                               {survey.path.filename().string(), named_survey}});
-    } else {
-        text::write_together(folder_of(file), {{file.filename().string(), text}});
-        text::write_together(folder_of(survey.path),
-                             {{survey.path.filename().string(), named_survey}});
-    }
+    std::vector<text::NamedText> files{{file.filename().string(), text}};
+    const text::NamedText named{survey.path.filename().string(), named_survey};
+    const bool is_beside = folder_of(file) == folder_of(survey.path);
+    if (file != origin && is_beside) files.push_back(named);
+    text::write_together(folder_of(file), files);
+    if (file != origin && !is_beside) text::write_together(folder_of(survey.path), {named});
     return file;
 }
 
