@@ -29,6 +29,7 @@
 #include "corrector/result/table_text.hpp"
 #include "corrector/result/unit_history.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/or_null.hpp"
 #include "protocol/text/write_together.hpp"
 
@@ -102,14 +103,15 @@ nlohmann::ordered_json settings_of(const job::SurveyFile& survey,
     return settings;
 }
 
-/// A survey day, corrected but not yet written.
+/// A survey day, corrected but not yet written, or the reason why it is not corrected.
 struct Day {
     std::string name;
-    model::SurveyCorrection result;
-    std::string amendments;
-    std::vector<text::NamedText> files;
-    std::optional<reading::DayRecord> record;
-    std::string serial_number;
+    std::optional<model::SurveyCorrection> result = {};
+    std::string trouble = {};  ///< Without a result.
+    std::string amendments = {};
+    std::vector<text::NamedText> files = {};
+    std::optional<reading::DayRecord> record = {};
+    std::string serial_number = {};
 };
 
 /// Returns the name as one part of a path.
@@ -122,18 +124,17 @@ std::string folder_name(std::string name) {
 Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& picture_formats) {
     ProgressBar bar(survey.name);
     reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
-    Day day;
-    day.name = survey.name;
-    day.result = job::correct_survey_day(survey, read);
+    Day day{survey.name, job::correct_survey_day(survey, read)};
+    model::SurveyCorrection& result = *day.result;
     if (survey.bouguer_density_kg_per_m3)
-        result::add_anomalies(day.result.stations, read.sites, *survey.bouguer_density_kg_per_m3);
+        result::add_anomalies(result.stations, read.sites, *survey.bouguer_density_kg_per_m3);
     day.record = read.day;
     day.serial_number = read.serial_number;
     day.amendments = reading::amendments_text(read.amendments.list);
-    const nlohmann::ordered_json settings = settings_of(survey, day.result, read);
-    day.files = result::result_files(day.result, settings, read.inputs, read.sites);
+    const nlohmann::ordered_json settings = settings_of(survey, result, read);
+    day.files = result::result_files(result, settings, read.inputs, read.sites);
     const report::Report report = report::make_report(
-        day.result, settings,
+        result, settings,
         {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
          std::move(read.verdicts), read.inputs, read.warnings, picture_formats});
     day.files.insert(day.files.end(), report.files.begin(), report.files.end());
@@ -142,27 +143,22 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
     return day;
 }
 
-/// Writes and prints what the corrected days have together.
-/// @param pages  of all days, also of those that are not corrected.
-void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
-                 const std::filesystem::path& out,
+/// Writes and prints what the corrected days have together.  The order of the days has no effect.
+void write_joint(std::vector<Day> days, const std::filesystem::path& out,
                  const std::vector<std::string>& picture_formats) {
-    // The order of the arguments has no effect.
     std::ranges::sort(days, {}, [](const Day& day) {
-        return std::tuple(day.result.rows.front().row.time, day.serial_number, day.name);
+        return std::tuple(day.result ? day.result->rows.front().row.time : UtcTime::max(),
+                          day.serial_number, day.name);
     });
     std::vector<model::RecordedSurvey> surveys;
-    for (const Day& day : days)
-        surveys.push_back(
-            {day.name, day.serial_number, &day.result, day.record ? &*day.record : nullptr});
-    const bool are_all = days.size() == pages.size();
-    std::ranges::sort(pages, {}, [&](const report::JointDay& page) {
-        const auto day = std::ranges::find(days, page.name, &Day::name);
-        return std::pair(day - days.begin(), page.name);
-    });
-    for (report::JointDay& page : pages)
-        if (const auto day = std::ranges::find(days, page.name, &Day::name); day != days.end())
-            page.result = &day->result;
+    std::vector<report::JointDay> pages;
+    for (const Day& day : days) {
+        const model::SurveyCorrection* const result = day.result ? &*day.result : nullptr;
+        pages.push_back({day.name, folder_name(day.name), result, day.trouble});
+        if (result != nullptr)
+            surveys.push_back(
+                {day.name, day.serial_number, result, day.record ? &*day.record : nullptr});
+    }
     const result::JointResult joint = model::adjust_jointly(surveys);
     const auto* const adjustment = std::get_if<model::JointAdjustment>(&joint);
     const result::JointTables tables = result::joint_tables(surveys, adjustment);
@@ -178,7 +174,7 @@ void write_joint(std::vector<Day> days, std::vector<report::JointDay> pages,
     files.insert(files.end(), page.files.begin(), page.files.end());
     text::write_together(out, files);
     print_warnings({page.warnings.begin(), page.warnings.end()});
-    std::cout << (are_all ? "all days\n" : "all corrected days\n");
+    std::cout << (surveys.size() == days.size() ? "all days\n" : "all corrected days\n");
     for (const std::string& sentence : result::joint_sentences(joint))
         std::cout << sentence << '\n';
     std::cout << result::aligned_text(
@@ -211,33 +207,29 @@ void correct_days(const SurveyCommandOptions& options) {
     require_folder_option("--out", out);
     const bool is_joint = surveys.size() > 1;
     std::vector<Day> days;
-    std::vector<report::JointDay> joint_days;
-    std::string troubles;
-    for (const job::SurveyFile& survey : surveys) {
-        joint_days.push_back({survey.name, folder_name(survey.name)});
-        try {
+    std::vector<std::string> troubles;
+    for (const job::SurveyFile& survey : surveys) try {
             days.push_back(correct_day(survey, options.figures));
         } catch (const InputError& error) {
-            joint_days.back().trouble = error.what();
-            troubles +=
-                fmt::format("{}{}: {}", troubles.empty() ? "" : "; ", survey.name, error.what());
+            days.push_back({.name = survey.name, .trouble = error.what()});
+            troubles.push_back(survey.name + ": " + error.what());
         }
-    }
-    if (days.empty()) throw InputError(is_joint ? troubles : joint_days.front().trouble);
-    const std::size_t corrected = days.size();
-
+    if (troubles.size() == days.size())
+        throw InputError(is_joint ? text::joined(troubles, "; ") : days.front().trouble);
     for (const Day& day : days) {
+        if (!day.result) continue;
         text::write_together(is_joint ? out / folder_name(day.name) : out, day.files);
         std::cout << "survey " << day.name << '\n'
-                  << reading::findings_text(day.result.findings) << result::survey_text(day.result)
-                  << day.amendments << model::trend_comparison_text(day.result) << '\n';
+                  << reading::findings_text(day.result->findings)
+                  << result::survey_text(*day.result) << day.amendments
+                  << model::trend_comparison_text(*day.result) << '\n';
     }
-    if (is_joint) write_joint(std::move(days), std::move(joint_days), out, options.figures);
+    if (is_joint) write_joint(std::move(days), out, options.figures);
     std::cout << "written to " << out.string() << '\n';
     if (!troubles.empty())
         throw std::runtime_error(
             fmt::format("{} of {} surveys are not corrected, the others are written: {}",
-                        surveys.size() - corrected, surveys.size(), troubles));
+                        troubles.size(), surveys.size(), text::joined(troubles, "; ")));
 }
 
 }  // namespace
