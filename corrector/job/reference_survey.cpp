@@ -75,13 +75,13 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey,
         const adjustment::SurveyTerm& term = network.survey.terms()[k];
         const std::size_t at = network.survey.unknown_of_term(k);
         if (term.is_scale)
-            result.scales.push_back({term.instrument, network.coefficient(k),
-                                     std::sqrt(network.adjustment.variance({{at, 1.0}})),
-                                     *term.prior});
+            result.network.scales.push_back({term.instrument, network.coefficient(k),
+                                             std::sqrt(network.adjustment.variance({{at, 1.0}})),
+                                             *term.prior});
     }
-    result.reading_count = adjusted.part.reading_count;
-    result.s0 = adjusted.part.s0();
-    result.is_level_known = is_level_known;
+    result.network.reading_count = adjusted.part.reading_count;
+    result.network.s0 = adjusted.part.s0();
+    result.network.is_level_known = is_level_known;
     for (reading::SurveyRow& row : read.rows)
         if (const auto value = result.values.find(row.site); value != result.values.end()) {
             row.reference = value->second.gravity;
@@ -96,16 +96,12 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey,
 }
 
 void compare_with_reference(model::SurveyCorrection& result, const ReferenceNetwork& reference) {
-    model::SideBySide side_by_side;
-    side_by_side.is_level_known = reference.is_level_known;
-    side_by_side.reading_count = reference.reading_count;
-    side_by_side.s0 = reference.s0;
-    side_by_side.scales = reference.scales;
+    model::SideBySide side_by_side = reference.network;
     // Several gravimeters: the best one determines what is not known of their common scale.
     double relative = HUGE_VAL;
-    for (const model::ScaleEstimate& scale : reference.scales)
+    for (const model::ScaleEstimate& scale : side_by_side.scales)
         relative = std::min(relative, scale.u);
-    if (reference.scales.empty()) relative = 0.0;
+    if (side_by_side.scales.empty()) relative = 0.0;
     for (model::ScaleEstimate& scale : result.scales) scale.u = std::hypot(scale.u, relative);
     const auto constant =
         std::ranges::find(result.coefficients, "constant_mgal", &model::Coefficient::name);

@@ -17,9 +17,7 @@
 ///   the latter.
 
 #include <map>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "corrector/job/survey_file.hpp"
 #include "corrector/model/corrected_survey.hpp"
@@ -35,10 +33,7 @@ struct ReferenceValue {
 /// The gravimeters' network.
 struct ReferenceNetwork {
     std::map<std::string, ReferenceValue> values;  ///< One per station.
-    std::vector<model::ScaleEstimate> scales;      ///< One per instrument.
-    std::size_t reading_count = 0;
-    std::optional<double> s0;    ///< A posteriori factor of the adjustment.
-    bool is_level_known = true;  ///< False: the gravity that is held is not a published one.
+    model::SideBySide network;  ///< Without what the sensor's survey gives: bias and stations.
 };
 
 /// Adjusts the gravimeters of a survey and makes their values the references of its rows and sites.
