@@ -34,12 +34,8 @@ struct CalibrateOptions {
 
 /// Reads a survey file, or makes one for a data root with a sites.csv.
 job::SurveyFile series_file(const std::filesystem::path& path) {
-    if (!std::filesystem::is_directory(path)) return job::read_survey_file(path);
-    job::SurveyFile survey;
-    survey.name = path.filename().string();
-    survey.root = path;
-    survey.sites = path / "sites.csv";
-    return survey;
+    return std::filesystem::is_directory(path) ? job::survey_of_root(path, path / "sites.csv")
+                                               : job::read_survey_file(path);
 }
 
 /// The readings that a calibration is measured from, each counted once.  Counted twice they would
