@@ -252,20 +252,18 @@ Amendments amend(Windows& windows, const std::filesystem::path& file,
     text::TomlTable document = text::read_toml(file);
     Amender amender(windows, sites);
     Amendments amendments;
-    for (const std::string kind : {"exclude", "include"}) {
-        for (text::TomlTable& table : document.tables(kind))
-            amendments.list.push_back(amender.mark(table, kind));
-    }
-    for (text::TomlTable& table : document.tables("retime"))
-        amendments.list.push_back(amender.retime(table));
-    for (text::TomlTable& table : document.tables("rename"))
-        amendments.list.push_back(amender.rename(table));
-    for (text::TomlTable& table : document.tables("set_up"))
-        amendments.list.push_back(amender.set_up(table));
-    for (text::TomlTable& table : document.tables("step"))
-        amendments.list.push_back(amender.step(table, amendments.steps));
-    for (text::TomlTable& table : document.tables("reference"))
-        amendments.list.push_back(amender.reference(table, amendments.refused_references));
+    using Table = text::TomlTable;
+    const auto each = [&](const std::string& kind, const auto& carry_out) {
+        for (Table& table : document.tables(kind)) amendments.list.push_back(carry_out(table));
+    };
+    for (const std::string kind : {"exclude", "include"})
+        each(kind, [&](Table& table) { return amender.mark(table, kind); });
+    each("retime", [&](Table& table) { return amender.retime(table); });
+    each("rename", [&](Table& table) { return amender.rename(table); });
+    each("set_up", [&](Table& table) { return amender.set_up(table); });
+    each("step", [&](Table& table) { return amender.step(table, amendments.steps); });
+    each("reference",
+         [&](Table& table) { return amender.reference(table, amendments.refused_references); });
     amender.divide();
     std::ranges::sort(amendments.steps);
     document.require_all_read();

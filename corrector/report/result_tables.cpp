@@ -21,11 +21,6 @@ namespace {
 
 using text::tr;
 
-template <class Value>
-std::string cell(const std::optional<Value>& value, int decimals) {
-    return text::fixed_or(value, decimals, "-");
-}
-
 std::string number(MilliGal value, int decimals = 3) {
     return text::fixed(value.value(), decimals);
 }
@@ -209,10 +204,10 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
     std::vector<HtmlCells> rows;
     for (const judgement::Closure& pair : closures) {
         rows.push_back({judgement::reading_name(result.rows, pair.earlier),
-                        judgement::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2),
-                        number(pair.before), number(pair.after_tide),
+                        judgement::reading_name(result.rows, pair.later),
+                        text::fixed(pair.hours, 2), number(pair.before), number(pair.after_tide),
                         number(pair.after_temperature), number(pair.after_rate),
-                        number(pair.after_all), cell(pair.drift_mgal_per_h, 3)});
+                        number(pair.after_all), text::fixed_or(pair.drift_mgal_per_h, 3, "-")});
     }
     const judgement::ClosureRms rms = judgement::rms_of(closures).value();
     rows.push_back({tr("RMS of {}", closures.size()), "", "", number(rms.before),
@@ -245,7 +240,8 @@ void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {
                text::fixed(result.choice->limit_mgal, 3)));
     std::vector<HtmlCells> coefficients;
     for (const model::Coefficient& c : result.coefficients)
-        coefficients.push_back({c.name, text::fixed(c.value, 4), cell(c.standard_error, 4)});
+        coefficients.push_back(
+            {c.name, text::fixed(c.value, 4), text::fixed_or(c.standard_error, 4, "-")});
     add(parent, "h3", tr("Coefficients of {}", result.model));
     add_table(parent, tr("Standard errors are those of the fit (in sample)."), "lrr",
               {tr("Coefficient"), tr("Value"), tr("Standard error")}, coefficients);

@@ -15,11 +15,6 @@
 namespace a351::corrector::result {
 namespace {
 
-template <class Value>
-std::string cell(const std::optional<Value>& value, int decimals) {
-    return text::fixed_or(value, decimals, "-");
-}
-
 std::string occupations_text(const model::SurveyCorrection& result) {
     const auto columns =
         with_keys(occupation_columns(result),
@@ -70,11 +65,12 @@ std::string coefficients_text(const model::SurveyCorrection& result) {
 std::string summary_text(const model::SurveyCorrection& result) {
     const model::Score& score = result.score;
     std::string text = "model " + result.model + choice_text(result);
-    text +=
-        fmt::format(": RMS {} mGal (in sample, n = {})", cell(score.rms_mgal, 3), score.row_count);
+    text += fmt::format(": RMS {} mGal (in sample, n = {})", text::fixed_or(score.rms_mgal, 3, "-"),
+                        score.row_count);
     const auto add = [&text](std::string_view before, const std::optional<double>& value_mgal,
                              std::string_view behind) {
-        if (value_mgal) text += fmt::format("{}{} mGal {}", before, cell(value_mgal, 3), behind);
+        if (value_mgal)
+            text += fmt::format("{}{} mGal {}", before, text::fixed_or(value_mgal, 3, "-"), behind);
     };
     add(", ", score.loo_mgal, "(leave-one-out)");
     add(", ", score.loso_mgal, "(leave-one-station-out)");
@@ -85,7 +81,7 @@ std::string summary_text(const model::SurveyCorrection& result) {
     }
     add("RMS of Error (1), before the drift step: ", score.rms_before_drift_mgal,
         fmt::format("(in sample); of Error (2), after it: {} mGal (in sample)\n",
-                    cell(score.rms_mgal, 3)));
+                    text::fixed_or(score.rms_mgal, 3, "-")));
     add("with the choice of the model repeated for every station left out: ",
         result.choice_loso_mgal, "(leave-one-station-out)\n");
     return text;
