@@ -19,8 +19,6 @@ using text::tr;
 /// A point of a figure; a row without a finite one is not in it.
 struct Point {
     double x, y;
-
-    [[nodiscard]] bool is_shown() const { return std::isfinite(x) && std::isfinite(y); }
 };
 using PointOf = std::function<Point(const model::CorrectedRow&)>;
 
@@ -41,20 +39,18 @@ Figure scatter(const std::string& name, const std::string& x_label, const std::s
 std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& result,
                                 const std::string& columns, bool is_diagonal,
                                 const PointOf& point_of) {
-    plot_rows(figure, result, columns, [&](const model::CorrectedRow& row) {
-        const auto [x, y] = point_of(row);
-        return point_of(row).is_shown() ? data_line("44", {x, y}, "") : "";
+    std::vector<double> all_x, x, y;  // of all points, and of those in the fit
+    plot_rows(figure, result, columns, [&](const model::CorrectedRow& row) -> std::string {
+        const Point point = point_of(row);
+        if (!std::isfinite(point.x) || !std::isfinite(point.y)) return {};
+        all_x.push_back(point.x);
+        if (row.is_used) {
+            x.push_back(point.x);
+            y.push_back(point.y);
+        }
+        return data_line("44", {point.x, point.y}, "");
     });
     if (figure.data.empty()) return std::nullopt;
-    std::vector<double> all_x, x, y;
-    for (const model::CorrectedRow& row : result.rows) {
-        const Point point = point_of(row);
-        if (!point.is_shown()) continue;
-        all_x.push_back(point.x);
-        if (!row.is_used) continue;
-        x.push_back(point.x);
-        y.push_back(point.y);
-    }
     const bool has_line = x.size() >= 3 && std::ranges::min(x) < std::ranges::max(x);
     const auto fit = has_line ? correlation::fit_line(x, y) : correlation::LineFit{};
     const std::string r2 = text::fixed(fit.r2, 4);
