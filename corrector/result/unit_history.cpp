@@ -94,18 +94,14 @@ const std::vector<Column<UnitDay>>& unit_day_columns() {
             {"uncertainty_factor", of(&UnitDay::uncertainty_factor), {}}};
         for (std::size_t k = 0; k < term_kinds().size(); ++k) {
             const TermKind& kind = term_kinds()[k];
-            all.push_back({kind.name,
-                           [k](const UnitDay& day) {
-                               const auto& term = day.terms[k];
-                               return term ? cell(term->value) : Cell();
-                           },
-                           {kind.heading, kind.decimals}});
-            all.push_back({kind.u_key,
-                           [k](const UnitDay& day) {
-                               const auto& term = day.terms[k];
-                               return term ? cell(term->standard_error) : Cell();
-                           },
-                           {}});
+            const auto of_term = [k](auto member) {
+                return [k, member](const UnitDay& day) {
+                    return day.terms[k] ? cell((*day.terms[k]).*member) : Cell();
+                };
+            };
+            all.push_back(
+                {kind.name, of_term(&model::Coefficient::value), {kind.heading, kind.decimals}});
+            all.push_back({kind.u_key, of_term(&model::Coefficient::standard_error)});
         }
         return all;
     }();
