@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>

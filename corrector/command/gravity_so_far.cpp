@@ -2,7 +2,6 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "corrector/design/evening.hpp"
 #include "corrector/job/survey_day.hpp"

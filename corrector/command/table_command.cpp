@@ -11,7 +11,6 @@
 #include "corrector/job/survey_file.hpp"
 #include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/model.hpp"
-#include "corrector/model/survey_correction.hpp"
 #include "corrector/reduction/normal_gravity.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/result/anomalies.hpp"

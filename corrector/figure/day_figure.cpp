@@ -8,7 +8,6 @@
 #include "corrector/figure/record_figures.hpp"
 #include "corrector/figure/row_marks.hpp"
 #include "corrector/judgement/reading_grade.hpp"
-#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {

@@ -1,7 +1,5 @@
 #include "corrector/figure/design_figure.hpp"
 
-#include <fmt/core.h>
-
 #include <array>
 
 #include "corrector/figure/escaping.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <string_view>
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "corrector/figure/escaping.hpp"
 #include "protocol/text/catalogue.hpp"
 #include "protocol/text/message.hpp"
 

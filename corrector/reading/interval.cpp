@@ -1,6 +1,5 @@
 #include "corrector/reading/interval.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 #include "corrector/eemd/extrema.hpp"

@@ -5,8 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "protocol/core/units.hpp"
-
 namespace a351::corrector::reading {
 namespace {
 

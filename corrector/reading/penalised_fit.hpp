@@ -13,7 +13,6 @@
 ///     const std::vector<double> curve = fit.solve(right);
 ///     const std::vector<double> variance = fit.inverse_diagonal();  // times the noise variance
 
-#include <cstddef>
 #include <span>
 #include <vector>
 

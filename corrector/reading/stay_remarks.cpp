@@ -1,7 +1,5 @@
 #include "corrector/reading/stay_remarks.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -8,8 +8,6 @@
 #include <string_view>
 
 #include "protocol/core/input_error.hpp"
-#include "protocol/core/units.hpp"
-#include "protocol/text/csv.hpp"
 
 namespace a351::corrector::reading {
 namespace {

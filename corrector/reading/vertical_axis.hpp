@@ -10,7 +10,6 @@
 ///     if (!warning.empty()) warnings.push_back(warning);
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "corrector/archive_series/epoch.hpp"

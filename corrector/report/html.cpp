@@ -1,7 +1,5 @@
 #include "corrector/report/html.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cctype>
 #include <sstream>

@@ -7,7 +7,6 @@
 #include "corrector/report/html.hpp"
 #include "corrector/report/result_tables.hpp"
 #include "corrector/report/summary.hpp"
-#include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {
 namespace {

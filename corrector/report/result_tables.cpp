@@ -13,7 +13,6 @@
 #include "corrector/result/side_by_side_report.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
-#include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {

@@ -5,7 +5,6 @@
 
 #include "corrector/judgement/reading_grade.hpp"
 #include "corrector/model/calibration_use.hpp"
-#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/catalogue.hpp"
 
 namespace a351::corrector::result {
