@@ -13,11 +13,8 @@
 /// alone, so that priors may be too wide, or S.
 
 #include <Eigen/Core>
-#include <memory>
 #include <random>
 #include <vector>
-
-#include "corrector/residual/residuals.hpp"
 
 namespace a351::corrector::adjustment {
 
@@ -58,8 +55,5 @@ public:
     /// Returns true if G = S: the scatter is that of all errors, and follows from M alone.
     [[nodiscard]] virtual bool is_plain() const = 0;
 };
-
-/// Returns residuals in dense form, for a few hundred readings.
-[[nodiscard]] std::unique_ptr<Residuals> dense_residuals(residual::Residuals residuals);
 
 }  // namespace a351::corrector::adjustment

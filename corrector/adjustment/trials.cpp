@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "corrector/adjustment/dense_residuals.hpp"
+
 namespace a351::corrector::adjustment {
 namespace {
 
@@ -30,12 +32,11 @@ struct Base {
     /// Returns a vector of the rows, in standard deviations, without what the unknowns explain.
     [[nodiscard]] Eigen::VectorXd projected(Eigen::VectorXd whitened) const {
         Eigen::VectorXd values = whitened;
-        for (std::size_t i = 0; i < rows().size(); ++i) values(static_cast<Index>(i)) *= rows()[i].sd;
-        const Unknowns x =
-            solution.normal().solve(gradient_of(solution.equations(), values));
         for (std::size_t i = 0; i < rows().size(); ++i)
-            whitened(static_cast<Index>(i)) -=
-                product(solution.equations(), i, x) / rows()[i].sd;
+            values(static_cast<Index>(i)) *= rows()[i].sd;
+        const Unknowns x = solution.normal().solve(gradient_of(solution.equations(), values));
+        for (std::size_t i = 0; i < rows().size(); ++i)
+            whitened(static_cast<Index>(i)) -= product(solution.equations(), i, x) / rows()[i].sd;
         return whitened;
     }
 
@@ -122,8 +123,8 @@ public:
     [[nodiscard]] bool is_plain() const override { return true; }
 
     [[nodiscard]] Seen simulated(std::mt19937_64& generator) const override {
-        Eigen::VectorXd drawn = base_->projected(
-            residual::normal_vector(generator, correction_.residuals.size()));
+        Eigen::VectorXd drawn =
+            base_->projected(normal_vector(generator, correction_.residuals.size()));
         drawn -= correction_.basis * (correction_.basis.transpose() * drawn);
         return seen_of(drawn);
     }
@@ -195,7 +196,7 @@ public:
         constexpr int kRounds = 4;
         std::optional<double> noise = noise_of(quiet);
         for (int round = 0; noise && round < kRounds; ++round) {
-            if (*noise < kNear && *noise > 1.0 / kNear) break;
+            if (*noise<kNear&& * noise> 1.0 / kNear) break;
             move_base(quiet, *noise);
             noise = noise_of(quiet);
         }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "corrector/correlation/regression.hpp"
 #include "corrector/figure/long_record_figures.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/regression.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
@@ -15,7 +15,7 @@ using text::tr;
 /// Returns hours and deviations from the mean.  Neighbours are averaged so that the curve has at
 /// most kMostPoints.
 std::string mean_lines(const std::vector<double>& values, double step_s) {
-    const double mean = correlation::mean_of(values);
+    const double mean = signal::mean_of(values);
     const std::size_t each = (values.size() + kMostPoints - 1) / kMostPoints;
     std::string lines;
     for (std::size_t first = 0; first + each <= values.size(); first += each) {
@@ -31,7 +31,7 @@ std::string mean_lines(const std::vector<double>& values, double step_s) {
 Figure series_figure(const long_record::RecordResult& result) {
     const std::vector<double>& before = result.segment().acceleration_mgal;
     const double low = std::ranges::min(before), high = std::ranges::max(before),
-                 mean = correlation::mean_of(before);
+                 mean = signal::mean_of(before);
     Figure figure{"before-after",
                   tr("The record minus its mean, before and after the correction by each of two "
                      "methods."),

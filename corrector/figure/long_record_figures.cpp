@@ -47,7 +47,7 @@ double step_h_of(const RecordResult& result) { return result.record.step_s / kSe
 
 /// Returns the mean acceleration rounded to whole mGal, so that the axis is easy to read.
 double reference_of(const RecordResult& result) {
-    return std::round(correlation::mean_of(result.segment().acceleration_mgal));
+    return std::round(signal::mean_of(result.segment().acceleration_mgal));
 }
 
 std::string above_reference(const RecordResult& result) {
@@ -124,7 +124,7 @@ Figure samples_figure(const RecordResult& result) {
 
 Figure scatter_figure(const std::string& name, const std::string& caption,
                       const std::vector<double>& x, const std::vector<double>& y,
-                      const correlation::LineFit& fit, double offset, const std::string& y_label) {
+                      const signal::LineFit& fit, double offset, const std::string& y_label) {
     const std::size_t count = std::min(x.size(), y.size());
     std::string points, ends;
     for (std::size_t i = 0; i < count; i += (count + kMostPoints - 1) / kMostPoints)
@@ -211,7 +211,7 @@ Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
 }
 
 Figure correlation_figure(const long_record::RecordAnalysis& analysis) {
-    const auto lines = [](const correlation::CrossCorrelation& correlation) {
+    const auto lines = [](const signal::CrossCorrelation& correlation) {
         std::string text;
         for (std::size_t i = 0; i < correlation.values.size(); ++i)
             text += data_line("15", {correlation.delays_s[i], correlation.values[i]});

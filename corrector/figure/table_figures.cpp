@@ -4,10 +4,10 @@
 #include <cmath>
 #include <functional>
 
-#include "corrector/correlation/regression.hpp"
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/row_marks.hpp"
 #include "corrector/figure/survey_figures.hpp"
+#include "protocol/signal/regression.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
@@ -52,7 +52,7 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
     });
     if (figure.data.empty()) return std::nullopt;
     const bool has_line = x.size() >= 3 && std::ranges::min(x) < std::ranges::max(x);
-    const auto fit = has_line ? correlation::fit_line(x, y) : correlation::LineFit{};
+    const auto fit = has_line ? signal::fit_line(x, y) : signal::LineFit{};
     const std::string r2 = text::fixed(fit.r2, 4);
     const auto at = [&fit](double where) { return fit.mean_y + fit.slope * (where - fit.mean_x); };
     Series line{Look::firm_line, Colour::grey};

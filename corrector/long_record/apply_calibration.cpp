@@ -7,9 +7,9 @@
 #include <cmath>
 #include <complex>
 
-#include "corrector/correlation/fourier.hpp"
-#include "corrector/correlation/regression.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/fourier.hpp"
+#include "protocol/signal/regression.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/unit/combined_estimates.hpp"
 
@@ -78,7 +78,7 @@ std::vector<double> by_two_paths(const RecordSegment& segment, const unit::Therm
                                  double step_s) {
     const std::vector<double> temperature = smoothed(segment.temperature_degc);
     const TimeSeries<DegC> series({}, Hertz(1.0 / step_s), temperature);
-    const std::vector<double> effect = response.of(series, correlation::mean_of(temperature));
+    const std::vector<double> effect = response.of(series, signal::mean_of(temperature));
     std::vector<double> corrected = segment.acceleration_mgal;
     for (std::size_t i = 0; i < corrected.size(); ++i) corrected[i] -= effect[i];
     return corrected;
@@ -98,7 +98,7 @@ std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnaly
     }
     const double slope = response.level + response.slow;
     const auto subtract_slow = [&](const eemd::Component& component) {
-        const double mean = correlation::mean_of(component.values);
+        const double mean = signal::mean_of(component.values);
         for (std::size_t i = 0; i < corrected.size(); ++i)
             corrected[i] -= slope * (component.values[i] - mean);
     };
@@ -108,7 +108,7 @@ std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnaly
             subtract_slow(mode);
             continue;
         }
-        const correlation::Spectrum turned = correlation::analytic_signal(mode.values);
+        const signal::Spectrum turned = signal::analytic_signal(mode.values);
         const std::complex<double> gain = response.at(mode.mean_period_samples * step_s);
         for (std::size_t i = 0; i < corrected.size(); ++i)
             corrected[i] -= (gain * turned[i]).real();
@@ -120,9 +120,9 @@ std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnaly
 /// Returns the mean square of the values in each band of periods, without their straight line.
 std::vector<double> band_squares(const std::vector<double>& values, double step_s,
                                  const std::vector<double>& edges_s) {
-    const std::vector<double> centred = correlation::without_line(values);
-    const std::size_t length = correlation::fast_length(centred.size());
-    const correlation::Spectrum spectrum = correlation::half_spectrum(centred, length);
+    const std::vector<double> centred = signal::without_line(values);
+    const std::size_t length = signal::fast_length(centred.size());
+    const signal::Spectrum spectrum = signal::half_spectrum(centred, length);
     std::vector<double> squares(edges_s.size() - 1, 0.0);
     for (std::size_t k = 1; k < spectrum.size(); ++k) {
         const double period_s = static_cast<double>(length) * step_s / static_cast<double>(k);

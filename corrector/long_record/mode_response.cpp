@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "corrector/correlation/fourier.hpp"
-#include "corrector/correlation/regression.hpp"
 #include "corrector/long_record/response.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/signal/distributions.hpp"
+#include "protocol/signal/fourier.hpp"
+#include "protocol/signal/regression.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::long_record {
@@ -27,8 +27,8 @@ Complex response_of(const Sums& sums) { return sums(0) / sums(1); }
 
 /// Returns the period (s) of the mean frequency of a mode's power; 0 for a constant.
 double period_of(std::span<const double> mode, double step_s) {
-    const std::size_t length = correlation::fast_length(mode.size());
-    const correlation::Spectrum spectrum = correlation::half_spectrum(mode, length);
+    const std::size_t length = signal::fast_length(mode.size());
+    const signal::Spectrum spectrum = signal::half_spectrum(mode, length);
     double power = 0.0, frequency = 0.0;
     for (std::size_t k = 1; k < spectrum.size(); ++k) {
         power += std::norm(spectrum[k]);
@@ -60,7 +60,7 @@ double chance_gain(Series mode, Series temperature, Series acceleration, Complex
                    double cycles) {
     constexpr std::size_t kShifts = 40;
     const std::size_t count = mode.size();
-    correlation::Spectrum rest(count);
+    signal::Spectrum rest(count);
     double power = 0.0, square = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         rest[i] = acceleration[i] - gain * temperature[i];
@@ -126,10 +126,10 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
                                              std::span<const double> temperature_degc,
                                              std::span<const double> acceleration_mgal,
                                              double step_s) {
-    const correlation::Spectrum temperature =
-        correlation::analytic_signal(correlation::without_line(temperature_degc));
-    const correlation::Spectrum acceleration =
-        correlation::analytic_signal(correlation::without_line(acceleration_mgal));
+    const signal::Spectrum temperature =
+        signal::analytic_signal(signal::without_line(temperature_degc));
+    const signal::Spectrum acceleration =
+        signal::analytic_signal(signal::without_line(acceleration_mgal));
     const double record_s = static_cast<double>(temperature_degc.size()) * step_s;
     std::vector<ResponsePoint> points;
     for (const std::vector<double>& mode : modes) {
@@ -139,7 +139,7 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
         point.period_s = period_s;
         point.shortest_s = point.period_s / std::numbers::sqrt2;
         point.longest_s = point.period_s * std::numbers::sqrt2;
-        point.temperature_rms_degc = std::sqrt(correlation::variance_of(mode));
+        point.temperature_rms_degc = std::sqrt(signal::variance_of(mode));
         const auto margin = static_cast<std::size_t>(0.5 * point.period_s / step_s);
         const double cycles = record_s / point.period_s;
         const auto blocks = std::min(
@@ -155,7 +155,7 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
         const auto inner = [margin](Series whole) {
             return whole.subspan(margin, whole.size() - 2 * margin);
         };
-        const correlation::Spectrum analytic = correlation::analytic_signal(mode);
+        const signal::Spectrum analytic = signal::analytic_signal(mode);
         const Series z = inner(analytic), t = inner(temperature), a = inner(acceleration);
         const auto sums = sums_of_blocks(z, t, a, blocks);
         point.coherence = squared_correlation(z, a);

@@ -14,7 +14,7 @@ namespace {
 
 /// Returns the peak-to-peak value of a sine with this standard deviation: 2 sqrt(2) times it.
 double swing(std::span<const double> values) {
-    return 2.0 * std::sqrt(2.0 * correlation::variance_of(values));
+    return 2.0 * std::sqrt(2.0 * signal::variance_of(values));
 }
 
 double zero_crossing_period_s(std::span<const double> values, double step_s) {
@@ -49,10 +49,9 @@ PairStatistics pair_statistics(std::span<const double> temperature_degc,
     for (double& value : turned) value = -value;
     // In a narrow band residuals keep their phase for several cycles.
     const auto correlated = static_cast<std::size_t>(std::llround(4.0 * cycle_s / step_s));
-    pair.moved = correlation::fit_line(temperature_degc.first(turned.size()), turned, correlated);
+    pair.moved = signal::fit_line(temperature_degc.first(turned.size()), turned, correlated);
     const int half_cycle = std::max(2, static_cast<int>(0.5 * cycle_s / step_s));
-    pair.correlation =
-        correlation::correlate(temperature_degc, acceleration_mgal, half_cycle, step_s);
+    pair.correlation = signal::correlate(temperature_degc, acceleration_mgal, half_cycle, step_s);
     return pair;
 }
 
@@ -68,7 +67,7 @@ double phase_of_peaks_deg(const PairStatistics& pair) {
 }
 
 double rate_coefficient(const PairStatistics& pair) {
-    const correlation::CorrelationPeak& negative = pair.correlation.negative;
+    const signal::CorrelationPeak& negative = pair.correlation.negative;
     const double gain =
         std::abs(negative.value) * pair.acceleration_swing_mgal / pair.temperature_swing_degc;
     const double angular_hz = 2.0 * std::numbers::pi / pair.period_s;
@@ -77,8 +76,8 @@ double rate_coefficient(const PairStatistics& pair) {
 }
 
 text::Message causal_reading(const PairStatistics& pair) {
-    const correlation::CorrelationPeak &negative = pair.correlation.negative,
-                                       &positive = pair.correlation.positive;
+    const signal::CorrelationPeak &negative = pair.correlation.negative,
+                                  &positive = pair.correlation.positive;
     const double ratio = std::abs(positive.value / negative.value);
     const double phase_deg = phase_of_peaks_deg(pair);
     constexpr double kEqual = 1.25;  // largest ratio of peaks of equal size

@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-#include "corrector/correlation/regression.hpp"
+#include "protocol/signal/regression.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
@@ -26,11 +26,10 @@ struct PairStatistics {
     /// Peak-to-peak value of a sine with the standard deviation of the temperature.
     double temperature_swing_degc = 0.0;
     double acceleration_swing_mgal = 0.0;  ///< Same for the acceleration.
-    correlation::LineFit
+    signal::LineFit
         moved;  ///< Acceleration, sign inverted and `shift_s` earlier, over temperature.
     double shift_s = 0.0;
-    correlation::CrossCorrelation
-        correlation;  ///< Delays of the acceleration after the temperature.
+    signal::CrossCorrelation correlation;  ///< Delays of the acceleration after the temperature.
 };
 
 /// Computes the statistics of a pair of series.

@@ -119,7 +119,7 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     RecordAnalysis analysis;
     analysis.step_s = step_s;
     const auto correlated = static_cast<std::size_t>(4.0 * options.cycle_s / step_s);
-    analysis.raw = correlation::fit_line(temperature, acceleration, correlated);
+    analysis.raw = signal::fit_line(temperature, acceleration, correlated);
     analysis.noise = record_noise(acceleration, step_s);
     analysis.raw.mean_y += segment.acceleration_mgal.front();
 
@@ -135,7 +135,7 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     const std::vector<double>&slow_temperature = analysis.temperature.residue.values,
           &slow_acceleration = analysis.acceleration.residue.values;
     analysis.trend =
-        correlation::fit_line(slow_temperature, slow_acceleration, slow_temperature.size() / 4);
+        signal::fit_line(slow_temperature, slow_acceleration, slow_temperature.size() / 4);
     analysis.temperature_change_degc = change_of(slow_temperature);
     analysis.acceleration_change_mgal = change_of(slow_acceleration);
 

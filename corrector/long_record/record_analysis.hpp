@@ -63,9 +63,9 @@ struct ChosenMode {
 /// - `by_spectrum`, `by_modes`: fastest first; refused points are among them.
 /// - `two_paths`: mGal, degC, s; see fit_two_paths().
 struct RecordAnalysis {
-    double step_s = 0.0;         ///< Time between samples.
-    correlation::LineFit raw;    ///< Acceleration over temperature, all samples.
-    correlation::LineFit trend;  ///< Residue of the acceleration over residue of the temperature.
+    double step_s = 0.0;    ///< Time between samples.
+    signal::LineFit raw;    ///< Acceleration over temperature, all samples.
+    signal::LineFit trend;  ///< Residue of the acceleration over residue of the temperature.
     /// Last minus first value of both residues.
     double temperature_change_degc = 0.0, acceleration_change_mgal = 0.0;
     PairStatistics band;  ///< Butterworth band pass from cycle / 1.5 to cycle x 5 / 3.

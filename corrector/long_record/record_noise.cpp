@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "corrector/correlation/fourier.hpp"
-#include "corrector/correlation/regression.hpp"
+#include "protocol/signal/fourier.hpp"
+#include "protocol/signal/regression.hpp"
 
 namespace a351::corrector::long_record {
 namespace {
@@ -15,9 +15,9 @@ namespace {
 constexpr double kHardlyMore = 1.1;
 
 std::vector<NoiseBand> noise_spectrum(const std::vector<double>& values, double step_s) {
-    const std::vector<double> centred = correlation::without_line(values);
-    const std::size_t length = correlation::fast_length(centred.size());
-    const correlation::Spectrum spectrum = correlation::half_spectrum(centred, length);
+    const std::vector<double> centred = signal::without_line(values);
+    const std::size_t length = signal::fast_length(centred.size());
+    const signal::Spectrum spectrum = signal::half_spectrum(centred, length);
     const double df_hz = 1.0 / (static_cast<double>(length) * step_s);
     const double third = std::cbrt(2.0);
     constexpr std::size_t kFewest = 3;  // frequencies in a band; fewer say nothing
@@ -74,7 +74,7 @@ Eigen::Vector3d fit_noises(const std::vector<AllanDeviation>& allan, double dura
 /// divided by sqrt(2).
 double scatter_apart(const std::vector<double>& values, std::size_t samples, std::size_t apart) {
     std::vector<double> sums(values.size() + 1, 0.0);
-    const double mean = correlation::mean_of(values);
+    const double mean = signal::mean_of(values);
     for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
     const std::size_t count = values.size() - apart - samples + 1;
     double squares = 0.0;
@@ -117,7 +117,7 @@ RecordNoise record_noise(const std::vector<double>& values, double step_s) {
 
 double allan_deviation(const std::vector<double>& values, std::size_t samples) {
     std::vector<double> sums(values.size() + 1, 0.0);
-    const double mean = correlation::mean_of(values);
+    const double mean = signal::mean_of(values);
     for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
     // With cumulative sums s: sigma^2 = 1/2 mean ((s[i+2m] - 2 s[i+m] + s[i]) / m)^2
     const std::size_t count = values.size() - 2 * samples + 1;

@@ -66,8 +66,8 @@ std::vector<RecordStatistic> record_statistics(const RecordResult& result) {
          text::tr("falls"), analysis.acceleration_change_mgal, 2}};
     const auto add = [&list](const std::string& key, const std::string& name,
                              const PairStatistics& pair) {
-        const correlation::CorrelationPeak &negative = pair.correlation.negative,
-                                           &positive = pair.correlation.positive;
+        const signal::CorrelationPeak &negative = pair.correlation.negative,
+                                      &positive = pair.correlation.positive;
         const std::string shift = text::fixed(pair.shift_s, 0);
         list.insert(list.end(),
                     {{key + "_period_s", text::tr("{}: period of the temperature", name), "s",

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "corrector/correlation/fourier.hpp"
-#include "corrector/correlation/regression.hpp"
 #include "corrector/long_record/response.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/fourier.hpp"
+#include "protocol/signal/regression.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::long_record {
@@ -20,7 +20,7 @@ constexpr double kFewestCycles = 6.0;  // cycles of a period that the record mus
 
 /// Spectra of both series with each taper; white noise of variance 1 has the mean square 1.
 struct TaperedSpectra {
-    std::vector<correlation::Spectrum> temperature, acceleration;
+    std::vector<signal::Spectrum> temperature, acceleration;
     double bin_hz = 0.0;    ///< Distance of the frequencies.
     double rayleigh = 0.0;  ///< Number of values within the resolution of the untapered record.
 
@@ -30,9 +30,9 @@ struct TaperedSpectra {
 TaperedSpectra tapered_spectra(std::span<const double> temperature,
                                std::span<const double> acceleration, double step_s) {
     const std::size_t count = temperature.size();
-    const std::size_t length = correlation::fast_length(count);
-    const std::vector<double> t = correlation::without_line(temperature),
-                              a = correlation::without_line(acceleration);
+    const std::size_t length = signal::fast_length(count);
+    const std::vector<double> t = signal::without_line(temperature),
+                              a = signal::without_line(acceleration);
     TaperedSpectra result;
     result.bin_hz = 1.0 / (static_cast<double>(length) * step_s);
     result.rayleigh = static_cast<double>(length) / static_cast<double>(count);
@@ -48,8 +48,8 @@ TaperedSpectra tapered_spectra(std::span<const double> temperature,
             tapered_t[i] = weight * t[i];
             tapered_a[i] = weight * a[i];
         }
-        result.temperature.push_back(correlation::half_spectrum(tapered_t, length));
-        result.acceleration.push_back(correlation::half_spectrum(tapered_a, length));
+        result.temperature.push_back(signal::half_spectrum(tapered_t, length));
+        result.acceleration.push_back(signal::half_spectrum(tapered_a, length));
     }
     return result;
 }

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
-#include "corrector/correlation/regression.hpp"
 #include "corrector/long_record/two_path_regression.hpp"
 #include "corrector/whole_day/day_priors.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/regression.hpp"
 
 namespace a351::corrector::long_record {
 namespace {
@@ -96,9 +96,9 @@ TwoPathFit fit_two_paths(const std::vector<double>& temperature_degc,
         for (std::size_t k = 0; k < columns.size(); ++k)
             fit.residual_mgal[i] -=
                 columns[k][i] * fit.parameters[k < kInner ? k : k + kLags].value;
-    const double mean = correlation::mean_of(fit.residual_mgal);
+    const double mean = signal::mean_of(fit.residual_mgal);
     for (double& value : fit.residual_mgal) value -= mean;
-    fit.residual_rms_mgal = std::sqrt(correlation::variance_of(fit.residual_mgal));
+    fit.residual_rms_mgal = std::sqrt(signal::variance_of(fit.residual_mgal));
 
     for (ResponsePoint& point : response_by_spectrum(
              temperature_degc, fit.residual_mgal, step_s,

@@ -6,13 +6,13 @@
 #include <numeric>
 #include <utility>
 
-#include "corrector/correlation/fourier.hpp"
-#include "corrector/correlation/regression.hpp"
 #include "corrector/long_record/two_path_fit.hpp"
 #include "corrector/whole_day/day_priors.hpp"
 #include "corrector/whole_day/least_cost.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
+#include "protocol/signal/fourier.hpp"
+#include "protocol/signal/regression.hpp"
 
 namespace a351::corrector::long_record {
 namespace {
@@ -40,7 +40,7 @@ TwoPathRegression::TwoPathRegression(const std::vector<double>& temperature,
                             static_cast<Index>(count_ / 2));
     readings_ = transformed(
         {acceleration.begin(), acceleration.begin() + static_cast<std::ptrdiff_t>(count_)});
-    mean_degc_ = correlation::mean_of(temperature_.values());
+    mean_degc_ = signal::mean_of(temperature_.values());
     numbers_.resize(count_);
     std::iota(numbers_.begin(), numbers_.end(), 0.0);
     ramp_ = transformed(numbers_);
@@ -76,7 +76,7 @@ Eigen::MatrixXd TwoPathRegression::design(const Lags& u) const {
         const auto place = static_cast<std::size_t>(k);
         Eigen::VectorXd column = transformed(all[place]);
         if (place >= static_cast<std::size_t>(TwoPathTerm::level) && k < kLinear)
-            column = trusted(std::move(column), correlation::fit_line(numbers_, all[place]).slope);
+            column = trusted(std::move(column), signal::fit_line(numbers_, all[place]).slope);
         x.col(k) = kTwoPathDeviations.at(place) * whitened(std::move(column));
     }
     return x;
@@ -135,7 +135,7 @@ void TwoPathRegression::update_noise(const Lags& u, const Eigen::VectorXd& beta)
 }
 
 std::size_t TwoPathRegression::fast_length_within(std::size_t n) {
-    while (correlation::fast_length(n) != n) --n;
+    while (signal::fast_length(n) != n) --n;
     return n;
 }
 
@@ -157,10 +157,10 @@ Eigen::VectorXd TwoPathRegression::trusted(Eigen::VectorXd column, double slope)
 }
 
 Eigen::VectorXd TwoPathRegression::transformed(const std::vector<double>& values) const {
-    const double mean = correlation::mean_of(values);
+    const double mean = signal::mean_of(values);
     std::vector<double> centred = values;
     for (double& value : centred) value -= mean;
-    const correlation::Spectrum spectrum = correlation::half_spectrum(centred, centred.size());
+    const signal::Spectrum spectrum = signal::half_spectrum(centred, centred.size());
     Eigen::VectorXd parts(2 * frequencies_);
     for (Index k = 0; k < frequencies_; ++k) {
         parts(k) = spectrum[static_cast<std::size_t>(k + 1)].real();
@@ -175,8 +175,8 @@ Eigen::MatrixXd TwoPathRegression::noise_covariance(const Eigen::MatrixXd& weigh
     const auto half = static_cast<Index>(fine / 2);
     Eigen::MatrixXd parts(2 * half, weights.cols());
     for (Index m = 0; m < weights.cols(); ++m) {
-        const correlation::Spectrum spectrum =
-            correlation::half_spectrum(series_of(whitened(weights.col(m))), fine);
+        const signal::Spectrum spectrum =
+            signal::half_spectrum(series_of(whitened(weights.col(m))), fine);
         for (Index k = 0; k < half; ++k) {
             const double place = static_cast<double>(k + 1) / kFiner;
             const double scale = 2.0 * std::sqrt(noise_at(place) / static_cast<double>(fine) /
@@ -197,8 +197,8 @@ std::vector<double> TwoPathRegression::series_of(const Eigen::VectorXd& weights)
         of_real[static_cast<std::size_t>(k + 1)] = weights(k);
         of_imaginary[static_cast<std::size_t>(k + 1)] = weights(frequencies_ + k);
     }
-    const correlation::Spectrum cosines = correlation::half_spectrum(of_real, count_),
-                                sines = correlation::half_spectrum(of_imaginary, count_);
+    const signal::Spectrum cosines = signal::half_spectrum(of_real, count_),
+                           sines = signal::half_spectrum(of_imaginary, count_);
     for (std::size_t t = 0; t < cosines.size(); ++t) {
         series[t] = cosines[t].real() + sines[t].imag();
         if (t > 0) series[count_ - t] = cosines[t].real() - sines[t].imag();

@@ -278,8 +278,7 @@ public:
         }
         const AmendedSurvey with = amended(problem_.rows, problem_.options, known);
         if (!of_quiet_ || is_refused(with)) return nullptr;
-        return adjustment::dense_residuals(
-            whole_day::set_up_residuals(survey_of(with), *of_quiet_));
+        return adjustment::effects_on(whole_day::set_up_residuals(survey_of(with), *of_quiet_));
     }
 
 private:

@@ -17,7 +17,7 @@ constexpr int kDraws = 2000;
 
 constexpr double kNothing = 1e-6;  // relative length that is left by rounding
 
-using Direction = residual::Direction;
+using Direction = adjustment::Direction;
 
 /// A statistic, 0 to 1, and the number of the direction that has most of it.
 struct Statistic {
@@ -76,7 +76,7 @@ Statistic worst_quarter(std::vector<Direction> directions, const Residuals& r) {
 std::vector<FitTest> goodness_of_fit(const DaySurvey& survey, const DayFit& fit) {
     const DayRegression problem(survey);
     const Eigen::MatrixXd mean = averaging(*survey.record, survey.stations.size());
-    const residual::Residuals residuals = set_up_residuals(survey, fit);
+    const adjustment::DenseResiduals residuals = set_up_residuals(survey, fit);
     const Index set_ups = mean.rows();
     if (set_ups - residuals.unknown.cols() < kFewestFitDof) return {};
 

@@ -16,7 +16,7 @@ Eigen::MatrixXd averaging(const reading::DayRecord& record, std::size_t set_ups)
     return mean.array().colwise() / mean.rowwise().sum().array();
 }
 
-residual::Residuals set_up_residuals(const DaySurvey& survey, const DayFit& fit) {
+adjustment::DenseResiduals set_up_residuals(const DaySurvey& survey, const DayFit& fit) {
     const DayRegression problem(survey);
     const reading::DayRecord& record = *survey.record;
     const Eigen::MatrixXd mean = averaging(record, survey.stations.size());
@@ -37,7 +37,7 @@ residual::Residuals set_up_residuals(const DaySurvey& survey, const DayFit& fit)
             covariance += scaled.col(k + 1) * scaled.col(k + 1).transpose();
     }
     const linear_algebra::Cholesky factor(std::move(covariance));
-    residual::Residuals residuals;
+    adjustment::DenseResiduals residuals;
     residuals.whitening.resize(mean.rows(), mean.rows());
     for (Index k = 0; k < mean.rows(); ++k)
         residuals.whitening.col(k) = factor.half_solve(Eigen::VectorXd::Unit(mean.rows(), k));
@@ -46,7 +46,7 @@ residual::Residuals set_up_residuals(const DaySurvey& survey, const DayFit& fit)
     residuals.to_scatter =
         linear_algebra::Cholesky(noise).lower().transpose() * residuals.whitening.transpose();
     residuals.unknown =
-        residual::orthonormal_basis(residuals.whitening * scaled(Eigen::all, unknown));
+        adjustment::orthonormal_basis(residuals.whitening * scaled(Eigen::all, unknown));
     residuals.values = residuals.whitening * scaled.col(0);
     residuals.project(residuals.values);
     return residuals;

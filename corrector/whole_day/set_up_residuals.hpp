@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "corrector/residual/residuals.hpp"
+#include "corrector/adjustment/dense_residuals.hpp"
 #include "corrector/whole_day/day_fit.hpp"
 #include "corrector/whole_day/day_survey.hpp"
 
@@ -31,6 +31,7 @@ namespace a351::corrector::whole_day {
 /// and mistakes of known size in these residuals.  Cost: O(bins^2 + set-ups^3).
 /// @param survey  finite, each set-up has a bin.
 /// @param fit  fit of these stations, or of others: then lags, noise and coefficients are those.
-[[nodiscard]] residual::Residuals set_up_residuals(const DaySurvey& survey, const DayFit& fit);
+[[nodiscard]] adjustment::DenseResiduals set_up_residuals(const DaySurvey& survey,
+                                                          const DayFit& fit);
 
 }  // namespace a351::corrector::whole_day

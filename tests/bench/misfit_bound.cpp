@@ -28,7 +28,7 @@
 namespace {
 
 using namespace a351;
-using corrector::residual::Residuals;
+using Residuals = corrector::adjustment::DenseResiduals;
 using Index = Eigen::Index;
 
 /// A kind of misfit.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "corrector/adjustment/dense_residuals.hpp"
 #include "corrector/judgement/mistake_trial.hpp"
 #include "tests/support/catch.hpp"
 
@@ -36,7 +37,7 @@ struct MadeUp final : adjustment::Trials {
 
     explicit MadeUp(std::uint64_t seed) {
         std::mt19937_64 generator(seed);
-        residual::Residuals white;
+        adjustment::DenseResiduals white;
         const auto n = std::ssize(list);
         white.values = Eigen::VectorXd::Zero(n);
         white.unknown = Eigen::MatrixXd::Zero(n, 0);
@@ -49,7 +50,7 @@ struct MadeUp final : adjustment::Trials {
     }
 
     /// Returns the residuals without the readings of known mistakes; a step is one more unknown.
-    [[nodiscard]] residual::Residuals dense(
+    [[nodiscard]] adjustment::DenseResiduals dense(
         const std::vector<adjustment::Alternative>& known) const {
         const auto n = std::ssize(list);
         Eigen::MatrixXd a(n, 2);
@@ -71,16 +72,19 @@ struct MadeUp final : adjustment::Trials {
                 unknown(one.readings);
             }
         }
-        std::vector<std::size_t> numbers(list.size());
-        for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-        return residual::residuals_of(a / kNoise_mgal, y / kNoise_mgal, numbers,
-                                      Eigen::VectorXd::Constant(n, 1.0 / kNoise_mgal), list.size());
+        adjustment::DenseResiduals dense;
+        dense.unknown = adjustment::orthonormal_basis(a);
+        dense.values = y / kNoise_mgal;
+        dense.project(dense.values);
+        dense.whitening = Eigen::MatrixXd::Identity(n, n) / kNoise_mgal;
+        dense.to_scatter = Eigen::MatrixXd::Identity(n, n);
+        return dense;
     }
 
     [[nodiscard]] std::shared_ptr<const adjustment::Residuals> residuals(
         const std::vector<adjustment::Alternative>& known,
         const std::vector<adjustment::Alternative>& /*quiet*/) override {
-        return adjustment::dense_residuals(dense(known));
+        return adjustment::effects_on(dense(known));
     }
 
     [[nodiscard]] std::vector<Mistake> search() { return judgement::search_mistakes(list, *this); }
@@ -174,7 +178,7 @@ TEST_CASE("a step next to an end of the day is a reading that is off", "[mistake
 TEST_CASE("an unknown that is there twice takes one direction only", "[mistake]") {
     Eigen::MatrixXd a(6, 3);
     for (Eigen::Index i = 0; i < 6; ++i) a.row(i) << 1.0, static_cast<double>(i), 1.0;
-    const Eigen::MatrixXd basis = residual::orthonormal_basis(a);
+    const Eigen::MatrixXd basis = adjustment::orthonormal_basis(a);
     CHECK(basis.cols() == 2);
     CHECK((basis * (basis.transpose() * a) - a).norm() < 1e-12);
 }

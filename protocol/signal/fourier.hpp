@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace a351::corrector::correlation {
+namespace a351::signal {
 
 /// Complex values by frequency or by sample.
 using Spectrum = std::vector<std::complex<double>>;
@@ -29,4 +29,4 @@ using Spectrum = std::vector<std::complex<double>>;
 /// @return (n), in the unit of x.
 [[nodiscard]] Spectrum analytic_signal(std::span<const double> x);
 
-}  // namespace a351::corrector::correlation
+}  // namespace a351::signal

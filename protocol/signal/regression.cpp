@@ -1,11 +1,11 @@
-#include "corrector/correlation/regression.hpp"
+#include "protocol/signal/regression.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
 
-namespace a351::corrector::correlation {
+namespace a351::signal {
 namespace {
 
 /// Sums of products of deviations from the means.
@@ -112,4 +112,4 @@ CrossCorrelation correlate(std::span<const double> temperature,
     return all;
 }
 
-}  // namespace a351::corrector::correlation
+}  // namespace a351::signal

@@ -1,10 +1,10 @@
-#include "corrector/correlation/fourier.hpp"
+#include "protocol/signal/fourier.hpp"
 
 #include <unsupported/Eigen/FFT>
 
-#include "corrector/correlation/regression.hpp"
+#include "protocol/signal/regression.hpp"
 
-namespace a351::corrector::correlation {
+namespace a351::signal {
 
 std::size_t fast_length(std::size_t n) {
     for (;; ++n) {
@@ -41,4 +41,4 @@ Spectrum analytic_signal(std::span<const double> x) {
     return padded;
 }
 
-}  // namespace a351::corrector::correlation
+}  // namespace a351::signal

@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// Residuals of the readings of a survey, in a form in which any effect on them can be tested
-/// without another fit.
+/// Residuals of a few hundred readings in dense form, with any covariance of their errors.
 ///
 /// The readings are y = X b + Z c + errors.  Of the unknowns b nothing is known beforehand; for c
 /// there are priors, and the errors have a covariance.  S is the covariance of Z c + errors, and W a
@@ -13,24 +12,25 @@
 ///     t / step.length;                                     // size of the step, mGal
 ///     1.0 / step.length;                                   // its standard uncertainty, mGal
 ///
-/// The models make Residuals; whole_day::goodness_of_fit() and judgement::find_mistakes() test them.
+/// The whole-day model makes them (set_up_residuals.hpp).
 
 #include <Eigen/Core>
-#include <cstddef>
+#include <memory>
 #include <random>
-#include <vector>
 
-namespace a351::corrector::residual {
+#include "corrector/adjustment/residuals.hpp"
+
+namespace a351::corrector::adjustment {
 
 /// The effect of something on the residuals.
 struct Direction {
     Eigen::VectorXd unit;     ///< (k) Of length 1; 0 if the unknown quantities explain the effect.
-    Eigen::VectorXd scatter;  ///< (k) Its part in the scatter, see Residuals::to_scatter.
+    Eigen::VectorXd scatter;  ///< (k) Its part in the scatter, see DenseResiduals::to_scatter.
     double length = 0.0;      ///< Length of the whitened effect before; 0 as `unit`.
 };
 
 /// Residuals of n readings.
-struct Residuals {
+struct DenseResiduals {
     Eigen::VectorXd values;     ///< (k) Whitened, without their part in the space of `unknown`.
     Eigen::MatrixXd whitening;  ///< (k, n) Whitened effect of +1 mGal in each reading.
     Eigen::MatrixXd unknown;    ///< (k, u) Orthonormal basis of what nobody knows.
@@ -62,16 +62,7 @@ struct Residuals {
 /// Returns an orthonormal basis of the columns' space (k, rank).
 [[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 
-/// Returns the residuals of weighted least squares.  Rows that are no readings are part of the
-/// scatter.
-///
-/// The scale of the errors is that of the weights; the caller divides by another one.
-/// @param a, y      (m, p) and (m) weighted rows; those of readings, and others such as priors.
-/// @param readings  number of the reading of each row (m); n or more: the row is no reading.
-/// @param weights   (m) weight of each row: 1 / standard deviation, 1/mGal.
-/// @param n         number of readings, also of those without a row.
-[[nodiscard]] Residuals residuals_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& y,
-                                     const std::vector<std::size_t>& readings,
-                                     const Eigen::VectorXd& weights, std::size_t n);
+/// Returns what residuals say about effects (residuals.hpp).
+[[nodiscard]] std::unique_ptr<Residuals> effects_on(DenseResiduals residuals);
 
-}  // namespace a351::corrector::residual
+}  // namespace a351::corrector::adjustment

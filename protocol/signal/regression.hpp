@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace a351::corrector::correlation {
+namespace a351::signal {
 
 /// A line y = mean_y + slope (x - mean_x).
 struct LineFit {
@@ -74,4 +74,4 @@ struct CrossCorrelation {
                                          std::span<const double> acceleration, int half_cycle,
                                          double step_s);
 
-}  // namespace a351::corrector::correlation
+}  // namespace a351::signal
