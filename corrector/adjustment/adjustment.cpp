@@ -134,9 +134,9 @@ void NormalEquations::find_undetermined(const Eigen::MatrixXd& reduced) {
         Eigen::VectorXd combination = Eigen::VectorXd::Zero(n);
         combination(k) = 1.0;
         for (auto pivot = pivots.rbegin(); pivot != pivots.rend(); ++pivot)
-            combination(*pivot) = -left.row(*pivot).tail(n - *pivot - 1)
-                                       .dot(combination.tail(n - *pivot - 1)) /
-                                  left(*pivot, *pivot);
+            combination(*pivot) =
+                -left.row(*pivot).tail(n - *pivot - 1).dot(combination.tail(n - *pivot - 1)) /
+                left(*pivot, *pivot);
         for (Index i = 0; i < n; ++i)
             if (std::abs(combination(i)) > kLeastPart)
                 open.insert(of_both_.size() + static_cast<std::size_t>(i));
@@ -200,7 +200,8 @@ Adjustment::Adjustment(Equations equations, Cofactor cofactor)
     : equations_(std::move(equations)), normal_(equations_) {
     if (!undetermined().empty()) return;
     const std::vector<Equation>& rows = equations_.rows;
-    holds_a_term_ = std::ranges::any_of(rows, [](const Equation& row) { return row.true_ratio != 1.0; });
+    has_true_ratio_ =
+        std::ranges::any_of(rows, [](const Equation& row) { return row.true_ratio != 1.0; });
     Eigen::VectorXd left(std::ssize(rows));
     for (std::size_t i = 0; i < rows.size(); ++i) left(static_cast<Index>(i)) = rows[i].value;
     Unknowns all{Eigen::VectorXd::Zero(static_cast<Index>(equations_.stations)),
@@ -280,7 +281,7 @@ double Adjustment::covariance(const Combination& a, const Combination& b, double
                 sum += l.factor * r.factor * cofactor(l.unknown, r.unknown);
         return sum;
     };
-    if (noise == 1.0 && !holds_a_term_) return stated(a, b);
+    if (noise == 1.0 && !has_true_ratio_) return stated(a, b);
     // Error of x: Q A' W e.  A row of another standard deviation than stated counts with its own.
     double others = 0.0, true_others = 0.0;
     for (const Equation& row : equations_.rows) {

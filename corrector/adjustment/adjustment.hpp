@@ -71,10 +71,10 @@ private:
     /// Returns the least pivot of a term that is determined.
     [[nodiscard]] double least_pivot_of(Eigen::Index term) const;
 
-    Eigen::VectorXd of_stations_;                  ///< D.
-    std::vector<std::vector<Entry>> of_both_;      ///< B, for each station its terms.
-    Eigen::VectorXd scale_;                        ///< (terms) 1 / length of the columns.
-    Eigen::VectorXd prior_weights_;  ///< (terms) 1 / sd^2 of their priors; 0 without one.
+    Eigen::VectorXd of_stations_;              ///< D.
+    std::vector<std::vector<Entry>> of_both_;  ///< B, for each station its terms.
+    Eigen::VectorXd scale_;                    ///< (terms) 1 / length of the columns.
+    Eigen::VectorXd prior_weights_;            ///< (terms) 1 / sd^2 of their priors; 0 without one.
     std::optional<linear_algebra::Cholesky> factor_;  ///< S, scaled.
     double least_pivot_ = 1.0;
     std::vector<std::size_t> undetermined_;
@@ -133,8 +133,8 @@ private:
     NormalEquations normal_;
     std::vector<double> values_, residuals_;
     double weighted_square_ = 0.0;
-    bool holds_a_term_ = false;  ///< A row has another standard deviation than the stated one.
-    Eigen::MatrixXd cofactor_;   ///< Q.
+    bool has_true_ratio_ = false;  ///< A row has another standard deviation than the stated one.
+    Eigen::MatrixXd cofactor_;     ///< Q.
 };
 
 /// Least redundancy of a row that v / r predicts without itself.  Reason: below it v / r is rounding.

@@ -65,14 +65,15 @@ struct SurveyKnowledge {
 struct SurveyTerm {
     std::string name;  ///< With `_loop2` or `_instrument2` from the second on; `step_1_mgal`.
     Correction correction = Correction::temperature;
-    std::optional<Prior> prior = {};  ///< As given; for S, although the unknown of a scale is S - 1.
+    std::optional<Prior> prior =
+        {};  ///< As given; for S, although the unknown of a scale is S - 1.
     bool is_scale = false;
     std::string instrument = {};  ///< Gravimeter of a scale; empty for the sensor.
 };
 
 /// A reading in the equations.
 struct ReadingRow {
-    std::size_t row = 0;  ///< Number of the survey's row.
+    std::size_t row = 0;                      ///< Number of the survey's row.
     std::optional<std::size_t> station = {};  ///< Unknown gravity; absent for an exact reference.
 };
 
@@ -187,11 +188,10 @@ struct AdjustedSurvey {
 };
 
 /// Adjusts a survey.  Accuracy: kScaleRounds rounds leave less than 1e-9 mGal (network_test.cpp).
-[[nodiscard]] AdjustedSurvey adjust(SurveyEquations survey,
-                                    Cofactor cofactor = Cofactor::computed);
+[[nodiscard]] AdjustedSurvey adjust(SurveyEquations survey, Cofactor cofactor = Cofactor::computed);
 
 /// Largest number of adjustments, each linearised about the one before.  Reason: the error of a round
-/// is that of the one before squared, times 1e-2 at most.
+/// is that of the one before squared, times 1e-2/mGal at most.
 inline constexpr int kScaleRounds = 5;
 
 }  // namespace a351::corrector::adjustment

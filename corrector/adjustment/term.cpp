@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include "protocol/unit/thermal_response.hpp"
-
 namespace a351::corrector::adjustment {
 namespace {
 
@@ -33,13 +31,6 @@ const Term kAxisY{"y_mgal_per_g", Correction::tilt, Scope::unit,
 const Term kAdmittance{
     "admittance_mgal_per_hpa", Correction::pressure, Scope::unit,
     [](const TermInput& in) { return in.row.excess_pressure_hpa.value_or(0.0); }};
-const Term kLevel{unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::level)],
-                  Correction::temperature, Scope::unit, nullptr};
-const Term kSlow{unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::slow)],
-                 Correction::temperature, Scope::unit, nullptr};
-const Term kFast{unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::fast)],
-                 Correction::rate, Scope::unit, nullptr};
-const Term kWarmUp{"warm_up_mgal", Correction::drift, Scope::loop, nullptr};
 const Term kScaleTerm{kScale, Correction::scale, Scope::unit, nullptr};
 
 std::span<const Term* const> terms_with_prior() {

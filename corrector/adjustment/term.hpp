@@ -45,7 +45,7 @@ struct Term {
     Correction correction = Correction::temperature;
     Scope scope = Scope::unit;
     /// Returns the column for a row.  Null for the scale, whose column is the gravity, and for a term
-    /// whose column needs the record of the day (whole_day/day_regression.hpp).
+    /// whose column needs the record of the day (whole_day/day_priors.hpp).
     /// @throws InputError  the row lacks what the term needs.
     double (*column)(const TermInput&) = nullptr;
 };
@@ -60,11 +60,7 @@ extern const Term kTemperature;           ///< T - T0, degC.
 extern const Term kRate;                  ///< Rate of the temperature, degC/h.
 extern const Term kAxisX, kAxisY;  ///< Means of the horizontal axes, g: biases of a tilted box.
 extern const Term kAdmittance;     ///< Air pressure above that of the standard atmosphere, hPa.
-/// Response to the temperature of the recorded day (protocol/unit/thermal_response.hpp): prompt rA,
-/// late rS, and rF to its rate.
-extern const Term kLevel, kSlow, kFast;
-extern const Term kWarmUp;     ///< Warm-up after power-on, mGal at the first sample of the record.
-extern const Term kScaleTerm;  ///< S - 1, times gravity above g0; one for each instrument.
+extern const Term kScaleTerm;      ///< S - 1, times gravity above g0; one for each instrument.
 
 /// Returns the terms that may have a prior, in the order of options and files.
 [[nodiscard]] std::span<const Term* const> terms_with_prior();

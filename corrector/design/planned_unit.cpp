@@ -56,12 +56,18 @@ whole_day::UnitPosterior posterior_of(const json& found) {
     whole_day::UnitPosterior unit;
     const json& values = found.at("values");
     const json& covariance = found.at("covariance");
-    for (std::size_t k = 0; k < whole_day::kUnitNames.size(); ++k) {
+    const auto count = std::ssize(whole_day::unit_parameters());
+    unit.values.resize(count);
+    unit.covariance.resize(count, count);
+    for (std::size_t k = 0; k < whole_day::unit_parameters().size(); ++k) {
+        const std::string name(whole_day::unit_parameters()[k].name);
+        if (found.at("parameters").at(k).get<std::string>() != name)
+            throw std::invalid_argument("unit.parameters: no " + name);
         const auto row = static_cast<Eigen::Index>(k);
         unit.values(row) = values.at(k).get<double>();
-        for (std::size_t l = 0; l < whole_day::kUnitNames.size(); ++l)
-            unit.covariance(row, static_cast<Eigen::Index>(l)) =
-                covariance.at(k).at(l).get<double>();
+        for (Eigen::Index l = 0; l < count; ++l)
+            unit.covariance(row, l) =
+                covariance.at(k).at(static_cast<std::size_t>(l)).get<double>();
     }
     const json& noise = found.at("noise");
     unit.noise = {noise.at("placement_mgal").get<double>(), noise.at("flicker_mgal").get<double>(),

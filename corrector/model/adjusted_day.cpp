@@ -121,6 +121,7 @@ whole_day::DaySurvey day_survey(const SurveyProblem& problem, const RowChoice& c
         whole_day::DayStation station{std::nullopt,
                                       numbers.emplace(name, numbers.size()).first->second,
                                       row.u_reference.value_or(MilliGal(0.0))};
+        if (station.u_gravity.value() < adjustment::kLeastSd_mgal) station.u_gravity = {};
         if (choice.in_use[i]) station.gravity = row.reference;
         station.steps = static_cast<std::size_t>(std::ranges::count_if(
             problem.options.steps,

@@ -113,7 +113,7 @@ void set_adjusted(StationValue& value, const Fit& result, const AdjustedSurvey& 
 void set_mean(StationValue& value, const Fit& result, const AdjustedSurvey& adjusted,
               const RowChoice& choice, const Noise& noise) {
     std::vector<Combination> effects;
-    double sum_mgal = 0.0;
+    double sum_mgal = 0.0, squares = 0.0;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const CorrectedRow& row = result.rows[i];
         if (row.row.site != value.site || !adjusted.survey.loops()[i]) continue;
@@ -122,14 +122,14 @@ void set_mean(StationValue& value, const Fit& result, const AdjustedSurvey& adju
         if (!value.is_flagged_only && !choice.accepted[i]) continue;
         effects.push_back(adjusted.survey.effects_as_unknowns(i));
         sum_mgal += (row.corrected - adjusted.survey.origin()).value();
+        squares += std::pow(noise.ratio * adjusted.survey.sd_mgal(i), 2);
     }
     value.row_count = effects.size();
     const auto n = static_cast<double>(effects.size());
     value.gravity = adjusted.survey.origin() + MilliGal(sum_mgal / n);
     if (!noise.is_known) return;
-    const double sd = noise.ratio * adjusted.survey.knowledge().priors.reading_sd_mgal;
     value.u_gravity = MilliGal(std::sqrt(
-        sd * sd / n + adjusted.adjustment.variance(sum_of(effects, 1.0 / n), noise.ratio)));
+        squares / (n * n) + adjusted.adjustment.variance(sum_of(effects, 1.0 / n), noise.ratio)));
 }
 
 void set_stations(Fit& result, const AdjustedSurvey& adjusted, const RowChoice& choice,

@@ -49,7 +49,8 @@ void set_left_out_stations(
         without);
 
 /// Sets left_out and u_left_out of the stations, all differences and the covariance, of a model with
-/// uncertain references: a station is left out by hiding its reference, v / r of its row.
+/// uncertain references: a station is left out by hiding its reference, v / r of its row.  Differences and
+/// covariance keep all references.
 void set_hidden_references(Fit& result, const adjustment::AdjustedSurvey& adjusted);
 
 }  // namespace a351::corrector::model

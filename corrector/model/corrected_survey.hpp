@@ -152,8 +152,8 @@ struct StationErrors {
 /// them.
 struct SharedErrors {
     /// Those of the unit (whole_day::GravityEstimate::shared_mgal).
-    std::array<double, whole_day::kSharedErrors> unit_mgal{};
-    bool is_calibrated = false;  ///< The unit's errors are those of its calibration.
+    std::vector<double> unit_mgal;  ///< Empty: none.
+    bool is_calibrated = false;     ///< The unit's errors are those of its calibration.
     /// Those of the uncertain references that are held, by site.
     std::map<std::string, double> references_mgal;
 };

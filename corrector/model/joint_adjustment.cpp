@@ -189,7 +189,8 @@ std::variant<JointAdjustment, text::Message> adjust_jointly(
     for (const RecordedSurvey& survey : surveys) rows.push_back(prepared(survey));
     const auto references = held_references(rows);
     if (const auto* const site = std::get_if<std::string>(&references))
-        return text::message("the surveys have different references of {}", *site);
+        return text::message(
+            "the surveys have different references of {}, or different uncertainties of it", *site);
     const auto& held = std::get<std::map<std::string, Reference>>(references);
 
     Numbers numbers;

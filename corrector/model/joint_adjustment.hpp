@@ -64,9 +64,9 @@ struct JointAdjustment {
 /// calibration are of one unit.  It refuses surveys of which
 ///
 /// - one was not corrected by the whole-day model,
-/// - two have different references of one station,
+/// - two have different references of one station, or different uncertainties,
 /// - two of one unit are at the same time.
-/// @param surveys  at least one.  Their order changes the result in the last bits only.
+/// @param surveys  at least one.  Order: as whole_day::adjust_days().
 [[nodiscard]] std::variant<JointAdjustment, text::Message> adjust_jointly(
     const std::vector<RecordedSurvey>& surveys);
 

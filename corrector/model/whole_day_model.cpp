@@ -48,8 +48,8 @@ MilliGal row_uncertainty(const AdjustedDay& day, std::size_t row) {
     double count = 0.0;
     for (const whole_day::DayStation& station : day.survey().stations)
         if (station.number == day.number_of(row)) count += 1.0;
-    const double own =
-        day.without(row)->adjustment->noise().placement_mgal * std::sqrt(1.0 - 1.0 / count);
+    const double own = day.without(row)->adjustment->expected_noise().placement_mgal *
+                       std::sqrt(1.0 - 1.0 / count);
     return MilliGal(std::hypot(day.without(row)->gravity.standard_error, own));
 }
 
@@ -222,13 +222,15 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     for (std::size_t i = 0; i < rows.size(); ++i)
         correct_row(result.rows[i], i, adjusted, averaged[i]);
     result.coefficients = coefficients_of(adjusted.fit());
-    for (const auto term :
-         {whole_day::DayTerm::level, whole_day::DayTerm::slow, whole_day::DayTerm::fast,
-          whole_day::DayTerm::drift, whole_day::DayTerm::warm_up, whole_day::DayTerm::scale}) {
-        const auto at = whole_day::DayPriors::place_of(term);
-        result.coefficients[static_cast<std::size_t>(term)].prior =
-            adjustment::Prior{priors.mean(at) + (term == whole_day::DayTerm::scale ? 1.0 : 0.0),
-                              priors.factor.row(at).norm()};
+    for (std::size_t k = 0; k < whole_day::kDayTerms; ++k) {
+        const adjustment::Term& term = *whole_day::kDayTermList.at(k);
+        // Nothing is known of the constant, and the day decides the size of the axis biases.
+        if (&term == &adjustment::kConstant || term.correction == adjustment::Correction::tilt)
+            continue;
+        const auto at = whole_day::DayPriors::place_of(static_cast<whole_day::DayTerm>(k));
+        const double without_effect = &term == &adjustment::kScaleTerm ? 1.0 : 0.0;
+        result.coefficients[k].prior =
+            adjustment::Prior{priors.mean(at) + without_effect, priors.factor.row(at).norm()};
     }
     const auto place = whole_day::DayPriors::place_of(whole_day::DayTerm::scale);
     const whole_day::Estimate& scale =

@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "corrector/judgement/reading_grade.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -108,6 +111,19 @@ std::string gsadjust_csv(const model::SurveyCorrection& result,
         }
     }
     return csv;
+}
+
+std::vector<text::NamedText> export_files(const model::SurveyCorrection& result,
+                                          const std::vector<text::Site>& sites) {
+    std::vector<text::NamedText> files{{"stations.geojson", stations_geojson(result, sites)}};
+    // The readings of a file for GSadjust have one constant.
+    const auto constant_of = [](const model::CorrectedRow& row) {
+        return std::pair(row.row.instrument, row.row.loop);
+    };
+    if (std::ranges::adjacent_find(result.rows, std::not_equal_to{}, constant_of) ==
+        result.rows.end())
+        files.push_back({"gsadjust.csv", gsadjust_csv(result, sites)});
+    return files;
 }
 
 }  // namespace a351::corrector::result

@@ -6,7 +6,7 @@
 /// Use these files for maps and for an adjustment with other data.  They have fewer digits than
 /// result.json.  The functions return the content and write no file.
 ///
-/// Both take the positions from a table of sites.  A station that is absent there is left out
+/// All take the positions from a table of sites.  A station that is absent there is left out
 /// without a message.  The same result and sites give the same bytes.
 
 #include <string>
@@ -14,6 +14,7 @@
 
 #include "corrector/model/corrected_survey.hpp"
 #include "protocol/text/sites.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::result {
 
@@ -51,5 +52,9 @@ namespace a351::corrector::result {
 /// for the columns; obstree/station.py, stdev(), and obstree/loop.py, populate(), for their use.
 [[nodiscard]] std::string gsadjust_csv(const model::SurveyCorrection& result,
                                        const std::vector<text::Site>& sites);
+
+/// Returns the files of a survey for other programs.
+[[nodiscard]] std::vector<text::NamedText> export_files(const model::SurveyCorrection& result,
+                                                        const std::vector<text::Site>& sites);
 
 }  // namespace a351::corrector::result

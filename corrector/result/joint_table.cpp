@@ -96,7 +96,9 @@ double covariance_mgal2(const model::StationValue& a, const model::StationValue&
         if (const auto of_b = b.shared->references_mgal.find(site);
             of_b != b.shared->references_mgal.end())
             sum += of_a * of_b->second;
-    if (a.shared->is_calibrated != b.shared->is_calibrated) return sum;
+    if (a.shared->is_calibrated != b.shared->is_calibrated || a.shared->unit_mgal.empty() ||
+        b.shared->unit_mgal.empty())
+        return sum;
     return std::inner_product(a.shared->unit_mgal.begin(), a.shared->unit_mgal.end(),
                               b.shared->unit_mgal.begin(), sum);
 }

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -56,7 +54,10 @@ Json unit_json(const model::SurveyCorrection& result) {
     const auto* const day = result.as<model::WholeDayPart>();
     if (day == nullptr) return nullptr;
     const whole_day::UnitPosterior& unit = day->unit;
-    return {{"parameters", whole_day::kUnitNames},
+    Json names = Json::array();
+    for (const whole_day::UnitParameter& parameter : whole_day::unit_parameters())
+        names.push_back(parameter.name);
+    return {{"parameters", names},
             {"values", std::vector<double>(unit.values.begin(), unit.values.end())},
             {"covariance", matrix_json(unit.covariance)},
             {"noise",
@@ -180,15 +181,8 @@ std::vector<text::NamedText> result_files(const model::SurveyCorrection& result,
                                        {"stations.csv", stations_csv(result)},
                                        {"differences.csv", differences_csv(result)},
                                        {"models.csv", models_csv(result)},
-                                       {"result.json", result_json(result, settings, inputs)},
-                                       {"stations.geojson", stations_geojson(result, sites)}};
-    // The readings of a file for GSadjust have one constant.
-    const auto constant_of = [](const model::CorrectedRow& row) {
-        return std::pair(row.row.instrument, row.row.loop);
-    };
-    if (std::ranges::adjacent_find(result.rows, std::not_equal_to{}, constant_of) ==
-        result.rows.end())
-        files.push_back({"gsadjust.csv", gsadjust_csv(result, sites)});
+                                       {"result.json", result_json(result, settings, inputs)}};
+    for (text::NamedText& file : export_files(result, sites)) files.push_back(std::move(file));
     return files;
 }
 

@@ -54,12 +54,12 @@ namespace a351::corrector::result {
 [[nodiscard]] nlohmann::ordered_json covariance_json(
     const std::optional<model::StationCovariance>& covariance);
 
-/// Returns these five files of a survey, stations.geojson and gsadjust.csv (export_files.hpp).
+/// Returns these files of a survey, and those for other programs (export_files.hpp).
 /// @param result    as occupations_csv().
 /// @param settings  as result_json().
 /// @param inputs    as result_json().
-/// @param sites     sites of the stations, for the last two files.  A station that is absent here
-///                  is missing in both.
+/// @param sites     sites of the stations, for the files for other programs.  A station that is absent
+///                  here is missing in them.
 [[nodiscard]] std::vector<text::NamedText> result_files(const model::SurveyCorrection& result,
                                                         const nlohmann::ordered_json& settings,
                                                         const std::vector<text::InputFile>& inputs,

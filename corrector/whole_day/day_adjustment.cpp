@@ -77,8 +77,8 @@ void DayAdjustment::set_columns() {
                                           scaled[k].head(regression.estimated()));
         part.placement_mgal = placement_mgal(k, most_likely[k]);
         DayProblem::Normal& normal = normals.emplace_back();
-        part.columns = problem.whitened(found_.expected, k, expected[k], &part.values,
-                                        normal.log_determinant);
+        part.columns =
+            problem.whitened(found_.expected, k, expected[k], &part.values, normal.log_determinant);
         normal.products = part.columns.transpose() * part.columns;
         part.left = part.columns.col(0) -
                     part.columns.middleCols(1, at_expected[k].size()) * at_expected[k];
@@ -93,9 +93,8 @@ void DayAdjustment::set_columns() {
         const linear_algebra::Cholesky factor(
             with_priors(normal.products, problem.groups()[group].own_count));
         GroupPart& part = groups_.emplace_back();
-        part.answer = -factor.solve(
-            normal.products.block(0, problem.groups()[group].own_count,
-                                  problem.groups()[group].own_count, common));
+        part.answer = -factor.solve(normal.products.block(
+            0, problem.groups()[group].own_count, problem.groups()[group].own_count, common));
         part.covariance = factor.inverse();
         part.sources.resize(own);
         for (const std::size_t k : problem.groups()[group].surveys) {
@@ -110,8 +109,8 @@ void DayAdjustment::set_columns() {
                     sources_[place - own] = sources[i];
         }
     }
-    covariance_ = linear_algebra::Cholesky(information_.topLeftCorner(problem.common_count(),
-                                                                      problem.common_count()))
+    covariance_ = linear_algebra::Cholesky(
+                      information_.topLeftCorner(problem.common_count(), problem.common_count()))
                       .inverse();
 }
 
@@ -119,14 +118,22 @@ Eigen::VectorXd DayAdjustment::placement_mgal(std::size_t survey,
                                               const Eigen::MatrixXd& scaled) const {
     const std::vector<reading::DayBin>& bins = problem_->surveys()[survey].record->bins;
     double log_determinant = 0.0;
-    const Eigen::MatrixXd columns = problem_->whitened(found_.most_likely, survey, scaled, nullptr,
-                                                       log_determinant);
+    const Eigen::MatrixXd columns =
+        problem_->whitened(found_.most_likely, survey, scaled, nullptr, log_determinant);
     const Eigen::VectorXd left =
         columns.col(0) - columns.rightCols(columns.cols() - 1) * surveys_[survey].scaled;
     const DayNoise noise = problem_->own_noise(found_.most_likely, survey);
     Eigen::MatrixXd members = set_ups_of_bins(bins);
     problem_->of(survey).whiten(noise, members);
-    return noise.placement_mgal * noise.placement_mgal * (members.transpose() * left);
+    Eigen::VectorXd placement =
+        noise.placement_mgal * noise.placement_mgal * (members.transpose() * left);
+    // In a box, the part that its sensors have in common is a coefficient of each set-up.
+    const Eigen::VectorXd& scaled_values = surveys_[survey].scaled;
+    for (Index set_up = 0; set_up < placement.size(); ++set_up)
+        placement(set_up) += problem_->in_common_mgal(
+            found_.most_likely, survey, static_cast<std::size_t>(set_up),
+            scaled_values.tail(scaled_values.size() - problem_->of(survey).estimated()));
+    return placement;
 }
 
 void DayAdjustment::set_gravities() {
@@ -141,6 +148,7 @@ void DayAdjustment::set_gravities() {
             Gravity& gravity = gravities_[problem.gravity_of(k, number)];
             gravity.held = gravity.own = problem.place_of(problem.gravity_of(k, number));
             gravity.fitted_mgal = regression.base_mgal()[number];
+            gravity.scale = scale;
             if (const Index place = regression.place_of(number); place >= 0)
                 gravity.fitted_mgal += surveys_[k].values(place) / scale;
         }
@@ -153,14 +161,17 @@ void DayAdjustment::set_gravities() {
     }
     for (std::size_t number = 0; number < gravities_.size(); ++number)
         if (gravities_[number].is_held) gravities_[number].own = problem.own_place_of(number);
-    // The fit is a minimum: only a column that it lacks can improve it.
+    // The coefficients are a minimum of these squares, so that only a column that they lack can improve
+    // it.  The lags are a minimum of the cost, whose determinants balance theirs: their gradient counts
+    // as 0.
     for (std::size_t k = 0; k < surveys_.size(); ++k) {
         const std::size_t numbers = problem.of(k).base_mgal().size();
         const Index first = surveys_[k].columns.cols() - static_cast<Index>(numbers);
         for (std::size_t number = 0; number < numbers; ++number) {
             const Gravity& gravity = gravities_[problem.gravity_of(k, number)];
             if (gravity.is_held)
-                gradient_(gravity.own) += surveys_[k].columns.col(first + static_cast<Index>(number))
+                gradient_(gravity.own) += surveys_[k]
+                                              .columns.col(first + static_cast<Index>(number))
                                               .dot(surveys_[k].left);
         }
     }
@@ -194,8 +205,7 @@ Eigen::VectorXd DayAdjustment::solved(const std::vector<std::size_t>& hidden,
     const Eigen::MatrixXd gain =
         linear_algebra::Cholesky(lost).solve(covariance_(freed, Eigen::all));
     const auto without_priors = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
-        return covariance_ * columns +
-               covariance_(Eigen::all, freed) * (gain * columns);
+        return covariance_ * columns + covariance_(Eigen::all, freed) * (gain * columns);
     };
     const Eigen::MatrixXd of_added = information_(Eigen::seqN(0, fitted), added);
     const Eigen::MatrixXd answer = without_priors(of_added);
@@ -225,6 +235,10 @@ DayNoise DayAdjustment::noise(std::size_t survey) const {
     return problem_->of(survey).noise(problem_->part_of(found_.most_likely, survey));
 }
 
+DayNoise DayAdjustment::expected_noise(std::size_t survey) const {
+    return problem_->of(survey).noise(problem_->part_of(found_.expected, survey));
+}
+
 std::vector<std::size_t> DayAdjustment::hidden_for(std::size_t number) const {
     // Without its only reference the system has no datum.
     if (gravities_[number].is_held && std::ranges::count(gravities_, true, &Gravity::is_held) > 1)
@@ -236,8 +250,7 @@ Eigen::VectorXd DayAdjustment::wanted(std::size_t number,
                                       const std::vector<std::size_t>& hidden) const {
     const Gravity& gravity = gravities_[number];
     Eigen::VectorXd wanted = Eigen::VectorXd::Zero(gradient_.size());
-    const bool is_free =
-        !gravity.is_held || std::ranges::find(hidden, number) != hidden.end();
+    const bool is_free = !gravity.is_held || std::ranges::find(hidden, number) != hidden.end();
     if (const Index column = is_free ? gravity.own : gravity.held; column >= 0)
         wanted(column) = is_free ? kFreeGravity_mgal : gravity.u_mgal;
     return wanted;
@@ -251,7 +264,8 @@ GravityEstimate DayAdjustment::estimate(std::size_t number,
                                         const std::vector<std::size_t>& hidden) const {
     const Eigen::VectorXd parts = solved(hidden, wanted(number, hidden));
     GravityEstimate estimate;
-    estimate.value = gravities_[number].fitted_mgal + parts.dot(gradient_);
+    estimate.value =
+        gravities_[number].fitted_mgal + parts.dot(gradient_) / gravities_[number].scale;
     estimate.standard_error = error_mgal(parts);
     set_sources(estimate, parts);
     return estimate;
@@ -274,7 +288,8 @@ Estimate DayAdjustment::difference(std::size_t from, std::size_t to) const {
     Eigen::VectorXd both = wanted(to, hidden);
     both -= wanted(from, hidden);
     const Eigen::VectorXd parts = solved(hidden, both);
-    return {gravities_[to].fitted_mgal - gravities_[from].fitted_mgal + parts.dot(gradient_),
+    return {gravities_[to].fitted_mgal - gravities_[from].fitted_mgal +
+                parts.dot(gradient_) / gravities_[to].scale,
             error_mgal(parts)};
 }
 
@@ -337,18 +352,17 @@ void DayAdjustment::set_sources(GravityEstimate& gravity, const Eigen::VectorXd&
             placement += std::pow(weight * noise.placement_mgal, 2);
         square(ErrorSource::white) += white;
         square(ErrorSource::placement) += placement;
-        square(ErrorSource::flicker) +=
-            std::max(0.0, whitened.squaredNorm() - white - placement);
+        square(ErrorSource::flicker) += std::max(0.0, whitened.squaredNorm() - white - placement);
     }
     std::ranges::transform(squares, gravity.parts_mgal.begin(),
                            [](double value) { return std::sqrt(value); });
     const Eigen::VectorXd of_first = parts_of(parts, 0);
-    const Index lags = surveys_.front().columns.cols() - 1 - kLags -
-                       std::ssize(problem_->of(0).base_mgal());
-    const auto of = [&](DayTerm term) { return of_first(static_cast<Index>(term)); };
-    gravity.shared_mgal = {of_first(lags),    of_first(lags + 1), of(DayTerm::level),
-                           of(DayTerm::slow), of(DayTerm::fast),  of(DayTerm::x),
-                           of(DayTerm::y),    of(DayTerm::scale)};
+    const Index lags =
+        surveys_.front().columns.cols() - 1 - kLags - std::ssize(problem_->of(0).base_mgal());
+    for (const UnitParameter& parameter : unit_parameters())
+        gravity.shared_mgal.push_back(parameter.place < kLags ? of_first(lags + parameter.place)
+                                                              : of_first(parameter.place - kLags));
+    gravity.shared_mgal.push_back(of_first(static_cast<Index>(DayTerm::scale)));
     for (const Gravity& other : gravities_)
         gravity.of_gravities_mgal.push_back(other.held >= 0 ? parts(other.held) : 0.0);
 }

@@ -10,8 +10,8 @@
 ///     adjustment.fit();              // coefficients, set-ups
 ///
 /// Values are those of least squares with the most likely noise.  What a hidden reference changes, and
-/// all errors, are those with the expected noise, which is larger; a change of the lags enters to first
-/// order.
+/// all errors, are those with the expected noise, which is larger, so that a change and its error belong
+/// to one system; a change of the lags enters to first order.
 ///
 /// The error of an estimate is a sum of independent errors of variance 1: those of the whitened
 /// readings and those of the priors.  Two estimates from different sets of references have
@@ -74,6 +74,8 @@ public:
     [[nodiscard]] MilliGal corrected(std::size_t set_up, std::size_t survey = 0) const;
     /// Returns the most likely noise of a survey.
     [[nodiscard]] DayNoise noise(std::size_t survey = 0) const;
+    /// Returns the roots of its expected variances.
+    [[nodiscard]] DayNoise expected_noise(std::size_t survey = 0) const;
     /// Returns DayFit::noise_log_errors of a single survey.
     [[nodiscard]] const std::optional<std::array<double, 3>>& noise_log_errors() const {
         return found_.noise_log_errors;
@@ -92,6 +94,7 @@ private:
     /// The gravity of a station.  A column is -1 if there is none.
     struct Gravity {
         double fitted_mgal = 0.0;
+        double scale = 1.0;  ///< 1 + k of a unit that was there; estimates are 1 + k times gravity.
         bool is_held = false;
         double u_mgal = 0.0;  ///< Uncertainty of the reference that is held.
         Index held = -1;      ///< Column of the fit: of an unknown, or an uncertain reference.
@@ -116,7 +119,7 @@ private:
                                            const std::vector<std::size_t>& hidden) const;
     /// Returns the standard error of an estimate from its parts of the columns, mGal.
     [[nodiscard]] double error_mgal(const Eigen::VectorXd& parts) const;
-    /// Returns the parts of a survey's whitened_ columns.
+    /// Returns the parts of SurveyPart::columns.
     [[nodiscard]] Eigen::VectorXd parts_of(const Eigen::VectorXd& common, std::size_t survey) const;
     [[nodiscard]] Eigen::VectorXd parts_of_group(const Eigen::VectorXd& common,
                                                  std::size_t group) const;
@@ -127,8 +130,8 @@ private:
 
     /// Columns that only a group has.
     struct GroupPart {
-        Eigen::MatrixXd answer;      ///< (own, common) How the own columns answer to the common ones.
-        Eigen::MatrixXd covariance;  ///< (own, own) Of the own ones, the common ones known.
+        Eigen::MatrixXd answer;  ///< (own, common) How the own columns answer to the common ones.
+        Eigen::MatrixXd covariance;        ///< (own, own) Of the own ones, the common ones known.
         std::vector<ErrorSource> sources;  ///< Of the own columns.
     };
     /// The equations of a survey at the expected noise.

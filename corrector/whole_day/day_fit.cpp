@@ -50,8 +50,7 @@ std::vector<DaySetUp> DayAdjustment::set_ups_of(std::size_t survey) const {
         DaySetUp& set_up = means[s];
         const std::size_t number = of.stations[s].number;
         const double base_mgal = regression.base_mgal()[number];
-        const double gravity_mgal =
-            gravities_[problem_->gravity_of(survey, number)].fitted_mgal;
+        const double gravity_mgal = gravities_[problem_->gravity_of(survey, number)].fitted_mgal;
         set_up.reading = MilliGal(base_mgal) + set_up.reading + set_up.tide;
         set_up.corrected = corrected(s, survey);
         // The column of the scale has the rough gravity.
@@ -72,7 +71,7 @@ DayFit DayAdjustment::fit(std::size_t survey) const {
     fit.point = problem_->part_of(found_.most_likely, survey);
     fit.expected = problem_->part_of(found_.expected, survey);
     fit.noise = noise(survey);
-    fit.expected_noise = regression.noise(fit.expected);
+    fit.expected_noise = expected_noise(survey);
     fit.fast_lag_s = regression.lag_s(fit.point, kFastLag);
     fit.slow_lag_s = regression.lag_s(fit.point, kSlowLag);
     const Eigen::MatrixXd scaled = covariance_of(survey);

@@ -31,8 +31,6 @@ struct Estimate {
 enum class ErrorSource { placement, flicker, white, levelling, thermal, drift, datum, scale };
 /// Number of sources.
 inline constexpr std::size_t kErrorSources = 8;
-/// Number of the unit's parameters in GravityEstimate::shared_mgal.
-inline constexpr std::size_t kSharedErrors = 8;
 
 /// The gravity of a station, estimated or held.
 struct GravityEstimate : Estimate {
@@ -40,10 +38,10 @@ struct GravityEstimate : Estimate {
     /// square (JCGM 100:2008, 5.1.2).  All 0 if an exact reference is held.
     std::array<double, kErrorSources> parts_mgal{};
     /// Contributions of the unit's parameters, whose priors several days of one unit have in common:
-    /// how the estimate answers to one deviation of the fast lag, the slow lag, rA, rS, rF, bx, by
-    /// and k, mGal.  All 0 if an exact reference is held.  Each day decides the size of oA and oS,
-    /// so that they are not among them.
-    std::array<double, kSharedErrors> shared_mgal{};
+    /// how the estimate answers to one deviation of each of unit_parameters(), then of k, mGal.  All 0
+    /// if an exact reference is held.  Each day decides the size of oA and oS, so that they are not
+    /// among them.
+    std::vector<double> shared_mgal;
     /// The same for the gravities, by their numbers: of a reference that is held, one deviation is its
     /// uncertainty.  0 for exact references, practically 0 for unknown gravities.
     std::vector<double> of_gravities_mgal;
@@ -90,11 +88,11 @@ using SurveyPoint = std::array<double, 8>;
 
 /// One survey of an adjustment: coefficients, noise, set-ups.
 struct DayFit {
-    SurveyPoint point{};     ///< Most likely.
+    SurveyPoint point{};  ///< Most likely.
     /// The same with the roots of the expected variances (day_search.hpp).
     SurveyPoint expected{};
-    DayNoise noise;           ///< Most likely noise.
-    DayNoise expected_noise;  ///< Roots of the expected variances.
+    DayNoise noise;                                ///< Most likely noise.
+    DayNoise expected_noise;                       ///< Roots of the expected variances.
     double fast_lag_s = 0.0, slow_lag_s = 0.0;     ///< tF, tS.
     std::array<double, 2> lag_log_errors{};        ///< Standard errors of ln tF and ln tS.
     std::array<Estimate, kDayTerms> coefficients;  ///< Errors include those of the lags.

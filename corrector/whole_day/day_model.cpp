@@ -56,7 +56,14 @@ DayAdjustment adjust_days(std::vector<DaySurvey> surveys) {
     for (const auto& one : alone) points.push_back(one->fit().point);
     DayPoint start = mean_point(*problem, points);
     start.share = problem->has_boxes() ? 0.5 : 0.0;
-    return DayAdjustment(problem, search_together(*problem, std::move(start)));
+    const DaySearch found = search_together(*problem, std::move(start));
+    // An unknown is (1 + k) times its distance from a rough gravity, and units differ in k.  About the
+    // gravities that were found the distance is 0.
+    const DayAdjustment adjusted(problem, found);
+    std::vector<double> found_mgal;
+    for (std::size_t number = 0; number < problem->gravity_count(); ++number)
+        found_mgal.push_back(adjusted.value_mgal(number));
+    return DayAdjustment(std::make_shared<const DayProblem>(problem->surveys(), found_mgal), found);
 }
 
 std::optional<DayAdjustment> adjust_planned_day(reading::DayRecord& record, DaySurvey survey,

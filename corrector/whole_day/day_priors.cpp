@@ -43,22 +43,46 @@ void DayPriors::set_scale(double value, double deviation) {
     factor(place, place) = deviation;
 }
 
+const std::vector<UnitParameter>& unit_parameters() {
+    static const std::vector<UnitParameter> kList = [] {
+        const auto name_of = [](unit::ThermalTerm lag) {
+            return unit::kThermalNames.at(static_cast<std::size_t>(lag));
+        };
+        std::vector<UnitParameter> list{{name_of(unit::ThermalTerm::fast_lag), 0},
+                                        {name_of(unit::ThermalTerm::slow_lag), 1}};
+        for (Index k = 0; k < kTerms; ++k) {
+            const adjustment::Term* const term = kDayTermList.at(static_cast<std::size_t>(k));
+            if (term->scope == adjustment::Scope::unit && term != &adjustment::kScaleTerm)
+                list.push_back({term->name, kLags + k});
+        }
+        return list;
+    }();
+    return kList;
+}
+
 // adjust_day() lists the priors; corrector/methods.md gives their origin.
 DayPriors usual_day_priors() {
     constexpr double kDrift_mgal_per_h = 1.0, kBias_mgal_per_g = 300.0, kBiasFactor = 3.0;
-    const unit::ThermalPrior fast_lag = unit::day_prior(unit::ThermalTerm::fast_lag),
-                             slow_lag = unit::day_prior(unit::ThermalTerm::slow_lag),
-                             level = unit::day_prior(unit::ThermalTerm::level),
-                             slow = unit::day_prior(unit::ThermalTerm::slow),
-                             fast = unit::day_prior(unit::ThermalTerm::fast);
     DayPriors priors;
-    priors.mean << fast_lag.mean, slow_lag.mean, 0.0, level.mean, slow.mean, fast.mean, 0.0, 0.0,
-        0.0, 0.0, 0.0;
-    DayPriors::Vector deviations;
-    deviations << fast_lag.deviation, slow_lag.deviation, kFreeGravity_mgal, level.deviation,
-        slow.deviation, fast.deviation, kDrift_mgal_per_h, unit::kTypicalUnit.warm_up_mgal,
-        kBias_mgal_per_g, kBias_mgal_per_g, unit::kUsualScaleDeviation;
-    priors.factor = deviations.asDiagonal();
+    const auto set = [&priors](Index place, double mean, double deviation) {
+        priors.mean(place) = mean;
+        priors.factor(place, place) = deviation;
+    };
+    const auto set_thermal = [&set](Index place, unit::ThermalTerm term) {
+        const unit::ThermalPrior prior = unit::day_prior(term);
+        set(place, prior.mean, prior.deviation);
+    };
+    set_thermal(0, unit::ThermalTerm::fast_lag);
+    set_thermal(1, unit::ThermalTerm::slow_lag);
+    set_thermal(DayPriors::place_of(DayTerm::level), unit::ThermalTerm::level);
+    set_thermal(DayPriors::place_of(DayTerm::slow), unit::ThermalTerm::slow);
+    set_thermal(DayPriors::place_of(DayTerm::fast), unit::ThermalTerm::fast);
+    set(DayPriors::place_of(DayTerm::constant), 0.0, kFreeGravity_mgal);
+    set(DayPriors::place_of(DayTerm::drift), 0.0, kDrift_mgal_per_h);
+    set(DayPriors::place_of(DayTerm::warm_up), 0.0, unit::kTypicalUnit.warm_up_mgal);
+    set(DayPriors::place_of(DayTerm::x), 0.0, kBias_mgal_per_g);
+    set(DayPriors::place_of(DayTerm::y), 0.0, kBias_mgal_per_g);
+    set(DayPriors::place_of(DayTerm::scale), 0.0, unit::kUsualScaleDeviation);
     priors.bias_factor = kBiasFactor;
     return priors;
 }

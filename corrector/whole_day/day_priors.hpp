@@ -10,6 +10,7 @@
 
 #include "corrector/adjustment/term.hpp"
 #include "corrector/whole_day/day_noise.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::whole_day {
 
@@ -21,11 +22,30 @@ namespace a351::corrector::whole_day {
 ///
 /// The values are indices from 0, for example in DayFit::coefficients.
 enum class DayTerm { constant, level, slow, fast, drift, warm_up, x, y, scale };
-/// Declarations of the terms, in this order.
-inline constexpr std::array kDayTermList{
-    &adjustment::kConstant, &adjustment::kLevel,  &adjustment::kSlow,
-    &adjustment::kFast,     &adjustment::kTime,   &adjustment::kWarmUp,
-    &adjustment::kAxisX,    &adjustment::kAxisY,  &adjustment::kScaleTerm};
+/// Terms of which only the record of a day has the column: the response to its temperature
+/// (protocol/unit/thermal_response.hpp), and the warm-up after power-on.
+inline constexpr adjustment::Term kLevel{
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::level)],
+    adjustment::Correction::temperature, adjustment::Scope::unit, nullptr};
+inline constexpr adjustment::Term kSlow{
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::slow)],
+    adjustment::Correction::temperature, adjustment::Scope::unit, nullptr};
+inline constexpr adjustment::Term kFast{
+    unit::kThermalNames[static_cast<std::size_t>(unit::ThermalTerm::fast)],
+    adjustment::Correction::rate, adjustment::Scope::unit, nullptr};
+inline constexpr adjustment::Term kWarmUp{"warm_up_mgal", adjustment::Correction::drift,
+                                          adjustment::Scope::loop, nullptr};
+/// Declarations of the terms, in the order of DayTerm.
+inline constexpr std::array kDayTermList{&adjustment::kConstant,
+                                         &kLevel,
+                                         &kSlow,
+                                         &kFast,
+                                         &adjustment::kTime,
+                                         &kWarmUp,
+                                         &adjustment::kAxisX,
+                                         &adjustment::kAxisY,
+                                         &adjustment::kScaleTerm};
+static_assert(kDayTermList[static_cast<std::size_t>(DayTerm::scale)] == kDayTermList.back());
 /// Number of terms.
 inline constexpr std::size_t kDayTerms = kDayTermList.size();
 
@@ -102,6 +122,14 @@ struct DayPriors {
         return static_cast<Eigen::Index>(kDayLags) + static_cast<Eigen::Index>(term);
     }
 };
+
+/// A parameter that all days of a unit have in common.
+struct UnitParameter {
+    std::string_view name;   ///< With its unit; of a lag ln(s).
+    Eigen::Index place = 0;  ///< In DayPriors.
+};
+/// Returns the lags, then the terms of the unit in the order of DayTerm, except the scale.
+[[nodiscard]] const std::vector<UnitParameter>& unit_parameters();
 
 /// Returns the priors for a unit without calibration; adjust_day() lists them.  All are independent.
 /// With a calibration use day_priors_of() (corrector/model/calibration_use.hpp).

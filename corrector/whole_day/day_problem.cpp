@@ -19,8 +19,7 @@ bool is_of_survey(Index term) {
 /// Number of common columns of a unit without an outer oven: its terms, then its lags.
 Index columns_of_unit() {
     Index count = kLags;
-    for (Index term = 0; term < kTerms; ++term)
-        count += is_of_survey(term) ? 0 : 1;
+    for (Index term = 0; term < kTerms; ++term) count += is_of_survey(term) ? 0 : 1;
     return count;
 }
 
@@ -147,8 +146,7 @@ void DayProblem::set_columns() {
     own_begin_.resize(surveys_.size());
     for (Group& group : groups_) {
         // A single sensor has no need of the columns of its set-ups.
-        group.own_count =
-            group.is_box() ? static_cast<Index>(group.set_up_count) : Index{0};
+        group.own_count = group.is_box() ? static_cast<Index>(group.set_up_count) : Index{0};
         for (const std::size_t k : group.surveys) {
             own_begin_[k] = group.own_count;
             for (Index term = 0; term < kTerms; ++term)
@@ -158,8 +156,15 @@ void DayProblem::set_columns() {
     }
 }
 
-bool DayProblem::has_boxes() const {
-    return std::ranges::any_of(groups_, &Group::is_box);
+bool DayProblem::has_boxes() const { return std::ranges::any_of(groups_, &Group::is_box); }
+
+double DayProblem::in_common_mgal(const DayPoint& point, std::size_t survey, std::size_t set_up,
+                                  const Eigen::VectorXd& of_box) const {
+    const Group& group = groups_[group_of_[survey]];
+    if (!group.is_box()) return 0.0;
+    const std::size_t number = group.set_ups[place_in_group_[survey]][set_up];
+    return std::sqrt(point.share) * of(survey).noise(part_of(point, survey)).placement_mgal *
+           of_box(static_cast<Index>(number));
 }
 
 bool DayProblem::has_outer(std::size_t unit) const {
@@ -216,8 +221,7 @@ SurveyPoint DayProblem::part_of(const DayPoint& point, std::size_t survey) const
 
 DayNoise DayProblem::own_noise(const DayPoint& point, std::size_t survey) const {
     DayNoise noise = of(survey).noise(part_of(point, survey));
-    if (groups_[group_of_[survey]].is_box())
-        noise.placement_mgal *= std::sqrt(1.0 - point.share);
+    if (groups_[group_of_[survey]].is_box()) noise.placement_mgal *= std::sqrt(1.0 - point.share);
     return noise;
 }
 
@@ -260,7 +264,7 @@ DayProblem::Normal DayProblem::of_survey(const DayPoint& point, std::size_t surv
 }
 
 DayProblem::Normal DayProblem::of_group(const std::vector<Normal>& surveys, std::size_t group,
-                                            bool is_extended) const {
+                                        bool is_extended) const {
     const Index extra = is_extended ? std::ssize(places_) : 0;
     const Index size = groups_[group].own_count + common_count_ + extra + 1;
     Normal normal{Eigen::MatrixXd::Zero(size, size), 0.0};
@@ -294,8 +298,8 @@ double DayProblem::cost(const DayPoint& point, const Normal& sum) const {
     return 0.5 * twice;
 }
 
-std::vector<Eigen::VectorXd> DayProblem::solve(
-    const DayPoint& point, const std::vector<Eigen::MatrixXd>& scaled) const {
+std::vector<Eigen::VectorXd> DayProblem::solve(const DayPoint& point,
+                                               const std::vector<Eigen::MatrixXd>& scaled) const {
     std::vector<Normal> surveys, groups;
     for (std::size_t k = 0; k < surveys_.size(); ++k)
         surveys.push_back(of_survey(point, k, scaled[k]));

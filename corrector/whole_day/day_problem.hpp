@@ -69,11 +69,17 @@ public:
     ~DayProblem() = default;
 
     [[nodiscard]] const std::vector<DaySurvey>& surveys() const { return surveys_; }
-    [[nodiscard]] const DayRegression& of(std::size_t survey) const { return *regressions_[survey]; }
+    [[nodiscard]] const DayRegression& of(std::size_t survey) const {
+        return *regressions_[survey];
+    }
     [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
     [[nodiscard]] std::size_t group_of(std::size_t survey) const { return group_of_[survey]; }
     /// Returns true if a group has several sensors, so that the share matters.
     [[nodiscard]] bool has_boxes() const;
+    /// Returns the part of a set-up's placement that a box has in common, mGal; 0 without a box.
+    /// @param of_box  coefficients of the set-ups of the box.
+    [[nodiscard]] double in_common_mgal(const DayPoint& point, std::size_t survey,
+                                        std::size_t set_up, const Eigen::VectorXd& of_box) const;
 
     /// Returns the numbers of a point: the lags of each unit, the placement of each group, flicker and
     /// white noise of each survey, then of each unit the size of the axis biases, and lag and size of an
@@ -123,8 +129,14 @@ public:
     /// Returns the products of a group without its own columns, which are integrated out.
     [[nodiscard]] Normal reduced(const Normal& normal, std::size_t group) const;
 
-    /// Returns -ln(restricted likelihood x priors) at a point, up to a constant; infinite if it
-    /// overflows.
+    /// Returns -ln(likelihood x priors) at a point with the coefficients integrated out, up to a
+    /// constant; infinite if it overflows:
+    ///
+    ///     2 cost = ln det N + ln det(X'N^-1 X + 1) + y'(N + X X')^-1 y + u'u
+    ///
+    /// y are the readings without their prior expectation, N is the covariance of the noise, X has the
+    /// columns in deviations of the priors, u is the point.  For free coefficients alone it is the
+    /// restricted likelihood.
     /// @param sum  of the groups' reduced() equations.
     [[nodiscard]] double cost(const DayPoint& point, const Normal& sum) const;
 

@@ -69,6 +69,11 @@ public:
     }
     /// Returns the place of the first state after a gap.
     [[nodiscard]] Eigen::Index states_begin() const { return kTerms + gravity_sd_mgal_.size(); }
+    /// Returns true if nothing is known of a coefficient beforehand.
+    [[nodiscard]] bool is_free(Eigen::Index k) const {
+        return k == 0 || (k >= kTerms && k < states_begin() &&
+                          gravity_sd_mgal_(k - kTerms) == kFreeGravity_mgal);
+    }
     /// Returns the place of the first step, in front of the states.
     [[nodiscard]] Eigen::Index steps_begin() const { return states_begin() - step_count_; }
     /// Returns the place of a station's gravity among the estimated quantities; -1 if a reference

@@ -72,9 +72,9 @@ public:
             for (std::size_t i = 0; i < block.size(); ++i) point.u[block[i]] = u[i];
             return point;
         };
-        const std::vector<double> found = least_cost_point(
-            [&](const std::vector<double>& u) { return cost_at(placed(u)); }, start, is_nearby,
-            limits);
+        const std::vector<double> found =
+            least_cost_point([&](const std::vector<double>& u) { return cost_at(placed(u)); },
+                             start, is_nearby, limits);
         move_to(placed(found));
         double farthest = 0.0;
         for (std::size_t i = 0; i < block.size(); ++i)
@@ -91,10 +91,10 @@ public:
             point.u[k] += by_k * kCurvatureStep;
             return cost_at(point);
         };
-        // With i = k the steps are twice as wide, or none.
-        const double sum = i == k ? 4.0 * (moved(0.5, 0.5) + moved(-0.5, -0.5) - 2.0 * moved(0.0, 0.0))
-                                  : moved(1.0, 1.0) + moved(-1.0, -1.0) - moved(1.0, -1.0) -
-                                        moved(-1.0, 1.0);
+        // With i = k: f(+h) + f(-h) - 2 f(0), times 4.
+        const double sum =
+            i == k ? 4.0 * (moved(0.5, 0.5) + moved(-0.5, -0.5) - 2.0 * moved(0.0, 0.0))
+                   : moved(1.0, 1.0) + moved(-1.0, -1.0) - moved(1.0, -1.0) - moved(-1.0, 1.0);
         move_to(here);
         return sum / (4.0 * kCurvatureStep * kCurvatureStep);
     }
@@ -116,8 +116,8 @@ private:
 
     const DayProblem& problem_;
     DayPoint point_;
-    std::vector<DayRegression::LagColumns> lagged_;    ///< One per survey.
-    std::vector<Eigen::MatrixXd> scaled_;              ///< One per survey.
+    std::vector<DayRegression::LagColumns> lagged_;     ///< One per survey.
+    std::vector<Eigen::MatrixXd> scaled_;               ///< One per survey.
     std::vector<DayProblem::Normal> surveys_, groups_;  ///< Groups without their own columns.
 };
 
@@ -260,8 +260,8 @@ std::optional<std::array<double, 3>> noise_log_errors(Walk& walk, const DayProbl
     const Eigen::VectorXd variances = factor.inverse().diagonal();
     std::array<double, 3> errors{};
     for (std::size_t i = 0; i < errors.size(); ++i)
-        errors.at(i) = problem.of(0).log_factor(kParts.at(i)) *
-                       std::sqrt(variances(static_cast<Index>(i)));
+        errors.at(i) =
+            problem.of(0).log_factor(kParts.at(i)) * std::sqrt(variances(static_cast<Index>(i)));
     return errors;
 }
 

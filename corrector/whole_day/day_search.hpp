@@ -14,7 +14,7 @@ namespace a351::corrector::whole_day {
 struct PlacementShare {
     double most_likely = 0.0;
     double expected = 0.0;               ///< Mean over the likelihood, which the adjustment takes.
-    double lowest = 0.0, highest = 1.0;  ///< 95 % limits.
+    double lowest = 0.0, highest = 1.0;  ///< Nominal 95 % limits.
 };
 
 /// What is found.
@@ -22,7 +22,8 @@ struct DaySearch {
     DayPoint most_likely;  ///< The point of least cost, but with the expected share.
     /// The same with the roots of the expected variances of placements, flicker, axis biases and an outer
     /// oven's effect.  They are larger than the most likely ones, because the distribution is skew.  It
-    /// is taken as log-normal, with the variance from the curvature of the cost.
+    /// is taken as log-normal, with the variance from the curvature of the cost with the other numbers
+    /// held, at least that of the prior, 1.
     DayPoint expected;
     std::optional<PlacementShare> share;  ///< Absent without a box.
     /// Standard errors of the logarithms of placement, flicker and white noise of a single survey, from
@@ -48,8 +49,9 @@ enum class Searched { all, all_but_lags };
 ///
 /// The share is searched at 0, 0.1, ... 1, each with the placement and the noise that suit it.  Its
 /// most likely value is the least of a parabola through three of them; its limits are where the
-/// logarithm of the likelihood is 1.92 below the largest (chi-square of one degree of freedom), so that
-/// 0 and 1 may be within them.  The adjustment takes its mean over the likelihood, because the expected
+/// logarithm of this likelihood is 1.92 below the largest (chi-square of one degree of freedom), so that
+/// 0 and 1 may be within them.  On simulated boxes they contain the share on 85 to 98 % of the days, least
+/// often a share of 1 (methods.md).  The adjustment takes its mean over the likelihood, because the expected
 /// variance of either part is linear in it.
 /// @param start  for example the points of the surveys alone.
 [[nodiscard]] DaySearch search_together(const DayProblem& problem, DayPoint start);

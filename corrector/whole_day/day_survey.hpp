@@ -17,7 +17,8 @@ struct DayStation {
     /// Number of the station from 0.  Set-ups of one number share gravity; it is held if
     /// one of them has a reference.
     std::size_t number = 0;
-    MilliGal u_gravity{};  ///< Standard uncertainty of the reference; 0: it is exact.
+    MilliGal
+        u_gravity{};  ///< Standard uncertainty of the reference, 0.001 to 1000; or 0: it is exact.
     /// Number of steps before the set-up: its reading has the offsets of all of them.
     std::size_t steps = 0;
 };
@@ -33,8 +34,8 @@ struct DayStation {
 /// begin in equilibrium.  Drives between the set-ups belong to it.
 struct DaySurvey {
     const reading::DayRecord* record = nullptr;  ///< Finite; each set-up has a bin.  Not owned.
-    std::vector<DayStation> stations;  ///< One per set-up, numbered within this survey.
-    DayPriors priors = usual_day_priors();  ///< Equal for all surveys of a unit.
+    std::vector<DayStation> stations;            ///< One per set-up, numbered within this survey.
+    DayPriors priors = usual_day_priors();       ///< Equal for all surveys of a unit.
     /// Number in the adjustment of each number of `stations`; empty: the same.  A gravity that one
     /// survey holds is held, with the same value, in all surveys that have it.
     std::vector<std::size_t> gravities = {};

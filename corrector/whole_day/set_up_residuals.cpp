@@ -25,13 +25,12 @@ adjustment::DenseResiduals set_up_residuals(const DaySurvey& survey, const DayFi
     for (std::size_t k = 0; k < kDayTerms; ++k)
         values(static_cast<Index>(k)) = fit.coefficients.at(k).value;
     const Eigen::MatrixXd lags = mean * problem.lag_columns(fit.expected, values);
-    const Eigen::VectorXd deviations = problem.unscaling(fit.expected).diagonal();
     const Eigen::MatrixXd noise =
         mean * noise_covariance(record.bins, fit.expected_noise) * mean.transpose();
     Eigen::MatrixXd covariance = noise + lags * lags.transpose();
     std::vector<Index> unknown;
     for (Index k = 0; k < problem.estimated(); ++k) {
-        if (deviations(k) == kFreeGravity_mgal)
+        if (problem.is_free(k))
             unknown.push_back(k + 1);
         else
             covariance += scaled.col(k + 1) * scaled.col(k + 1).transpose();

@@ -1,32 +1,28 @@
 #include "corrector/whole_day/unit_posterior.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "protocol/linear_algebra/cholesky.hpp"
 
 namespace a351::corrector::whole_day {
 namespace {
 
-/// Places of the parameters in DayPriors.
-const std::vector<Eigen::Index> kUnitPlaces{kFastLag,
-                                            kSlowLag,
-                                            DayPriors::place_of(DayTerm::level),
-                                            DayPriors::place_of(DayTerm::slow),
-                                            DayPriors::place_of(DayTerm::fast),
-                                            DayPriors::place_of(DayTerm::x),
-                                            DayPriors::place_of(DayTerm::y)};
+/// Returns the places of the parameters in DayPriors.
+std::vector<Eigen::Index> places_of_unit() {
+    std::vector<Eigen::Index> places;
+    for (const UnitParameter& parameter : unit_parameters()) places.push_back(parameter.place);
+    return places;
+}
 
 }  // namespace
 
 DayPriors UnitPosterior::priors() const {
     DayPriors priors = usual_day_priors();
     DayPriors::Matrix joint = priors.factor * priors.factor.transpose();
-    for (std::size_t k = 0; k < kUnitPlaces.size(); ++k) {
-        priors.mean(kUnitPlaces[k]) = values(static_cast<Eigen::Index>(k));
-        for (std::size_t l = 0; l < kUnitPlaces.size(); ++l)
-            joint(kUnitPlaces[k], kUnitPlaces[l]) =
-                covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l));
-    }
+    const std::vector<Eigen::Index> places = places_of_unit();
+    priors.mean(places) = values;
+    joint(places, places) = covariance;
     priors.factor = linear_algebra::Cholesky(joint).lower();
     priors.bias_factor = 1.0;
     return priors;
@@ -44,8 +40,9 @@ UnitPosterior unit_posterior(const DayFit& fit, const DayPriors& priors) {
     for (std::size_t k = 0; k < kDayTerms; ++k)
         values(DayPriors::place_of(static_cast<DayTerm>(k))) = fit.coefficients.at(k).value;
     UnitPosterior unit;
-    unit.values = values(kUnitPlaces);
-    unit.covariance = covariance(kUnitPlaces, kUnitPlaces);
+    const std::vector<Eigen::Index> places = places_of_unit();
+    unit.values = values(places);
+    unit.covariance = covariance(places, places);
     unit.noise = fit.expected_noise;
     return unit;
 }

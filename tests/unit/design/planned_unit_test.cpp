@@ -16,10 +16,11 @@ namespace {
 /// Returns a result.json with a diagonal covariance.
 std::string result_json(const std::string& model = "day", double covariance = 0.01) {
     std::string names, rows;
-    for (std::size_t k = 0; k < whole_day::kUnitNames.size(); ++k) {
-        names += fmt::format("{}\"{}\"", k == 0 ? "" : ",", whole_day::kUnitNames.at(k));
+    const auto& parameters = whole_day::unit_parameters();
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        names += fmt::format("{}\"{}\"", k == 0 ? "" : ",", parameters[k].name);
         rows += k == 0 ? "[" : ",[";
-        for (std::size_t l = 0; l < whole_day::kUnitNames.size(); ++l)
+        for (std::size_t l = 0; l < parameters.size(); ++l)
             rows += fmt::format("{}{}", l == 0 ? "" : ",", k == l ? covariance : 0.0);
         rows += "]";
     }

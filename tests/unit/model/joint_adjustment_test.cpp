@@ -86,6 +86,7 @@ TEST_CASE("surveys that cannot be adjusted together are refused with the reason"
             {{"a", "1", &a.result, &a.day}, {"b", serial, &other.result, &other.day}}));
     };
     CHECK(reason(linear, "2") == "b is not corrected by the whole-day model");
-    CHECK(reason(moved, "2") == "the surveys have different references of S4");
+    CHECK(reason(moved, "2") ==
+          "the surveys have different references of S4, or different uncertainties of it");
     CHECK(reason(moved, "1") == "a and b are of one unit (1) at the same time");
 }

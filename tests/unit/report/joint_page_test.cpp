@@ -60,7 +60,7 @@ TEST_CASE("the expected scatter leaves out what the days share, with its sign", 
         for (std::size_t k = 0; k < 2; ++k)
             for (StationValue& station : days[k].stations) {
                 station.shared = SharedErrors{};
-                station.shared->unit_mgal[2] = k == 0 ? shared_a : shared_b;
+                station.shared->unit_mgal = {0.0, 0.0, k == 0 ? shared_a : shared_b};
             }
         return scatter_of(days).value().expected_mgal.value();
     };

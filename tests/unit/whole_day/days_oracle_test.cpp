@@ -64,12 +64,14 @@ RandomDays random_days(std::uint64_t seed, double lag_factor) {
     const std::size_t steps = number(3);
     std::vector<std::optional<double>> u_held(MadeUpDay::kSites);
     for (auto& u : u_held)
-        if (uniform(random) < 0.4) u = uniform(random) < 0.5 ? 0.0 : 0.01 + 3.0 * uniform(random);
+        if (uniform(random) < 0.4)
+            u = uniform(random) < 0.5 ? 0.0 : 0.001 * std::pow(1e6, uniform(random));
     u_held[number(MadeUpDay::kSites)] = 0.0;
     std::vector<DaySurvey> surveys;
     std::vector<double> rough_mgal;
     for (std::size_t site = 0; site < MadeUpDay::kSites; ++site)
-        rough_mgal.push_back(u_held[site] ? 0.0 : MadeUpDay::gravity_mgal(site) + 2.0 * uniform(random));
+        rough_mgal.push_back(u_held[site] ? 0.0
+                                          : MadeUpDay::gravity_mgal(site) + 2.0 * uniform(random));
     const double tight = std::pow(10.0, -2.0 * uniform(random));
     for (std::size_t k = 0; k < count; ++k) {
         days.records.push_back(day_of(100 * seed + k, 2, is_box ? 0 : static_cast<int>(k)));
@@ -129,7 +131,8 @@ public:
                     SurveyPoint u = fit.point;
                     u.at(lag) += move;
                     return regression.design(u) *
-                           regression.unscaled(u, adjustment.scaled(k).head(regression.estimated()));
+                           regression.unscaled(u,
+                                               adjustment.scaled(k).head(regression.estimated()));
                 };
                 constexpr double kStep = 0.1;
                 lags.emplace("unit " + std::to_string(problem.surveys()[k].unit) + " lag " +
@@ -190,8 +193,8 @@ private:
         noise_.block(begin, begin, count, count) =
             noise_covariance(survey.record->bins, problem.own_noise(days_.point, k)).cast<Real>();
         const auto column = [&](const std::string& name, const Eigen::VectorXd& values) {
-            columns_.emplace(name, Vector::Zero(rows))
-                .first->second.segment(begin, count) += values.cast<Real>();
+            columns_.emplace(name, Vector::Zero(rows)).first->second.segment(begin, count) +=
+                values.cast<Real>();
         };
         const std::string of_survey = "survey " + std::to_string(k) + " ",
                           of_unit = "unit " + std::to_string(survey.unit) + " ";
@@ -205,8 +208,8 @@ private:
         for (std::size_t site = 0; site < survey.gravities.size(); ++site) {
             Eigen::VectorXd ones = Eigen::VectorXd::Zero(count);
             for (Eigen::Index i = 0; i < count; ++i)
-                if (survey.stations[survey.record->bins[static_cast<std::size_t>(i)].set_up].number ==
-                    site)
+                if (survey.stations[survey.record->bins[static_cast<std::size_t>(i)].set_up]
+                        .number == site)
                     ones(i) = 1.0;
             if (const Eigen::Index place = regression.place_of(site); place >= 0)
                 column(gravity(site), scaled.col(place + 1));
@@ -218,9 +221,9 @@ private:
     void add_box() {
         const DayProblem& problem = *days_.problem;
         if (!problem.has_boxes()) return;
-        const double variance = days_.point.share *
-                                std::pow(problem.of(0).noise(problem.part_of(days_.point, 0))
-                                             .placement_mgal, 2);
+        const double variance =
+            days_.point.share *
+            std::pow(problem.of(0).noise(problem.part_of(days_.point, 0)).placement_mgal, 2);
         const auto& bins = problem.surveys().front().record->bins;
         const auto count = static_cast<std::size_t>(bins.size());
         for (Eigen::Index i = 0; i < noise_.rows(); ++i)
@@ -237,7 +240,8 @@ private:
 };
 
 /// Names of the columns that a system lacks: those of hidden references, and own ones of the others.
-std::set<std::string> lacking(const DayAdjustment& adjustment, const std::set<std::size_t>& hidden) {
+std::set<std::string> lacking(const DayAdjustment& adjustment,
+                              const std::set<std::size_t>& hidden) {
     std::set<std::string> names;
     for (std::size_t site = 0; site < MadeUpDay::kSites; ++site) {
         const bool is_own = adjustment.is_held(site) && hidden.contains(site);
@@ -256,7 +260,8 @@ struct Worst {
 
 /// Compares gravities and differences of one problem.
 void compare(const RandomDays& days, bool has_lags, Worst& worst) {
-    const DayAdjustment adjustment(days.problem, {days.point, days.point, std::nullopt, std::nullopt});
+    const DayAdjustment adjustment(days.problem,
+                                   {days.point, days.point, std::nullopt, std::nullopt});
     Dense dense(days);
     if (has_lags) dense.add_lags(adjustment);
     const std::vector<DaySurvey>& surveys = days.problem->surveys();
@@ -279,10 +284,9 @@ void compare(const RandomDays& days, bool has_lags, Worst& worst) {
     };
     const Dense::Solution all = dense.solve(lacking(adjustment, {}));
     // Estimates are (1 + k) times their distance from the base.
-    const double scale =
-        1.0 + adjustment.fit(surveys.size() - 1)
-                  .coefficients.at(static_cast<std::size_t>(DayTerm::scale))
-                  .value;
+    const double scale = 1.0 + adjustment.fit(surveys.size() - 1)
+                                   .coefficients.at(static_cast<std::size_t>(DayTerm::scale))
+                                   .value;
     std::vector<std::size_t> held;
     for (std::size_t site = 0; site < MadeUpDay::kSites; ++site) {
         if (adjustment.is_held(site)) held.push_back(site);
@@ -290,7 +294,8 @@ void compare(const RandomDays& days, bool has_lags, Worst& worst) {
         const Vector parts = parts_of(all, site);
         compare_u(gravity.standard_error, all, parts);
         if (!has_lags)
-            worst.add(worst.value_mgal, (gravity.value - days.problem->of(0).base_mgal()[site]) * scale,
+            worst.add(worst.value_mgal,
+                      (gravity.value - days.problem->of(0).base_mgal()[site]) * scale,
                       parts.dot(all.values));
     }
     const auto hide = [&](const std::set<std::size_t>& hidden, std::size_t from, std::size_t to,
@@ -306,7 +311,7 @@ void compare(const RandomDays& days, bool has_lags, Worst& worst) {
             changed -= change(from);
         }
         compare_u(found.standard_error, system, parts);
-        if (!has_lags) worst.add(worst.left_out_mgal, found.value - fitted_mgal, changed);
+        if (!has_lags) worst.add(worst.left_out_mgal, (found.value - fitted_mgal) * scale, changed);
     };
     for (std::size_t k = 0; k < std::min<std::size_t>(3, held.size()); ++k)
         if (held.size() > 1)
@@ -324,14 +329,16 @@ TEST_CASE("gravities of days, with and without their references, are those of de
     Worst worst;
     for (std::uint64_t seed = 1; seed <= 500; ++seed)
         compare(random_days(seed, 1e-9), false, worst);  // the lags are known: all is linear
-    // The prior of a free gravity, 1e4 mGal, costs six digits of what a hidden reference changes.
+    // The prior of a free gravity, 1e4 mGal, costs six digits of what a hidden reference changes, and a
+    // hidden reference of 0.001 mGal six of its u.
     CHECK(worst.value_mgal < 1e-9);
     CHECK(worst.left_out_mgal < 1e-6);
-    CHECK(worst.u < 1e-9);
+    CHECK(worst.u < 1e-8);
 }
 
 TEST_CASE("the uncertainty of gravities contains that of the lags", "[day][oracle]") {
     Worst worst;
-    for (std::uint64_t seed = 1001; seed <= 1050; ++seed) compare(random_days(seed, 1.0), true, worst);
-    CHECK(worst.u < 1e-9);
+    for (std::uint64_t seed = 1001; seed <= 1050; ++seed)
+        compare(random_days(seed, 1.0), true, worst);
+    CHECK(worst.u < 1e-8);
 }
