@@ -97,9 +97,7 @@ AdjustedDay::AdjustedDay(whole_day::DaySurvey survey, const Adjustment& adjustme
             for (whole_day::DayStation& station : other.stations)
                 if (station.number == number) station.gravity.reset();
             own = std::make_shared<const whole_day::DayAdjustment>(
-                whole_day::adjust_day(std::move(other), &fit_.point,
-                                      whole_day::Searched::all_but_lags)
-                    .value());
+                whole_day::adjust_day(std::move(other), &fit_.point).value());
         }
         without_[number].gravity = own->gravity(number);
     });

@@ -22,7 +22,7 @@ public:
     using Adjustment = std::shared_ptr<const whole_day::DayAdjustment>;
     /// A station whose reference is not held.
     struct Without {
-        Adjustment adjustment;  ///< The day's, or one with the noise searched without it.
+        Adjustment adjustment;  ///< The day's, or one searched again without it.
         whole_day::GravityEstimate gravity;
     };
 

@@ -259,7 +259,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     return result;
 }
 
-/// Alternatives of a day: each is amended, and the noise is searched again.
+/// Alternatives of a day: each is amended, and lags and noise are searched again.
 class DayTrials final : public adjustment::Trials {
 public:
     DayTrials(const SurveyProblem& problem, const RowChoice& choice)
@@ -292,9 +292,7 @@ private:
     }
     [[nodiscard]] std::optional<whole_day::DayFit> fit_of(const AmendedSurvey& survey) const {
         if (is_refused(survey)) return std::nullopt;
-        return whole_day::adjust_day(
-                   survey_of(survey), nearby_ ? &*nearby_ : nullptr,
-                   nearby_ ? whole_day::Searched::all_but_lags : whole_day::Searched::all)
+        return whole_day::adjust_day(survey_of(survey), nearby_ ? &*nearby_ : nullptr)
             .value()
             .fit();
     }

@@ -34,9 +34,8 @@ namespace a351::corrector::model {
 /// - Acceleration and temperature of a row become means over its bins; start and end become the
 ///   times of their first and last sample.  Its time does not change, because its tide belongs to
 ///   that time.
-/// - Each station is left out in turn: the noise is searched again without its reference, the lags stay
-///   those of all.  u_corrected is the uncertainty that the row has if the reference of its station is
-///   unknown; it contains that of the lags to first order.  The studentised residual is the error of this
+/// - The adjustment is repeated without each station, its lags and noise searched again.  u_corrected is
+///   the uncertainty that the row has if the reference of its station is unknown.  The studentised residual is the error of this
 ///   prediction divided by sqrt(u_corrected^2 + u_reference^2).
 /// - A row that is excluded, or flagged and not used, gets its own unknown station, so that it has
 ///   a value and no influence.
@@ -60,8 +59,8 @@ namespace a351::corrector::model {
 ///
 /// score() is nullopt where it refuses.
 ///
-/// Cost: one search for the most likely noise and lags, and one for the noise without each held station,
-/// on all cores; twice as much with a calibration.
+/// Cost: one search for the most likely noise and lags for each held station, on all cores, and one
+/// for all rows; twice as much with a calibration.
 [[nodiscard]] Model whole_day_model();
 
 }  // namespace a351::corrector::model

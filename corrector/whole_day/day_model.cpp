@@ -36,13 +36,12 @@ std::vector<double> rough_gravities_mgal(const std::vector<DaySurvey>& surveys,
 
 }  // namespace
 
-std::optional<DayAdjustment> adjust_day(DaySurvey survey, const SurveyPoint* nearby,
-                                        Searched searched) {
+std::optional<DayAdjustment> adjust_day(DaySurvey survey, const SurveyPoint* nearby) {
     if (!is_any_held(survey)) return std::nullopt;
     survey.gravities.clear();
     survey.unit = 0;
     const auto problem = std::make_shared<const DayProblem>(std::vector{std::move(survey)});
-    return DayAdjustment(problem, search_alone(*problem, nearby, searched));
+    return DayAdjustment(problem, search_alone(*problem, nearby));
 }
 
 DayAdjustment adjust_days(std::vector<DaySurvey> surveys) {

@@ -75,15 +75,13 @@ namespace a351::corrector::whole_day {
 /// @param survey  of one number for unit and gravities.
 /// @param nearby  point of a similar problem as start of the search, which is then faster; or null.
 ///                It should have the same priors, because it counts from them.
-/// @param searched  all_but_lags: the lags stay those of `nearby`.
 /// @return std::nullopt if no set-up that is held has a bin.
 /// Source: H. D. Patterson and R. Thompson, Biometrika 58, 545-554, 1971 (restricted likelihood);
 /// C. E. Rasmussen and C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006,
 /// section 2.7 (explicit terms with priors).  Maximised by NLopt's Subplex (T. H. Rowan, thesis,
 /// Austin 1990) or, from nearby, BOBYQA (M. J. D. Powell, report NA2009/06, Cambridge).
 [[nodiscard]] std::optional<DayAdjustment> adjust_day(DaySurvey survey,
-                                                      const SurveyPoint* nearby = nullptr,
-                                                      Searched searched = Searched::all);
+                                                      const SurveyPoint* nearby = nullptr);
 
 /// Adjusts several surveys together.
 ///

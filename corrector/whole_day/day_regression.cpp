@@ -6,6 +6,8 @@
 
 #include "protocol/core/units.hpp"
 #include "protocol/signal/median.hpp"
+#include "protocol/unit/calibration.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::whole_day {
 namespace {

@@ -267,7 +267,7 @@ std::optional<std::array<double, 3>> noise_log_errors(Walk& walk, const DayProbl
 
 }  // namespace
 
-DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby, Searched searched) {
+DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby) {
     DayPoint start{std::vector<double>(problem.hypers().size()), 0.0};
     if (nearby != nullptr) start = mean_point(problem, {*nearby});
     Walk walk(problem, start);
@@ -282,13 +282,9 @@ DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby, Sea
         start = point;
     }
     walk.move_to(start);
-    Block block;
-    for (std::size_t i = 0; i < problem.hypers().size(); ++i) {
-        const DayHyper kind = problem.hypers()[i].kind;
-        const bool is_lag = kind == kFastLag || kind == kSlowLag || kind == kOuterLag;
-        if (searched == Searched::all || !is_lag) block.push_back(i);
-    }
-    walk.settle(block, nearby != nullptr,
+    Block every(problem.hypers().size());
+    for (std::size_t i = 0; i < every.size(); ++i) every[i] = i;
+    walk.settle(every, nearby != nullptr,
                 {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000});
     DaySearch found{walk.point(), {}, std::nullopt, std::nullopt};
     found.expected = expected_point(walk, problem);

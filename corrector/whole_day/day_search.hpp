@@ -31,17 +31,12 @@ struct DaySearch {
     std::optional<std::array<double, 3>> noise_log_errors;
 };
 
-/// Numbers of a point that are searched.
-enum class Searched { all, all_but_lags };
-
-/// Searches the numbers of a single survey at once.
+/// Searches all numbers of a single survey at once.
 ///
 /// It evaluates the cost at most 2000 times and does not report if this was too few.
 /// @param nearby  start of the search; null: the priors' medians, with the size of the axis biases of
 ///                0, 2 and 4 deviations that has the least cost.
-/// @param searched  without a start nearby, all.
-[[nodiscard]] DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby,
-                                     Searched searched = Searched::all);
+[[nodiscard]] DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby);
 
 /// Searches several surveys: in turn the lags and the size of the axis biases of each unit, the placement
 /// of each group, and flicker and white noise of each survey, until nothing moves by more than 0.02
