@@ -285,7 +285,10 @@ DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby) {
     Block every(problem.hypers().size());
     for (std::size_t i = 0; i < every.size(); ++i) every[i] = i;
     walk.settle(every, nearby != nullptr,
-                {.farthest = 12.0, .first_step = 0.5, .tolerance = 1e-3, .most_costs = 2000});
+                {.farthest = 12.0,
+                 .first_step = nearby != nullptr ? 0.25 : 0.5,
+                 .tolerance = nearby != nullptr ? 1e-2 : 1e-3,
+                 .most_costs = 2000});
     DaySearch found{walk.point(), {}, std::nullopt, std::nullopt};
     found.expected = expected_point(walk, problem);
     found.noise_log_errors = noise_log_errors(walk, problem);
