@@ -66,7 +66,7 @@ struct SurveyTerm {
     std::string name;  ///< With `_loop2` or `_instrument2` from the second on; `step_1_mgal`.
     Correction correction = Correction::temperature;
     std::optional<Prior> prior =
-        {};  ///< As given; for S, although the unknown of a scale is S - 1.
+        {};  ///< The given prior.  Of a scale it is that of S; the unknown is S - 1.
     bool is_scale = false;
     std::string instrument = {};  ///< Gravimeter of a scale; empty for the sensor.
 };

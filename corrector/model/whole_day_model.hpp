@@ -53,7 +53,8 @@ namespace a351::corrector::model {
 ///   is reported (calibration_use.hpp).
 ///
 /// The prediction without a station agrees within 0.01 mGal with hiding its reference, and
-/// u_corrected within 1 % (whole_day_model_test.cpp).
+/// u_corrected within 1 % (whole_day_model_test.cpp); within 0.02 mGal on simulated days
+/// (tests/bench/survey_accuracy.py).
 ///
 /// It refuses as day_refusal(), and if the options have priors, which it would ignore.
 ///

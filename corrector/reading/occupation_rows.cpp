@@ -122,8 +122,8 @@ std::pair<OccupationList, Amendments> read_occupations(const SurveySource& sourc
 
 /// The average of a set-up.
 struct AveragedSetUp {
-    OccupationWindow window;            ///< As given, or the part in which the box stood.
-    std::optional<Finding> moved = {};  ///< What happened, if the box was moved.
+    OccupationWindow window;  ///< The given window, or the part of it in which the box stood.
+    std::optional<Finding> moved = {};  ///< The finding if the box was moved.
     /// Its value, with a temperature unless there is trouble.
     std::optional<RepresentativeValue> value = {};
     std::vector<DayBin> bins = {};

@@ -20,7 +20,7 @@
 ///
 ///     covariance of two estimates = s1' (X'X + 1) s2
 ///
-/// So X'X is enough, and columns that every set has may be eliminated from it before.
+/// Only X'X is needed.  Columns that every set of references has can be eliminated from it first.
 
 #include <Eigen/Core>
 #include <memory>
@@ -132,7 +132,7 @@ private:
     struct GroupPart {
         Eigen::MatrixXd answer;  ///< (own, common) How the own columns answer to the common ones.
         Eigen::MatrixXd covariance;        ///< (own, own) Of the own ones, the common ones known.
-        std::vector<ErrorSource> sources;  ///< Of the own columns.
+        std::vector<ErrorSource> sources;  ///< Sources of the priors of the own columns.
     };
     /// The equations of a survey at the expected noise.
     struct SurveyPart {
@@ -148,8 +148,9 @@ private:
     std::vector<GroupPart> groups_;
     std::vector<ErrorSource> sources_;  ///< Sources of the priors of the common columns.
     Eigen::MatrixXd information_;       ///< (common, common) X'X + 1.
-    Eigen::MatrixXd covariance_;        ///< Of the common columns of the fit.
-    Eigen::VectorXd gradient_;          ///< (common) 0 for the columns of the fit.
+    Eigen::MatrixXd
+        covariance_;  ///< Covariance of the coefficients of the common columns of the fit.
+    Eigen::VectorXd gradient_;  ///< (common) 0 for the columns of the fit.
     std::vector<Gravity> gravities_;
 };
 

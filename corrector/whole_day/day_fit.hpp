@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What an adjustment of survey days says: gravities with the sources of their errors, the
-/// coefficients of a survey, its set-ups.
+/// Results of an adjustment of survey days: gravities with the sources of their errors, coefficients of a
+/// survey, its set-ups.
 
 #include <array>
 #include <cstddef>

@@ -45,7 +45,8 @@ inline constexpr std::array kDayTermList{&adjustment::kConstant,
                                          &adjustment::kAxisX,
                                          &adjustment::kAxisY,
                                          &adjustment::kScaleTerm};
-static_assert(kDayTermList[static_cast<std::size_t>(DayTerm::scale)] == kDayTermList.back());
+static_assert(kDayTermList.size() == static_cast<std::size_t>(DayTerm::scale) + 1);
+static_assert(kDayTermList.back() == &adjustment::kScaleTerm);
 /// Number of terms.
 inline constexpr std::size_t kDayTerms = kDayTermList.size();
 

@@ -123,7 +123,7 @@ public:
     [[nodiscard]] Point point_of(const DayNoise& noise) const;
     /// Returns ln of the factor of one deviation of a number of a point; of the lags, 0.
     [[nodiscard]] double log_factor(DayHyper part) const;
-    /// As whiten() of day_noise.hpp.
+    /// Whitens columns for the bins of the survey, as whiten() of day_noise.hpp does for any bins.
     double whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const {
         return whitening_.whiten(noise, columns);
     }
