@@ -77,6 +77,11 @@ double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const 
     Eigen::Matrix<double, kStates, Eigen::Dynamic> state(kStates, columns.cols());
     state.setZero();
     Eigen::MatrixXd values = columns.transpose();  // those of a bin are together: half the time
+    // In front of its first value a column stays 0: a gravity begins with its first set-up.
+    std::vector<Index> begin(static_cast<std::size_t>(columns.cols()), columns.rows());
+    for (Index column = 0; column < columns.cols(); ++column)
+        for (Index row = columns.rows() - 1; row >= 0; --row)
+            if (columns(row, column) != 0.0) begin[static_cast<std::size_t>(column)] = row;
     double log_determinant = 0.0;
     for (Index row = 0; row < std::ssize(bins_); ++row) {
         const Bin& bin = bins_[static_cast<std::size_t>(row)];
@@ -100,6 +105,7 @@ double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const 
         const State change = gain / variance;
         const double scale = 1.0 / std::sqrt(variance);
         for (Index column = 0; column < values.rows(); ++column) {
+            if (row < begin[static_cast<std::size_t>(column)]) continue;
             State x = keep.cwiseProduct(state.col(column));
             const double innovation = values(column, row) - h.dot(x);
             x += innovation * change;

@@ -156,13 +156,14 @@ double DayRegression::lag_s(const Point& u, DayHyper lag) const {
                     priors_.factor(place, kSlowLag) * u[kSlowLag]);
 }
 
-Eigen::VectorXd DayRegression::fast_column(double lag_s) const {
-    return means_.of(unit::fast_rate_degc_per_h(record_.temperature.series, lag_s));
-}
-
 Eigen::VectorXd DayRegression::slow_column(double lag_s) const {
     return means_.of(unit::lagged(record_.temperature.series, lag_s)).array() -
            kReferenceTemperature_degc;
+}
+
+Eigen::VectorXd DayRegression::fast_column(double lag_s) const {
+    return (fixed_.col(static_cast<Index>(DayTerm::level)) - slow_column(lag_s)) *
+           (kSecondsPerHour / lag_s);
 }
 
 Eigen::MatrixXd DayRegression::outer_columns(const Point& u) const {

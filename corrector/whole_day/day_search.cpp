@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "corrector/whole_day/least_cost.hpp"
@@ -80,23 +81,6 @@ public:
         for (std::size_t i = 0; i < block.size(); ++i)
             farthest = std::max(farthest, std::abs(found[i] - start[i]));
         return farthest;
-    }
-
-    /// Returns the second derivative of the cost by two numbers.
-    double curvature(std::size_t i, std::size_t k) {
-        const DayPoint here = point_;
-        const auto moved = [&](double by_i, double by_k) {
-            DayPoint point = here;
-            point.u[i] += by_i * kCurvatureStep;
-            point.u[k] += by_k * kCurvatureStep;
-            return cost_at(point);
-        };
-        // With i = k: f(+h) + f(-h) - 2 f(0), times 4.
-        const double sum =
-            i == k ? 4.0 * (moved(0.5, 0.5) + moved(-0.5, -0.5) - 2.0 * moved(0.0, 0.0))
-                   : moved(1.0, 1.0) + moved(-1.0, -1.0) - moved(1.0, -1.0) - moved(-1.0, 1.0);
-        move_to(here);
-        return sum / (4.0 * kCurvatureStep * kCurvatureStep);
     }
 
 private:
@@ -225,9 +209,44 @@ PlacementShare search_share(Walk& walk, const Blocks& blocks) {
     return share;
 }
 
+/// Second derivatives of the cost at the point of a walk, which is elsewhere afterwards.
+class Curvatures {
+public:
+    explicit Curvatures(Walk& walk) : walk_(walk), here_(walk.point()), cost_(walk.cost()) {}
+
+    /// Returns the second derivative by two numbers.
+    double of(std::size_t i, std::size_t k) {
+        constexpr double kSquare = kCurvatureStep * kCurvatureStep;
+        if (i == k) return along(i) / kSquare;
+        return (both_sides({i, k}) - along(i) - along(k)) / (2.0 * kSquare);
+    }
+
+private:
+    /// both_sides() of a number, computed once.
+    double along(std::size_t i) {
+        const auto known = along_.find(i);
+        return known != along_.end() ? known->second
+                                     : along_.emplace(i, both_sides({i})).first->second;
+    }
+    /// Returns f(+h) + f(-h) - 2 f(0) for a step of all numbers of a block.
+    double both_sides(const Block& block) {
+        double sum = -2.0 * cost_;
+        for (const double step : {kCurvatureStep, -kCurvatureStep}) {
+            DayPoint point = here_;
+            for (const std::size_t i : block) point.u[i] += step;
+            sum += walk_.cost_at(point);
+        }
+        return sum;
+    }
+
+    Walk& walk_;
+    DayPoint here_;
+    double cost_;
+    std::map<std::size_t, double> along_;
+};
+
 /// Returns DaySearch::expected.
-DayPoint expected_point(Walk& walk, const DayProblem& problem) {
-    DayPoint expected = walk.point();
+DayPoint expected_point(const DayProblem& problem, DayPoint most_likely, Curvatures& curvatures) {
     for (std::size_t i = 0; i < problem.hypers().size(); ++i) {
         const Hyper& hyper = problem.hypers()[i];
         if (hyper.kind != kPlacement && hyper.kind != kFlicker && hyper.kind != kBiasSize &&
@@ -235,14 +254,15 @@ DayPoint expected_point(Walk& walk, const DayProblem& problem) {
             continue;
         // x = median factor^u.  If ln x is normal with the mean m and the variance v, the root of
         // the mean square of x is exp(m + v), with v = (ln factor)^2 / curvature.
-        expected.u[i] += problem.of(hyper.surveys.front()).log_factor(hyper.kind) /
-                         std::max(walk.curvature(i, i), 1.0);
+        most_likely.u[i] += problem.of(hyper.surveys.front()).log_factor(hyper.kind) /
+                            std::max(curvatures.of(i, i), 1.0);
     }
-    return expected;
+    return most_likely;
 }
 
 /// Returns DaySearch::noise_log_errors.
-std::optional<std::array<double, 3>> noise_log_errors(Walk& walk, const DayProblem& problem) {
+std::optional<std::array<double, 3>> noise_log_errors(const DayProblem& problem,
+                                                      Curvatures& curvatures) {
     constexpr std::array kParts{kPlacement, kFlicker, kWhite};
     const auto place = [&](std::size_t part) {
         return static_cast<std::size_t>(
@@ -253,7 +273,7 @@ std::optional<std::array<double, 3>> noise_log_errors(Walk& walk, const DayProbl
     for (std::size_t i = 0; i < kParts.size(); ++i)
         for (std::size_t k = 0; k <= i; ++k) {
             const auto row = static_cast<Index>(i), column = static_cast<Index>(k);
-            curvature(row, column) = curvature(column, row) = walk.curvature(place(i), place(k));
+            curvature(row, column) = curvature(column, row) = curvatures.of(place(i), place(k));
         }
     const linear_algebra::Cholesky factor(curvature);
     if (!factor.is_positive_definite()) return std::nullopt;
@@ -290,8 +310,9 @@ DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby) {
                  .tolerance = nearby != nullptr ? 1e-2 : 1e-3,
                  .most_costs = 2000});
     DaySearch found{walk.point(), {}, std::nullopt, std::nullopt};
-    found.expected = expected_point(walk, problem);
-    found.noise_log_errors = noise_log_errors(walk, problem);
+    Curvatures curvatures(walk);
+    found.expected = expected_point(problem, found.most_likely, curvatures);
+    found.noise_log_errors = noise_log_errors(problem, curvatures);
     return found;
 }
 
@@ -305,7 +326,8 @@ DaySearch search_together(const DayProblem& problem, DayPoint start) {
         settle(walk, blocks, true);
     }
     found.most_likely = walk.point();
-    found.expected = expected_point(walk, problem);
+    Curvatures curvatures(walk);
+    found.expected = expected_point(problem, found.most_likely, curvatures);
     return found;
 }
 
