@@ -28,10 +28,6 @@ using reading::SurveyRow;
 /// right, and at least so badly.  Reason: twice the 2.6 mGal of the publication.
 constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
 
-/// Probability of a test of the fit below which it is a finding.  Reason: all findings together may be
-/// false on one day in 20; the test of the step alone is false on half as many as a remark.
-constexpr double kMisfitP = 0.008;
-
 std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
                                       const model::RowChoice& choice, bool has_loops) {
     std::vector<SearchedReading> readings;
@@ -47,29 +43,35 @@ std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
     return readings;
 }
 
-/// Says how the model does not fit the day, if so: a curvature, a step of which the search is not
-/// sure.
+/// Returns how the model does not fit the day.
+Finding misfit(const whole_day::FitTest& test, const SurveyRow& row) {
+    using whole_day::Misfit;
+    Finding finding{.kind = FindingKind::misfit};
+    finding.code =
+        fmt::format("misfit_{}", whole_day::kMisfitNames.at(static_cast<std::size_t>(test.misfit)));
+    const std::string stay = fmt::format("{} ({})", row.site, row.occupation);
+    text::Message how;
+    if (test.misfit == Misfit::curvature) {
+        how = text::message("the residuals follow the square of the {}",
+                            test.place == 0 ? text::message("temperature") : text::message("time"));
+    } else {
+        set_stay(finding, row, row.start.value_or(row.time));
+        how = test.misfit == Misfit::step
+                  ? text::message("the readings from {} on seem to be off by a step", stay)
+                  : text::message("a few set-ups are much further off than the others, {} most",
+                                  stay);
+    }
+    finding.text =
+        text::message("the model does not fit this day: {} (p = {})", how, text::fixed(test.p, 4));
+    return finding;
+}
+
+/// Says how the model does not fit the day, if so.
 void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& findings) {
     const auto* const day = result.as<model::WholeDayPart>();
     if (day == nullptr) return;
-    for (const whole_day::FitTest& test : day->fit_tests) {
-        if (test.p >= kMisfitP || test.misfit == whole_day::Misfit::tails) continue;
-        Finding& finding =
-            findings.emplace_back(Finding{.kind = FindingKind::misfit, .code = "curvature"});
-        if (test.misfit == whole_day::Misfit::curvature) {
-            finding.text = text::message(
-                "the model does not fit this day: the residuals follow the square of the {}",
-                test.place == 0 ? text::message("temperature") : text::message("time"));
-            continue;
-        }
-        const SurveyRow& row = result.rows[test.place].row;
-        finding.code = "misfit_step";
-        set_stay(finding, row, row.start.value_or(row.time));
-        finding.text = text::message(
-            "the model does not fit this day: the readings from {} ({}) on seem to be off by a "
-            "step",
-            row.site, std::to_string(row.occupation));
-    }
+    for (const whole_day::FitTest& test : day->fit_tests)
+        if (test.is_misfit()) findings.push_back(misfit(test, result.rows[test.place].row));
 }
 
 /// Returns the place of a finding in the list: headlines, mistakes, remarks, what was not visited.

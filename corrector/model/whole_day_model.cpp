@@ -126,67 +126,37 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
             std::lround(missing_s / 60.0), std::lround(temperature.longest_gap_s() / 60.0)));
 }
 
-/// Says in words where the model does not fit, and enlarges the uncertainties of stations and
-/// differences if the readings that were left out scatter more than stated.
-void remark_misfit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
+/// Enlarges the uncertainties of stations and differences if the model does not fit the day and the
+/// readings that were left out scatter more than stated.
+void check_fit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
     auto& part = std::get<WholeDayPart>(result.own);
     part.fit_tests = tests;
     if (tests.empty())
         result.remarks.push_back(text::message(
             "too few readings of known or repeated stations to test whether the model fits the "
             "day"));
-    text::Message misfits;
-    const auto add = [&misfits](const text::Message& misfit) {
-        if (!misfits.empty()) misfits += ", ";
-        misfits += misfit;
-    };
-    for (const whole_day::FitTest& test : tests) {
-        if (!test.is_misfit()) continue;
-        const auto reading = [&](std::size_t i) {
-            const reading::SurveyRow& row = result.rows[i].row;
-            return fmt::format("{} ({})", row.site, row.occupation);
-        };
-        const std::string p = fmt::format(" (p = {})", text::fixed(test.p, 4));
-        switch (test.misfit) {
-            case whole_day::Misfit::curvature:
-                add(test.place == 0
-                        ? text::message("the residuals follow the square of the temperature{}", p)
-                        : text::message("the residuals follow the square of the time{}", p));
-                break;
-            case whole_day::Misfit::step:
-                add(text::message("the readings from {} on are off by a step{}",
-                                  reading(test.place), p));
-                break;
-            case whole_day::Misfit::tails:
-                add(text::message("a few set-ups are much further off than the others, {} most{}",
-                                  reading(test.place), p));
-                break;
-        }
-    }
-    if (misfits.empty()) return;
+    if (std::ranges::none_of(tests, &whole_day::FitTest::is_misfit)) return;
     double squares = 0.0, count = 0.0;
     for (const CorrectedRow& row : result.rows) {
         if (!row.is_used || !row.studentised_residual) continue;
         squares += std::pow(*row.studentised_residual, 2);
         count += 1.0;
     }
-    text::Message consequence =
-        text::message("no reading could be left out, so the uncertainties are unchecked");
-    if (count > 0.0) {
-        constexpr double kNotable = 1.01;  // less would be printed as 1.00
-        const double factor = std::sqrt(squares / count);
-        consequence =
-            text::message("the uncertainties already contain the scatter of the readings left out");
-        if (factor > kNotable) {
-            part.uncertainty_factor = factor;
-            enlarge_uncertainties(result, factor);
-            consequence =
-                text::message("the uncertainties of stations and differences are enlarged by {}",
-                              text::fixed(factor, 2));
-        }
+    if (count == 0.0) {
+        result.remarks.push_back(text::message(
+            "the model does not fit this day, and no reading could be left out, so the "
+            "uncertainties are unchecked"));
+        return;
     }
+    constexpr double kNotable = 1.01;  // less would be printed as 1.00
+    const double factor = std::sqrt(squares / count);
+    if (factor <= kNotable) return;
+    part.uncertainty_factor = factor;
+    enlarge_uncertainties(result, factor);
     result.remarks.push_back(
-        text::message("the model does not fit this day: {}; {}", misfits, consequence));
+        text::message("the model does not fit this day, so the uncertainties of stations and "
+                      "differences are enlarged by {}",
+                      text::fixed(factor, 2)));
 }
 
 std::optional<text::Message> refusal_of(const SurveyProblem& problem, const RowChoice& choice) {
@@ -255,7 +225,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
             text::message("the temperature record begins {} min before the first occupation; its "
                           "slow effect needs two hours",
                           std::lround(lead_s / 60.0)));
-    remark_misfit(result, whole_day::goodness_of_fit(adjusted.survey(), adjusted.fit()));
+    check_fit(result, whole_day::goodness_of_fit(adjusted.survey(), adjusted.fit()));
     return result;
 }
 
