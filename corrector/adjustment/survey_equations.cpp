@@ -14,9 +14,7 @@ namespace {
 using reading::SurveyRow;
 
 /// Least standard deviation of a reading or a reference, mGal; see prior.hpp.
-MilliGal at_least_resolution(MilliGal sd) {
-    return MilliGal(std::max(sd.value(), kLeastSd_mgal));
-}
+MilliGal at_least_resolution(MilliGal sd) { return MilliGal(std::max(sd.value(), kLeastSd_mgal)); }
 
 std::string numbered(std::string_view name, std::string_view of, std::size_t number) {
     return number == 0 ? std::string(name) : fmt::format("{}_{}{}", name, of, number + 1);
@@ -84,8 +82,7 @@ void SurveyEquations::set_stations() {
         EquationStation& station = stations_.emplace_back(EquationStation{row.site});
         if (!row.is_datum(knowledge_.datum)) continue;
         station.held = row.reference;
-        station.u_held =
-            at_least_resolution(row.u_reference.value_or(knowledge_.sd_of_reference));
+        station.u_held = at_least_resolution(row.u_reference.value_or(knowledge_.sd_of_reference));
     }
     std::size_t next = readings_.size();
     bool is_first = true;
@@ -129,8 +126,8 @@ void SurveyEquations::set_effects() {
     const auto is_of_loop = [this](const Term& term) {
         return design_.has_loops && term.scope == Scope::loop;
     };
-    const auto each_loop = static_cast<std::size_t>(std::ranges::count_if(
-        design_.terms, [&](const Term* term) { return is_of_loop(*term); }));
+    const auto each_loop = static_cast<std::size_t>(
+        std::ranges::count_if(design_.terms, [&](const Term* term) { return is_of_loop(*term); }));
     for (std::size_t i = 0; i < rows_->size(); ++i) {
         if (!loops_[i]) continue;
         const SurveyRow& row = (*rows_)[i];
@@ -147,8 +144,8 @@ void SurveyEquations::set_effects() {
         for (std::size_t i = 0; i < rows_->size(); ++i) {
             const std::string& instrument = (*rows_)[i].instrument;
             if (!loops_[i] || scale_of((*rows_)[i])) continue;
-            const auto count = static_cast<std::size_t>(
-                std::ranges::count(terms_, true, &SurveyTerm::is_scale));
+            const auto count =
+                static_cast<std::size_t>(std::ranges::count(terms_, true, &SurveyTerm::is_scale));
             terms_.push_back({numbered(kScale, "instrument", count), Correction::scale,
                               knowledge_.priors.scale_of(instrument), true, instrument});
         }
@@ -168,7 +165,9 @@ void SurveyEquations::add_steps() {
             after == rows_->end()
                 ? kNone
                 : loops_[static_cast<std::size_t>(after - rows_->begin())].value_or(kNone);
-        const auto is_of_loop = [&](std::size_t i) { return loops_[i].value_or(kNone - 1) == loop; };
+        const auto is_of_loop = [&](std::size_t i) {
+            return loops_[i].value_or(kNone - 1) == loop;
+        };
         const auto is_stepped = [&](std::size_t i) {
             return is_of_loop(i) && step.is_before((*rows_)[i]);
         };
@@ -200,9 +199,8 @@ Combination SurveyEquations::effects_as_unknowns(std::size_t row) const {
 
 double SurveyEquations::sd_mgal(std::size_t row) const {
     const double reading_mgal = knowledge_.priors.reading_sd_mgal;
-    return noise_ * (design_.is_exact
-                         ? reading_mgal
-                         : std::hypot(reading_mgal, (*rows_)[row].u_average.value()));
+    return noise_ * (design_.is_exact ? reading_mgal
+                                      : std::hypot(reading_mgal, (*rows_)[row].u_average.value()));
 }
 
 Equations SurveyEquations::equations() const {
@@ -248,8 +246,8 @@ Equations SurveyEquations::equations() const {
 std::vector<std::string> SurveyEquations::labels() const {
     std::vector<std::string> labels;
     for (const ReadingRow& reading : readings_)
-        labels.push_back(fmt::format("{} ({})", (*rows_)[reading.row].site,
-                                     (*rows_)[reading.row].occupation));
+        labels.push_back(
+            fmt::format("{} ({})", (*rows_)[reading.row].site, (*rows_)[reading.row].occupation));
     for (const EquationStation& station : stations_)
         if (station.held) labels.push_back("datum " + station.site);
     for (const bool is_scale : {true, false})
@@ -318,7 +316,8 @@ double AdjustedSurvey::coefficient(std::size_t term) const {
 }
 
 AdjustedSurvey adjust(SurveyEquations survey, Cofactor cofactor) {
-    constexpr double kSettled_mgal = 1e-10;
+    constexpr double kRounding_mgal = 1e-10;
+    double moved_mgal = 0.0;
     Adjustment solution(survey.equations(), Cofactor::left_out);
     for (int round = 1; solution.undetermined().empty() && round < kScaleRounds; ++round) {
         survey.linearise(solution);
@@ -328,14 +327,14 @@ AdjustedSurvey adjust(SurveyEquations survey, Cofactor cofactor) {
             solution = std::move(next);
             break;
         }
-        double moved_mgal = 0.0;
+        moved_mgal = 0.0;
         for (std::size_t k = 0; k < survey.stations().size(); ++k)
             moved_mgal = std::max(moved_mgal, std::abs(next.value(k) - solution.value(k)));
         solution = std::move(next);
-        if (moved_mgal < kSettled_mgal) break;
+        if (moved_mgal < kRounding_mgal) break;
     }
     if (cofactor == Cofactor::computed) solution.compute_cofactor();
-    return {std::move(survey), std::move(solution)};
+    return {std::move(survey), std::move(solution), moved_mgal};
 }
 
 }  // namespace a351::corrector::adjustment

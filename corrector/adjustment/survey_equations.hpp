@@ -172,6 +172,9 @@ private:
 struct AdjustedSurvey {
     SurveyEquations survey;
     Adjustment adjustment;
+    /// How far the last round moved a gravity, mGal.  Above kSettled_mgal: scale and gravities do not
+    /// settle, and the values mean nothing.
+    double moved_mgal = 0.0;
 
     [[nodiscard]] bool is_determined() const { return adjustment.undetermined().empty(); }
     /// Returns the gravity of a station, numbered as SurveyEquations::stations().
@@ -187,11 +190,16 @@ struct AdjustedSurvey {
     }
 };
 
-/// Adjusts a survey.  Accuracy: kScaleRounds rounds leave less than 1e-9 mGal (network_test.cpp).
+/// Adjusts a survey.  Accuracy: with a scale within 5 % of 1, the rounds leave less than 1e-9 mGal
+/// (network_test.cpp).
 [[nodiscard]] AdjustedSurvey adjust(SurveyEquations survey, Cofactor cofactor = Cofactor::computed);
 
 /// Largest number of adjustments, each linearised about the one before.  Reason: the error of a round
-/// is that of the one before squared, times 1e-2/mGal at most.
-inline constexpr int kScaleRounds = 5;
+/// is that of the one before squared, times 1e-2/mGal at most, so that a usual survey needs four.
+inline constexpr int kScaleRounds = 20;
+
+/// A gravity that moves by less in the last round is settled, mGal.  Reason: a tenth of the last digit
+/// that a gravimeter shows.
+inline constexpr double kSettled_mgal = 1e-4;
 
 }  // namespace a351::corrector::adjustment

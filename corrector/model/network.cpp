@@ -26,9 +26,8 @@ std::string named(const SurveyEquations& survey, const std::set<std::size_t>& st
 }
 
 bool holds_datum(const SurveyEquations& survey, const std::set<std::size_t>& stations) {
-    return std::ranges::any_of(stations, [&](std::size_t station) {
-        return survey.stations()[station].held.has_value();
-    });
+    return std::ranges::any_of(
+        stations, [&](std::size_t station) { return survey.stations()[station].held.has_value(); });
 }
 
 /// Returns the groups of stations that no chain of stations and loops connects with a datum, as one
@@ -40,8 +39,7 @@ std::vector<std::string> unconnected_groups(const SurveyEquations& survey) {
     std::map<std::size_t, std::size_t> first_of_loop;
     for (const adjustment::ReadingRow& reading : survey.readings()) {
         const std::size_t station = *reading.station;
-        const auto [first, is_new] =
-            first_of_loop.emplace(*survey.loops()[reading.row], station);
+        const auto [first, is_new] = first_of_loop.emplace(*survey.loops()[reading.row], station);
         if (is_new) continue;
         const std::size_t from = group[station], to = group[first->second];
         std::ranges::replace(group, from, to);
@@ -162,23 +160,23 @@ Refusal undetermined(const AdjustedSurvey& adjusted) {
 /// Returns why the equations cannot be solved, without looking at the times.
 std::optional<Refusal> refusal_of(const SurveyEquations& survey) {
     for (const adjustment::EquationStation& station : survey.stations())
-        if (!station.held &&
-            std::ranges::find(survey.knowledge().datum, station.site) !=
-                survey.knowledge().datum.end())
+        if (!station.held && std::ranges::find(survey.knowledge().datum, station.site) !=
+                                 survey.knowledge().datum.end())
             return Refusal{fmt::format("datum = {}: no reference gravity", station.site),
                            "stations with gravity_mgal"};
     std::set<std::size_t> all;
     for (std::size_t k = 0; k < survey.stations().size(); ++k) all.insert(k);
     if (all.empty()) return Refusal{"no reading in use", "at least one"};
     if (!holds_datum(survey, all))
-        return Refusal{"no datum: none of the stations in use has a reference that is held, so the "
-                       "constant is undetermined",
-                       fmt::format("gravity_mgal of at least one occupied station ({})",
-                                   named(survey, all))};
+        return Refusal{
+            "no datum: none of the stations in use has a reference that is held, so the "
+            "constant is undetermined",
+            fmt::format("gravity_mgal of at least one occupied station ({})", named(survey, all))};
     if (const auto groups = unconnected_groups(survey); !groups.empty())
-        return Refusal{fmt::format("unconnected: no chain of stations and loops joins a datum to {}",
-                                   text::joined(groups, "; ")),
-                       "a datum in every group, or its rows taken out of use"};
+        return Refusal{
+            fmt::format("unconnected: no chain of stations and loops joins a datum to {}",
+                        text::joined(groups, "; ")),
+            "a datum in every group, or its rows taken out of use"};
     return std::nullopt;
 }
 
@@ -231,18 +229,23 @@ NetworkResult solved(const std::vector<reading::SurveyRow>& rows, const std::vec
                      adjustment::SurveyKnowledge knowledge, const NetworkOptions& options,
                      adjustment::Cofactor cofactor) {
     NetworkResult result;
-    adjustment::Design design =
-        design_of(rows, in_use, knowledge.priors, options, result.remarks);
+    adjustment::Design design = design_of(rows, in_use, knowledge.priors, options, result.remarks);
     SurveyEquations survey(rows, in_use, std::move(design), std::move(knowledge));
     if (auto refusal = refusal_of(survey)) {
         result.refusal = std::move(*refusal);
         return result;
     }
     AdjustedSurvey adjusted = adjustment::adjust(std::move(survey), cofactor);
-    if (adjusted.is_determined())
-        result.adjusted = std::move(adjusted);
-    else
+    if (!adjusted.is_determined())
         result.refusal = undetermined(adjusted);
+    else if (adjusted.moved_mgal > adjustment::kSettled_mgal)
+        result.refusal = {
+            fmt::format(
+                "scale and gravities do not settle: round {} moves a gravity by {:.4g} mGal",
+                adjustment::kScaleRounds, adjusted.moved_mgal),
+            "a prior on scale that is closer to 1, or without the reading that contradicts it"};
+    else
+        result.adjusted = std::move(adjusted);
     return result;
 }
 
@@ -302,8 +305,8 @@ text::Message admittance_remark(const Fit& result) {
     // Real admittances are -0.0002 to -0.0004 mGal/hPa: a value whose error is larger than half
     // this range is not better than the usual one.
     constexpr double kUsual_mgal_per_hpa = -0.0003, kGoodError_mgal_per_hpa = 0.0001;
-    const Coefficient& admittance = *std::ranges::find(
-        result.coefficients, adjustment::kAdmittance.name, &Coefficient::name);
+    const Coefficient& admittance =
+        *std::ranges::find(result.coefficients, adjustment::kAdmittance.name, &Coefficient::name);
     const double u = admittance.standard_error.value();
     return text::message(
         "admittance {:.5f} +- {:.5f} mGal/hPa, fitted; pressure and readings correlate by {:.3f}{}",
@@ -362,10 +365,10 @@ Score score_network(const SurveyProblem& problem, const RowChoice& choice) {
 std::unique_ptr<adjustment::Trials> network_trials(const SurveyProblem& problem,
                                                    const RowChoice& choice) {
     const SurveyOptions& options = problem.options;
-    NetworkResult network = solved(problem.rows, choice.accepted,
-                                   {options.datum, options.priors, options.steps,
-                                    MilliGal(options.network.datum_sd_mgal)},
-                                   options.network, adjustment::Cofactor::left_out);
+    NetworkResult network = solved(
+        problem.rows, choice.accepted,
+        {options.datum, options.priors, options.steps, MilliGal(options.network.datum_sd_mgal)},
+        options.network, adjustment::Cofactor::left_out);
     if (!network.adjusted) return nullptr;
     return adjustment::white_trials(std::move(*network.adjusted));
 }
