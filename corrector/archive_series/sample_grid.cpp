@@ -18,15 +18,15 @@ std::size_t first_at_or_after(const archive::Segment& segment, UtcTime time) {
                                          [&](std::size_t i) { return segment.time_of(i) < time; });
 }
 
-/// Returns the rate between the first and the last time stamp of samples [first, behind).
-double observed_rate_hz(const archive::Segment& segment, std::size_t first, std::size_t behind) {
+/// Returns the rate between the first and the last time stamp of samples [first, end).
+double observed_rate_hz(const archive::Segment& segment, std::size_t first, std::size_t end) {
     const auto anchor_from = [&](std::size_t sample) {
         return std::ranges::lower_bound(segment.anchors, sample, {},
                                         &archive::Segment::Anchor::offset);
     };
-    const auto earliest = anchor_from(first), end = anchor_from(behind);
-    if (earliest == end) return segment.rate_hz;
-    const archive::Segment::Anchor& latest = *std::prev(end);
+    const auto earliest = anchor_from(first), next = anchor_from(end);
+    if (earliest == next) return segment.rate_hz;
+    const archive::Segment::Anchor& latest = *std::prev(next);
     const double seconds = seconds_between(earliest->time, latest.time);
     if (seconds < kShortestForRate_s) return segment.rate_hz;
     return static_cast<double>(latest.offset - earliest->offset) / seconds;
@@ -37,9 +37,9 @@ double observed_rate_hz(const archive::Segment& segment, std::size_t first, std:
 void fill(std::span<double> values, std::int64_t at, const std::vector<NumberedSamples>& samples,
           double gain, double offset) {
     std::ranges::fill(values, std::numeric_limits<double>::quiet_NaN());
-    const std::int64_t behind = at + static_cast<std::int64_t>(values.size());
+    const std::int64_t values_end = at + static_cast<std::int64_t>(values.size());
     for (const NumberedSamples& part : samples) {
-        const std::int64_t end = std::min(part.behind(), behind);
+        const std::int64_t end = std::min(part.end(), values_end);
         for (std::int64_t i = std::max(part.first, at); i < end; ++i)
             values[static_cast<std::size_t>(i - at)] =
                 offset + gain * part.counts[static_cast<std::size_t>(i - part.first)];
@@ -53,13 +53,13 @@ std::optional<SampleGrid> sampling_grid(const std::vector<archive::Segment>& seg
     std::size_t longest = 0;
     for (const archive::Segment& segment : segments) {
         const std::size_t first = first_at_or_after(segment, start);
-        const std::size_t behind = first_at_or_after(segment, end);
-        if (first == behind) continue;
+        const std::size_t past = first_at_or_after(segment, end);
+        if (first == past) continue;
         const UtcTime first_time = segment.time_of(first);
         if (!origin || first_time < *origin) origin = first_time;
-        if (behind - first <= longest) continue;
-        longest = behind - first;
-        rate_hz = observed_rate_hz(segment, first, behind);
+        if (past - first <= longest) continue;
+        longest = past - first;
+        rate_hz = observed_rate_hz(segment, first, past);
     }
     if (!origin) return std::nullopt;
     // The last sample is before `end`, with half a sample of tolerance for rounded stamps.

@@ -24,7 +24,7 @@ struct NumberedSamples {
     std::int64_t first = 0;  ///< Number of the first sample.
 
     /// Returns the number after the last one.
-    [[nodiscard]] std::int64_t behind() const {
+    [[nodiscard]] std::int64_t end() const {
         return first + static_cast<std::int64_t>(counts.size());
     }
 };

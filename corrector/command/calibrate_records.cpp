@@ -38,13 +38,13 @@ std::optional<double> begins_after_h(const long_record::RecordSegment& segment,
 long_record::RecordSegment without_begin(long_record::RecordSegment segment, double step_s) {
     const auto cut =
         std::min(segment.size(), static_cast<std::size_t>(kSettled_h * kSecondsPerHour / step_s));
-    const auto behind = static_cast<std::ptrdiff_t>(cut);
+    const auto end = static_cast<std::ptrdiff_t>(cut);
     segment.acceleration_mgal.erase(segment.acceleration_mgal.begin(),
-                                    segment.acceleration_mgal.begin() + behind);
+                                    segment.acceleration_mgal.begin() + end);
     segment.temperature_degc.erase(segment.temperature_degc.begin(),
-                                   segment.temperature_degc.begin() + behind);
+                                   segment.temperature_degc.begin() + end);
     if (!segment.outer_degc.empty())
-        segment.outer_degc.erase(segment.outer_degc.begin(), segment.outer_degc.begin() + behind);
+        segment.outer_degc.erase(segment.outer_degc.begin(), segment.outer_degc.begin() + end);
     segment.start = segment.start + from_seconds(static_cast<double>(cut) * step_s);
     return segment;
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/model/amended_survey.hpp"
 #include "corrector/judgement/physical_doubt.hpp"
+#include "corrector/model/amended_survey.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/strict_toml.hpp"
 
@@ -25,13 +25,14 @@ constexpr double kNameReach = 2.5;
 constexpr double kVisitedOdds = 4.0;
 
 /// Turns mistakes into sentences with proposals.
-class Teller {
+class MistakeSentences {
 public:
-    Teller(const std::vector<SearchedReading>& readings, const std::vector<SurveyRow>& rows,
-           const model::RowChoice& choice, const std::vector<text::Site>& sites)
+    MistakeSentences(const std::vector<SearchedReading>& readings,
+                     const std::vector<SurveyRow>& rows, const model::RowChoice& choice,
+                     const std::vector<text::Site>& sites)
         : readings_(readings), rows_(rows), choice_(choice), sites_(sites) {}
 
-    [[nodiscard]] std::vector<Finding> told(const Mistake& mistake) const {
+    [[nodiscard]] std::vector<Finding> of(const Mistake& mistake) const {
         if (mistake.kind == adjustment::AlternativeKind::step) return {step(mistake)};
         if (mistake.kind == adjustment::AlternativeKind::swap) return swapped_names(mistake);
         if (mistake.kind == adjustment::AlternativeKind::set_up) return {bad_set_up(mistake)};
@@ -40,11 +41,13 @@ public:
         });
         // At an end of the day a step is as likely as a name.
         const bool is_name_likely =
-            is_one_stay && (mistake.kind == adjustment::AlternativeKind::station || !step_beside(mistake));
+            is_one_stay &&
+            (mistake.kind == adjustment::AlternativeKind::station || !step_beside(mistake));
         const auto others = is_name_likely ? read_sites(mistake) : std::vector<Candidate>();
-        Finding finding = !others.empty()                        ? other_name(mistake, others)
-                          : mistake.kind == adjustment::AlternativeKind::station ? reference(mistake)
-                                                                 : bad_stay(mistake);
+        Finding finding = !others.empty() ? other_name(mistake, others)
+                          : mistake.kind == adjustment::AlternativeKind::station
+                              ? reference(mistake)
+                              : bad_stay(mistake);
         add_temperature(finding, mistake);
         add_step(finding, mistake);
         return {std::move(finding)};
@@ -298,10 +301,9 @@ private:
 
 std::vector<Finding> findings_of(const Mistake& mistake,
                                  const std::vector<SearchedReading>& readings,
-                                 const std::vector<SurveyRow>& rows,
-                                 const model::RowChoice& choice,
+                                 const std::vector<SurveyRow>& rows, const model::RowChoice& choice,
                                  const std::vector<text::Site>& sites) {
-    return Teller(readings, rows, choice, sites).told(mistake);
+    return MistakeSentences(readings, rows, choice, sites).of(mistake);
 }
 
 }  // namespace a351::corrector::judgement

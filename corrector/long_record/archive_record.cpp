@@ -125,7 +125,7 @@ private:
 
     /// Returns the number of the sample that would continue the stretch.
     [[nodiscard]] std::int64_t next() const {
-        return leading_.empty() ? builder_->input_count() : leading_.back().behind();
+        return leading_.empty() ? builder_->input_count() : leading_.back().end();
     }
 
     /// Adds a segment of the vertical axis, whose first sample has this number in the stretch.
@@ -147,8 +147,8 @@ private:
             const UtcTime start = segment.time_of(0);
             auto beside = std::ranges::upper_bound(times_, start, {}, &TimeOfNumber::time);
             if (beside != times_.begin()) --beside;
-            const double behind = seconds_between(beside->time, start) * rate_hz_;
-            placed.push_back({segment.counts, beside->number + std::llround(behind)});
+            const double samples = seconds_between(beside->time, start) * rate_hz_;
+            placed.push_back({segment.counts, beside->number + std::llround(samples)});
         }
         return placed;
     }
@@ -156,13 +156,13 @@ private:
     /// Adds the samples taken since the last call to the stretch.
     void push(const DayOfChannels& day) {
         if (leading_.empty()) return;
-        const std::int64_t behind = next();
+        const std::int64_t end = next();
         std::array<std::vector<NumberedSamples>, kChannels> placed;
         for (std::size_t k = 0; k < kChannels; ++k)
             placed[k] = k == kLeading ? std::exchange(leading_, {}) : place(day[k]);
-        while (builder_->input_count() < behind) {
+        while (builder_->input_count() < end) {
             const std::int64_t at = builder_->input_count();
-            const auto count = std::min(kBlockSamples, static_cast<std::size_t>(behind - at));
+            const auto count = std::min(kBlockSamples, static_cast<std::size_t>(end - at));
             for (std::size_t k = 0; k < kChannels; ++k) {
                 const double unit = k == kTemperature ? 1.0 : kMilliGalPerMps2;
                 const station::ChannelScale& scale = epoch_->channels[k];

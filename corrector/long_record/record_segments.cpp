@@ -29,9 +29,9 @@ constexpr double kKnockThreshold = 8.0;  // threshold of find_disturbances()
 // Reason: five times the swing of the oven's cycle.
 constexpr double kRestart_degc = 0.1;
 
-double median_of(const std::vector<double>& values, std::size_t first, std::size_t behind) {
+double median_of(const std::vector<double>& values, std::size_t first, std::size_t end) {
     return signal::median({values.begin() + static_cast<std::ptrdiff_t>(first),
-                           values.begin() + static_cast<std::ptrdiff_t>(behind)});
+                           values.begin() + static_cast<std::ptrdiff_t>(end)});
 }
 
 /// Valid samples of a stretch.
@@ -44,18 +44,17 @@ struct Valid {
 
 /// Samples of equal value, at least kStuck.
 struct EqualRun {
-    std::size_t first = 0, behind = 0;
+    std::size_t first = 0, end = 0;
 
-    [[nodiscard]] std::size_t size() const noexcept { return behind - first; }
+    [[nodiscard]] std::size_t size() const noexcept { return end - first; }
 };
 
 std::vector<EqualRun> equal_runs(const std::vector<double>& values, double same) {
     std::vector<EqualRun> runs;
-    for (EqualRun run; run.first < values.size(); run.first = run.behind) {
-        run.behind = run.first + 1;
-        while (run.behind < values.size() &&
-               std::abs(values[run.behind] - values[run.first]) < same)
-            ++run.behind;
+    for (EqualRun run; run.first < values.size(); run.first = run.end) {
+        run.end = run.first + 1;
+        while (run.end < values.size() && std::abs(values[run.end] - values[run.first]) < same)
+            ++run.end;
         if (run.size() >= kStuck) runs.push_back(run);
     }
     return runs;
@@ -87,11 +86,11 @@ void remove_coarse_runs(std::vector<EqualRun>& runs, const std::vector<double>& 
     std::size_t longest_inner = 0;
     for (const bool is_inner : {true, false}) {
         std::erase_if(runs, [&](const EqualRun& run) {
-            const std::size_t first = place[run.first], behind = place[run.behind];
-            const bool has_both = first > 0 && behind < finite.size();
+            const std::size_t first = place[run.first], end = place[run.end];
+            const bool has_both = first > 0 && end < finite.size();
             if (has_both != is_inner || finite.empty() || !std::isfinite(values[run.first]) ||
                 (first > 0 && !is_step(first - 1, first)) ||
-                (behind < finite.size() && !is_step(behind - 1, behind)))
+                (end < finite.size() && !is_step(end - 1, end)))
                 return false;
             if (is_inner) longest_inner = std::max(longest_inner, run.size());
             return is_inner || run.size() <= kEndFactor * longest_inner;
@@ -131,13 +130,13 @@ std::vector<double> find_steps(const std::vector<double>& values) {
             continue;
         }
         // The step is at the greatest single change within the run of large differences.
-        std::size_t behind = i;
-        while (behind + kBeside <= count && std::abs(rises[behind]) > limit) ++behind;
+        std::size_t end = i;
+        while (end + kBeside <= count && std::abs(rises[end]) > limit) ++end;
         std::size_t at = i;
-        for (std::size_t k = i; k < behind; ++k)
+        for (std::size_t k = i; k < end; ++k)
             if (std::abs(values[k] - values[k - 1]) > std::abs(values[at] - values[at - 1])) at = k;
         steps[at] = rises[at];
-        i = behind;
+        i = end;
     }
     return steps;
 }
@@ -222,7 +221,7 @@ private:
             std::fill_n(is_stuck.begin() + static_cast<std::ptrdiff_t>(run.first), run.size(),
                         true);
             result_.refused.push_back(
-                {stretch.times[run.first], stretch.times[run.behind - 1],
+                {stretch.times[run.first], stretch.times[run.end - 1],
                  text::message("{} is stuck at {} {}", text::marked_message(name),
                                text::fixed(values[run.first], 4), unit)});
         }
@@ -253,14 +252,14 @@ private:
     }
 
     void add(const RecordStretch& stretch, const Valid& valid, const reading::Disturbances& knocks,
-             std::size_t first, std::size_t behind, const Begin& begin) {
+             std::size_t first, std::size_t end, const Begin& begin) {
         RecordSegment segment;
         segment.start = stretch.times[valid.places[first]];
-        segment.end = stretch.times[valid.places[behind - 1]];
+        segment.end = stretch.times[valid.places[end - 1]];
         segment.serial_number = stretch.serial_number;
         segment.begins_with = begin.why;
         segment.is_restart = begin.is_restart;
-        const std::size_t span = valid.places[behind - 1] - valid.places[first] + 1;
+        const std::size_t span = valid.places[end - 1] - valid.places[first] + 1;
         if (span < shortest_) {
             const auto hours = [this](std::size_t samples, int decimals) {
                 return text::fixed(static_cast<double>(samples) * record_.step_s / 3600.0,
@@ -274,8 +273,8 @@ private:
             return;
         }
         std::size_t previous = first;
-        for (std::size_t i = first; i < behind; ++i) {
-            const bool is_end = i == first || i + 1 == behind;
+        for (std::size_t i = first; i < end; ++i) {
+            const bool is_end = i == first || i + 1 == end;
             if (knocks.disturbed[i] && !is_end) {
                 ++segment.disturbed;
                 continue;

@@ -54,10 +54,10 @@ TaperedSpectra tapered_spectra(std::span<const double> temperature,
     return result;
 }
 
-/// A band of periods and its frequencies [first, behind).
+/// A band of periods and its frequencies [first, end).
 struct Band {
     double shortest_s, longest_s;
-    std::size_t first, behind;
+    std::size_t first, end;
 };
 
 std::vector<Band> bands_of(const TaperedSpectra& spectrum, double step_s, double cycle_s) {
@@ -73,7 +73,7 @@ std::vector<Band> bands_of(const TaperedSpectra& spectrum, double step_s, double
         const Band band{period_s / quarter, period_s * quarter,
                         std::max<std::size_t>(1, number(period_s * quarter)),
                         std::min(spectrum.size(), number(period_s / quarter))};
-        if (band.first < band.behind) bands.push_back(band);
+        if (band.first < band.end) bands.push_back(band);
     }
     return bands;
 }
@@ -109,7 +109,7 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     const auto tapers = std::clamp(static_cast<std::size_t>(0.5 * kRelativeWidth * cycles),
                                    kFewestTapers + 1, kMostTapers + 1) -
                         1;
-    for (std::size_t k = band.first; k < band.behind; ++k) {
+    for (std::size_t k = band.first; k < band.end; ++k) {
         double power = 0.0;
         for (std::size_t taper = 0; taper < tapers; ++taper) {
             const std::complex<double> x = spectrum.temperature[taper][k],
@@ -122,7 +122,7 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
         tt2 += power * power;
         frequency += (power - noise) * static_cast<double>(k) * spectrum.bin_hz;
     }
-    const auto bins = static_cast<double>(band.behind - band.first);
+    const auto bins = static_cast<double>(band.end - band.first);
     const bool is_noise = noise * bins > kNoiseShare * tt;
     const double of_oven = tt - noise * bins;  // S_TT without the thermometer's noise
     ResponsePoint point;

@@ -45,10 +45,10 @@ void StretchBuilder::add_to_ranges(const std::vector<std::vector<double>>& chann
     auto at = static_cast<std::size_t>(input_count_);
     for (std::size_t i = 0; i < count;) {
         if (at / per_sample >= raw_.size()) raw_.push_back({kNaN, kNaN, kNaN, kNaN});
-        const std::size_t behind = std::min(count, i + per_sample - at % per_sample);
+        const std::size_t end = std::min(count, i + per_sample - at % per_sample);
         RecordStretch::RawRange& range = raw_.back();
-        at += behind - i;
-        for (; i < behind; ++i) {
+        at += end - i;
+        for (; i < end; ++i) {
             widen(range.acceleration_low_mgal, range.acceleration_high_mgal, norm_at(channels, i));
             widen(range.temperature_low_degc, range.temperature_high_degc, channels.back()[i]);
         }

@@ -223,12 +223,11 @@ void TwoPathRegression::smooth_noise(const Eigen::VectorXd& power) {
     constexpr Index kLowest = 8;
     constexpr double kBandRatio = std::numbers::sqrt2;  // half an octave
     for (Index first = kLowest; first < frequencies_;) {
-        const Index behind = std::min(
+        const Index end = std::min(
             frequencies_,
             std::max(first + 4, static_cast<Index>(kBandRatio * static_cast<double>(first))));
-        noise_.segment(first, behind - first)
-            .setConstant(power.segment(first, behind - first).mean());
-        first = behind;
+        noise_.segment(first, end - first).setConstant(power.segment(first, end - first).mean());
+        first = end;
     }
     const Index lowest = std::min(kLowest, frequencies_);
     const double here = std::max(power.head(lowest).mean(), 1e-300);

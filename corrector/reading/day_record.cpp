@@ -33,14 +33,14 @@ std::vector<bool> quiet_samples(const std::vector<double>& series, double thresh
     for (std::size_t k = 0; k < places.size(); ++k) {
         if (!found.disturbed[k]) continue;
         const std::size_t first = places[k] - std::min(places[k], kReach);
-        const std::size_t behind = std::min(series.size(), places[k] + kReach + 1);
-        for (std::size_t i = first; i < behind; ++i) is_quiet[i] = false;
+        const std::size_t end = std::min(series.size(), places[k] + kReach + 1);
+        for (std::size_t i = first; i < end; ++i) is_quiet[i] = false;
     }
     return is_quiet;
 }
 
 struct Stretch {
-    std::size_t first, behind;
+    std::size_t first, end;
 };
 
 /// Returns the parts of the series between gaps longer than `most` samples.  Each part begins and
@@ -49,8 +49,8 @@ std::vector<Stretch> runs_between_gaps(std::span<const double> values, std::size
     std::vector<Stretch> runs;
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (std::isnan(values[i])) continue;
-        if (runs.empty() || i - runs.back().behind > most) runs.push_back({i, i});
-        runs.back().behind = i + 1;
+        if (runs.empty() || i - runs.back().end > most) runs.push_back({i, i});
+        runs.back().end = i + 1;
     }
     return runs;
 }
@@ -74,8 +74,8 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, do
         bin.set_up = set_up;
         // 1 g is subtracted before summing, to keep the last digits.
         double reading_g = 0.0, x_g = 0.0, y_g = 0.0, after_s = 0.0;
-        const std::size_t behind = std::min(size.size(), first + kBinSamples);
-        for (std::size_t i = first; i < behind; ++i) {
+        const std::size_t end = std::min(size.size(), first + kBinSamples);
+        for (std::size_t i = first; i < end; ++i) {
             if (!is_quiet[i]) continue;
             bin.times.push_back(size.time_of(static_cast<double>(i)));
             after_s += seconds_between(size.start(), bin.times.back());
@@ -103,16 +103,16 @@ std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
         runs_between_gaps(values, static_cast<std::size_t>(cutoff) / 2);
     std::size_t valid = 0;
     for (const Stretch& run : runs) {
-        valid += run.behind - run.first;
-        if (run.behind - run.first < static_cast<std::size_t>(cutoff)) continue;
-        const auto part = std::span(values).subspan(run.first, run.behind - run.first);
+        valid += run.end - run.first;
+        if (run.end - run.first < static_cast<std::size_t>(cutoff)) continue;
+        const auto part = std::span(values).subspan(run.first, run.end - run.first);
         const SmoothTrend smooth_part = smooth(part, cutoff);
         std::copy(smooth_part.curve.begin(), smooth_part.curve.end(), part.begin());
     }
     if (static_cast<double>(valid) < kShortestTemperature_s * decimated.rate().value())
         return std::nullopt;
     std::optional<std::size_t> last;
-    for (std::size_t i = runs.front().first; i < runs.back().behind; ++i) {
+    for (std::size_t i = runs.front().first; i < runs.back().end; ++i) {
         if (std::isnan(values[i])) continue;
         if (last && i - *last > 1) bridge(values, *last, i);
         last = i;
@@ -120,10 +120,10 @@ std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
     std::vector<TemperatureGap> gaps;
     const std::size_t first = runs.front().first;
     for (std::size_t k = 1; k < runs.size(); ++k)
-        gaps.push_back({runs[k - 1].behind - 1 - first, runs[k].first - first});
+        gaps.push_back({runs[k - 1].end - 1 - first, runs[k].first - first});
     const auto begin = values.begin();
     std::vector<double> kept(begin + static_cast<std::ptrdiff_t>(first),
-                             begin + static_cast<std::ptrdiff_t>(runs.back().behind));
+                             begin + static_cast<std::ptrdiff_t>(runs.back().end));
     return DayTemperature{
         {decimated.time_of(static_cast<double>(first)), decimated.rate(), std::move(kept)},
         std::move(gaps)};

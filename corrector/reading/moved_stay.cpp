@@ -17,9 +17,9 @@ using Axis = TimeSeries<StandardGravity>;
 double shake_of(const Axis& axis, std::size_t k) {
     const std::size_t first =
         k * kDecimationRatio - std::min(k * kDecimationRatio, kDecimationRatio / 2);
-    const std::size_t behind = std::min(axis.size(), k * kDecimationRatio + kDecimationRatio / 2);
+    const std::size_t end = std::min(axis.size(), k * kDecimationRatio + kDecimationRatio / 2);
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (std::size_t i = first; i < behind; ++i) {  // NaN changes neither
+    for (std::size_t i = first; i < end; ++i) {  // NaN changes neither
         least = std::min(least, axis.values()[i]);
         most = std::max(most, axis.values()[i]);
     }
@@ -81,7 +81,7 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     if (part == signal::StillPart{0, samples.size()}) return std::nullopt;
     MovedStay moved{window, {}};
     OccupationWindow& still = moved.still;
-    if (part.first == part.behind) {
+    if (part.first == part.end) {
         still.notes.emplace_back("shaken");
         moved.finding = {
             .kind = FindingKind::bad_reading,
@@ -95,7 +95,7 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
     }
     still.notes.emplace_back("moved");
     if (part.first > 0) still.start = samples[part.first].time;
-    if (part.behind < samples.size()) still.end = samples[part.behind].time;
+    if (part.end < samples.size()) still.end = samples[part.end].time;
 
     Finding& finding = moved.finding;
     // Without a stop the stay lasts until the box is at the next benchmark.

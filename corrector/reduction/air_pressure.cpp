@@ -94,8 +94,8 @@ AirPressure AirPressure::read(const std::filesystem::path& file) {
 
 std::optional<double> AirPressure::at(UtcTime time) const {
     if (time < times_.front() || time > times_.back()) return std::nullopt;
-    const auto behind = std::upper_bound(times_.begin() + 1, times_.end() - 1, time);
-    const auto i = static_cast<std::size_t>(behind - times_.begin());
+    const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, time);
+    const auto i = static_cast<std::size_t>(after - times_.begin());
     if (times_[i] - times_[i - 1] > kLongestPressureStep) return std::nullopt;
     const double share =
         seconds_between(times_[i - 1], time) / seconds_between(times_[i - 1], times_[i]);

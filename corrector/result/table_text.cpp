@@ -68,9 +68,9 @@ std::string summary_text(const model::SurveyCorrection& result) {
     text += fmt::format(": RMS {} mGal (in sample, n = {})", text::fixed_or(score.rms_mgal, 3, "-"),
                         score.row_count);
     const auto add = [&text](std::string_view before, const std::optional<double>& value_mgal,
-                             std::string_view behind) {
+                             std::string_view after) {
         if (value_mgal)
-            text += fmt::format("{}{} mGal {}", before, text::fixed_or(value_mgal, 3, "-"), behind);
+            text += fmt::format("{}{} mGal {}", before, text::fixed_or(value_mgal, 3, "-"), after);
     };
     add(", ", score.loo_mgal, "(leave-one-out)");
     add(", ", score.loso_mgal, "(leave-one-station-out)");

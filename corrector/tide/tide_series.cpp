@@ -26,8 +26,8 @@ Series Series::read(const std::filesystem::path& file) {
 
 std::optional<MilliGal> Series::at(UtcTime time) const {
     if (time < first() || time > last()) return std::nullopt;
-    const auto behind = std::upper_bound(times_.begin(), times_.end(), time);
-    const auto bracket = std::min(static_cast<std::size_t>(behind - times_.begin()) - 1,
+    const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+    const auto bracket = std::min(static_cast<std::size_t>(after - times_.begin()) - 1,
                                   times_.size() - 2);  // the row before `time`
     for (const std::size_t before : {1U, 2U, 0U}) {
         if (before > bracket || bracket - before + kPoints > times_.size()) continue;

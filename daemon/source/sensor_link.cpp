@@ -132,7 +132,7 @@ bool SensorLink::find_port() {
 // A stream that continues after an outage of the port, of the line or of this program is not
 // touched: its counter shows how many samples the outage cost.
 bool SensorLink::adopt() {
-    const std::vector<Read> heard = std::exchange(heard_, {});
+    const std::vector<Read> unread = std::exchange(unread_, {});
     if (!std::exchange(may_continue_, false) || !known_) return false;
     journal::Header expected = options_.header;
     expected.baud = bauds_.front();
@@ -144,7 +144,7 @@ bool SensorLink::adopt() {
         return false;
     set_state(LinkStatus::State::handshake,
               text::message("checking whether the sensor is still sampling"));
-    const Listening listening = listen_for(*known_, heard, *port_, clock_, stop_);
+    const Listening listening = listen_for(*known_, unread, *port_, clock_, stop_);
     is_silent_ = listening.reads.empty();
     if (listening.outcome == Listening::Outcome::port_gone) lose_port();
     if (listening.outcome != Listening::Outcome::continues) return false;
@@ -255,21 +255,21 @@ void SensorLink::back_off(const text::Message& trouble) {
 }
 
 /// Lets adopt() listen, at the baud rate of the known stream.
-void SensorLink::expect_stream(std::vector<Read> heard) {
+void SensorLink::expect_stream(std::vector<Read> unread) {
     is_silent_ = false;
     may_continue_ = true;
-    heard_ = std::move(heard);
+    unread_ = std::move(unread);
     if (!known_ || known_->header.baud == bauds_.front()) return;
     const auto last = std::find(bauds_.begin(), bauds_.end(), known_->header.baud);
     if (last == bauds_.end()) return;
     std::rotate(bauds_.begin(), last, bauds_.end());
-    heard_.clear();
+    unread_.clear();
     port_.reset();  // find_port() opens it again.
 }
 
 void SensorLink::begin_session() {
-    const timing::ClockReading& told = begun_->header.clock;
-    slept_ = told.boottime - told.raw.time_since_epoch();
+    const timing::ClockReading& clock = begun_->header.clock;
+    slept_ = clock.boottime - clock.raw.time_since_epoch();
     const bool is_new = !known_ || known_->header.session != begun_->header.session;
     // The counter of a device that was just configured starts at 0.
     if (is_new) known_ = journal::StreamEnd{begun_->header, 0, begun_->header.clock.raw};

@@ -95,7 +95,7 @@ private:
     void begin_session();
     void back_off(const text::Message& trouble);
     void wait_for_bytes(Nanoseconds real);
-    void expect_stream(std::vector<Read> heard);
+    void expect_stream(std::vector<Read> unread);
     void wait_for_journal();
     void push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes);
     [[nodiscard]] RawTime push_woken();
@@ -112,7 +112,7 @@ private:
     std::unique_ptr<Port> port_;
     bool may_continue_ = false;  ///< The known stream may be on the line; nobody has listened yet.
     bool is_silent_ = false;     ///< No byte came since the stream stopped.
-    std::vector<Read> heard_;    ///< Bytes that ended a silence; not listened to yet.
+    std::vector<Read> unread_;   ///< Bytes that ended a silence.
     bool was_open_ = false;      ///< The port has been opened at least once.
     std::vector<int> bauds_;     ///< Rates to try; the first is in use.
     std::size_t bauds_tried_ = 0;

@@ -12,12 +12,11 @@ constexpr std::size_t kCarried = 60;  // samples shaken: two minutes, longer tha
 std::optional<MovePrompt> move_prompt(std::span<const signal::MotionSample> samples,
                                       std::optional<UtcTime> not_moved_until) {
     const auto [part, moves] = signal::answered_stay(samples, not_moved_until);
-    if (part.first == part.behind) return std::nullopt;  // not at rest yet
+    if (part.first == part.end) return std::nullopt;  // not at rest yet
     const bool is_at_rest_again = std::ranges::any_of(
-        moves, [behind = part.behind](const auto& move) { return move.after >= behind; });
-    if (part.behind < samples.size() &&
-        (is_at_rest_again || samples.size() - part.behind >= kCarried))
-        return MovePrompt{samples[part.behind].time, false};
+        moves, [end = part.end](const auto& move) { return move.after >= end; });
+    if (part.end < samples.size() && (is_at_rest_again || samples.size() - part.end >= kCarried))
+        return MovePrompt{samples[part.end].time, false};
     if (part.first == 0) return std::nullopt;
     return MovePrompt{samples[part.first].time, true};
 }

@@ -54,9 +54,9 @@ void RecordJoiner::take(const DecodedRecord& record) {
 }
 
 UtcTime Segment::time_of(std::size_t i) const {
-    const auto behind = std::ranges::upper_bound(anchors, i, {}, &Anchor::offset);
-    assert(behind != anchors.begin());
-    const Anchor& anchor = *std::prev(behind);
+    const auto after = std::ranges::upper_bound(anchors, i, {}, &Anchor::offset);
+    assert(after != anchors.begin());
+    const Anchor& anchor = *std::prev(after);
     return anchor.time + from_seconds(static_cast<double>(i - anchor.offset) / rate_hz);
 }
 

@@ -75,25 +75,25 @@ std::optional<std::size_t> find_last(const Segment& archived, const Segment& tai
 
 /// Returns the samples of a segment from `first` on as a record, with the time flags of its anchor.
 DecodedRecord record_from(const Segment& segment, const Segment::Anchor& anchor, std::size_t first,
-                          std::size_t behind, Nanoseconds shift) {
+                          std::size_t end, Nanoseconds shift) {
     DecodedRecord record;
     record.header.nominal_rate = Hertz(segment.rate_hz);
     record.header.start = segment.time_of(first) + shift;
     record.header.is_time_questionable = anchor.is_time_questionable;
     record.header.timing_quality_percent = anchor.timing_quality_percent;
     record.samples.assign(segment.counts.begin() + static_cast<std::ptrdiff_t>(first),
-                          segment.counts.begin() + static_cast<std::ptrdiff_t>(behind));
+                          segment.counts.begin() + static_cast<std::ptrdiff_t>(end));
     return record;
 }
 
 /// Appends the samples of a segment from `first` on, with a time stamp wherever it has one.
 void append(RecordJoiner& joiner, const Segment& segment, std::size_t first, Nanoseconds shift) {
     for (std::size_t k = 0; k < segment.anchors.size(); ++k) {
-        const std::size_t behind =
+        const std::size_t end =
             k + 1 < segment.anchors.size() ? segment.anchors[k + 1].offset : segment.counts.size();
-        if (behind <= first) continue;
+        if (end <= first) continue;
         const Segment::Anchor& anchor = segment.anchors[k];
-        joiner.take(record_from(segment, anchor, std::max(first, anchor.offset), behind, shift));
+        joiner.take(record_from(segment, anchor, std::max(first, anchor.offset), end, shift));
     }
 }
 

@@ -83,9 +83,9 @@ Portion next_portion(std::span<const std::int32_t> samples) {
     std::size_t first_jump = 1;
     while (first_jump < limit && !jumps(samples, first_jump)) ++first_jump;
     if (first_jump > 1 || limit == 1) return {first_jump, false};
-    std::size_t behind = 1;
-    while (behind < limit && jumps(samples, behind)) ++behind;
-    return {behind == limit ? limit : behind - 1, true};
+    std::size_t end = 1;
+    while (end < limit && jumps(samples, end)) ++end;
+    return {end == limit ? limit : end - 1, true};
 }
 
 template <std::size_t N>

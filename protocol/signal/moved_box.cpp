@@ -108,9 +108,8 @@ StillPart choose_still_part(std::span<const MotionSample> samples,
     for (std::size_t k = 0; k <= moves.size(); ++k) {
         const StillPart part{k == 0 ? 0 : moves[k - 1].after,
                              k == moves.size() ? samples.size() : moves[k].before + 1};
-        const auto still =
-            std::count(rest.begin() + static_cast<std::ptrdiff_t>(part.first),
-                       rest.begin() + static_cast<std::ptrdiff_t>(part.behind), true);
+        const auto still = std::count(rest.begin() + static_cast<std::ptrdiff_t>(part.first),
+                                      rest.begin() + static_cast<std::ptrdiff_t>(part.end), true);
         if (still > most) {
             most = still;
             longest = part;
@@ -122,20 +121,20 @@ StillPart choose_still_part(std::span<const MotionSample> samples,
     };
     if (most == 0)
         return is_carried(0, samples.size()) ? StillPart{} : StillPart{0, samples.size()};
-    std::size_t first = longest.first, behind = longest.behind;
-    while (first < behind && !rest[first]) ++first;
-    while (behind > first && !rest[behind - 1]) --behind;
-    if (is_carried(longest.first, first)) longest.first = first;
-    if (is_carried(behind, longest.behind)) longest.behind = behind;
-    if (longest.behind == samples.size()) return longest;
+    StillPart at_rest = longest;
+    while (at_rest.first < at_rest.end && !rest[at_rest.first]) ++at_rest.first;
+    while (at_rest.end > at_rest.first && !rest[at_rest.end - 1]) --at_rest.end;
+    if (is_carried(longest.first, at_rest.first)) longest.first = at_rest.first;
+    if (is_carried(at_rest.end, longest.end)) longest.end = at_rest.end;
+    if (longest.end == samples.size()) return longest;
     // Back to the last handling, if there is one and the stay is not over before it.
     const std::size_t from =
-        std::max(longest.first + kLeastStay, longest.behind - std::min(longest.behind, kWayToCar));
-    for (std::size_t end = longest.behind; end > from; --end) {
+        std::max(longest.first + kLeastStay, longest.end - std::min(longest.end, kWayToCar));
+    for (std::size_t end = longest.end; end > from; --end) {
         std::size_t begin = end;
         while (begin > from && is_shaken(samples[begin - 1])) --begin;
         if (end - begin >= kHandled) {
-            longest.behind = begin;
+            longest.end = begin;
             break;
         }
         if (begin < end) end = begin + 1;
@@ -153,11 +152,11 @@ bool was_only_lifted(std::span<const MotionSample> samples, const std::vector<Bo
     const std::vector<bool> rest = at_rest(samples);
     for (std::size_t k = 0; k <= moves.size(); ++k) {
         const std::size_t first = k == 0 ? 0 : moves[k - 1].after,
-                          behind = k == moves.size() ? samples.size() : moves[k].before + 1;
+                          end = k == moves.size() ? samples.size() : moves[k].before + 1;
         const auto still = std::count(rest.begin() + static_cast<std::ptrdiff_t>(first),
-                                      rest.begin() + static_cast<std::ptrdiff_t>(behind), true);
+                                      rest.begin() + static_cast<std::ptrdiff_t>(end), true);
         if (still < static_cast<std::ptrdiff_t>(kLeastStay)) return false;
-        if (shaken_in(samples, first, behind) >= kCarried) return false;
+        if (shaken_in(samples, first, end) >= kCarried) return false;
     }
     return true;
 }
@@ -174,14 +173,14 @@ AnsweredStay answered_stay(std::span<const MotionSample> samples,
     const auto is_answered = [&](std::size_t place) {
         return samples[std::min(place, samples.size() - 1)].time <= *not_moved_until;
     };
-    if (part.first == part.behind) {  // shaken throughout
+    if (part.first == part.end) {  // shaken throughout
         if (is_answered(samples.size())) part = {0, samples.size()};
         return {part, std::move(moves)};
     }
     if (part.first > 0 && is_answered(part.first)) part.first = 0;
     // The last handling before a move may be the one that was answered.
-    if (part.behind < samples.size() && is_answered(part.behind))
-        part.behind =
+    if (part.end < samples.size() && is_answered(part.end))
+        part.end =
             moves.empty() ? samples.size() : (moves.front().before + moves.front().after) / 2;
     return {part, std::move(moves)};
 }

@@ -54,9 +54,9 @@ struct BoxMove {
 /// @return none with fewer than 20 samples at rest.
 [[nodiscard]] std::vector<BoxMove> find_box_moves(std::span<const MotionSample> samples);
 
-/// The part of a stay in which the box did not move: samples [first, behind).
+/// The part of a stay in which the box did not move: samples [first, end).
 struct StillPart {
-    std::size_t first = 0, behind = 0;
+    std::size_t first = 0, end = 0;
     bool operator==(const StillPart&) const = default;
 };
 

@@ -9,7 +9,7 @@ using nlohmann::json;
 
 /// A place for an argument in a text: {}, {2}, {:.1f} or {2:.1f}.
 struct Place {
-    std::size_t begin = 0, behind = 0;
+    std::size_t begin = 0, end = 0;
     std::size_t argument = 0;
     std::string_view specification;  ///< With its colon; empty if there is none.
 };
@@ -41,7 +41,7 @@ std::string filled(std::string_view text, const std::vector<std::string>& argume
     for (const Place& place : places_of(text)) {
         whole += text.substr(at, place.begin - at);
         if (place.argument < arguments.size()) whole += arguments[place.argument];
-        at = place.behind;
+        at = place.end;
     }
     return whole += text.substr(at);
 }

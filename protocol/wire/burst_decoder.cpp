@@ -75,26 +75,26 @@ std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
         }
     }
     for (;;) {
-        const Verdict verdict = judge(Bytes(pending_).first(pending_size_));
-        switch (verdict.kind) {
-            case Verdict::Kind::undecided: {
+        const Decision decision = decide(Bytes(pending_).first(pending_size_));
+        switch (decision.kind) {
+            case Decision::Kind::undecided: {
                 if (input.empty()) return std::nullopt;
                 const std::size_t taken =
-                    std::min(verdict.bytes_needed - pending_size_, input.size());
+                    std::min(decision.bytes_needed - pending_size_, input.size());
                 std::copy_n(input.begin(), taken, pending_.begin() + pending_size_);
                 pending_size_ += taken;
                 input = input.subspan(taken);
                 break;
             }
-            case Verdict::Kind::accept: {
+            case Decision::Kind::accept: {
                 // The next call accepts it.
                 if (run_.byte_count > 0) return std::exchange(run_, {});
                 const BurstFrame frame = accept(Bytes(pending_).first(frame_size_));
                 drop_front(frame_size_);
                 return frame;
             }
-            case Verdict::Kind::reject: {
-                if (run_.byte_count == 0) run_.reason = verdict.reason;
+            case Decision::Kind::reject: {
+                if (run_.byte_count == 0) run_.reason = decision.reason;
                 ++run_.byte_count;
                 follows_frame_ = false;
                 drop_front(1);
@@ -107,57 +107,57 @@ std::optional<DecoderEvent> BurstDecoder::next(Bytes& input) noexcept {
 
 /// Decides if a frame starts at the front of `bytes`.  More bytes may settle an undecided case but
 /// never change a decision, so the events do not depend on how the stream is cut.
-BurstDecoder::Verdict BurstDecoder::judge(Bytes bytes) const noexcept {
+BurstDecoder::Decision BurstDecoder::decide(Bytes bytes) const noexcept {
     if (!bytes.empty() && bytes.front() != kStartByte) {
-        return {.kind = Verdict::Kind::reject, .reason = Reason::no_start_byte};
+        return {.kind = Decision::Kind::reject, .reason = Reason::no_start_byte};
     }
     if (bytes.size() < frame_size_) {
-        return {.kind = Verdict::Kind::undecided, .bytes_needed = frame_size_};
+        return {.kind = Decision::Kind::undecided, .bytes_needed = frame_size_};
     }
     const Bytes frame = bytes.first(frame_size_);
     if (const auto fault = find_fault(layout_, frame)) {
-        return {.kind = Verdict::Kind::reject, .reason = *fault};
+        return {.kind = Decision::Kind::reject, .reason = *fault};
     }
-    if (follows_frame_) return {.kind = Verdict::Kind::accept};
+    if (follows_frame_) return {.kind = Decision::Kind::accept};
     if (!layout_.has_checksum()) return confirm_in_a_row(bytes);
     if (has_accepted_ &&
         (!layout_.has_count() || is_count_ahead(count_of(layout_, frame), last_count_))) {
-        return {.kind = Verdict::Kind::accept};
+        return {.kind = Decision::Kind::accept};
     }
     return confirm_with_checksum(bytes);
 }
 
-BurstDecoder::Verdict BurstDecoder::confirm_with_checksum(Bytes bytes) const noexcept {
+BurstDecoder::Decision BurstDecoder::confirm_with_checksum(Bytes bytes) const noexcept {
     const Bytes held = bytes.first(frame_size_);
     for (std::size_t at = frame_size_; at + frame_size_ <= bytes.size(); ++at) {
         const Bytes frame = bytes.subspan(at, frame_size_);
         if (find_fault(layout_, frame)) continue;
         if (!layout_.has_count() ||
             is_count_ahead(count_of(layout_, frame), count_of(layout_, held))) {
-            return {.kind = Verdict::Kind::accept};
+            return {.kind = Decision::Kind::accept};
         }
     }
     const std::size_t look_ahead = kLookAheadFrames * frame_size_;
     if (bytes.size() < look_ahead) {
-        return {.kind = Verdict::Kind::undecided, .bytes_needed = look_ahead};
+        return {.kind = Decision::Kind::undecided, .bytes_needed = look_ahead};
     }
-    return {.kind = Verdict::Kind::reject, .reason = Reason::unconfirmed};
+    return {.kind = Decision::Kind::reject, .reason = Reason::unconfirmed};
 }
 
-BurstDecoder::Verdict BurstDecoder::confirm_in_a_row(Bytes bytes) const noexcept {
+BurstDecoder::Decision BurstDecoder::confirm_in_a_row(Bytes bytes) const noexcept {
     for (std::size_t at = frame_size_; at < kFramesInARow * frame_size_; at += frame_size_) {
         if (bytes.size() < at + frame_size_) {
-            return {.kind = Verdict::Kind::undecided, .bytes_needed = at + frame_size_};
+            return {.kind = Decision::Kind::undecided, .bytes_needed = at + frame_size_};
         }
         const Bytes before = bytes.subspan(at - frame_size_, frame_size_);
         const Bytes frame = bytes.subspan(at, frame_size_);
         if (find_fault(layout_, frame) ||
             (layout_.has_count() &&
              !is_count_ahead(count_of(layout_, frame), count_of(layout_, before)))) {
-            return {.kind = Verdict::Kind::reject, .reason = Reason::unconfirmed};
+            return {.kind = Decision::Kind::reject, .reason = Reason::unconfirmed};
         }
     }
-    return {.kind = Verdict::Kind::accept};
+    return {.kind = Decision::Kind::accept};
 }
 
 bool BurstDecoder::is_count_ahead(std::uint16_t count, std::uint16_t previous) const noexcept {

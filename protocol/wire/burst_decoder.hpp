@@ -107,15 +107,15 @@ public:
 private:
     static constexpr std::size_t kLookAheadFrames = 4;
 
-    struct Verdict {
+    struct Decision {
         enum class Kind { accept, reject, undecided } kind;
         Discarded::Reason reason = Discarded::Reason::no_start_byte;  ///< If rejected.
         std::size_t bytes_needed = 0;                                 ///< If undecided.
     };
 
-    [[nodiscard]] Verdict judge(std::span<const std::byte> bytes) const noexcept;
-    [[nodiscard]] Verdict confirm_with_checksum(std::span<const std::byte> bytes) const noexcept;
-    [[nodiscard]] Verdict confirm_in_a_row(std::span<const std::byte> bytes) const noexcept;
+    [[nodiscard]] Decision decide(std::span<const std::byte> bytes) const noexcept;
+    [[nodiscard]] Decision confirm_with_checksum(std::span<const std::byte> bytes) const noexcept;
+    [[nodiscard]] Decision confirm_in_a_row(std::span<const std::byte> bytes) const noexcept;
     [[nodiscard]] bool is_count_ahead(std::uint16_t count, std::uint16_t previous) const noexcept;
     [[nodiscard]] BurstFrame accept(std::span<const std::byte> frame) noexcept;
     void drop_front(std::size_t byte_count) noexcept;

@@ -34,10 +34,10 @@ bool level(std::span<const std::byte> bytes, double bit) {
 }  // namespace
 
 std::vector<std::byte> received_at_baud(std::span<const std::byte> bytes, int sent_baud,
-                                        int heard_baud) {
+                                        int received_baud) {
     // In bits of the sender: length of a receiver's bit, end of the bytes, present position, which
     // is the start of a bit or the end of a stop bit within it.
-    const double ratio = static_cast<double>(sent_baud) / heard_baud;
+    const double ratio = static_cast<double>(sent_baud) / received_baud;
     const double end = kBitsPerByte * static_cast<double>(bytes.size());
     std::vector<std::byte> heard;
     double at = 0.0;
@@ -135,8 +135,8 @@ void Line::unplug(UtcTime simulated) {
 }
 
 std::vector<std::byte> Line::take_back() {
-    const std::vector<std::byte> pending(
-        queue_.begin() + static_cast<std::ptrdiff_t>(queue_start_), queue_.end());
+    const std::vector<std::byte> pending(queue_.begin() + static_cast<std::ptrdiff_t>(queue_start_),
+                                         queue_.end());
     transport_.take(pending.size());
     queue_.clear();
     queue_start_ = 0;

@@ -44,9 +44,8 @@ struct MadeUp final : adjustment::Trials {
         errors_mgal = kNoise_mgal * white.simulated(generator);
     }
 
-    void add(std::size_t from, std::size_t behind, double mgal) {
-        for (std::size_t i = from; i < behind; ++i)
-            errors_mgal(static_cast<Eigen::Index>(i)) += mgal;
+    void add(std::size_t from, std::size_t end, double mgal) {
+        for (std::size_t i = from; i < end; ++i) errors_mgal(static_cast<Eigen::Index>(i)) += mgal;
     }
 
     /// Returns the residuals without the readings of known mistakes; a step is one more unknown.

@@ -18,9 +18,9 @@ namespace {
 const UtcTime kReadingStart = *parse_rfc3339("2026-03-01T00:00:00Z");
 const archive_series::Progress kSilent = [](std::size_t, std::size_t) {};
 
-std::string rows(double step_s, int first, int behind) {
+std::string rows(double step_s, int first, int end) {
     std::string text;
-    for (int i = first; i < behind; ++i)
+    for (int i = first; i < end; ++i)
         text += to_rfc3339(kReadingStart + from_seconds(step_s * i), 3) + "," +
                 std::to_string(979763.0 + i % 7) + ",42.5\n";
     return text;

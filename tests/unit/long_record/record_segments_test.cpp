@@ -25,8 +25,8 @@ LongRecord night() {
     return record;
 }
 
-void erase(LongRecord& record, std::size_t first, std::size_t behind) {
-    for (std::size_t i = first; i < behind; ++i)
+void erase(LongRecord& record, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i)
         record.stretches[0].acceleration_mgal[i] = std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -44,7 +44,7 @@ TEST_CASE("drives, lifts and kicks are found as moves, and the stay ends there",
             ++found[kind];
             const StillPart part = choose_still_part(box.samples(), moves);
             CHECK(part.first == 0);
-            const double late_s = seconds_of(box, part.behind) - moved_s;
+            const double late_s = seconds_of(box, part.end) - moved_s;
             ended[kind] += late_s > -15.0 && late_s < 15.0 ? 1 : 0;
         }
     }
@@ -106,7 +106,7 @@ TEST_CASE("what the operator says was no move does not cut the stay", "[signal][
     late.rest(100.0);
     const StillPart part = answered_stay(late.samples(), answer).part;
     CHECK(part.first == 0);
-    CHECK(late.samples().at(part.behind).time > answer);
+    CHECK(late.samples().at(part.end).time > answer);
     CHECK(answered_stay({}, answer).part == StillPart{});
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("a start that was pressed too early is moved to where the box stands",
     const auto moves = find_box_moves(box.samples());
     REQUIRE(moves.size() == 1);
     const StillPart part = choose_still_part(box.samples(), moves);
-    CHECK(part.behind == box.samples().size());
+    CHECK(part.end == box.samples().size());
     CHECK(std::abs(seconds_of(box, part.first) - down_s) <= 14.0);
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("a stay that was stopped in the car ends before the drive, one in the 
     box.shake(90.0, 20000.0);
     const auto part = choose_still_part(box.samples(), find_box_moves(box.samples()));
     CHECK(part.first == 0);
-    CHECK(std::abs(seconds_of(box, part.behind) - moved_s) <= 14.0);
+    CHECK(std::abs(seconds_of(box, part.end) - moved_s) <= 14.0);
 
     MadeUpBox handled(2);
     handled.rest(300.0);
