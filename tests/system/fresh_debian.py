@@ -17,7 +17,6 @@ from fresh_root import SUITES, inside, make_root
 from programs import TOOLS, TOP, Scratch, demand, run, skip
 
 CLONE, ELSEWHERE = "/srv/a351", "/srv/built elsewhere"
-PROGRAMS = "a351d a351ctl a351-stream a351-sim a351-correct"
 
 
 def timed(root, title, command):
@@ -42,8 +41,8 @@ def packages_of(root, suite, scratch):
     demand("lintian was run", "lintian finds neither error nor warning" in said)
     inside(root, f"cd {CLONE}/build/release && cpack -B /srv/debs && cpack -R 99.0.0 -B /srv/newer")
     timed(root, "built again in another directory",
-          f"git clone -q /srv/a351.git '{ELSEWHERE}' && cd '{ELSEWHERE}' && cmake --preset release -DA351_TESTS=OFF && "
-          f"cmake --build --preset release --target {PROGRAMS} && cd build/release && cpack -B /srv/debs-elsewhere")
+          f"git clone -q /srv/a351.git '{ELSEWHERE}' && cd '{ELSEWHERE}' && config/build-programs && "
+          "cd build/release && cpack -B /srv/debs-elsewhere")
     print(inside(root, "cd /srv/debs && for file in *.deb *.json; do cmp $file ../debs-elsewhere/$file; sha256sum $file; done"))
     print("holds: packages built in another directory at another time have the same bytes")
     found = []
@@ -72,6 +71,9 @@ with Scratch() as scratch:
     print(f"a fresh {SUITES[asked.suite]} with a clone: {time.monotonic() - began:.0f} s", flush=True)
     day = timed(root, "sim/demo", f"cd {CLONE} && sim/demo")
     demand("the demonstration ends with its report", "the report is" in day)
+    timed(root, "installation and packages after the demonstration alone",
+          f"cd {CLONE} && DESTDIR=/srv/installed cmake --install build/release --prefix /usr/local && "
+          "cd build/release && cpack -B /srv/after-demo")
     if not asked.without_tests:
         timed(root, "tests/run", f"cd {CLONE} && tests/run")
     debs, newer = packages_of(root, asked.suite, scratch)
