@@ -14,6 +14,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "daemon/config/config.hpp"
 #include "daemon/config/verdict_config.hpp"
@@ -109,7 +110,7 @@ status::Status snapshot(const config::Config& config, const source::HostClock& c
     constexpr std::chrono::seconds kSecond{1};
     status.is_in_real_time = clock.instrument_span(kSecond) == kSecond;
     status.leap = reading.leap;
-    status.verdict = live.verdict(status.now);
+    status.verdict = live.verdict();
     status.profile = config.station.profile;
     status.is_profile_verified = config.station.is_profile_verified;
     status.filter = config.station.filter;
@@ -151,12 +152,11 @@ gravity::GravityOptions gravity_options(const config::Config& config, spdlog::lo
 
 /// Reads the configuration again after SIGHUP, and takes sites, the plan of a stay and thresholds
 /// from it.  A file that is refused changes nothing.
-void reload(const std::filesystem::path& config_file, const source::HostClock& clock,
-            spdlog::logger& log, live::Record& live, survey::Occupations& occupations,
-            page::Server& page) {
+void reload(const std::filesystem::path& config_file, spdlog::logger& log, live::Record& live,
+            survey::Occupations& occupations, page::Server& page) {
     try {
         const config::Config fresh = config::read_config(config_file);
-        live.judge_by(config::thresholds_by(clock, fresh.verdict));
+        live.judge_by(fresh.verdict);
         page.post([&occupations, sites = fresh.survey.sites, options = occupation_options(fresh)] {
             occupations.use(sites, options);
         });
@@ -168,37 +168,36 @@ void reload(const std::filesystem::path& config_file, const source::HostClock& c
     }
 }
 
-/// Logs each new verdict that lasts, for the report of the evening.
-void log_verdict(store::Store& store, const status::Status& status,
-                 verdict::LastingVerdict& lasting) {
-    const verdict::Verdict& verdict = status.verdict;
-    if (!lasting.is_due(verdict, status.now)) return;
-    events::Event event{"verdict", verdict.since, {}, {}, {}};
-    event.details["state"] = verdict::to_text(verdict.state);
-    store.note(event);
+/// Logs new verdicts, for the report of the evening.
+void log_verdicts(store::Store& store, const std::vector<verdict::Change>& changes) {
+    for (const auto& [state, since] : changes) {
+        events::Event event{"verdict", since, {}, {}, {}};
+        event.details["state"] = verdict::to_text(state);
+        store.note(event);
+    }
 }
 
 ExitStatus run(const config::Config& config, const source::HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, status::StatusLog& status_log) {
     service::ServiceNotice notice = service::ServiceNotice::from_environment();
     source::ReadQueue reads;
-    live::Record live(*config.sensor.profile, config.station.output_rate_hz,
-                      config::thresholds_by(clock, config.verdict));
+    live::Record live(*config.sensor.profile, config.station.output_rate_hz, config.verdict);
     std::atomic<bool> is_recovered{false};
     const auto files = files::files_below(config.storage.root);
-    store::Store store(*files,
-                       {.root = config.storage.root,
-                        .station = config.station,
-                        .keeper = {.keep_days = config.storage.journal_keep_days},
-                        .recovered =
-                            [&](const auto& report) {
-                                status::log_recovery(log, report);
-                                is_recovered = true;
-                            },
-                        .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
-                        .sample = [&](const archive::Sample& sample,
-                                      UtcTime time) { live.take(placed(sample, time)); }},
-                       clock, reads);
+    store::Store store(
+        *files,
+        {.root = config.storage.root,
+         .station = config.station,
+         .keeper = {.keep_days = config.storage.journal_keep_days},
+         .recovered =
+             [&](const auto& report) {
+                 status::log_recovery(log, report);
+                 is_recovered = true;
+             },
+         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
+         .sample = [&](const archive::Sample& sample,
+                       UtcTime time) { log_verdicts(store, live.take(placed(sample, time))); }},
+        clock, reads);
     source::LinkOptions sensor = config.sensor;
     sensor.header = config::journal_header(config, clock);
     sensor.known = store.known_stream();
@@ -247,14 +246,12 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     notice.ready();
 
     constexpr timespec kSecond{1, 0};
-    verdict::LastingVerdict lasting_verdict;
     while (true) {
         const int signal = sigtimedwait(&signals, nullptr, &kSecond);
         const status::Status status = snapshot(config, clock, link, ovens, store, live);
         status_log.note(status, std::chrono::steady_clock::now());
-        log_verdict(store, status, lasting_verdict);
         notice.beat(store.is_alive(), status::brief(status));
-        if (signal == SIGHUP) reload(config.file, clock, log, live, occupations, page);
+        if (signal == SIGHUP) reload(config.file, log, live, occupations, page);
         if (signal == SIGINT || signal == SIGTERM) break;
     }
     log.info("stopping");

@@ -75,12 +75,6 @@ verdict::Options thresholds_for(const unit::Calibration& unit) {
     return options;
 }
 
-verdict::Options thresholds_by(const source::HostClock& clock, verdict::Options options) {
-    const std::chrono::duration<double> shortest = clock.instrument_span(kPauseOfHost);
-    options.gap_s = std::max(options.gap_s, shortest.count());
-    return options;
-}
-
 Nanoseconds stale_after(const source::HostClock& clock) {
     constexpr std::chrono::seconds kStale{3};
     return std::max<Nanoseconds>(kStale, clock.instrument_span(kPauseOfHost));

@@ -16,13 +16,8 @@ namespace a351::daemon::config {
 [[nodiscard]] verdict::Options read_verdict(text::TomlTable table,
                                             const verdict::Options& defaults);
 
-/// Returns the thresholds for instrument time by this clock: the time without a sample is at least
-/// half a second of real time, a pause of the host.
-[[nodiscard]] verdict::Options thresholds_by(const source::HostClock& clock,
-                                             verdict::Options options);
-
 /// Returns the age of the last sample, in instrument time, from which the page has no data: 3 s, and
-/// at least half a second of real time.
+/// at least half a second of real time, a pause of the host.
 [[nodiscard]] Nanoseconds stale_after(const source::HostClock& clock);
 
 }  // namespace a351::daemon::config

@@ -50,10 +50,11 @@ Record::Record(const wire::DeviceProfile& profile, int rate_hz, const verdict::O
       thinning_(profile, rate_hz),
       judge_(options) {}
 
-void Record::take(const PlacedSample& sample) {
+std::vector<verdict::Change> Record::take(const PlacedSample& sample) {
     const std::lock_guard lock(mutex_);
+    std::vector<verdict::Change> changes;
     if (history_end_) {
-        if (sample.time < *history_end_ + from_seconds(0.5 / rate_hz_)) return;
+        if (sample.time < *history_end_ + from_seconds(0.5 / rate_hz_)) return changes;
         history_end_.reset();
     }
     if (last_ && sample.time <= *last_) forget_from(sample.time);
@@ -75,13 +76,16 @@ void Record::take(const PlacedSample& sample) {
     for (const verdict::LiveSample& one : fresh_) {
         thinned_.push_back(one);
         keep_a_day(thinned_);
-        judge_.take(one);
+        if (const auto change = lasting_.take(judge_.take(one), one.seen_at))
+            changes.push_back(*change);
     }
+    return changes;
 }
 
 void Record::end_of_history() {
     const std::lock_guard lock(mutex_);
     history_end_ = last_;
+    if (last_) lasting_ = verdict::LastingVerdict(*last_);
 }
 
 /// Removes the series from `time` on, and judges the rest again.
@@ -89,10 +93,12 @@ void Record::forget_from(UtcTime time) {
     while (!gaps_.empty() && gaps_.back().time >= time) gaps_.pop_back();
     if (thinned_.empty() || thinned_.back().time < time) return;
     while (!thinned_.empty() && thinned_.back().time >= time) thinned_.pop_back();
-    judge_again();
+    judge_again(time);
 }
 
-void Record::judge_again() {
+/// @param from  until then other verdicts were shown
+void Record::judge_again(UtcTime from) {
+    lasting_ = verdict::LastingVerdict(from);
     judge_ = verdict::Judge(options_);
     for (const verdict::LiveSample& sample : thinned_) judge_.take(sample);
 }
@@ -137,13 +143,12 @@ std::vector<OvenPoint> Record::oven_history(journal::OvenPlace place, UtcTime fr
 void Record::judge_by(const verdict::Options& options) {
     const std::lock_guard lock(mutex_);
     options_ = options;
-    judge_again();
+    judge_again(last_.value_or(UtcTime{}));
 }
 
-verdict::Verdict Record::verdict(UtcTime now) const {
+verdict::Verdict Record::verdict() const {
     const std::lock_guard lock(mutex_);
-    verdict::Judge asked = judge_;  // A copy, because asking must not change the stored state.
-    return asked.at(now);
+    return judge_.verdict();
 }
 
 verdict::RunningReading Record::reading(std::span<const events::Occupation::SetUp> set_ups,

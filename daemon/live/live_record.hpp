@@ -16,6 +16,7 @@
 
 #include "daemon/live/history.hpp"
 #include "daemon/live/live_thinning.hpp"
+#include "daemon/verdict/lasting_verdict.hpp"
 #include "daemon/verdict/running_value.hpp"
 #include "daemon/verdict/verdict.hpp"
 #include "protocol/events/occupations.hpp"
@@ -66,11 +67,14 @@ public:
 
     /// Takes a sample; samples come in the order of their times.  A sample earlier than the last
     /// one means that the clock was set back; later data are then removed.
-    void take(const PlacedSample& sample);
+    /// @return the verdicts that have lasted with it, to be logged; the same for the same samples,
+    ///         at any speed
+    std::vector<verdict::Change> take(const PlacedSample& sample);
     void take(const OvenPoint& point);
 
     /// Declares that everything taken so far was loaded from the archive.  Samples that a replay
-    /// delivers again are ignored, up to the first new one.
+    /// delivers again are ignored, up to the first new one.  The verdict at the end of the history
+    /// counts as new.
     void end_of_history();
 
     /// @name See RecentSamples and History.
@@ -87,8 +91,9 @@ public:
     /// Uses these thresholds from now on, and judges the stored series again.
     void judge_by(const verdict::Options& options);
 
-    /// Returns the verdict at `now`, also if there are no samples.
-    [[nodiscard]] verdict::Verdict verdict(UtcTime now) const;
+    /// Returns the verdict on the data so far, also if there are none.  How old they are is for the
+    /// caller to judge.
+    [[nodiscard]] verdict::Verdict verdict() const;
 
     /// Returns the reading of these set-ups together, as far as they are in memory.
     /// Data outside do not affect it.
@@ -111,7 +116,7 @@ public:
 
 private:
     void forget_from(UtcTime time);
-    void judge_again();
+    void judge_again(UtcTime from);
 
     const wire::DeviceProfile& profile_;
     int rate_hz_;
@@ -121,6 +126,7 @@ private:
     History history_;
     Thinning thinning_;
     verdict::Judge judge_;
+    verdict::LastingVerdict lasting_;
     std::vector<verdict::LiveSample> fresh_;  ///< Kept for reuse.
     std::deque<verdict::LiveSample> thinned_;
     std::array<std::deque<OvenPoint>, 2> ovens_;  ///< In the order of OvenPlace.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "daemon/verdict/verdict.hpp"
@@ -7,23 +8,34 @@
 namespace a351::daemon::verdict {
 
 /// Time that a verdict must last before it is logged.  Reason: each event is synced, and near a
-/// limit the verdict may change every second.
+/// limit the verdict may change with each value of the live series.
 inline constexpr Nanoseconds kLeastLogged = std::chrono::seconds(5);
 
+/// A verdict that is worth an event.
+struct Change {
+    State state = State::no_data;
+    UtcTime since;
+
+    bool operator==(const Change&) const = default;
+};
+
 /// Chooses the verdicts that are worth an event: each that is another one than the last event and
-/// has lasted kLeastLogged.
+/// has lasted kLeastLogged.  All times are those of the data.
 class LastingVerdict {
 public:
-    /// Takes the verdict at this time.
-    /// @return true once for each that is to be logged, from its begin `since` on.
-    [[nodiscard]] bool is_due(const Verdict& verdict, UtcTime now) {
-        if (verdict.since == UtcTime{} || verdict.state == logged_) return false;
-        if (now - verdict.since < kLeastLogged) return false;
+    /// @param from  no change is earlier than this, because an earlier verdict was not shown
+    explicit LastingVerdict(UtcTime from = {}) : from_(from) {}
+
+    /// Takes the verdict on the data up to `time`.
+    /// @return once each that is to be logged
+    [[nodiscard]] std::optional<Change> take(const Verdict& verdict, UtcTime time) {
+        if (verdict.state == logged_ || time - verdict.since < kLeastLogged) return std::nullopt;
         logged_ = verdict.state;
-        return true;
+        return Change{verdict.state, std::max(verdict.since, from_)};
     }
 
 private:
+    UtcTime from_;
     std::optional<State> logged_;
 };
 

@@ -113,11 +113,13 @@ const Verdict& Judge::at(UtcTime now) {
         return decide(State::no_data, now, std::move(reasons));
     }
     if (!most(marked("last good sample"), seconds_between(*last_good_, now), "s", options_.gap_s,
-              marked("ago")) ||
-        !most(marked("temperature unchanged for"), seconds_between(*stuck_since_, now), "s",
-              options_.stuck_s)) {
-        return decide(State::no_data, now, std::move(reasons));
-    }
+              marked("ago")))
+        return decide(State::no_data, *last_good_ + from_seconds(options_.gap_s),
+                      std::move(reasons));
+    if (!most(marked("temperature unchanged for"), seconds_between(*stuck_since_, *last_good_), "s",
+              options_.stuck_s))
+        return decide(State::no_data, *stuck_since_ + from_seconds(options_.stuck_s),
+                      std::move(reasons));
     reasons.clear();
 
     const double off_degc = std::abs(last_degc_ - options_.operating_degc);
@@ -185,10 +187,11 @@ const Verdict& Judge::at(UtcTime now) {
     return decide(state, now, std::move(reasons), left_s);
 }
 
-const Verdict& Judge::decide(State state, UtcTime now, std::vector<Reason> reasons,
+/// @param since  begin of the state, unless it lasts already
+const Verdict& Judge::decide(State state, UtcTime since, std::vector<Reason> reasons,
                              std::optional<double> time_left_s) {
     std::ranges::stable_sort(reasons, {}, &Reason::is_met);
-    if (state != verdict_.state || !has_judged_) verdict_.since = now;
+    if (state != verdict_.state || !has_judged_) verdict_.since = since;
     has_judged_ = true;
     verdict_.state = state;
     verdict_.reasons = std::move(reasons);

@@ -48,7 +48,7 @@ struct Verdict {
 
 /// Judges the live series.  From the worst to the best:
 ///
-///     no data      no finite sample for gap_s, or a temperature that does not change
+///     no data      no finite sample for gap_s, or a temperature that does not change for stuck_s
 ///     warming up   farther than warm_up_degc from the set point; or not settled yet and on for
 ///                  less than warm_up_h
 ///     disturbed    a knock within quiet_s, a touch within watch_s, shaking within shake_s, or
@@ -69,14 +69,14 @@ public:
     /// Takes the next value of the series.
     const Verdict& take(const LiveSample& sample);
 
-    /// Judges at this time, with or without new samples.
+    /// Judges at this time of the data.
     const Verdict& at(UtcTime now);
 
     [[nodiscard]] const Verdict& verdict() const noexcept { return verdict_; }
 
 private:
     void follow_power(UtcTime seen_at, double degc);
-    const Verdict& decide(State state, UtcTime now, std::vector<Reason> reasons,
+    const Verdict& decide(State state, UtcTime since, std::vector<Reason> reasons,
                           std::optional<double> time_left_s = std::nullopt);
 
     Options options_;

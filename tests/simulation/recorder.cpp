@@ -151,7 +151,7 @@ Status Recorder::status() {
     status.now = reading.realtime;
     status.profile = "A351";
     status.output_rate_hz = NumberedSamples::kRate_hz;
-    status.verdict = live_->verdict(status.now);
+    status.verdict = live_->verdict();
     daemon::status::fill(status, link_->status());
     store_->fill(status);
     daemon::status::assess(status);

@@ -1,7 +1,11 @@
 #include "daemon/live/live_record.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 #include "tests/support/catch.hpp"
 
 #include "protocol/signal/decimation.hpp"
@@ -22,7 +26,7 @@ double wave(std::int64_t i) { return 500.0 * std::sin(0.01 * static_cast<double>
 TEST_CASE("until the filters are full the verdict is no data, since the first sample", "[live]") {
     Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 500; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
-    const Verdict verdict = record.verdict(after(10.0));
+    const Verdict verdict = record.verdict();
     CHECK(verdict.state == verdict::State::no_data);
     CHECK(verdict.since == kZero);
 }
@@ -105,14 +109,14 @@ TEST_CASE("a clock that is set back starts the history again from there", "[live
         if (i > kBefore - 5000 && i % 20 == 0) sample.counts[0] = counts_of(5000.0);  // Knocks.
         record.take(sample);
     }
-    CHECK(record.verdict(after(2400.0)).state == verdict::State::disturbed);
+    CHECK(record.verdict().state == verdict::State::disturbed);
     for (std::int64_t i = kBefore; i < kBefore + kBehind; ++i) {
         PlacedSample sample = steady(i);
         sample.time -= kBack;
         record.take(sample);
     }
     CHECK(record.end() == kBefore + kBehind);
-    CHECK(record.verdict(after(660.0)).state == verdict::State::settling);
+    CHECK(record.verdict().state == verdict::State::settling);
     CHECK(record.history(Channel::x, after(600.0), after(4000.0), 4000).size() == 30);
     const auto reading = reading_between(record, after(600.0), after(4000.0));
     CHECK(reading.used_s == Approx(60.0 - 20.0).margin(4.0));
@@ -189,22 +193,59 @@ TEST_CASE(
 
 TEST_CASE("the live record gives its samples to the verdict and to the reading", "[live]") {
     Record record(kProfile, 50, {});
-    CHECK(record.verdict(kZero).state == verdict::State::no_data);
+    CHECK(record.verdict().state == verdict::State::no_data);
     for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) record.take(steady(i));
-    CHECK(record.verdict(after(2400.0)).state == verdict::State::stable);
+    CHECK(record.verdict().state == verdict::State::stable);
     const auto reading = reading_between(record, after(1200.0), after(2380.0));
     REQUIRE(reading.value);
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(0.06));
     CHECK(reading.used_s == Approx(1162.0).margin(2.0));
     CHECK(reading.is_good_enough);
-    CHECK(record.verdict(after(2420.0)).state == verdict::State::no_data);
 
     verdict::Options strict;
     strict.history_min = 120.0;
     record.judge_by(strict);
-    CHECK(record.verdict(after(2400.0)).state == verdict::State::settling);
+    CHECK(record.verdict().state == verdict::State::settling);
     record.judge_by({});
-    CHECK(record.verdict(after(2400.0)).state == verdict::State::stable);
+    CHECK(record.verdict().state == verdict::State::stable);
+}
+
+/// Gives the record the seconds [from, to) of a box at rest, knocked in [knock_from, knock_to), and
+/// returns the changes of the verdict: state and time in s.
+std::vector<std::string> changes_of(Record& record, int from, int to, int knock_from = 0,
+                                    int knock_to = 0) {
+    std::vector<std::string> changes;
+    for (std::int64_t i = 50 * from; i < 50 * to; ++i) {
+        PlacedSample sample = steady(i);
+        if (i >= 50 * knock_from && i < 50 * knock_to && i % 20 == 0)
+            sample.counts[0] = counts_of(5000.0);
+        for (const Change& change : record.take(sample))
+            changes.push_back(fmt::format("{} {:.2f}", to_text(change.state),
+                                          seconds_between(kZero, change.since)));
+    }
+    return changes;
+}
+
+using Changes = std::vector<std::string>;
+
+TEST_CASE("each change of the verdict has the time of the data that show it", "[live]") {
+    Record record(kProfile, 50, {});
+    CHECK(changes_of(record, 0, 1800, 1500, 1502) == Changes{"no data 0.00", "settling 19.98",
+                                                             "stable 1239.98", "disturbed 1501.98",
+                                                             "stable 1573.98"});
+    // The lack is known when the data return and have filled the filters.
+    CHECK(changes_of(record, 1900, 2000) == Changes{"no data 1809.98", "stable 1919.98"});
+}
+
+TEST_CASE("a restart or other thresholds repeat no change of the past", "[live]") {
+    Record record(kProfile, 50, {});
+    changes_of(record, 0, 2000);
+    record.end_of_history();
+    CHECK(changes_of(record, 1990, 2020) == Changes{"stable 1999.98"});
+    Options strict;
+    strict.history_min = 120.0;
+    record.judge_by(strict);
+    CHECK(changes_of(record, 2020, 2040) == Changes{"settling 2019.98"});
 }
 
 TEST_CASE("tilt is given relative to a set-up, with the side to turn", "[live][level]") {

@@ -100,7 +100,8 @@ TEST_CASE("a moving temperature gives the verdict settling, with slope and chang
     CHECK_FALSE(first.is_met);
     // The filter assumes that every ramp ends, and attributes part of the cycle to it.
     CHECK(find(verdict, "temperature slope")->value == Approx(0.5).margin(0.15));
-    CHECK(find(verdict, "temperature slope")->to_message().english().find("degC/h (limit") != std::string::npos);
+    CHECK(find(verdict, "temperature slope")->to_message().english().find("degC/h (limit") !=
+          std::string::npos);
     const double change_mgal = find(verdict, "reading will change in 10 min by")->value;
     CHECK(change_mgal < -2.0);  // A rising temperature lowers the reading.
     CHECK_FALSE(verdict.time_left_s);
@@ -273,11 +274,11 @@ TEST_CASE("a gap above its limit is no data, and after a long gap steadiness mus
           "[verdict]") {
     Series series;
     series.run(3600.0);
-    const UtcTime last = series.judge.verdict().since;
-    CHECK(series.judge.at(series.now() + from_seconds(7.0)).state == State::stable);
-    const Verdict& verdict = series.judge.at(series.now() + from_seconds(9.0));
+    const UtcTime last = series.now() - from_seconds(2.0);
+    CHECK(series.judge.at(last + from_seconds(9.0)).state == State::stable);
+    const Verdict& verdict = series.judge.at(last + from_seconds(11.0));
     CHECK(verdict.state == State::no_data);
-    CHECK(verdict.since > last);
+    CHECK(verdict.since == last + from_seconds(10.0));
     CHECK(verdict.reasons.front().to_message().english().rfind("last good sample", 0) == 0);
 
     series.skip(60.0);
@@ -285,6 +286,14 @@ TEST_CASE("a gap above its limit is no data, and after a long gap steadiness mus
     series.skip(1200.0);
     CHECK(series.run(30.0).state == State::settling);
     CHECK(series.run(1500.0).state == State::stable);
+}
+
+TEST_CASE("a gap is not a temperature that does not change", "[verdict]") {
+    Options options;
+    options.gap_s = 600.0;
+    Series series(options);
+    series.run(3600.0);
+    CHECK(series.judge.at(series.now() + from_seconds(185.0)).state == State::stable);
 }
 
 TEST_CASE("values that are not numbers count as no data", "[verdict]") {
@@ -308,6 +317,7 @@ TEST_CASE("values that are not numbers count as no data", "[verdict]") {
 TEST_CASE("a stuck temperature counts as no data", "[verdict]") {
     Series series;
     series.run(3600.0);
+    const UtcTime stuck = series.now();
     for (int i = 0; i < 40; ++i) {
         LiveSample sample = series.next();
         sample.temperature = DegC(42.6);
@@ -315,6 +325,7 @@ TEST_CASE("a stuck temperature counts as no data", "[verdict]") {
         series.skip(2.0);
     }
     CHECK(series.judge.verdict().state == State::no_data);
+    CHECK(series.judge.verdict().since == stuck + from_seconds(60.0));
     CHECK(find(series.judge.verdict(), "temperature unchanged for") != nullptr);
     CHECK(series.run(30.0).state == State::stable);
 }
