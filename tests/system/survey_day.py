@@ -1,5 +1,9 @@
 """Compares a simulated survey day with the truth, after emulator, pseudo-terminal, daemon, archive and corrector."""
 
+import datetime
+import json
+import re
+
 from programs import IS_SANITIZED, TOP, Scratch, compare_truth, demand, read_json, rows, run
 
 scenario = "tsukuba"
@@ -17,18 +21,39 @@ def shorter(day, name):
     return day
 
 
+def verdicts_before_stops(written):
+    """Returns the words of the list in demo.txt."""
+    part = written.split("The verdict one minute before each stop:\n")[1].split("\n\n")[0]
+    return re.findall(r"\): ([a-z ]+)$", part, re.M)
+
+
+def verdict_lengths_s(folder):
+    """Returns the time from each verdict of the event log to the next."""
+    events = [json.loads(line) for file in folder.glob("*.jsonl") for line in file.read_text().splitlines()]
+    times = [datetime.datetime.fromisoformat(event["utc"][:26]) for event in events if event["type"] == "verdict"]
+    return [(after - before).total_seconds() for before, after in zip(times, times[1:])]
+
+
 with Scratch() as scratch:
     out = scratch / "day"
     if IS_SANITIZED:
         scenario = shorter(scratch / "shorter.toml", scenario)
     demo = run(TOP / "sim" / "demo", scenario, "--seed", "7", "--speed", speed, "--out", out)
     print(demo.stdout)
-    demand("the demo prints the RMS of Error_1 of its day",
-           "RMS of Error (1), before the drift step: " in demo.stdout)
-    demand("the demo prints a table with the simulated truth", "Comparison with the simulated truth" in demo.stdout)
-
     expected = 4 if IS_SANITIZED else 19
+    demand("the demo ends with at most 15 lines", len(demo.stdout.splitlines()) <= 15)
+    for method in (f"a351, {expected} readings", "the publication's method, [0-9]+ readings"):
+        demand(f"the demo prints errors in and out of sample: {method}",
+               re.search(rf"^  {method} +\d+\.\d+ +(\d+\.\d+|-)", demo.stdout, re.M))
+    written = (out / "demo.txt").read_text()
+    demand("demo.txt has the RMS of Error_1 of the day", "RMS of Error (1), before the drift step: " in written)
+    demand("demo.txt has a table with the simulated truth", "Comparison with the simulated truth" in written)
     demand(f"all {expected} occupations are in the table", len(rows(out / "result" / "occupations.csv")) == expected)
+    demand(f"demo.txt has the verdict before each stop: {verdicts_before_stops(written)}",
+           len(verdicts_before_stops(written)) == expected)
+    lengths = verdict_lengths_s(out / "data" / "events")
+    demand(f"the log has {len(lengths) + 1} verdicts, the shortest for {min(lengths):.0f} s, however fast time runs",
+           5 <= min(lengths) < 30)
 
     channels = compare_truth(out / "data" / "archive", out / "truth.bin")
     for name, counted in channels.items():
