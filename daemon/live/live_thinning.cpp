@@ -41,6 +41,7 @@ void Thinning::take(const PlacedSample& sample, std::vector<verdict::LiveSample>
                 add(*last_ + from_seconds(interval_s_), {kNan, kNan, kNan, kNan}, output);
         }
     }
+    if (!last_ && sample.index % static_cast<std::int64_t>(block_size_) != 0) return;
     Values values{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         values[axis] = to_milligal(profile_.acceleration(sample.counts[axis])).value();

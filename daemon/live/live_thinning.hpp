@@ -15,7 +15,8 @@ namespace a351::daemon::live {
 
 /// Samples -> the live series of one value in 2 s, with the decimation of a351-correct: to 5 Hz,
 /// then by ten.  Values whose filters touch missing samples are NaN.  After a gap of more than
-/// a minute, or if time is set back, the series begins again.
+/// a minute, or if time is set back, the series begins again.  Blocks of 2 s are counted by the
+/// index of the session, so they have the same samples wherever the series began.
 class Thinning {
 public:
     /// @param rate_hz  a multiple of 10, >= 10: all output rates of the profiles are.

@@ -23,7 +23,7 @@ void TemperatureTrend::take(UtcTime time, DegC temperature) {
     if (time <= last_ || seconds_between(last_, time) > kLongestGapSeconds) {
         means_ = count_ = 0;
         sum_degc_ = squares_degc2_ = 0.0;
-        begun_ = time;
+        begun_ = time - time.time_since_epoch() % from_seconds(kMeanSeconds);
     }
     while (seconds_between(begun_, time) >= kMeanSeconds) {  // Fills a gap.
         filter_.step();

@@ -10,8 +10,8 @@
 
 namespace a351::daemon::verdict {
 
-/// Passes the temperature as means of 20 s, each with an error from its own scatter, through the
-/// oven's filter.  A gap of up to 5 min is filled with the values that the filter expects.
+/// Passes the temperature as means of 20 s of UTC, each with an error from its own scatter, through
+/// the oven's filter.  A gap of up to 5 min is filled with the values that the filter expects.
 class TemperatureTrend {
 public:
     explicit TemperatureTrend(const Options& options)
