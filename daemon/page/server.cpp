@@ -165,7 +165,7 @@ private:
         const auto client = socket.remote_endpoint(error);
         if (error) return;
         const auto stream = std::make_shared<beast::tcp_stream>(std::move(socket));
-        const auto place = seats_.seat({.host = host_of(client.address()),
+        const auto place = seats_.seat({.address = client.address().to_string(),
                                         .is_loopback = client.address().is_loopback(),
                                         .leave = [stream] { stream->close(); }});
         if (place != seats_.end()) {
