@@ -1,12 +1,15 @@
 #include "daemon/ctl/commands.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,8 +19,6 @@
 #include "daemon/ctl/requests.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "daemon/ctl/survey_text.hpp"
-#include "daemon/ctl/terminal.hpp"
-#include "daemon/ctl/watch.hpp"
 #include "daemon/ctl/when.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -35,6 +36,15 @@ namespace {
 using nlohmann::json;
 
 void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+/// Returns true if standard output is a terminal that may be coloured: not with TERM=dumb, and not if
+/// the environment variable NO_COLOR (no-color.org) is set and not empty.
+bool wants_colour() {
+    const char* const kind = std::getenv("TERM");
+    const char* const no_colour = std::getenv("NO_COLOR");
+    return isatty(STDOUT_FILENO) != 0 && (kind == nullptr || std::string_view(kind) != "dumb") &&
+           (no_colour == nullptr || *no_colour == '\0');
+}
 
 /// Returns the body of a good answer; otherwise prints the error and returns std::nullopt.
 /// @param prefix  begins the printed error.
@@ -301,10 +311,6 @@ int run_command(const std::string& command, const Arguments& arguments) {
     if (command == "site") return add_site(client, arguments);
     if (command == "status") return show_status(client, arguments);
     if (command == "phone") return show_phone(client, arguments);
-    if (command == "watch") {
-        watch(client, arguments.token, arguments.operator_name);
-        return kDone;
-    }
     if (command == "sites") return show(client, arguments, "/api/sites", site_table);
     if (command == "survey") return show(client, arguments, "/api/survey", survey_text);
     if (command == "list") return show(client, arguments, "/api/occupations", occupation_table);

@@ -97,12 +97,6 @@ int main(int argc, char** argv) {
                                       "Shows the status on one screen. Exit status: 0 good, 1 "
                                       "warning, 2 fault, 3 not running or bad usage.");
     add_json(status);
-    app.add_subcommand(
-           "watch",
-           "Shows the status every second; on a terminal one screen, with keys to start, "
-           "stop and set up.")
-        ->add_option("--operator", a.operator_name, "Name of the operator")
-        ->type_name("NAME");
     auto* start = app.add_subcommand("start", "Starts an occupation at a benchmark.");
     start->add_option("SITE", a.site, "Benchmark, as in sites")->type_name("")->required();
     add_at(start);

@@ -124,8 +124,7 @@ std::string verdict(const json& status, bool is_coloured) {
 }
 
 /// Returns where the stay is in its plan: "2 of 3: 2:10 left", or what to do when no time is left.
-/// @param next  how the operator begins the next set-up.
-std::string set_up(const json& status, const std::string& next) {
+std::string set_up(const json& status) {
     const json& stay = at(status, "occupation");
     const json& left_s = at(stay, "set_up_left_s");
     if (!left_s.is_number()) return "-";
@@ -137,7 +136,7 @@ std::string set_up(const json& status, const std::string& next) {
     text += may_stop ? text::tr("the stay may be stopped")
                      : text::tr("{} left", fmt::format("{}:{:02}", left / 60, left % 60));
     if (at(stay, "propose_set_up") == true)
-        text += text::tr("; lift the box, set it down again, then {}", next);
+        text += text::tr("; lift the box, set it down again, then run a351ctl setup");
     return text;
 }
 
@@ -260,8 +259,7 @@ std::string status_screen(const json& status, bool is_coloured) {
                              reasons.empty() ? "" : ": " + reasons));
     screen += line(text::tr("verdict"), verdict(status, is_coloured));
     screen += line(text::tr("occupation"), occupation(status));
-    if (at(status, "occupation").is_object())
-        screen += line(text::tr("set-up"), set_up(status, text::tr("run {}", "a351ctl setup")));
+    if (at(status, "occupation").is_object()) screen += line(text::tr("set-up"), set_up(status));
     if (at(status, "occupation/whole").is_object())
         screen += line(text::tr("reading"), reading(status));
     screen += warnings(status, is_coloured);
@@ -289,35 +287,6 @@ std::string status_screen(const json& status, bool is_coloured) {
     screen += line(text::tr("counters"),
                    text::tr("frames {}  sessions {}", text_of(status, "counters/frames"),
                             text_of(status, "counters/sessions")));
-    screen += line(text::tr("troubles"), troubles(status));
-    screen += line(text::tr("disk"), disk(status));
-    return screen;
-}
-
-std::string watch_screen(const json& status, const std::string& gravity, bool is_coloured) {
-    const std::string level = text_of(status, "level");
-    const std::string reasons = sentences_of(status, "reasons", "reason_parts");
-    std::string screen =
-        line("a351d", fmt::format("{}   {}{}", text_of(status, "now"),
-                                  coloured(word_of(status, "level"), level, is_coloured),
-                                  reasons.empty() ? "" : ": " + reasons));
-    screen += line(text::tr("verdict"), verdict(status, is_coloured));
-    screen += line(text::tr("occupation"), occupation(status));
-    if (at(status, "occupation").is_object()) {
-        screen += line(text::tr("set-up"), set_up(status, text::tr("press {}", "u")));
-        screen += line(text::tr("reading"), reading(status));
-        screen += warnings(status, is_coloured);
-    }
-    if (at(status, "tilt").is_object()) screen += line(text::tr("tilt"), tilt(status));
-    if (!gravity.empty()) screen += line(text::tr("gravity"), gravity);
-    screen += line(text::tr("device"), device(status));
-    screen += line(text::tr("signal"),
-                   axes(status) + number_of(status, "sample/temperature_degc", "   {:.3f} degC") +
-                       "   " + text::tr("{} ago", number_of(status, "sample/age_s", "{:.1f} s")));
-    screen += ovens(status);
-    screen += line(text::tr("journal"), lag(status, "journaled"));
-    screen += line(text::tr("archive"), lag(status, "archived"));
-    screen += line(text::tr("timing"), timing(status));
     screen += line(text::tr("troubles"), troubles(status));
     screen += line(text::tr("disk"), disk(status));
     return screen;

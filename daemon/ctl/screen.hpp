@@ -11,11 +11,6 @@ namespace a351::daemon::ctl {
 /// Control characters in names and notes are shown as "?", because the terminal would execute them.
 [[nodiscard]] std::string status_screen(const nlohmann::json& status, bool is_coloured);
 
-/// Returns the part of it that an operator needs at a benchmark, for the screen of `watch`.
-/// @param gravity  the gravity so far in one line; empty: not shown.
-[[nodiscard]] std::string watch_screen(const nlohmann::json& status, const std::string& gravity,
-                                       bool is_coloured);
-
 /// Return the answers of GET /api/sites and GET /api/occupations as tables.
 [[nodiscard]] std::string site_table(const nlohmann::json& answer);
 [[nodiscard]] std::string occupation_table(const nlohmann::json& answer);

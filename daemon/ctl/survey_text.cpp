@@ -74,22 +74,4 @@ std::string survey_text(const json& answer) {
     return screen + remarks + state_of(answer);
 }
 
-std::string newest_gravity(const json& answer) {
-    std::string line;
-    for (const json& stay : answer.at("stays")) {
-        if (!stay.at("gravity_mgal").is_number()) continue;
-        line = fmt::format("{}: {} +- {} mGal", stay_name(stay), mgal_of(stay, "gravity_mgal"),
-                           mgal_of(stay, "u_mgal"));
-        if (const json& known = stay.at("left_out_difference_mgal"); known.is_number())
-            line += text::tr(", left out - reference {:+.2f} mGal", known.get<double>());
-    }
-    if (!line.empty() && answer.at("reason").is_string()) line += text::tr(" (old figures)");
-    for (const json& finding : answer.at("findings")) {
-        if (!finding.value("is_headline", false)) continue;
-        return line + (line.empty() ? "! " : "; ! ") +
-               printable(sentence_of(finding, "text", "text_parts"));
-    }
-    return line;
-}
-
 }  // namespace a351::daemon::ctl

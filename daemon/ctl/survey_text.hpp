@@ -9,8 +9,4 @@ namespace a351::daemon::ctl {
 /// table, their remarks, and from when the figures are.
 [[nodiscard]] std::string survey_text(const nlohmann::json& answer);
 
-/// Returns the gravity of the newest stay that has one, and the first finding that is certain, in one
-/// line; empty if there are none.
-[[nodiscard]] std::string newest_gravity(const nlohmann::json& answer);
-
 }  // namespace a351::daemon::ctl

@@ -11,7 +11,7 @@ from stub_daemon import StubDaemon
 
 # Words that are the same in Japanese: units, names, codes and what the stub says of its device.
 SAME = set("mGal min UTC MB GB Hz ppm API English sync JavaScript a351 a351d stub usb dev serial stable sample day pillar Sato Stop the "
-           "ctl watch".split())
+           "ctl".split())
 
 # Returns the visible texts that have English words.
 WORDS = """

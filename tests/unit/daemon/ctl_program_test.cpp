@@ -1,7 +1,9 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <future>
 #include <nlohmann/json.hpp>
 #include "tests/support/catch.hpp"
@@ -11,6 +13,7 @@
 #include "protocol/text/text_file.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/fake_recorder.hpp"
+#include "tests/unit/daemon/pty.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -139,7 +142,7 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
         CHECK(result.exit == 2);
         CHECK(std::count(result.text.begin(), result.text.end(), '\n') == 1);
     }
-    CHECK(has(run("fly"), "a351ctl: fly is not a command; allowed: status, watch, start, stop,"));
+    CHECK(has(run("fly"), "a351ctl: fly is not a command; allowed: status, start, stop,"));
     CHECK(has(run(""), "a351ctl: no command is given; allowed: status"));
     CHECK(has(run("stop now"), "a351ctl: now is not an argument of stop; see a351ctl stop --help"));
     const auto nobody = run("--url http://127.0.0.1:1 stop");
@@ -268,14 +271,31 @@ TEST_CASE("a command with a wrong token is refused", "[daemon][ctl]") {
     CHECK(daemon.ctl("--token 0123456789abcdef discard").exit == 1);
 }
 
-TEST_CASE("watch runs until it is interrupted, even without a daemon", "[daemon][ctl]") {
+TEST_CASE("the status is coloured on a terminal that can show colours, and nowhere else",
+          "[daemon][ctl]") {
     const FakeDaemon daemon;
-    const auto url = "http://127.0.0.1:" + std::to_string(daemon.server.port());
-    const auto seen = run("--url " + url + " watch & sleep 0.6; kill -INT $!; wait $!");
-    CHECK(seen.exit == 0);
-    CHECK(has(seen, "occupation   none running"));
-    CHECK(seen.text.find('\x1b') == std::string::npos);
-    const auto lonely = run("--url http://127.0.0.1:1 watch & sleep 0.6; kill -INT $!; wait $!");
-    CHECK(lonely.exit == 0);
-    CHECK(has(lonely, "no daemon answers"));
+    const auto shown = [&](const std::string& environment) {
+        Pty pty;
+        const std::string command =
+            "env -u NO_COLOR " + environment +
+            " " A351CTL " --url http://127.0.0.1:" + std::to_string(daemon.server.port()) +
+            " status > " + pty.path() + " 2>&1";
+        CHECK(std::system(command.c_str()) == 0);
+        const auto bytes = pty.read(std::chrono::seconds(1));
+        std::string text;
+        for (const std::byte byte : bytes) text += static_cast<char>(byte);
+        CHECK(text.find("occupation   none running") != std::string::npos);
+        return text;
+    };
+    CHECK(shown("TERM=xterm").find("\x1b[1;32mgood") != std::string::npos);
+    CHECK(shown("TERM=xterm NO_COLOR=1").find('\x1b') == std::string::npos);
+    CHECK(shown("TERM=dumb").find('\x1b') == std::string::npos);
+    CHECK(daemon.ctl("status").text.find('\x1b') == std::string::npos);
+}
+
+TEST_CASE("A351_URL is the default of --url", "[daemon][ctl]") {
+    const FakeDaemon daemon;
+    setenv("A351_URL", ("http://127.0.0.1:" + std::to_string(daemon.server.port())).c_str(), 1);
+    CHECK(has(run("sites"), "979948.000"));
+    unsetenv("A351_URL");
 }

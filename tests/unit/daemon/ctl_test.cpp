@@ -5,9 +5,7 @@
 
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/screen.hpp"
-#include "daemon/ctl/site_names.hpp"
 #include "daemon/ctl/survey_text.hpp"
-#include "daemon/ctl/terminal.hpp"
 #include "daemon/ctl/when.hpp"
 #include "daemon/page/server.hpp"
 #include "protocol/core/input_error.hpp"
@@ -113,22 +111,6 @@ TEST_CASE("control characters in names do not reach the terminal", "[daemon][ctl
     CHECK(status_screen(hostile, false).find('\x1b') == std::string::npos);
 }
 
-TEST_CASE("a screen fits the terminal, with lines broken between words", "[daemon][ctl]") {
-    const std::string long_line = "verdict      settling: one two three four\n";
-    CHECK(fitted(long_line, 80, 24) == "verdict      settling: one two three four");
-    CHECK(fitted(long_line, 27, 24) ==
-          "verdict      settling: one\n             two three\n             four");
-    CHECK(fitted(long_line, 27, 2) == "verdict      settling: one\n             two three");
-    CHECK(fitted("a\nb\nc\n", 80, 2) == "a\nb");
-    const std::string coloured = "a351d        \x1b[1;32mgood\x1b[0m: wind and rain\n";
-    CHECK(fitted(coloured, 28, 24) ==
-          "a351d        \x1b[1;32mgood\x1b[0m: wind and\n             rain");
-    CHECK(fitted("site         \xE5\xB1\xB1\xE5\xB1\xB1 b c\n", 22, 9) ==
-          "site         \xE5\xB1\xB1\xE5\xB1\xB1 b c");  // A Chinese character takes two columns.
-    CHECK(fitted("site         \xE5\xB1\xB1\xE5\xB1\xB1 b c\n", 21, 9) ==
-          "site         \xE5\xB1\xB1\xE5\xB1\xB1 b\n             c");
-}
-
 TEST_CASE("the URL of a daemon is http, a host and an optional port", "[daemon][ctl]") {
     CHECK(parse_url("http://127.0.0.1:8351").authority() == "127.0.0.1:8351");
     CHECK(parse_url("http://[::1]:8351/").authority() == "[::1]:8351");
@@ -170,24 +152,6 @@ TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago", "[
     tzset();
 }
 
-TEST_CASE("a typed name of a site is completed by whole letters, or the meant one is named",
-          "[daemon][ctl]") {
-    // U+5C71 and U+5C72 differ in their last byte only.
-    const SiteNames names(nlohmann::json::parse(
-        R"({"sites":[{"site":"No.5"},{"site":"Mt A"},{"site":"Mt B"},{"site":"\u5c71"},
-                     {"site":"\u5c72"}]})"));
-    CHECK(names.completed("N") == "No.5");
-    CHECK(names.completed("M") == "Mt ");
-    CHECK(names.completed("Mt B") == "Mt B");
-    CHECK(names.completed("\xE5") == "");
-    CHECK_FALSE(names.completed("x"));
-    CHECK(names.beginning_with("Mt") == "Mt A, Mt B");
-    CHECK(names.meant_by("no 5") == "No.5");
-    CHECK_FALSE(names.meant_by("No.5"));
-    CHECK_FALSE(names.meant_by("No.6"));
-    CHECK(SiteNames().empty());
-}
-
 TEST_CASE("the gravity so far is a table with findings first and remarks behind", "[daemon][ctl]") {
     const auto answer = nlohmann::json::parse(R"({
         "as_of_utc": "2026-03-01T12:03:10.000Z", "data_to_utc": "2026-03-01T12:03:09.500Z",
@@ -211,14 +175,4 @@ TEST_CASE("the gravity so far is a table with findings first and remarks behind"
           "  No.5? (12): no samples\n"
           "no new figures: killed: signal 9 ended it\n"
           "as of 2026-03-01T12:03:10.000Z, data up to 2026-03-01T12:03:09.500Z, model day\n");
-    CHECK(newest_gravity(answer) ==
-          "No.0 (1): 979861.32 +- 1.27 mGal, left out - reference -0.42 mGal (old figures); ! the "
-          "box moved");
-    const std::string screen =
-        watch_screen(nlohmann::json::object(), newest_gravity(answer), false);
-    CHECK(screen.find("\ngravity      No.0 (1): 979861.32") != std::string::npos);
-    CHECK(newest_gravity({{"stays", nlohmann::json::array()},
-                          {"findings", nlohmann::json::array()},
-                          {"reason", nullptr}})
-              .empty());
 }
