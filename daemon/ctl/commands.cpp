@@ -55,11 +55,11 @@ std::optional<json> accepted(Answer answer, const std::string& prefix = {}) {
 }
 
 int show_status(const Client& client, const Arguments& arguments) {
-    const auto reply = client.get("/api/status");
-    const auto status = accepted(answer_of(reply));
-    if (!status) return kNoDaemon;
-    print(arguments.json ? reply.body : status_screen(*status, wants_colour()));
-    return plugin_status(*status);
+    const auto reply = client.get(arguments.json ? "/api/status" : "/api/rows");
+    const auto answer = accepted(answer_of(reply));
+    if (!answer) return kNoDaemon;
+    print(arguments.json ? reply.body : status_screen(*answer, wants_colour()));
+    return plugin_status(*answer);
 }
 
 /// Sends a change.  @param prefix  begins the printed answer.

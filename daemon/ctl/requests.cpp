@@ -15,18 +15,6 @@ std::string sentence_of(const json& object, const char* key, const char* parts) 
         text::parse_message(object.value(parts, json()), english->get_ref<const std::string&>()));
 }
 
-std::string sentences_of(const json& object, const char* key, const char* parts) {
-    if (!object.is_object()) return {};
-    const json english = object.value(key, json::array()), all = object.value(parts, json::array());
-    std::string whole;
-    for (std::size_t i = 0; i < english.size(); ++i) {
-        json one = {{key, english[i]}};
-        if (i < all.size()) one[parts] = all[i];
-        whole += (i > 0 ? "; " : "") + sentence_of(one, key, parts);
-    }
-    return printable(whole);
-}
-
 Answer answer_of(const Reply& reply) {
     Answer answer{json::parse(reply.body, nullptr, false), ""};
     if (!answer.body.is_object())

@@ -29,9 +29,6 @@ struct Answer {
 /// @return        empty if there is none.
 [[nodiscard]] std::string sentence_of(const nlohmann::json& object, const char* key,
                                       const char* parts);
-/// Returns several such sentences, separated by semicolons.
-[[nodiscard]] std::string sentences_of(const nlohmann::json& object, const char* key,
-                                       const char* parts);
 
 /// Returns the sentence with which the daemon confirms a change.
 [[nodiscard]] std::string message_of(const Answer& answer);

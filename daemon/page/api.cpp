@@ -9,7 +9,9 @@
 
 #include "daemon/page/history_json.hpp"
 #include "daemon/page/order.hpp"
+#include "daemon/page/status_fields.hpp"
 #include "daemon/page/status_json.hpp"
+#include "daemon/page/status_rows.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::daemon::page {
@@ -19,9 +21,9 @@ using nlohmann::json;
 
 constexpr std::size_t kEventsPerAnswer = 1000;
 
-constexpr std::string_view kReadable[] = {"/api/status",      "/api/events", "/api/sites",
-                                          "/metrics",         "/api/token",  "/api/history",
-                                          "/api/occupations", "/api/survey",  "/ja.json"};
+constexpr std::string_view kReadable[] = {
+    "/api/status",  "/api/events", "/api/sites",       "/metrics",    "/api/token",
+    "/api/history", "/api/rows",   "/api/occupations", "/api/survey", "/ja.json"};
 constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/stop",
                                             "/api/occupation/setup",
@@ -95,9 +97,10 @@ Response Api::answer(const Request& request) noexcept {
     }
 }
 
-std::optional<json> Api::status() noexcept {
+std::optional<json> Api::live_status() noexcept {
     try {
-        return status_now();
+        const json status = status_now();
+        return json{{"status", status}, {"rows", to_json(recorder_rows(status))}};
     } catch (...) {
         ++use_.failures;
         return std::nullopt;
@@ -118,10 +121,10 @@ std::optional<std::string> Api::urgent_status() noexcept {
     }
 }
 
-json Api::status_now() {
+json Api::status_now() const {
     const status::Status status = sources_.status();
     const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
-    return to_json(status, sources_.occupations, field, sources_.live, sources_.stale_after);
+    return to_json({status, sources_.occupations, field, sources_.live, sources_.stale_after});
 }
 
 Response Api::route(const Request& request) {
@@ -152,6 +155,7 @@ Response Api::read(std::string_view path, std::string_view query, bool is_local)
         return {.body = history_json(sources_.live, query, sources_.status().now)};
     if (!query.empty()) throw InputError("query: none is allowed here");
     if (path == "/api/status") return ok(status_now());
+    if (path == "/api/rows") return rows();
     if (path == "/metrics")
         return {.content_type = kMetricsType, .body = metrics_of(status_now(), use_)};
     if (path == "/api/sites") return sites_around();
@@ -170,6 +174,15 @@ Response Api::read(std::string_view path, std::string_view query, bool is_local)
         return ok({{"token", token_}, {"listen", listen_}});
     }
     return assets_.answer(path, is_local);
+}
+
+/// Answers with the rows of recorder and sensor; those of the stay follow the first one.
+Response Api::rows() const {
+    const json status = status_now();
+    std::vector<Row> rows = recorder_rows(status);
+    const std::vector<Row> of_stay = operator_rows(status);
+    rows.insert(rows.begin() + 1, of_stay.begin(), of_stay.end());
+    return ok({{"level", status.at("level")}, {"rows", to_json(rows)}});
 }
 
 /// Lists the sites by their distance from the last occupation's site, or else from the base.

@@ -3,7 +3,7 @@
 /// The HTTP interface: turns a request into a response.  No sockets, no threads.
 ///
 /// GET  / and the other files of the page
-/// GET  /api/status /api/events?since=UTC /api/sites /api/occupations /api/survey /api/token
+/// GET  /api/status /api/rows /api/events?since=UTC /api/sites /api/occupations /api/survey /api/token
 /// GET  /api/history?channel=NAME&from=UTC&to=UTC&points=N /metrics
 /// POST /api/occupation/start|stop|setup|discard|restore|resume|rename|retime /api/note /api/target
 ///      /api/sites, with a JSON object as body; a change of a stay names it by its key
@@ -59,23 +59,25 @@ public:
     /// Answers a request that has passed the Guard.  An exception of a source becomes a 500.
     [[nodiscard]] Response answer(const Request& request) noexcept;
 
-    /// Returns the body of GET /api/status; std::nullopt if a source failed.
-    [[nodiscard]] std::optional<nlohmann::json> status() noexcept;
+    /// Returns the text message of the live stream: the status, and its rows without those of the
+    /// stay, for which the page has panels.  std::nullopt if a source failed.
+    [[nodiscard]] std::optional<nlohmann::json> live_status() noexcept;
 
     /// Returns a text that changes when viewers must get the status at once: with level, verdict,
     /// link and occupation.  std::nullopt if a source failed.  It is cheap enough for ten calls a
-    /// second, unlike status(), which goes through the data of the day.
+    /// second, unlike live_status(), which goes through the data of the day.
     [[nodiscard]] std::optional<std::string> urgent_status() noexcept;
 
     /// Returns the server's counters, which /metrics shows.
     [[nodiscard]] PageUse& use() noexcept { return use_; }
 
 private:
-    [[nodiscard]] nlohmann::json status_now();
+    [[nodiscard]] nlohmann::json status_now() const;
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query, bool is_local);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);
     [[nodiscard]] survey::Outcome change_stay(std::string_view change, const std::string& body);
+    [[nodiscard]] Response rows() const;
     [[nodiscard]] Response sites_around() const;
     [[nodiscard]] Response occupations_so_far() const;
     [[nodiscard]] Response events_since(std::string_view query);

@@ -19,10 +19,9 @@ constexpr std::size_t kLargestFromClient = std::size_t{4} * 1024;
 /// Send buffer in bytes.  By default the kernel stores megabytes for a viewer that does not read.
 constexpr int kSendBuffer = 128 * 1024;
 
-LiveMessage status_message(const nlohmann::json& status) {
+LiveMessage text_message(const nlohmann::json& text) {
     return {.is_text = true,
-            .bytes = "{\"status\":" +
-                     status.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}"};
+            .bytes = text.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
 }  // namespace
@@ -91,11 +90,11 @@ void LiveStream::take_status() {
     auto urgent = api_.urgent_status();
     const auto now = std::chrono::steady_clock::now();
     if (!urgent || (*urgent == told_ && now < next_status_)) return;
-    const auto status = api_.status();
+    const auto status = api_.live_status();
     if (!status) return;
     told_ = *std::move(urgent);
     next_status_ = now + kStatusStep;
-    messages_.push(status_message(*status));
+    messages_.push(text_message(*status));
     news_.cancel();
 }
 
@@ -124,8 +123,8 @@ asio::awaitable<void> LiveStream::write_all(std::shared_ptr<Viewer> viewer) {
         present - std::min(present, kPastSeconds * static_cast<std::uint64_t>(live_.rate_hz()));
     error_code error;
     std::shared_ptr<const LiveMessage> message;
-    if (const auto status = api_.status())
-        message = std::make_shared<const LiveMessage>(status_message(*status));
+    if (const auto status = api_.live_status())
+        message = std::make_shared<const LiveMessage>(text_message(*status));
     while (!viewer->is_over_) {
         if (message) {
             Viewer::give(viewer, patience_);

@@ -2,26 +2,27 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>
+#include <vector>
 
+#include "daemon/live/live_record.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/survey/field_status.hpp"
-#include "daemon/survey/occupations.hpp"
+#include "daemon/verdict/verdict.hpp"
 #include "protocol/events/occupations.hpp"
-#include "protocol/text/sites.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::page {
 
-/// Version of the interface, published as `api`; increased when a field changes its meaning.
-inline constexpr int kApiVersion = 1;
+struct Moment;
 
 [[nodiscard]] std::string_view to_text(status::Status::Level level) noexcept;
 
-/// Returns the body of GET /api/status.  A number that is not known or not finite is null.
-/// @param stale_after  the verdict is "no data" if the last sample is older than this.
-[[nodiscard]] nlohmann::json to_json(const status::Status& status,
-                                     const survey::Occupations& occupations,
-                                     const survey::FieldStatus& field, const live::Record& live,
-                                     Nanoseconds stale_after);
+/// Returns the body of GET /api/status: the fields of status_fields.hpp.  A number that is not known
+/// or not finite is null.
+[[nodiscard]] nlohmann::json to_json(const Moment& now);
+
+/// Returns the parts of several sentences, from which another program makes a translation.
+[[nodiscard]] nlohmann::json parts_of(const std::vector<text::Message>& messages);
 
 /// Converts the running occupation; `now` gives its running time.
 [[nodiscard]] nlohmann::json to_json(const events::RunningOccupation& running, UtcTime now);
@@ -29,13 +30,10 @@ inline constexpr int kApiVersion = 1;
 [[nodiscard]] nlohmann::json to_json(const survey::SiteDistance& one);
 
 /// Convert the information for the operator at a benchmark.  A number that is not known is null.
-[[nodiscard]] nlohmann::json to_json(const verdict::Verdict& verdict, UtcTime now);
+[[nodiscard]] nlohmann::json checks_of(const verdict::Verdict& verdict);
 [[nodiscard]] nlohmann::json to_json(const verdict::RunningReading& reading, MilliGal target);
 /// Converts the mean alone, for a stay that has ended.
 [[nodiscard]] nlohmann::json mean_of(const verdict::RunningReading& reading);
-
-/// Returns the tilt relative to the day's first set-up; null if there was none.
-[[nodiscard]] nlohmann::json tilt_of(const survey::FieldStatus& field);
 
 /// Returns the scale of each channel of the live stream: value = offset + scale x counts.
 [[nodiscard]] nlohmann::json channels_of(const live::Record& live);

@@ -4,6 +4,8 @@
 #include <system_error>
 #include <utility>
 
+#include "protocol/text/catalogue.hpp"
+
 namespace a351::daemon::store {
 
 SpaceReserve::SpaceReserve(files::FileLayer& files, std::filesystem::path file,
@@ -60,7 +62,8 @@ SpaceReserve::Status SpaceReserve::status() const {
 
 const char* to_text(SpaceReserve::State state) {
     // In the order of the enumerators.
-    constexpr std::array kTexts{"present", "given_up", "unavailable"};
+    constexpr std::array kTexts{text::marked("present"), text::marked("given_up"),
+                                text::marked("unavailable")};
     return kTexts.at(static_cast<std::size_t>(state));
 }
 

@@ -78,7 +78,7 @@ def remember(stub, browser):
     demand("the field view is remembered", browser.run(view))
     demand("the dark scheme is remembered", browser.run("return document.documentElement.dataset.scheme") == "dark")
     browser.driver.get(f"http://127.0.0.1:{stub.port}/#page")
-    browser.wait_for_text("health-rows", "a351d")
+    browser.wait_for_text("health-rows", "interface 1")
     demand("the address decides before the memory", not browser.run(view))
     for size in SIZES:
         browser.resize(size)

@@ -5,7 +5,7 @@ import time
 from browser import LAPTOP, PHONE, Browser
 from made_up import VERDICTS, finding, finished, occupation, reading, sites, stay, survey, tilt, verdict
 from programs import demand
-from stub_daemon import StubDaemon, check
+from stub_daemon import StubDaemon, check, row
 
 ABOVE_FOLD = ["verdict-word", "verdict-checks", "occupation-title", "level-word"]
 
@@ -234,10 +234,15 @@ def show_trouble(stub, browser):
     stub.status["level"] = "fault"
     stub.status["reasons"] = ["the disk of the data root is full", "port: no such device"]
     browser.wait_for_text("trouble", "FAULT: the disk of the data root is full; port: no such device")
-    stub.status["counters"]["checksum_errors"] = 3
+    stub.rows = [row("state", ["fault"], ": the disk is full", level="fault"), row("troubles", "checksum errors 3"),
+                 row("temperature", "42.500 degC"), row("outer oven", ["disabled"])]
     browser.wait_for_text("health-rows", "checksum errors 3")
-    stub.status["counters"]["gaps"], stub.status["counters"]["samples_missing"] = 1, 3000
-    browser.wait_for_text("health-rows", "1, samples missing: 3000")
+    said = browser.text("health-rows")
+    demand(f"the rows of the daemon are shown, and one of the page: {said!r}",
+           all(text in said for text in ("fault: the disk is full", "42.500 °C", "disabled", "connections lost: 0")) and "set point" not in said)
+    demand("the row of the state has its level", browser.run("return document.querySelector('#health-rows > div').dataset.level") == "fault")
+    stub.rows.pop()
+    browser.wait_for("a row that is there no longer is removed", lambda: "disabled" not in browser.text("health-rows"))
     browser.demand_readable("a fault")
     browser.shot("fault-1366")
 

@@ -5,7 +5,7 @@ import time
 from browser import LAPTOP, PHONE, Browser
 from made_up import finished, occupation, verdict
 from programs import demand
-from stub_daemon import StubDaemon
+from stub_daemon import StubDaemon, row
 
 MARKUP = "<img src=x onerror=\"document.title='owned'\"><script>document.title='owned'</script><b>bold</b>"
 QUOTES = "\"'`&amp;&#60; ${1+1} {{1+1}} </title></option></select><svg onload=alert(1)>"
@@ -31,7 +31,7 @@ def show_everywhere(stub, text):
     stub.status["tilt"] = {"axes": ["x", "y"], "x_arcmin": 2.0, "y_arcmin": 0.0, "limit_arcmin": 1.2, "is_within": False,
                            "reference": {"site": text, "utc": None}, "advice": [text]}
     stub.status["level"], stub.status["reasons"] = "warning", [text]
-    stub.status["device"]["port"] = stub.status["device"]["trouble"] = text
+    stub.rows = [row("device", text)]
 
 
 with Browser() as page:

@@ -61,6 +61,17 @@ def first_status():
     }
 
 
+def row(label, *parts, level=""):
+    """Returns a row of the health panel.  @param parts  texts, or [text] to be translated."""
+    return {"label": label, "text": "".join(part if isinstance(part, str) else part[0] for part in parts), "text_parts": list(parts),
+            "level": level}
+
+
+def first_rows():
+    return [row("state", ["good"], level="good"), row("oven", ["answering"], ", 42.5 degC, ", ["set point"], " 42.5 degC"),
+            row("troubles", ["none"]), row("version", "0.0 (stub), ", ["interface"], " 1")]
+
+
 def check(quantity, value, unit, limit, is_met, is_least=False, error=None, ending=""):
     return {"quantity": quantity, "value": value, "error": error, "unit": unit, "ending": ending, "limit": limit,
             "is_least": is_least, "is_met": is_met}
@@ -78,12 +89,13 @@ def sample_counts(index):
 class StubDaemon:
     """HTTP server that runs until the test ends.
 
-    `status` may be changed at any time.  `is_sampling` False: no new samples; `is_away` True: no answers.  `posts` holds the
+    `status` and `rows` may be changed at any time.  `is_sampling` False: no new samples; `is_away` True: no answers.  `posts` holds the
     received orders, including the refused ones.
     """
 
     def __init__(self):
         self.status = first_status()
+        self.rows = first_rows()
         self.sites = []
         self.occupations, self.discarded = [], []
         self.survey = {"as_of_utc": None, "data_to_utc": None, "reason": "not_yet", "reason_text": None, "model": None,
@@ -236,7 +248,7 @@ class StubDaemon:
             while not self.is_away:
                 text = json.dumps({key: self.status[key] for key in ("verdict", "tilt", "occupation", "level")})
                 if time.time() - last_status >= 1 or text != last_text:
-                    self.send(request, 1, json.dumps({"status": self.full_status()}).encode())
+                    self.send(request, 1, json.dumps({"status": self.full_status(), "rows": self.rows}).encode())
                     last_status, last_text = time.time(), text
                 fresh = [sample for sample in list(self.samples) if sample[0] > cursor]
                 while fresh:

@@ -97,6 +97,9 @@ for head in re.findall(r"^\.B[IR]? (?:.*?)(/[a-z].*)$", text_of(page), re.M):
     path = re.match(r"[a-z_/]+", start)[0]
     named |= {path + change for change in changes.split("|")} if path.endswith("/") else {path}
 demand_same("paths of the interface", page.name, named, served)
+built = (BIN.parent / "daemon" / "page" / page.name).read_text()
+demand(f"the list of fields is in the built page: {built.count('.TP')} entries, {page.read_text().count('.TP')} in its source",
+       ".B timing.uncertainty_ms\n" in built and "FIELDS" not in built)
 
 page = TOP / "corrector" / "command" / "a351-survey.toml.5"
 for table in ("survey", "prior"):

@@ -115,7 +115,7 @@ def play_all(scratch, session):
            and 0 <= oven["heating_percent"] <= 100 and oven["decimals"] == 1 and not oven["has_input_error"])
     screen = run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", "status", check=False).stdout
     line = next(text for text in screen.splitlines() if text.startswith("oven "))
-    demand(f"a351ctl: {line}", "degC, set point 42.5 degC, heating" in line and line.endswith("answering"))
+    demand(f"a351ctl: {line}", "degC, set point 42.5 degC, heating" in line and " answering, " in line)
 
     for kind, outcome, state in SPOILS:
         session.play(kind, outcome, state)

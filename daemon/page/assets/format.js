@@ -36,12 +36,6 @@ export function countdown(seconds) {
     return `${Math.floor(s / 60)}:${String(s % 60).padStart(2, "0")}`;
 }
 
-/** Formats a data volume in decimal units. */
-export function volume(bytes) {
-    if (!Number.isFinite(bytes)) return "–";
-    return bytes >= 1e9 ? `${number(bytes / 1e9, 1)} GB` : `${number(bytes / 1e6, 0)} MB`;
-}
-
 /** Makes a text of unknown origin safe to show: control characters become visible signs, and characters
     that change the writing direction are replaced. */
 export function visible(text) {

@@ -50,7 +50,7 @@ const stream = {
         is_connected = false;
         refresh();
     },
-    status(said) {
+    status(said, rows) {
         status = said;
         if (status.live) minute.configure(status.live);
         if (status.sample) {
@@ -62,7 +62,7 @@ const stream = {
         panel.show(status);
         refresh_gravity();
         page.connected_s = (performance.now() - connected_at_ms) / 1000;
-        show_health(status, page);
+        show_health(rows, page);
         show("figure-outer_oven", Boolean(status.outer_oven));
         refresh();
     },

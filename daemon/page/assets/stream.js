@@ -29,7 +29,7 @@ export function decode(buffer) {
     };
 }
 
-/** Calls on.opened(), on.status(status), on.block(block), on.lost().  After a loss it connects again by
+/** Calls on.opened(), on.status(status, rows), on.block(block), on.lost().  After a loss it connects again by
     itself, with growing pauses. */
 export class Stream {
     constructor(on) {
@@ -57,7 +57,7 @@ export class Stream {
             this.wait_ms = kFirstWait_ms;
             if (typeof message.data === "string") {
                 const said = JSON.parse(message.data);
-                if (said.status) this.on.status(said.status);
+                if (said.status) this.on.status(said.status, said.rows);
             } else {
                 const block = decode(message.data);
                 if (block) this.on.block(block);

@@ -14,76 +14,23 @@
 using namespace a351;
 using namespace a351::daemon::ctl;
 
-TEST_CASE("the status screen shows known values and a dash for missing ones", "[daemon][ctl]") {
-    const auto bare = status_screen(nlohmann::json::object(), false);
-    CHECK(bare.find("temperature  -\n") != std::string::npos);
-    const auto odd = nlohmann::json::parse(
-        R"({"level":7,"device":[],"counters":"x","sample":{"acceleration_mg":[1]},"received":"?"})");
-    CHECK(status_screen(odd, false).find("axes         -\n") != std::string::npos);
-    CHECK(plugin_status(odd) == 3);
-    const auto full = nlohmann::json::parse(R"({
-        "level":"warning","reasons":["disk nearly full"],"received":1000,"journaled":990,
-        "device":{"output_rate_hz":50},"sample":{"acceleration_mg":[1.5,-2.25,999.3]},
-        "counters":{"gaps":2,"duplicates":0,"frames":1000,"journal_bytes":24000,"archive_records":5},
-        "verdict":{"state":"no data","held_s":null,"reasons":["no sample has been received yet"]},
-        "disk":{"free_bytes":5500000000}})");
-    const auto screen = status_screen(full, false);
-    CHECK(screen.find("warning: disk nearly full") != std::string::npos);
-    CHECK(screen.find("990, 10 behind (0.2 s)") != std::string::npos);
-    CHECK(screen.find("x 1.500   y -2.250   z 999.300 mg") != std::string::npos);
-    CHECK(screen.find("troubles     gaps 2\n") != std::string::npos);
-    CHECK(screen.find("verdict      no data: no sample has been received yet\n") !=
-          std::string::npos);
-    CHECK(screen.find("5.5 GB free") != std::string::npos);
-    CHECK(screen.find('\x1b') == std::string::npos);
-    CHECK(status_screen(full, true).find("\x1b[1;33mwarning") != std::string::npos);
-}
-
-TEST_CASE("the status screen shows the oven in one line", "[daemon][ctl]") {
-    const auto line_of = [](const char* oven) {
-        const auto screen =
-            status_screen(nlohmann::json{{"oven", nlohmann::json::parse(oven)}}, false);
-        const auto begin = screen.find("\noven  ") + 14;
-        return screen.substr(begin, screen.find('\n', begin) - begin);
-    };
-    CHECK(line_of(R"({"state":"disabled"})") == "disabled");
-    CHECK(line_of(R"({"state":"searching","trouble":"oven: not there","age_s":null})") ==
-          "searching: oven: not there");
-    CHECK(line_of(R"({"state":"answering","process_value_degc":42.5,"set_point_degc":43.0,
-                      "heating_percent":25.0,"has_input_error":false,"age_s":0.4,
-                      "is_stale":false})") ==
-          "42.5 degC, set point 43.0 degC, heating 25.0 %, answering");
-    CHECK(line_of(R"({"state":"silent","process_value_degc":null,"set_point_degc":43.0,
-                      "heating_percent":0.0,"has_input_error":true,"age_s":64.2,
-                      "is_stale":true})") ==
-          "-, set point 43.0 degC, heating 0.0 %, input error, silent, 64 s old");
-}
-
-TEST_CASE("the status screen counts the set-ups of the plan down", "[daemon][ctl]") {
-    const auto line_of = [](const char* stay) {
-        const auto screen =
-            status_screen(nlohmann::json{{"occupation", nlohmann::json::parse(stay)}}, false);
-        const auto begin = screen.find("\nset-up  ") + 14;
-        return screen.substr(begin, screen.find('\n', begin) - begin);
-    };
-    CHECK(line_of(R"({"planned_set_ups":3,"set_up_count":2,"set_up_left_s":129.2})") ==
-          "2 of 3: 2:10 left");
-    CHECK(line_of(R"({"planned_set_ups":3,"set_up_count":2,"set_up_left_s":0.0,
-                      "propose_set_up":true})") ==
-          "2 of 3: 0:00 left; lift the box, set it down again, then run a351ctl setup");
-    CHECK(line_of(R"({"planned_set_ups":2,"set_up_count":3,"set_up_left_s":0.0,
-                      "may_stop":true})") == "3 of 3: the stay may be stopped");
-}
-
-TEST_CASE("several set-ups are shown with their mean, its error and their scatter",
+TEST_CASE("the status screen shows the rows of the daemon, coloured by their level",
           "[daemon][ctl]") {
+    const auto answer = nlohmann::json::parse(R"({"level":"warning","rows":[
+        {"label":"state","text":"warning: disk nearly full","text_parts":["warning: disk nearly full"],"level":"warning"},
+        {"label":"disk","text":"free 5.5 GB","text_parts":[["free",[]]," 5.5 GB"],"level":""}]})");
+    CHECK(status_screen(answer, false) ==
+          "state        warning: disk nearly full\ndisk         free 5.5 GB\n");
+    CHECK(status_screen(answer, true) ==
+          "state        \x1b[1;33mwarning: disk nearly full\x1b[0m\ndisk         free 5.5 GB\n");
+    CHECK(plugin_status(answer) == 1);
+    CHECK(plugin_status({{"level", 7}}) == 3);
+}
+
+TEST_CASE("a stay of several set-ups has a row for each, and one of their mean", "[daemon][ctl]") {
     const nlohmann::json mean = {
         {"value_mgal", 980001.5},   {"standard_error_mgal", 0.9}, {"set_ups", 2},
         {"set_up_sd_mgal", 2.1213}, {"set_up_error_mgal", 1.5},   {"is_good_enough", true}};
-    const auto screen =
-        status_screen({{"occupation", {{"whole", mean}}}, {"target_mgal", 1.0}}, false);
-    CHECK(screen.find("reading      980001.50 +- 0.90 mGal, target 1.00 mGal: good enough; scatter "
-                      "of 2 set-ups 2.12 mGal, of their mean 1.50 mGal\n") != std::string::npos);
     const auto set_up = [](const char* start, const char* end, double value) {
         return nlohmann::json{{"start", start},
                               {"end", end},
@@ -107,7 +54,7 @@ TEST_CASE("control characters in names do not reach the terminal", "[daemon][ctl
     CHECK(printable("\x1b[2J\x07\n\x7f") == "?[2J???");
     CHECK(printable("\xC2\x9B"
                     "2J") == "?2J");
-    const nlohmann::json hostile = {{"occupation", {{"site", "\x1b]0;x\x07"}}}};
+    const nlohmann::json hostile = {{"rows", {{{"label", "site"}, {"text", "\x1b]0;x\x07"}}}}};
     CHECK(status_screen(hostile, false).find('\x1b') == std::string::npos);
 }
 

@@ -96,8 +96,10 @@ TEST_CASE("a stream begins with the status and past samples, and continues witho
     REQUIRE(first);
     CHECK(first->kind == RawViewer::text);
     const auto status = json::parse(first->payload);
-    CHECK(status.size() == 1);
+    CHECK(status.size() == 2);
     CHECK(status.at("status").at("level") == "good");
+    CHECK(status.at("rows").at(0).at("label") == "state");
+    CHECK(status.at("rows").at(0).at("text") == "good");
 
     const auto past = next_block(viewer);
     CHECK(past.first_index == 0);

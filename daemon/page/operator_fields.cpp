@@ -1,0 +1,179 @@
+#include <functional>
+
+#include "daemon/page/field_values.hpp"
+#include "daemon/page/status_json.hpp"
+
+namespace a351::daemon::page {
+namespace {
+
+using nlohmann::json;
+using text::marked;
+using Fields = std::vector<Field>;
+
+bool has_stay(const Moment& now) { return now.occupations.running().has_value(); }
+bool has_level(const Moment& now) { return !now.field.level_site.empty(); }
+
+template <class Get>
+auto of_stay(Get get) {
+    return only_if(has_stay, get);
+}
+
+template <class Get>
+auto of_level(Get get) {
+    return only_if(has_level, get);
+}
+
+/// Returns the verdict, which is "no data" if the last sample is old, and why it is not stable.
+std::pair<verdict::Verdict, std::vector<text::Message>> judged(const Moment& now) {
+    const status::Status& status = now.status;
+    if (!status.last_sample) return {{}, {text::message("no sample has been received yet")}};
+    if (status.now - *status.last_sample > now.stale_after) {
+        return {{verdict::State::no_data, *status.last_sample, {}},
+                {text::message("last sample {:.1f} s ago",
+                               seconds_between(*status.last_sample, status.now))}};
+    }
+    std::vector<text::Message> reasons;
+    for (const verdict::Reason& reason : status.verdict.reasons)
+        if (!reason.is_met) reasons.push_back(reason.to_message());
+    return {status.verdict, reasons};
+}
+
+/// Returns the begin of the verdict; std::nullopt if it is not known.
+std::optional<UtcTime> begin_of(const verdict::Verdict& verdict) {
+    return verdict.since == UtcTime{} ? std::nullopt : std::optional(verdict.since);
+}
+
+Fields verdict_fields() {
+    const auto of_verdict = [](auto get) {
+        return [get](const Moment& now) { return json_of(get(judged(now).first)); };
+    };
+    return {
+        {"/verdict/state",
+         of_verdict([](const auto& verdict) { return verdict::to_text(verdict.state); }),
+         "Verdict: no data, warming up, settling, stable or disturbed.",
+         {},
+         {},
+         {.name = "a351_verdict",
+          .key = "state",
+          .as = Metric::As::states,
+          .help = "1 for the present verdict.",
+          .states = {"no data", "warming up", "settling", "stable", "disturbed"}}},
+        {"/verdict/since", of_verdict(begin_of), "Time since which this is the verdict."},
+        {"/verdict/held_s",
+         [](const Moment& now) {
+             const auto since = begin_of(judged(now).first);
+             return since ? json(seconds_between(*since, now.status.now)) : json();
+         },
+         "Time for which it has not changed.", "s"},
+        {"/verdict/time_left_s",
+         of_verdict([](const auto& verdict) { return verdict.time_left_s; }),
+         "Least time until the verdict can be stable, null if more than waiting is needed.", "s"},
+        {"/verdict/reasons", [](const Moment& now) { return json(judged(now).second); },
+         "Why it is not stable, see SENTENCES."},
+        {"/verdict/reason_parts", [](const Moment& now) { return parts_of(judged(now).second); },
+         "The same with their parts."},
+        {"/verdict/checks", [](const Moment& now) { return checks_of(judged(now).first); },
+         "All checks, each with its value and limit; those not met come first."},
+    };
+}
+
+Fields stay_fields() {
+    return {
+        {"/target_mgal", [](const Moment& now) { return now.occupations.target().value(); },
+         "Standard error at which a reading is good enough.", "mGal"},
+        {"/occupation",
+         [](const Moment& now) {
+             const auto& running = now.occupations.running();
+             return running ? to_json(*running, now.status.now) : json();
+         },
+         "The running stay with key, site, number and start; null if none runs.",
+         {},
+         {},
+         {.name = "a351_occupation_running",
+          .as = Metric::As::existence,
+          .help = "1 while an occupation runs."}},
+        {"/occupation/planned_s",
+         of_stay([](const Moment& now) { return now.occupations.planned(); }),
+         "Planned length of all set-ups together.", "s"},
+        {"/occupation/planned_set_ups",
+         of_stay([](const Moment& now) { return now.field.plan.planned; }),
+         "Planned number of set-ups."},
+        {"/occupation/has_own_plan", of_stay([](const Moment& now) {
+             return now.occupations.running()->planned_set_ups.has_value();
+         }),
+         "True if the plan was given with the start, not by the configuration."},
+        {"/occupation/set_up_left_s",
+         of_stay([](const Moment& now) { return now.field.plan.left_s; }),
+         "Time left in the set-up; beyond the plan, in the stay.", "s"},
+        {"/occupation/propose_set_up",
+         of_stay([](const Moment& now) { return now.field.plan.proposes_next; }),
+         "True if the box is to be lifted and set down again now."},
+        {"/occupation/may_stop", of_stay([](const Moment& now) { return now.field.plan.may_stop; }),
+         "True if no planned set-up and no planned time is left."},
+        {"/occupation/reading", of_stay([](const Moment& now) {
+             return now.field.reading ? to_json(*now.field.reading, now.occupations.target())
+                                      : json();
+         }),
+         "Reading of the running set-up, see A READING."},
+        {"/occupation/whole", of_stay([](const Moment& now) {
+             return to_json(now.field.whole, now.occupations.target());
+         }),
+         "Reading of all set-ups together; good enough only when the last planned one has begun."},
+        {"/occupation/warnings",
+         of_stay([](const Moment& now) { return json(now.field.warnings); }),
+         "Warnings on the stay, see SENTENCES."},
+        {"/occupation/warning_parts",
+         of_stay([](const Moment& now) { return parts_of(now.field.warnings); }),
+         "The same with their parts."},
+        {"/occupation/moved", of_stay([](const Moment& now) {
+             if (!now.field.moved) return json();
+             return json{{"utc", json_of(now.field.moved->time)},
+                         {"is_at_start", now.field.moved->is_at_start}};
+         }),
+         "When the box was moved, and whether this is before the first set-up; null if it was "
+         "not."},
+    };
+}
+
+Fields tilt_fields() {
+    const auto of_angle = [](std::size_t axis) {
+        return of_level([axis](const Moment& now) {
+            return now.field.level ? json(now.field.level->tilt_arcmin[axis]) : json();
+        });
+    };
+    const auto advice = [](const Moment& now) {
+        return now.field.level ? now.field.level->advice : std::vector<text::Message>();
+    };
+    return {
+        {"/tilt", null_without(has_level),
+         "Tilt of the box compared with the first set-up of the day; null before there is one."},
+        {"/tilt/axes", of_level([](const Moment& now) {
+             const auto axes = now.field.level.value_or(live::Level{}).axes;
+             return json{std::string(1, axes[0]), std::string(1, axes[1])};
+         }),
+         "Names of the two level axes."},
+        {"/tilt/x_arcmin", of_angle(0), "Tilt along the first one.", "arcmin"},
+        {"/tilt/y_arcmin", of_angle(1), "Tilt along the second one.", "arcmin"},
+        {"/tilt/limit_arcmin", of_level([](const Moment&) { return live::kMostTiltArcmin; }),
+         "Largest tilt that is accepted.", "arcmin"},
+        {"/tilt/is_within", of_level([](const Moment& now) {
+             return now.field.level ? json(now.field.level->is_within) : json();
+         }),
+         "True if the tilt is within the limit."},
+        {"/tilt/advice", of_level([advice](const Moment& now) { return json(advice(now)); }),
+         "How to level the box, see SENTENCES."},
+        {"/tilt/advice_parts",
+         of_level([advice](const Moment& now) { return parts_of(advice(now)); }),
+         "The same with their parts."},
+        {"/tilt/reference", of_level([](const Moment& now) {
+             return json{{"site", now.field.level_site}, {"utc", json_of(now.field.level_utc)}};
+         }),
+         "Site and start of that first set-up."},
+    };
+}
+
+}  // namespace
+
+Fields operator_fields() { return joined({verdict_fields(), stay_fields(), tilt_fields()}); }
+
+}  // namespace a351::daemon::page

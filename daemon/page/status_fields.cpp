@@ -1,0 +1,51 @@
+#include "daemon/page/status_fields.hpp"
+
+#include "daemon/page/field_values.hpp"
+#include "daemon/page/status_json.hpp"
+
+namespace a351::daemon::page {
+namespace {
+
+using nlohmann::json;
+using status::Status;
+using text::marked;
+using Fields = std::vector<Field>;
+
+Fields general_fields() {
+    return {
+        {"/level",
+         [](const Moment& now) { return to_text(now.status.level); },
+         "Level of the box: good, warning or fault.",
+         {},
+         {},
+         {.name = "a351_level",
+          .key = "level",
+          .as = Metric::As::states,
+          .help = "1 for the present level, which is the exit status of a351ctl status.",
+          .states = {marked("good"), marked("warning"), marked("fault")}}},
+        {"/reasons", of(&Status::reasons), "Why the level is not good, see SENTENCES."},
+        {"/reason_parts", [](const Moment& now) { return parts_of(now.status.reasons); },
+         "The same with their parts."},
+        {"/now", of(&Status::now), "Time of this status.", {}, {marked("clock")}},
+        {"/session",
+         [](const Moment& now) {
+             return now.status.session.empty() ? json() : json(now.status.session);
+         },
+         "Session of the sensor, null before the first one."},
+        {"/changes", [](const Moment& now) { return now.occupations.changes(); },
+         "Number of changes of stays, notes, target and sites since the start: read the lists "
+         "again "
+         "when it differs."},
+        {"/live", [](const Moment& now) { return channels_of(now.live); },
+         "Scale and offset of each channel of the live stream, see LIVE DATA."},
+    };
+}
+
+}  // namespace
+
+const std::vector<Field>& status_fields() {
+    static const Fields kFields = joined({general_fields(), operator_fields(), recorder_fields()});
+    return kFields;
+}
+
+}  // namespace a351::daemon::page

@@ -1,0 +1,90 @@
+#pragma once
+/// @file
+/// The fields of the status, declared once.
+///
+/// GET /api/status, GET /metrics, the rows that the page and `a351ctl status` show, and the list in
+/// a351d-http(7) are all written from this declaration.  A new field is one entry:
+///
+///     {"/disk/free_bytes", of(&Status::disk_free_bytes),
+///      "Free space for the recorded data, null if it is not known.", "bytes",
+///      {text::marked("disk"), text::marked("free")}, {.name = "a351_disk_free_bytes"}},
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/live/live_record.hpp"
+#include "daemon/status/status.hpp"
+#include "daemon/survey/field_status.hpp"
+#include "daemon/survey/occupations.hpp"
+
+namespace a351::daemon::page {
+
+/// Version of the interface, published as `api`; increased when a field changes its meaning.
+inline constexpr int kApiVersion = 1;
+
+/// Sources of the status, at one instant.
+struct Moment {
+    const status::Status& status;
+    const survey::Occupations& occupations;
+    const survey::FieldStatus& field;
+    const live::Record& live;
+    Nanoseconds stale_after;  ///< The verdict is "no data" if the last sample is older than this.
+};
+
+/// How people see a field.  A default-constructed one hides it from them.
+struct Shown {
+    enum class As {
+        value,   ///< Number, text, or the label alone if it is true.
+        word,    ///< Text of the catalogue, such as the name of a state.
+        denial,  ///< The label alone if it is false.
+        index,   ///< Index of a sample, and its distance from the last sample received.
+        counts   ///< Counts of trouble that are not zero, by their names.
+    };
+    static constexpr int kAllDecimals = -1;
+
+    std::string_view row = {};    ///< Heading of the row, text of the catalogue.
+    std::string_view label = {};  ///< Words before the value, text of the catalogue; may be empty.
+    int decimals = kAllDecimals;  ///< Decimals of a number that is not whole.
+    As as = As::value;
+};
+
+/// The metric of a field in Prometheus' format.  A default-constructed one has no name: no metric.
+struct Metric {
+    enum class As {
+        number,    ///< The number; no sample if there is none.
+        items,     ///< A sample for each item of an object, with the item's name as label.
+        states,    ///< A sample for each of `states`: 1 for the present one, 0 for the others.
+        text,      ///< 1, with the text as label.
+        existence  ///< 1 if the field is not null, else 0.
+    };
+    std::string name = {};
+    std::string_view key = {};    ///< Name of the label; empty: no label.
+    std::string_view label = {};  ///< Its value, if it is a constant.
+    As as = As::number;
+    std::string_view help = {};                 ///< If several fields are one metric: its meaning.
+    double scale = 1.0;                         ///< From the unit of the field to the base unit.
+    std::vector<std::string_view> states = {};  ///< The possible texts.
+};
+
+/// One field.
+struct Field {
+    std::string path;  ///< JSON pointer.
+    /// Function that returns the value; a discarded one: the field is left out.
+    std::function<nlohmann::json(const Moment&)> value;
+    std::string_view meaning;  ///< For the manual page and the metrics.
+    std::string_view unit = {};
+    Shown shown = {};
+    Metric metric = {};
+};
+
+/// Returns all fields, in the order of the rows.
+[[nodiscard]] const std::vector<Field>& status_fields();
+
+/// Return the fields of which it consists: verdict, stay and tilt; and sensor, ovens, timing and disk.
+[[nodiscard]] std::vector<Field> operator_fields();
+[[nodiscard]] std::vector<Field> recorder_fields();
+
+}  // namespace a351::daemon::page

@@ -1,0 +1,161 @@
+#include "daemon/page/status_rows.hpp"
+
+#include <set>
+
+#include "daemon/page/status_fields.hpp"
+#include "tests/unit/daemon/asked_page.hpp"
+
+using namespace a351;
+using namespace a351::daemon;
+using namespace a351::daemon::page;
+
+namespace {
+
+/// Returns the text of a row in GET /api/rows; "(no row)" if there is none.
+std::string row_of(Page& page, const std::string& label) {
+    const json answer = page.ask(get("/api/rows"));
+    for (const json& row : answer["rows"])
+        if (row["label"] == label) return row["text"];
+    return "(no row)";
+}
+
+/// Returns true if a row has these neighbouring values; others may be added.
+bool has(Page& page, const std::string& label, const std::string& values) {
+    const std::string text = row_of(page, label);
+    UNSCOPED_INFO(label << ": " << text);
+    return (", " + text + ", ").find(", " + values + ", ") != std::string::npos;
+}
+
+/// A status in which every field is there.
+void fill(status::Status& status) {
+    status.last_sample = status.now = minute(60);
+    status.timing_uncertainty = std::chrono::microseconds(1500);
+    status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
+    status.output_rate_hz = 50;
+    status.received = 1000;
+    status.journaled = 990;
+    status.archived = 900;
+    status.oven.emplace();
+    status.oven->state = source::OvenLinkStatus::State::answering;
+    status.oven->trouble = "";
+    status.oven->values = oven::ControllerValues{DegC(42.5), DegC(43.0), Percent(25.0), 0};
+    status.oven->age = std::chrono::milliseconds(400);
+    status.oven->is_stale = false;
+    status.outer_oven = status.oven;
+    status.more_counters["archive_records_waiting"] = 1;
+    status.disk_free_bytes = 5'500'000'000;
+    status.disk_reserve = "given_up";
+    status.version = "1.2";
+}
+
+}  // namespace
+
+TEST_CASE("each field of the status is declared once, with its meaning", "[daemon][page]") {
+    std::set<std::string> paths;
+    for (const Field& field : status_fields()) {
+        CAPTURE(field.path);
+        CHECK(paths.insert(field.path).second);
+        CHECK(field.meaning.ends_with('.'));
+    }
+}
+
+TEST_CASE("each declared field is in the status, each metric in the metrics, and each row shown",
+          "[daemon][page]") {
+    Page page;
+    fill(page.status);
+    page.occupations.start("No.1", {}, minute(50));
+    const json status = page.ask(get("/api/status"));
+    const std::string metrics = page.api.answer(get("/metrics")).body;
+    for (const Field& field : status_fields()) {
+        CAPTURE(field.path);
+        // A set-up with a level needs samples.
+        if (!field.path.starts_with("/tilt/"))
+            CHECK(status.contains(json::json_pointer(field.path)));
+        if (!field.metric.name.empty())
+            CHECK(metrics.find("# HELP " + field.metric.name + " ") != std::string::npos);
+        if (!field.shown.row.empty())
+            CHECK(row_of(page, std::string(field.shown.row)) != "(no row)");
+    }
+}
+
+TEST_CASE("a row shows the values that are known, and a dash without any", "[daemon][page]") {
+    Page page;
+    CHECK(row_of(page, "axes") == "(no row)");
+    CHECK(row_of(page, "journal") == "-");
+    CHECK(row_of(page, "outer oven") == "(no row)");
+    CHECK(row_of(page, "verdict") == "no data: no sample has been received yet");
+    CHECK(row_of(page, "troubles") == "none");
+    CHECK(row_of(page, "occupation") == "none running");
+
+    fill(page.status);
+    page.status.acceleration = {StandardGravity(0.0015), StandardGravity(-0.00225),
+                                StandardGravity(0.9993)};
+    page.status.counters.checksum_errors = 2;
+    page.status.counters.frames = 1000;
+    page.status.warn("disk nearly full");
+    CHECK(row_of(page, "state") == "warning: disk nearly full");
+    CHECK(row_of(page, "axes") == "x 1.500 mg, y -2.250 mg, z 999.300 mg");
+    CHECK(row_of(page, "journal") == "990, 10 behind (0.2 s)");
+    CHECK(row_of(page, "troubles") == "checksum errors 2");
+    CHECK(has(page, "timing", "unlocked, uncertainty 1.50 ms"));
+    CHECK(has(page, "disk", "free 5.5 GB, reserve given_up, longest sync 0 ms"));
+    CHECK(has(page, "sampling", "not verified"));
+    page.status.is_profile_verified = true;
+    page.status.temperature = DegC(std::numeric_limits<double>::quiet_NaN());
+    CHECK(!has(page, "sampling", "not verified"));
+    CHECK(row_of(page, "temperature") == "-");
+}
+
+TEST_CASE("an oven is one row, with its trouble", "[daemon][page]") {
+    Page page;
+    CHECK(row_of(page, "oven") == "disabled");
+    fill(page.status);
+    CHECK(
+        has(page, "oven", "answering, 42.5 degC, set point 43.0 degC, heating 25.0 %, age 0.4 s"));
+    page.status.oven->state = source::OvenLinkStatus::State::silent;
+    page.status.oven->trouble = "no answer";
+    page.status.oven->values->process_value.reset();
+    page.status.oven->values->status = oven::kInputError;
+    page.status.oven->is_stale = true;
+    CHECK(
+        has(page, "oven",
+            "silent, no answer, set point 43.0 degC, heating 25.0 %, input error, age 0.4 s, old"));
+}
+
+TEST_CASE("the rows count the set-ups of the plan down", "[daemon][page]") {
+    Page page;
+    page.occupations.start("No.1", {}, minute(50));
+    page.status.now = minute(60);
+    json status = page.ask(get("/api/status"));
+    const auto set_up = [&](const json& changes) {
+        status["occupation"].update(changes);
+        return operator_rows(status).at(2).text.english();
+    };
+    CHECK(set_up({{"planned_set_ups", 3},
+                  {"set_up_count", 2},
+                  {"set_up_left_s", 129.2},
+                  {"may_stop", false},
+                  {"propose_set_up", false}}) == "2 of 3: 2:10 left");
+    CHECK(set_up({{"set_up_left_s", 0.0}, {"propose_set_up", true}}) ==
+          "2 of 3: 0:00 left; lift the box, set it down again, then run a351ctl setup");
+    CHECK(set_up({{"set_up_count", 4}, {"may_stop", true}, {"propose_set_up", false}}) ==
+          "4 of 4: the stay may be stopped");
+}
+
+TEST_CASE("several set-ups are shown with their mean, its error and their scatter",
+          "[daemon][page]") {
+    Page page;
+    page.occupations.start("No.1", {}, minute(50));
+    page.status.now = minute(60);
+    json status = page.ask(get("/api/status"));
+    status["occupation"]["whole"].update({{"value_mgal", 980001.5},
+                                          {"standard_error_mgal", 0.9},
+                                          {"set_ups", 2},
+                                          {"set_up_sd_mgal", 2.1213},
+                                          {"set_up_error_mgal", 1.5},
+                                          {"is_good_enough", true}});
+    CHECK(
+        operator_rows(status).at(3).text ==
+        "980001.50 +- 0.90 mGal, target 1.00 mGal: good enough; scatter of 2 set-ups 2.12 mGal, of "
+        "their mean 1.50 mGal");
+}
