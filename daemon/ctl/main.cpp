@@ -19,6 +19,7 @@ namespace {
 
 using namespace a351;
 using namespace a351::daemon::ctl;
+
 void check(const Arguments& arguments) {
     const auto now = std::chrono::time_point_cast<Nanoseconds>(std::chrono::system_clock::now());
     for (const auto& [option, text] :
@@ -48,12 +49,47 @@ void require_command(const CLI::App& app) {
         extras.empty() ? "no command is given" : extras.front() + " is not a command", commands));
 }
 
-}  // namespace
+constexpr const char* kStay = "Key of the stay, from list; default: the running or last one";
 
-int main(int argc, char** argv) {
-    text::write_in(text::language_of_environment());
-    Arguments a;
-    CLI::App app("Shows the state of the daemon a351d and controls occupations.", "a351ctl");
+void add_at(CLI::App* command, Arguments& a) {
+    command
+        ->add_option("--at", a.at,
+                     "Instant in the recorded past: RFC 3339, local HH:MM[:SS] or -12min; "
+                     "default: the last sample")
+        ->type_name("WHEN");
+}
+
+void add_operator(CLI::App* command, Arguments& a) {
+    command->add_option("--operator", a.operator_name, "Name of the operator")->type_name("NAME");
+}
+
+void add_remark(CLI::App* command, Arguments& a) {
+    add_operator(command, a);
+    command->add_option("--note", a.note, "Remark")->type_name("WORDS");
+}
+
+void add_json(CLI::App* command, Arguments& a) {
+    command->add_flag("--json", a.json, "Print the daemon's answer unchanged (JSON)");
+}
+
+void add_reason(CLI::App* command, Arguments& a) {
+    command->add_option("--reason", a.reason, "Why the stay is changed")->type_name("WORDS");
+    add_operator(command, a);
+}
+
+/// Adds a change of the running or last stay, or of the one that is named.
+void add_change(CLI::App& app, Arguments& a, const char* name, const char* what) {
+    auto* command = app.add_subcommand(name, what);
+    command->add_option("STAY", a.stay, kStay)->type_name("");
+    add_reason(command, a);
+}
+
+/// Adds the stay of a command that has no default for it.
+void add_named_stay(CLI::App* command, Arguments& a) {
+    command->add_option("STAY", a.stay, "Key of the stay, from list")->type_name("")->required();
+}
+
+void add_global_options(CLI::App& app, Arguments& a) {
     app.set_version_flag("--version", std::string("a351ctl ") + A351_VERSION);
     app.add_option(
            "--url", a.urls,
@@ -72,62 +108,60 @@ int main(int argc, char** argv) {
         ->type_name("TOKEN")
         ->envname("A351_TOKEN");
     app.fallthrough();
+}
 
-    const auto add_at = [&](CLI::App* command) {
-        command
-            ->add_option("--at", a.at,
-                         "Instant in the recorded past: RFC 3339, local HH:MM[:SS] or -12min; "
-                         "default: the last sample")
-            ->type_name("WHEN");
-    };
-    const auto add_remark = [&](CLI::App* command) {
-        command->add_option("--operator", a.operator_name, "Name of the operator")
-            ->type_name("NAME");
-        command->add_option("--note", a.note, "Remark")->type_name("WORDS");
-    };
-    const auto add_json = [&](CLI::App* command) {
-        command->add_flag("--json", a.json, "Print the daemon's answer unchanged (JSON)");
-    };
-    const auto add_reason = [&](CLI::App* command) {
-        command->add_option("--reason", a.reason, "Why the stay is changed")->type_name("WORDS");
-        command->add_option("--operator", a.operator_name, "Name of the operator")
-            ->type_name("NAME");
-    };
-    auto* status = app.add_subcommand("status",
-                                      "Shows the status on one screen. Exit status: 0 good, 1 "
-                                      "warning, 2 fault, 3 not running or bad usage.");
-    add_json(status);
+void add_status(CLI::App& app, Arguments& a) {
+    add_json(app.add_subcommand("status",
+                                "Shows the status on one screen. Exit status: 0 good, 1 warning, "
+                                "2 fault, 3 not running or bad usage."),
+             a);
+}
+
+void add_start(CLI::App& app, Arguments& a) {
     auto* start = app.add_subcommand("start", "Starts an occupation at a benchmark.");
     start->add_option("SITE", a.site, "Benchmark, as in sites")->type_name("")->required();
-    add_at(start);
-    add_remark(start);
+    add_at(start, a);
+    add_remark(start, a);
     start
         ->add_option("--set-ups", a.set_ups,
                      "Planned set-ups of this stay, three minutes each (2-100); 20 for a placement "
                      "test; default: as configured")
         ->type_name("N");
+}
+
+void add_stop(CLI::App& app, Arguments& a) {
     auto* stop = app.add_subcommand("stop", "Stops the running occupation.");
-    add_at(stop);
-    add_remark(stop);
-    auto* setup = app.add_subcommand(
-        "setup", "Begins a further set-up: the box was lifted and set down again.");
-    add_at(setup);
-    constexpr const char* kStay = "Key of the stay, from list; default: the running or last one";
-    auto* discard = app.add_subcommand("discard", "Discards a stay; its data are kept.");
-    discard->add_option("STAY", a.stay, kStay)->type_name("");
-    add_reason(discard);
+    add_at(stop, a);
+    add_remark(stop, a);
+}
+
+void add_setup(CLI::App& app, Arguments& a) {
+    add_at(app.add_subcommand("setup",
+                              "Begins a further set-up: the box was lifted and set down again."),
+           a);
+}
+
+void add_discard(CLI::App& app, Arguments& a) {
+    add_change(app, a, "discard", "Discards a stay; its data are kept.");
+}
+
+void add_restore(CLI::App& app, Arguments& a) {
     auto* restore = app.add_subcommand("restore", "Cancels the discard of a stay.");
-    restore->add_option("STAY", a.stay, "Key of the stay, from list")->type_name("")->required();
-    add_reason(restore);
-    auto* not_moved = app.add_subcommand(
-        "not-moved",
-        "States that the box was not moved during a stay so far, in answer to the warning.");
-    not_moved->add_option("STAY", a.stay, kStay)->type_name("");
-    add_reason(not_moved);
-    auto* resume = app.add_subcommand(
-        "resume", "Continues the last stay, at most 10 min after it was stopped by mistake.");
-    resume->add_option("STAY", a.stay, kStay)->type_name("");
-    add_reason(resume);
+    add_named_stay(restore, a);
+    add_reason(restore, a);
+}
+
+void add_not_moved(CLI::App& app, Arguments& a) {
+    add_change(app, a, "not-moved",
+               "States that the box was not moved during a stay so far, in answer to the warning.");
+}
+
+void add_resume(CLI::App& app, Arguments& a) {
+    add_change(app, a, "resume",
+               "Continues the last stay, at most 10 min after it was stopped by mistake.");
+}
+
+void add_rename(CLI::App& app, Arguments& a) {
     auto* rename = app.add_subcommand("rename", "Corrects the site of a stay.");
     rename
         ->add_option("[STAY] SITE", a.stay_and_site,
@@ -136,64 +170,106 @@ int main(int argc, char** argv) {
         ->type_name("")
         ->expected(1, 2)
         ->required();
-    add_reason(rename);
+    add_reason(rename, a);
+}
+
+void add_retime(CLI::App& app, Arguments& a) {
     auto* retime = app.add_subcommand("retime", "Corrects start or end of a stay.");
-    retime->add_option("STAY", a.stay, "Key of the stay, from list")->type_name("")->required();
+    add_named_stay(retime, a);
     retime->add_option("--from", a.from, "New start: RFC 3339, local HH:MM[:SS] or -12min")
         ->type_name("WHEN");
     retime->add_option("--to", a.to, "New end, likewise")->type_name("WHEN");
-    add_reason(retime);
+    add_reason(retime, a);
+}
+
+void add_note(CLI::App& app, Arguments& a) {
     auto* note = app.add_subcommand("note", "Writes a remark to the event log.");
     note->add_option("WORDS", a.note, "Remark")->type_name("")->required();
     note->add_option("--stay", a.stay, "Key of the stay; default: the running one, if any")
         ->type_name("KEY");
-    auto* target =
-        app.add_subcommand("target", "Sets the standard error at which a reading is good enough.");
-    target->add_option("MGAL", a.target_mgal, "Standard error, 0.01-1000 mGal")
+}
+
+void add_target(CLI::App& app, Arguments& a) {
+    app.add_subcommand("target", "Sets the standard error at which a reading is good enough.")
+        ->add_option("MGAL", a.target_mgal, "Standard error, 0.01-1000 mGal")
         ->type_name("")
         ->required();
+}
+
+void add_sites(CLI::App& app, Arguments& a) {
     add_json(
-        app.add_subcommand("sites", "Lists the benchmarks, nearest to the last occupation first."));
+        app.add_subcommand("sites", "Lists the benchmarks, nearest to the last occupation first."),
+        a);
+}
+
+void add_survey(CLI::App& app, Arguments& a) {
+    add_json(app.add_subcommand("survey",
+                                "Shows the corrected gravity of each stay so far, and what is "
+                                "wrong with the day."),
+             a);
+}
+
+void add_list(CLI::App& app, Arguments& a) {
     add_json(app.add_subcommand(
-        "survey",
-        "Shows the corrected gravity of each stay so far, and what is wrong with the day."));
-    add_json(app.add_subcommand(
-        "list", "Lists the finished stays with their keys, then the discarded ones."));
-    auto* phone = app.add_subcommand(
-        "phone", "Shows the address of the page, with its token, as a code for a telephone.");
-    phone
+                 "list", "Lists the finished stays with their keys, then the discarded ones."),
+             a);
+}
+
+void add_phone(CLI::App& app, Arguments& a) {
+    app.add_subcommand("phone",
+                       "Shows the address of the page, with its token, as a code for a telephone.")
         ->add_option("ADDRESS", a.address,
                      "Address of this computer, if it has several; default: the first")
         ->type_name("");
+}
+
+void add_site(CLI::App& app, Arguments& a) {
     auto* site = app.add_subcommand("site", "Changes the list of benchmarks.");
     site->require_subcommand(1);
-    auto* site_add = site->add_subcommand("add", "Appends a benchmark to the list of the daemon.");
-    site_add->add_option("NAME", a.site, "Name, not in the list yet")->type_name("")->required();
-    site_add->add_option("--latitude", a.latitude_deg, "Latitude, degrees north")
+    auto* add = site->add_subcommand("add", "Appends a benchmark to the list of the daemon.");
+    add->add_option("NAME", a.site, "Name, not in the list yet")->type_name("")->required();
+    add->add_option("--latitude", a.latitude_deg, "Latitude, degrees north")
         ->type_name("DEG")
         ->required();
-    site_add->add_option("--longitude", a.longitude_deg, "Longitude, degrees east")
+    add->add_option("--longitude", a.longitude_deg, "Longitude, degrees east")
         ->type_name("DEG")
         ->required();
-    site_add->add_option("--height", a.height_m, "Height above sea level, if known")
-        ->type_name("M");
-    site_add->add_option("--gravity", a.gravity_mgal, "Gravity, if known")->type_name("MGAL");
+    add->add_option("--height", a.height_m, "Height above sea level, if known")->type_name("M");
+    add->add_option("--gravity", a.gravity_mgal, "Gravity, if known")->type_name("MGAL");
+}
+
+/// Parses the command line and carries out its command.  @return the exit status
+int run(CLI::App& app, Arguments& a, int argc, char** argv) {
+    app.parse(argc, argv);
+    require_command(app);
+    check(a);
+    const std::string command = app.get_subcommands().front()->get_name();
+    if (command == "rename") {
+        a.site = a.stay_and_site.back();
+        if (a.stay_and_site.size() > 1) a.stay = a.stay_and_site.front();
+    }
+    const int result = run_command(command, a);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw std::runtime_error(text::tr("the output could not be written"));
+    return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    text::write_in(text::language_of_environment());
+    Arguments a;
+    CLI::App app("Shows the state of the daemon a351d and controls occupations.", "a351ctl");
+    add_global_options(app, a);
+    for (const auto add : {add_status, add_start, add_stop, add_setup, add_discard, add_restore,
+                           add_not_moved, add_resume, add_rename, add_retime, add_note, add_target,
+                           add_sites, add_survey, add_list, add_phone, add_site})
+        add(app, a);
     app.allow_extras();  // Not inherited by the commands, because they are there already.
 
-    const auto usage_status = [&] { return *status ? kNoDaemon : kUsage; };
+    const auto usage_status = [&] { return app.got_subcommand("status") ? kNoDaemon : kUsage; };
     try {
-        app.parse(argc, argv);
-        require_command(app);
-        check(a);
-        const std::string command = app.get_subcommands().front()->get_name();
-        if (command == "rename") {
-            a.site = a.stay_and_site.back();
-            if (a.stay_and_site.size() > 1) a.stay = a.stay_and_site.front();
-        }
-        const int result = run_command(command, a);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            throw std::runtime_error(text::tr("the output could not be written"));
-        return result;
+        return run(app, a, argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         complain(std::string(error.what()) + "; see a351ctl --help");
@@ -209,6 +285,6 @@ int main(int argc, char** argv) {
         return kNoDaemon;
     } catch (const std::exception& error) {
         complain(error.what());
-        return *status ? kNoDaemon : kRefused;
+        return app.got_subcommand("status") ? kNoDaemon : kRefused;
     }
 }
