@@ -95,7 +95,7 @@ Page::Page(const std::string& title) {
     document_.append_child(pugi::node_doctype).set_value("html");
     pugi::xml_node html = document_.append_child("html");
     html.append_attribute("xmlns") = "http://www.w3.org/1999/xhtml";
-    html.append_attribute("lang") = text::language() == text::Language::japanese ? "ja" : "en";
+    html.append_attribute("lang") = std::string(text::language().code).c_str();
     pugi::xml_node head = html.append_child("head");
     head.append_child("meta").append_attribute("charset") = "utf-8";
     pugi::xml_node viewport = head.append_child("meta");

@@ -21,9 +21,9 @@ using nlohmann::json;
 
 constexpr std::size_t kEventsPerAnswer = 1000;
 
-constexpr std::string_view kReadable[] = {
-    "/api/status",  "/api/events", "/api/sites",       "/metrics",    "/api/token",
-    "/api/history", "/api/rows",   "/api/occupations", "/api/survey", "/ja.json"};
+constexpr std::string_view kReadable[] = {"/api/status", "/api/events",      "/api/sites",
+                                          "/metrics",    "/api/token",       "/api/history",
+                                          "/api/rows",   "/api/occupations", "/api/survey"};
 constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/stop",
                                             "/api/occupation/setup",
@@ -41,6 +41,13 @@ constexpr std::string_view kChangeable[] = {"/api/occupation/start",
 /// become U+FFFD.
 Response ok(const json& body) {
     return {.body = body.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"};
+}
+
+/// Returns the language whose catalogue is at this path, as /ja.json.
+std::optional<text::Language> language_at(std::string_view path) {
+    for (const text::Language& one : text::other_languages())
+        if (path == fmt::format("/{}.json", one.code)) return one;
+    return std::nullopt;
 }
 
 Response answer_of(const survey::Outcome& outcome,
@@ -133,7 +140,8 @@ Response Api::route(const Request& request) {
     const auto path = target.substr(0, mark);
     const auto query = mark == std::string_view::npos ? "" : target.substr(mark + 1);
 
-    const bool is_readable = std::ranges::count(kReadable, path) > 0 || assets_.contains(path);
+    const bool is_readable =
+        std::ranges::count(kReadable, path) > 0 || language_at(path) || assets_.contains(path);
     const bool is_changeable = std::ranges::count(kChangeable, path) > 0;
     if (!is_readable && !is_changeable) return refusal(404, "there is no such path");
     if (is_readable && (request.method == "GET" || request.method == "HEAD"))
@@ -161,9 +169,9 @@ Response Api::read(std::string_view path, std::string_view query, bool is_local)
     if (path == "/api/sites") return sites_around();
     if (path == "/api/occupations") return occupations_so_far();
     if (path == "/api/survey") return {.body = sources_.gravity_so_far()};
-    if (path == "/ja.json") {
+    if (const auto language = language_at(path)) {
         json texts = json::object();
-        for (const auto& [english, other] : text::catalogue(text::Language::japanese))
+        for (const auto& [english, other] : text::catalogue(*language))
             texts[std::string(english)] = other;
         return ok(texts);
     }

@@ -4,8 +4,10 @@
 #include <cassert>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "daemon/page/guard.hpp"
+#include "protocol/text/catalogue.hpp"
 
 namespace a351::daemon::page {
 namespace {
@@ -13,7 +15,7 @@ namespace {
 constexpr std::string_view kIndex = "index.html";
 constexpr std::string_view kBoxesPage = "boxes.html";
 constexpr std::string_view kTokenMark = "@TOKEN@", kBoxesMark = "@BOXES@",
-                           kConfiguredMark = "@CONFIGURED@";
+                           kLanguagesMark = "@LANGUAGES@", kConfiguredMark = "@CONFIGURED@";
 
 const Asset* find(std::string_view path) noexcept {
     if (!path.starts_with('/')) return nullptr;
@@ -48,6 +50,14 @@ std::string as_html(std::string_view text) {
     return html;
 }
 
+/// Returns the names of the languages by their codes, as JSON.
+std::string languages() {
+    nlohmann::json names = {{text::Language::english.code, name_of(text::Language::english)}};
+    for (const text::Language& one : text::other_languages())
+        names[std::string(one.code)] = name_of(one);
+    return names.dump();
+}
+
 }  // namespace
 
 Assets::Assets(std::filesystem::path directory, std::string_view token,
@@ -74,6 +84,7 @@ Response Assets::answer(std::string_view path, bool is_local) const {
     if (is_overview) replace(response.body, kConfiguredMark, is_token_configured_ ? "yes" : "");
     if (asset->name == kIndex || is_overview) {
         replace(response.body, kBoxesMark, boxes_);
+        replace(response.body, kLanguagesMark, as_html(languages()));
         replace(response.body, kTokenMark, is_local ? token_ : std::string());
     }
     if (!is_overview) return response;

@@ -5,8 +5,6 @@
 #include <cstdlib>
 #include <string>
 
-#include "protocol/text/compiled_catalogue.hpp"
-
 namespace a351::text {
 namespace {
 
@@ -42,9 +40,9 @@ private:
 
 std::optional<Language> parse_language(std::string_view locale) noexcept {
     const std::string_view code = locale.substr(0, locale.find_first_of("_.@-"));
-    if (code == "ja") return Language::japanese;
     if (code == "en" || code == "C" || code == "POSIX") return Language::english;
-    return std::nullopt;
+    const auto found = std::ranges::find(other_languages(), code, &Language::code);
+    return found == other_languages().end() ? std::nullopt : std::optional(*found);
 }
 
 Language language_of_environment() noexcept {
@@ -60,10 +58,15 @@ void write_in(Language language) noexcept { g_language = language; }
 
 Language language() noexcept { return g_language; }
 
+std::string_view name_of(Language language) noexcept {
+    // In a catalogue the translation of this word is the name of its own language.
+    return translated(marked("English"), language);
+}
+
 std::string_view translated(std::string_view english, Language language) noexcept {
     // The empty text is the key of the catalogue's header.
     if (language == Language::english || english.empty()) return english;
-    const MoFile file(compiled_catalogue());
+    const MoFile file(language.catalogue);
     std::size_t low = 0, high = file.size();
     while (low < high) {
         const std::size_t middle = low + (high - low) / 2;
@@ -80,7 +83,7 @@ std::string_view translated(std::string_view english, Language language) noexcep
 std::vector<std::pair<std::string_view, std::string_view>> catalogue(Language language) {
     std::vector<std::pair<std::string_view, std::string_view>> texts;
     if (language == Language::english) return texts;
-    const MoFile file(compiled_catalogue());
+    const MoFile file(language.catalogue);
     for (std::size_t i = 0; i < file.size(); ++i)
         if (!file.english(i).empty()) texts.emplace_back(file.english(i), file.other(i));
     return texts;

@@ -6,13 +6,29 @@
 /// would change with them.
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace a351::text {
 
-enum class Language { english, japanese };
+/// English, or a language with a catalogue.
+struct Language {
+    static const Language english;
+
+    std::string_view code = "en";     ///< As in ISO 639-1.
+    std::string_view catalogue = {};  ///< The .mo file that msgfmt made; empty: English.
+
+    [[nodiscard]] bool operator==(const Language& other) const { return code == other.code; }
+};
+inline constexpr Language Language::english{};
+
+/// Returns the languages with a catalogue, in the order of protocol/text/CMakeLists.txt.
+[[nodiscard]] std::span<const Language> other_languages() noexcept;
+
+/// Returns the name of a language in itself.
+[[nodiscard]] std::string_view name_of(Language language) noexcept;
 
 /// Returns the language of a code such as "ja", or of a locale such as "ja_JP.UTF-8"; std::nullopt if
 /// there is no catalogue for it.

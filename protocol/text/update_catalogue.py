@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Brings protocol/text/ja.po in line with the texts in the sources, and says what is still to be translated.
+"""Brings the catalogues protocol/text/*.po in line with the texts in the sources, and says what is still to be translated.
 
 usage: update_catalogue.py [--check]
 
 Texts are the first arguments of tr(), message() and marked() in C++, of tr() and marked() in the page's scripts, and the texts of
 the page itself.  New ones are added with an empty translation, and those that no source has any more are removed.
---check changes nothing.  Exit status 1: a text is missing in the catalogue, not translated or used no more, or its translation
+--check changes nothing.  Exit status 1: a text is missing in a catalogue, not translated or used no more, or its translation
 has other places for arguments.
 """
 
@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-CATALOGUE = TOP / "protocol" / "text" / "ja.po"
+CATALOGUES = sorted((TOP / "protocol" / "text").glob("*.po"))
 PAGES = [TOP / "daemon" / "page" / "assets" / name for name in ("index.html", "boxes.html")]
 KEYWORDS = ["--keyword", "--keyword=tr:1", "--keyword=message:1", "--keyword=marked:1"]
 ATTRIBUTES = ("title", "aria-label", "placeholder")
@@ -128,10 +128,14 @@ def places(text):
 
 
 def troubles():
-    """Returns what is wrong with the catalogue, one line each."""
+    """Returns what is wrong with the catalogues, one line each."""
     with tempfile.TemporaryDirectory() as folder:
         wanted = entries(extracted(pathlib.Path(folder)))
-    present = entries(CATALOGUE)
+    return [f"{catalogue.name}: {line}" for catalogue in CATALOGUES for line in troubles_of(catalogue, wanted)]
+
+
+def troubles_of(catalogue, wanted):
+    present = entries(catalogue)
     lines = [f"not in the catalogue: {text}" for text in wanted if text not in present]
     lines += [f"used no more: {text}" for text in present if text not in wanted]
     for text, translation in present.items():
@@ -143,7 +147,7 @@ def troubles():
             lines.append(f"another number of <b>: {text} -> {translation}")
         elif (text[0] == " ") != (translation[0] == " ") and text[0] == " " and translation[0].isascii() and translation[0].isalnum():
             lines.append(f"no blank at the begin: {text} -> {translation}")
-    if ", fuzzy" in CATALOGUE.read_text():
+    if ", fuzzy" in catalogue.read_text():
         lines.append("an entry is marked fuzzy: check it and remove the mark")
     return lines
 
@@ -151,15 +155,16 @@ def troubles():
 def update():
     with tempfile.TemporaryDirectory() as folder:
         template = extracted(pathlib.Path(folder))
-        subprocess.run(["msgmerge", "--quiet", "--update", "--backup=none", "--no-fuzzy-matching", "--add-location=file",
-                        "--sort-by-file", str(CATALOGUE), str(template)], check=True)
-        subprocess.run(["msgattrib", "--no-obsolete", "--sort-by-file", "--add-location=file", f"--output-file={CATALOGUE}", str(CATALOGUE)],
-                       check=True)
+        for catalogue in CATALOGUES:
+            subprocess.run(["msgmerge", "--quiet", "--update", "--backup=none", "--no-fuzzy-matching", "--add-location=file",
+                            "--sort-by-file", str(catalogue), str(template)], check=True)
+            subprocess.run(["msgattrib", "--no-obsolete", "--sort-by-file", "--add-location=file", f"--output-file={catalogue}",
+                            str(catalogue)], check=True)
 
 
 if __name__ == "__main__":
     if sys.argv[1:] != ["--check"]:
         update()
     found = troubles()
-    print("\n".join(found) if found else f"{len(entries(CATALOGUE))} texts, all translated")
+    print("\n".join(found) if found else "\n".join(f"{one.name}: {len(entries(one))} texts, all translated" for one in CATALOGUES))
     sys.exit(bool(found))

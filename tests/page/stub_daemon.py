@@ -22,15 +22,17 @@ ASSETS = [TOP / "daemon" / "page" / "assets", pathlib.Path("/usr/share/javascrip
 TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 POLICY = ("default-src 'self'; script-src 'self'; style-src 'self'; object-src 'none'; base-uri 'none'; "
           "form-action 'none'; frame-ancestors 'none'")
+LANGUAGES = "{&quot;en&quot;:&quot;English&quot;,&quot;ja&quot;:&quot;日本語&quot;}"
 RATE_HZ = 50
 SCALE_MG = 1e-3
 
 
-def catalogue():
-    """Returns the Japanese catalogue as the daemon serves it."""
+def catalogue(language):
+    """Returns a catalogue as the daemon serves it."""
     sys.path.insert(0, str(TOP / "protocol" / "text"))
-    from update_catalogue import CATALOGUE, entries
-    return {json.loads(f'"{text}"'): json.loads(f'"{translation}"') for text, translation in entries(CATALOGUE).items()}
+    from update_catalogue import entries
+    file = TOP / "protocol" / "text" / f"{language}.po"
+    return {json.loads(f'"{text}"'): json.loads(f'"{translation}"') for text, translation in entries(file).items()}
 
 
 def rfc3339(seconds):
@@ -196,13 +198,14 @@ class StubDaemon:
         if path == "/api/history":
             return self.reply(request, self.history(dict(part.split("=") for part in query.split("&"))))
         if path == "/ja.json":
-            return self.reply(request, catalogue())
+            return self.reply(request, catalogue("ja"))
         name = "index.html" if path == "/" else path[1:]
         for directory in ASSETS:
             file = directory / name
             if file.is_file() and "/" not in name:
                 token = self.token.encode() if self.tells_token else b""
-                return self.reply(request, file.read_bytes().replace(b"@TOKEN@", token).replace(b"@BOXES@", b""), TYPES[file.suffix])
+                return self.reply(request, file.read_bytes().replace(b"@TOKEN@", token).replace(b"@BOXES@", b"").replace(
+                    b"@LANGUAGES@", LANGUAGES.encode()), TYPES[file.suffix])
         return self.reply(request, {"error": "there is no such path"}, status=404)
 
     def history(self, query):

@@ -3,7 +3,7 @@
 
 import { choices } from "./memory.js";
 
-const kLanguages = { en: "English", ja: "日本語" };
+const kLanguages = JSON.parse(document.querySelector('meta[name="a351-languages"]').content); // Names by their codes.
 const kBrowser = navigator.languages.map((name) => name.slice(0, 2)).find((name) => name in kLanguages);
 
 /** Code of the language that is shown. */
@@ -82,7 +82,8 @@ function translate(element) {
 document.documentElement.lang = language;
 if (language !== "en") for (const element of document.body.querySelectorAll("*")) translate(element);
 
-const other = language === "en" ? "ja" : "en";
+const codes = Object.keys(kLanguages);
+const other = codes[(codes.indexOf(language) + 1) % codes.length];
 const button = document.getElementById("language-switch");
 button.textContent = kLanguages[other];
 button.lang = other;

@@ -238,6 +238,15 @@ TEST_CASE("GET changes nothing, POST reads nothing, and unknown paths are answer
     CHECK(page.recorder.log.empty());
 }
 
+TEST_CASE("the catalogue of each language is served", "[daemon][page]") {
+    Page page;
+    for (const text::Language& one : text::other_languages()) {
+        const json texts = page.ask(get("/" + std::string(one.code) + ".json"));
+        CHECK(texts.at("English") == name_of(one));
+    }
+    CHECK(page.api.answer(get("/en.json")).status == 404);
+}
+
 TEST_CASE("events are listed from a given time on, at most 1000 per answer", "[daemon][page]") {
     Page page;
     for (int i = 0; i < 1200; ++i) {

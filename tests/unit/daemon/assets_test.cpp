@@ -4,6 +4,7 @@
 #include <iterator>
 #include "tests/support/catch.hpp"
 
+#include "protocol/text/catalogue.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
@@ -21,6 +22,18 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
+
+TEST_CASE("the page knows the name of every language", "[daemon][page]") {
+    const Assets assets({}, "sesame");
+    for (const char* path : {"/", "/boxes"}) {
+        const std::string page = body_of(assets, path);
+        CHECK(has(page, "&quot;en&quot;:&quot;English&quot;"));
+        for (const text::Language& one : text::other_languages())
+            CHECK(has(page, "&quot;" + std::string(one.code) + "&quot;:&quot;" +
+                                std::string(text::name_of(one)) + "&quot;"));
+        CHECK_FALSE(has(page, "@LANGUAGES@"));
+    }
+}
 
 TEST_CASE("the page and every file it loads are compiled in", "[daemon][page]") {
     const Assets assets({}, "sesame");

@@ -144,7 +144,7 @@ TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][
     CHECK(record.stretches[0].begins_with.empty());
     CHECK(record.stretches[1].serial_number == "X0000002");
     CHECK(record.stretches[1].begins_with == "another sensor: X0000002 after X0000001");
-    CHECK(record.stretches[1].begins_with.in(text::Language::japanese) ==
+    CHECK(record.stretches[1].begins_with.in(*text::parse_language("ja")) ==
           "センサの交換: X0000001 から X0000002");
     CHECK(record.stretches[1].times.front() == kStart + from_seconds(kHalf_s));
     REQUIRE(record.warnings.size() == 1);

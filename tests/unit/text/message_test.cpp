@@ -1,25 +1,31 @@
 #include "protocol/text/message.hpp"
 
-#include "tests/support/catch.hpp"
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include "tests/support/catch.hpp"
 
 namespace text = a351::text;
 using text::Language, text::message;
 using Sentence = text::Message;
 
+namespace {
+
+const Language kJapanese = *text::parse_language("ja");
+
+}  // namespace
+
 TEST_CASE("a message is its English text, and its translation in another language", "[text]") {
     const Sentence one = message("{} is later than the last sample, {}", "10:00", "09:59");
     CHECK(one == "10:00 is later than the last sample, 09:59");
     CHECK(one.in(Language::english) == one.english());
-    CHECK(one.in(Language::japanese) == "10:00 は最新サンプル 09:59 より後です");
+    CHECK(one.in(kJapanese) == "10:00 は最新サンプル 09:59 より後です");
 }
 
 TEST_CASE("arguments keep their formats, and change places with the translation", "[text]") {
     const Sentence one = message("the laptop's clock was set {} by {:.1f} s, from {} to {}",
-                                message("back"), 2.345, "A", "B");
+                                 message("back"), 2.345, "A", "B");
     CHECK(one == "the laptop's clock was set back by 2.3 s, from A to B");
-    CHECK(one.in(Language::japanese) == "PC の時計が A から B へ、2.3 秒戻して設定されました");
+    CHECK(one.in(kJapanese) == "PC の時計が A から B へ、2.3 秒戻して設定されました");
 }
 
 TEST_CASE("parts are translated each by itself, and names not at all", "[text]") {
@@ -27,35 +33,47 @@ TEST_CASE("parts are translated each by itself, and names not at all", "[text]")
     one += "; ";
     one += message("stable");
     CHECK(one == "started stable at 10:00; stable");
-    CHECK(one.in(Language::japanese) == "stable を 10:00 に開始しました; 安定");
+    CHECK(one.in(kJapanese) == "stable を 10:00 に開始しました; 安定");
 }
 
 TEST_CASE("a message read from JSON is the one that was written", "[text]") {
     const Sentence one = message("restored {}", message("{} (stay {})", "No.1", 2)) + "!";
     const Sentence said = text::parse_message(one.to_json(), "");
     CHECK(said == one);
-    CHECK(said.in(Language::japanese) == one.in(Language::japanese));
+    CHECK(said.in(kJapanese) == one.in(kJapanese));
     CHECK(text::parse_message(nlohmann::json(3), "plain") == "plain");
     CHECK(text::parse_message(nlohmann::json::parse("[[4]]"), "plain") == "plain");
 }
 
 TEST_CASE("a text without a translation stays English", "[text]") {
-    CHECK(text::translated("no such text", Language::japanese) == "no such text");
-    CHECK(text::translated("", Language::japanese).empty());
+    CHECK(text::translated("no such text", kJapanese) == "no such text");
+    CHECK(text::translated("", kJapanese).empty());
     CHECK(text::catalogue(Language::english).empty());
-    CHECK(text::catalogue(Language::japanese).size() > 100);
+    CHECK(text::catalogue(kJapanese).size() > 100);
+}
+
+TEST_CASE("each language has a code, a catalogue and a name of its own", "[text]") {
+    CHECK(text::name_of(Language::english) == "English");
+    CHECK(text::name_of(kJapanese) == "日本語");
+    for (const Language& one : text::other_languages()) {
+        CAPTURE(one.code);
+        CHECK(text::parse_language(std::string(one.code) + "_XX.UTF-8") == one);
+        CHECK(text::catalogue(one).size() == text::catalogue(kJapanese).size());
+        CHECK(text::name_of(one) != "English");
+    }
+    CHECK_FALSE(text::parse_language("xx"));
 }
 
 TEST_CASE("the language follows A351_LANG, then the locale's variables", "[text]") {
     for (const char* const name : {"A351_LANG", "LC_ALL", "LC_MESSAGES", "LANG"}) unsetenv(name);
     CHECK(text::language_of_environment() == Language::english);
     setenv("LANG", "ja_JP.UTF-8", 1);
-    CHECK(text::language_of_environment() == Language::japanese);
+    CHECK(text::language_of_environment() == kJapanese);
     setenv("LC_ALL", "C.UTF-8", 1);
     CHECK(text::language_of_environment() == Language::english);
     setenv("A351_LANG", "ja", 1);
-    CHECK(text::language_of_environment() == Language::japanese);
-    setenv("A351_LANG", "de", 1);
+    CHECK(text::language_of_environment() == kJapanese);
+    setenv("A351_LANG", "xx", 1);
     CHECK(text::language_of_environment() == Language::english);
     for (const char* const name : {"A351_LANG", "LC_ALL", "LANG"}) unsetenv(name);
 }
