@@ -48,90 +48,106 @@ Fields verdict_fields() {
         return [get](const Moment& now) { return json_of(get(judged(now).first)); };
     };
     return {
-        {"/verdict/state",
-         of_verdict([](const auto& verdict) { return verdict::to_text(verdict.state); }),
-         "Verdict: no data, warming up, settling, stable or disturbed.",
-         {},
-         {},
-         {.name = "a351_verdict",
-          .key = "state",
-          .as = Metric::As::states,
-          .help = "1 for the present verdict.",
-          .states = {"no data", "warming up", "settling", "stable", "disturbed"}}},
-        {"/verdict/since", of_verdict(begin_of), "Time since which this is the verdict."},
-        {"/verdict/held_s",
-         [](const Moment& now) {
-             const auto since = begin_of(judged(now).first);
-             return since ? json(seconds_between(*since, now.status.now)) : json();
-         },
-         "Time for which it has not changed.", "s"},
-        {"/verdict/time_left_s",
-         of_verdict([](const auto& verdict) { return verdict.time_left_s; }),
-         "Least time until the verdict can be stable, null if more than waiting is needed.", "s"},
-        {"/verdict/reasons", [](const Moment& now) { return json(judged(now).second); },
-         "Why it is not stable, see SENTENCES."},
-        {"/verdict/reason_parts", [](const Moment& now) { return parts_of(judged(now).second); },
-         "The same with their parts."},
-        {"/verdict/checks", [](const Moment& now) { return checks_of(judged(now).first); },
-         "All checks, each with its value and limit; those not met come first."},
+        {.path = "/verdict/state",
+         .value = of_verdict([](const auto& verdict) { return verdict::to_text(verdict.state); }),
+         .meaning = "Verdict: no data, warming up, settling, stable or disturbed.",
+         .metric = {.name = "a351_verdict",
+                    .key = "state",
+                    .as = Metric::As::states,
+                    .help = "1 for the present verdict.",
+                    .states = {"no data", "warming up", "settling", "stable", "disturbed"}}},
+        {.path = "/verdict/since",
+         .value = of_verdict(begin_of),
+         .meaning = "Time since which this is the verdict."},
+        {.path = "/verdict/held_s",
+         .value =
+             [](const Moment& now) {
+                 const auto since = begin_of(judged(now).first);
+                 return since ? json(seconds_between(*since, now.status.now)) : json();
+             },
+         .meaning = "Time for which it has not changed.",
+         .unit = "s"},
+        {.path = "/verdict/time_left_s",
+         .value = of_verdict([](const auto& verdict) { return verdict.time_left_s; }),
+         .meaning =
+             "Least time until the verdict can be stable, null if more than waiting is needed.",
+         .unit = "s"},
+        {.path = "/verdict/reasons",
+         .value = [](const Moment& now) { return json(judged(now).second); },
+         .meaning = "Why it is not stable, see SENTENCES."},
+        {.path = "/verdict/reason_parts",
+         .value = [](const Moment& now) { return parts_of(judged(now).second); },
+         .meaning = "The same with their parts."},
+        {.path = "/verdict/checks",
+         .value = [](const Moment& now) { return checks_of(judged(now).first); },
+         .meaning = "All checks, each with its value and limit; those not met come first."},
     };
 }
 
 Fields stay_fields() {
     return {
-        {"/target_mgal", [](const Moment& now) { return now.occupations.target().value(); },
-         "Standard error at which a reading is good enough.", "mGal"},
-        {"/occupation",
-         [](const Moment& now) {
-             const auto& running = now.occupations.running();
-             return running ? to_json(*running, now.status.now) : json();
-         },
-         "The running stay with key, site, number and start; null if none runs.",
-         {},
-         {},
-         {.name = "a351_occupation_running",
-          .as = Metric::As::existence,
-          .help = "1 while an occupation runs."}},
-        {"/occupation/planned_s",
-         of_stay([](const Moment& now) { return now.occupations.planned(); }),
-         "Planned length of all set-ups together.", "s"},
-        {"/occupation/planned_set_ups",
-         of_stay([](const Moment& now) { return now.field.plan.planned; }),
-         "Planned number of set-ups."},
-        {"/occupation/has_own_plan", of_stay([](const Moment& now) {
+        {.path = "/target_mgal",
+         .value = [](const Moment& now) { return now.occupations.target().value(); },
+         .meaning = "Standard error at which a reading is good enough.",
+         .unit = "mGal"},
+        {.path = "/occupation",
+         .value =
+             [](const Moment& now) {
+                 const auto& running = now.occupations.running();
+                 return running ? to_json(*running, now.status.now) : json();
+             },
+         .meaning = "The running stay with key, site, number and start; null if none runs.",
+         .metric = {.name = "a351_occupation_running",
+                    .as = Metric::As::existence,
+                    .help = "1 while an occupation runs."}},
+        {.path = "/occupation/planned_s",
+         .value = of_stay([](const Moment& now) { return now.occupations.planned(); }),
+         .meaning = "Planned length of all set-ups together.",
+         .unit = "s"},
+        {.path = "/occupation/planned_set_ups",
+         .value = of_stay([](const Moment& now) { return now.field.plan.planned; }),
+         .meaning = "Planned number of set-ups."},
+        {.path = "/occupation/has_own_plan",
+         .value = of_stay([](const Moment& now) {
              return now.occupations.running()->planned_set_ups.has_value();
          }),
-         "True if the plan was given with the start, not by the configuration."},
-        {"/occupation/set_up_left_s",
-         of_stay([](const Moment& now) { return now.field.plan.left_s; }),
-         "Time left in the set-up; beyond the plan, in the stay.", "s"},
-        {"/occupation/propose_set_up",
-         of_stay([](const Moment& now) { return now.field.plan.proposes_next; }),
-         "True if the box is to be lifted and set down again now."},
-        {"/occupation/may_stop", of_stay([](const Moment& now) { return now.field.plan.may_stop; }),
-         "True if no planned set-up and no planned time is left."},
-        {"/occupation/reading", of_stay([](const Moment& now) {
+         .meaning = "True if the plan was given with the start, not by the configuration."},
+        {.path = "/occupation/set_up_left_s",
+         .value = of_stay([](const Moment& now) { return now.field.plan.left_s; }),
+         .meaning = "Time left in the set-up; beyond the plan, in the stay.",
+         .unit = "s"},
+        {.path = "/occupation/propose_set_up",
+         .value = of_stay([](const Moment& now) { return now.field.plan.proposes_next; }),
+         .meaning = "True if the box is to be lifted and set down again now."},
+        {.path = "/occupation/may_stop",
+         .value = of_stay([](const Moment& now) { return now.field.plan.may_stop; }),
+         .meaning = "True if no planned set-up and no planned time is left."},
+        {.path = "/occupation/reading",
+         .value = of_stay([](const Moment& now) {
              return now.field.reading ? to_json(*now.field.reading, now.occupations.target())
                                       : json();
          }),
-         "Reading of the running set-up, see A READING."},
-        {"/occupation/whole", of_stay([](const Moment& now) {
-             return to_json(now.field.whole, now.occupations.target());
-         }),
-         "Reading of all set-ups together; good enough only when the last planned one has begun."},
-        {"/occupation/warnings",
-         of_stay([](const Moment& now) { return json(now.field.warnings); }),
-         "Warnings on the stay, see SENTENCES."},
-        {"/occupation/warning_parts",
-         of_stay([](const Moment& now) { return parts_of(now.field.warnings); }),
-         "The same with their parts."},
-        {"/occupation/moved", of_stay([](const Moment& now) {
+         .meaning = "Reading of the running set-up, see A READING."},
+        {.path = "/occupation/whole",
+         .value = of_stay(
+             [](const Moment& now) { return to_json(now.field.whole, now.occupations.target()); }),
+         .meaning = "Reading of all set-ups together; good enough only when the last planned one "
+                    "has begun."},
+        {.path = "/occupation/warnings",
+         .value = of_stay([](const Moment& now) { return json(now.field.warnings); }),
+         .meaning = "Warnings on the stay, see SENTENCES."},
+        {.path = "/occupation/warning_parts",
+         .value = of_stay([](const Moment& now) { return parts_of(now.field.warnings); }),
+         .meaning = "The same with their parts."},
+        {.path = "/occupation/moved",
+         .value = of_stay([](const Moment& now) {
              if (!now.field.moved) return json();
              return json{{"utc", json_of(now.field.moved->time)},
                          {"is_at_start", now.field.moved->is_at_start}};
          }),
-         "When the box was moved, and whether this is before the first set-up; null if it was "
-         "not."},
+         .meaning =
+             "When the box was moved, and whether this is before the first set-up; null if it was "
+             "not."},
     };
 }
 
@@ -145,30 +161,44 @@ Fields tilt_fields() {
         return now.field.level ? now.field.level->advice : std::vector<text::Message>();
     };
     return {
-        {"/tilt", null_without(has_level),
-         "Tilt of the box compared with the first set-up of the day; null before there is one."},
-        {"/tilt/axes", of_level([](const Moment& now) {
+        {.path = "/tilt",
+         .value = null_without(has_level),
+         .meaning = "Tilt of the box compared with the first set-up of the day; null before there "
+                    "is one."},
+        {.path = "/tilt/axes",
+         .value = of_level([](const Moment& now) {
              const auto axes = now.field.level.value_or(live::Level{}).axes;
              return json{std::string(1, axes[0]), std::string(1, axes[1])};
          }),
-         "Names of the two level axes."},
-        {"/tilt/x_arcmin", of_angle(0), "Tilt along the first one.", "arcmin"},
-        {"/tilt/y_arcmin", of_angle(1), "Tilt along the second one.", "arcmin"},
-        {"/tilt/limit_arcmin", of_level([](const Moment&) { return live::kMostTiltArcmin; }),
-         "Largest tilt that is accepted.", "arcmin"},
-        {"/tilt/is_within", of_level([](const Moment& now) {
+         .meaning = "Names of the two level axes."},
+        {.path = "/tilt/x_arcmin",
+         .value = of_angle(0),
+         .meaning = "Tilt along the first one.",
+         .unit = "arcmin"},
+        {.path = "/tilt/y_arcmin",
+         .value = of_angle(1),
+         .meaning = "Tilt along the second one.",
+         .unit = "arcmin"},
+        {.path = "/tilt/limit_arcmin",
+         .value = of_level([](const Moment&) { return live::kMostTiltArcmin; }),
+         .meaning = "Largest tilt that is accepted.",
+         .unit = "arcmin"},
+        {.path = "/tilt/is_within",
+         .value = of_level([](const Moment& now) {
              return now.field.level ? json(now.field.level->is_within) : json();
          }),
-         "True if the tilt is within the limit."},
-        {"/tilt/advice", of_level([advice](const Moment& now) { return json(advice(now)); }),
-         "How to level the box, see SENTENCES."},
-        {"/tilt/advice_parts",
-         of_level([advice](const Moment& now) { return parts_of(advice(now)); }),
-         "The same with their parts."},
-        {"/tilt/reference", of_level([](const Moment& now) {
+         .meaning = "True if the tilt is within the limit."},
+        {.path = "/tilt/advice",
+         .value = of_level([advice](const Moment& now) { return json(advice(now)); }),
+         .meaning = "How to level the box, see SENTENCES."},
+        {.path = "/tilt/advice_parts",
+         .value = of_level([advice](const Moment& now) { return parts_of(advice(now)); }),
+         .meaning = "The same with their parts."},
+        {.path = "/tilt/reference",
+         .value = of_level([](const Moment& now) {
              return json{{"site", now.field.level_site}, {"utc", json_of(now.field.level_utc)}};
          }),
-         "Site and start of that first set-up."},
+         .meaning = "Site and start of that first set-up."},
     };
 }
 

@@ -13,38 +13,47 @@ using Fields = std::vector<Field>;
 
 Fields general_fields() {
     return {
-        {"/level",
-         [](const Moment& now) { return to_text(now.status.level); },
-         "Level of the box: good, warning or fault.",
-         {},
-         {},
-         {.name = "a351_level",
-          .key = "level",
-          .as = Metric::As::states,
-          .help = "1 for the present level, which is the exit status of a351ctl status.",
-          .states = {marked("good"), marked("warning"), marked("fault")}}},
-        {"/reasons", of(&Status::reasons), "Why the level is not good, see SENTENCES."},
-        {"/reason_parts", [](const Moment& now) { return parts_of(now.status.reasons); },
-         "The same with their parts."},
-        {"/now", of(&Status::now), "Time of this status.", {}, {marked("clock")}},
-        {"/session",
-         [](const Moment& now) {
-             return now.status.session.empty() ? json() : json(now.status.session);
-         },
-         "Session of the sensor, null before the first one."},
-        {"/changes", [](const Moment& now) { return now.occupations.changes(); },
-         "Number of changes of stays, notes, target and sites since the start: read the lists "
-         "again "
-         "when it differs."},
-        {"/live", [](const Moment& now) { return channels_of(now.live); },
-         "Scale and offset of each channel of the live stream, see LIVE DATA."},
+        {.path = "/level",
+         .value = [](const Moment& now) { return to_text(now.status.level); },
+         .meaning = "Level of the box: good, warning or fault.",
+         .metric = {.name = "a351_level",
+                    .key = "level",
+                    .as = Metric::As::states,
+                    .help = "1 for the present level, which is the exit status of a351ctl status.",
+                    .states = {marked("good"), marked("warning"), marked("fault")}}},
+        {.path = "/reasons",
+         .value = of(&Status::reasons),
+         .meaning = "Why the level is not good, see SENTENCES."},
+        {.path = "/reason_parts",
+         .value = [](const Moment& now) { return parts_of(now.status.reasons); },
+         .meaning = "The same with their parts."},
+        {.path = "/now",
+         .value = of(&Status::now),
+         .meaning = "Time of this status.",
+         .shown = {marked("clock")}},
+        {.path = "/session",
+         .value =
+             [](const Moment& now) {
+                 return now.status.session.empty() ? json() : json(now.status.session);
+             },
+         .meaning = "Session of the sensor, null before the first one."},
+        {.path = "/changes",
+         .value = [](const Moment& now) { return now.occupations.changes(); },
+         .meaning =
+             "Number of changes of stays, notes, target and sites since the start: read the lists "
+             "again "
+             "when it differs."},
+        {.path = "/live",
+         .value = [](const Moment& now) { return channels_of(now.live); },
+         .meaning = "Scale and offset of each channel of the live stream, see LIVE DATA."},
     };
 }
 
 }  // namespace
 
 const std::vector<Field>& status_fields() {
-    static const Fields kFields = joined({general_fields(), operator_fields(), recorder_fields()});
+    static const Fields kFields =
+        joined({general_fields(), operator_fields(), sensor_fields(), recorder_fields()});
     return kFields;
 }
 

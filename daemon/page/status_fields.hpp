@@ -5,9 +5,12 @@
 /// GET /api/status, GET /metrics, the rows that the page and `a351ctl status` show, and the list in
 /// a351d-http(7) are all written from this declaration.  A new field is one entry:
 ///
-///     {"/disk/free_bytes", of(&Status::disk_free_bytes),
-///      "Free space for the recorded data, null if it is not known.", "bytes",
-///      {text::marked("disk"), text::marked("free")}, {.name = "a351_disk_free_bytes"}},
+///     {.path = "/disk/free_bytes",
+///      .value = of(&Status::disk_free_bytes),
+///      .meaning = "Free disk space for the recorded data.",
+///      .unit = "bytes",
+///      .shown = {text::marked("disk"), text::marked("free")},
+///      .metric = {.name = "a351_disk_free_bytes"}},
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -83,8 +86,9 @@ struct Field {
 /// Returns all fields, in the order of the rows.
 [[nodiscard]] const std::vector<Field>& status_fields();
 
-/// Return the fields of which it consists: verdict, stay and tilt; and sensor, ovens, timing and disk.
+/// Return its parts: verdict, stay and tilt; sensor and ovens; timing, counters and disk.
 [[nodiscard]] std::vector<Field> operator_fields();
+[[nodiscard]] std::vector<Field> sensor_fields();
 [[nodiscard]] std::vector<Field> recorder_fields();
 
 }  // namespace a351::daemon::page
