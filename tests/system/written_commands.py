@@ -44,7 +44,6 @@ NOT_RUN = {
     r"sudo systemctl .*": "booted_service.py runs the service in a booted system; here its daemon runs without systemd",
     r"xdg-open .*": "needs a desktop",
     r"ssh .*|rsync .*": "needs another computer or disk",
-    r"a351ctl watch.*": "watch.py runs it in a terminal",
     r"a351ctl phone": "needs an address in a network",
     r"a351ctl --url .* --url .*": "boxes.py runs it with several daemons",
     r"a351-stream data ring\.example": "stream.py runs it with a ringserver",
