@@ -306,7 +306,7 @@ DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby) {
     for (std::size_t i = 0; i < every.size(); ++i) every[i] = i;
     walk.settle(every, nearby != nullptr,
                 {.farthest = 12.0,
-                 .first_step = nearby != nullptr ? 0.25 : 0.5,
+                 .first_step = nearby != nullptr ? 0.1 : 0.5,
                  .tolerance = nearby != nullptr ? 1e-2 : 1e-3,
                  .most_costs = 2000});
     DaySearch found{walk.point(), {}, std::nullopt, std::nullopt};
