@@ -184,20 +184,24 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     live::Record live(*config.sensor.profile, config.station.output_rate_hz, config.verdict);
     std::atomic<bool> is_recovered{false};
     const auto files = files::files_below(config.storage.root);
-    store::Store store(
-        *files,
-        {.root = config.storage.root,
-         .station = config.station,
-         .keeper = {.keep_days = config.storage.journal_keep_days},
-         .recovered =
-             [&](const auto& report) {
-                 status::log_recovery(log, report);
-                 is_recovered = true;
-             },
-         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
-         .sample = [&](const archive::Sample& sample,
-                       UtcTime time) { log_verdicts(store, live.take(placed(sample, time))); }},
-        clock, reads);
+    store::Store store(*files,
+                       {.root = config.storage.root,
+                        .station = config.station,
+                        .keeper = {.keep_days = config.storage.journal_keep_days},
+                        .recovered =
+                            [&](const auto& report) {
+                                status::log_recovery(log, report);
+                                live.end_of_history();
+                                is_recovered = true;
+                            },
+                        .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
+                        .sample =
+                            [&](const archive::Sample& sample, UtcTime time) {
+                                const auto changes = live.take(placed(sample, time));
+                                // The last run has logged those of the samples that its journal left.
+                                if (is_recovered) log_verdicts(store, changes);
+                            }},
+                       clock, reads);
     source::LinkOptions sensor = config.sensor;
     sensor.header = config::journal_header(config, clock);
     sensor.known = store.known_stream();

@@ -173,7 +173,7 @@ struct AdjustedSurvey {
     SurveyEquations survey;
     Adjustment adjustment;
     /// How far the last round moved a gravity, mGal.  Above kSettled_mgal: scale and gravities do not
-    /// settle, and the values mean nothing.
+    /// settle, and the values mean nothing.  With exact references nothing is to settle: 0.
     double moved_mgal = 0.0;
 
     [[nodiscard]] bool is_determined() const { return adjustment.undetermined().empty(); }
@@ -195,7 +195,8 @@ struct AdjustedSurvey {
 [[nodiscard]] AdjustedSurvey adjust(SurveyEquations survey, Cofactor cofactor = Cofactor::computed);
 
 /// Largest number of adjustments, each linearised about the one before.  Reason: the error of a round
-/// is that of the one before squared, times 1e-2/mGal at most, so that a usual survey needs four.
+/// is that of the one before squared, times 1e-2/mGal at most, so that a usual survey needs four.  The
+/// other rounds are for a scale that is 20 % off; one that needs more is contradicted by the readings.
 inline constexpr int kScaleRounds = 20;
 
 /// A gravity that moves by less in the last round is settled, mGal.  Reason: a tenth of the last digit

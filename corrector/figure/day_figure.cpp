@@ -72,9 +72,7 @@ std::string caption_of(const model::SurveyCorrection& result, bool has_records, 
                         : "") +
            (has_course ? tr(" Below: temperature of the sensor and of the readings.")
                        : tr(" Below: temperature of the readings.")) +
-           (has_verdicts ? tr(" Band: verdict that the recorder showed at the time, from its event "
-                              "log.")
-                         : "") +
+           (has_verdicts ? tr(" Band: verdict on the data, from the event log.") : "") +
            tr(" Shaded: stays (grey), averaged intervals (blue), stays without a value (red).");
 }
 

@@ -58,11 +58,17 @@ std::vector<verdict::Change> Record::take(const PlacedSample& sample) {
         history_end_.reset();
     }
     if (last_ && sample.time <= *last_) forget_from(sample.time);
-    if (!last_) judge_.at(sample.time);  // "no data" from here on, until the filters are full.
-    if (last_ && seconds_between(*last_, sample.time) > kMostIntervals / rate_hz_) {
+    const bool is_after_gap =
+        last_ && seconds_between(*last_, sample.time) > kMostIntervals / rate_hz_;
+    if (is_after_gap) {
         gaps_.push_back({*last_ + from_seconds(1.0 / rate_hz_), sample.time});
         keep_a_day(gaps_);
     }
+    const auto judged = [&](const verdict::Verdict& verdict, UtcTime time) {
+        if (const auto change = lasting_.take(verdict, time)) changes.push_back(*change);
+    };
+    // After a long gap there is "no data" until the filters are full, and at the begin.
+    if (!last_ || is_after_gap) judged(judge_.at(sample.time), sample.time);
     last_ = sample.time;
     recent_.take(sample);
     std::array<float, kLiveChannelCount> values{};
@@ -76,8 +82,7 @@ std::vector<verdict::Change> Record::take(const PlacedSample& sample) {
     for (const verdict::LiveSample& one : fresh_) {
         thinned_.push_back(one);
         keep_a_day(thinned_);
-        if (const auto change = lasting_.take(judge_.take(one), one.seen_at))
-            changes.push_back(*change);
+        judged(judge_.take(one), one.seen_at);
     }
     return changes;
 }
@@ -142,6 +147,7 @@ std::vector<OvenPoint> Record::oven_history(journal::OvenPlace place, UtcTime fr
 
 void Record::judge_by(const verdict::Options& options) {
     const std::lock_guard lock(mutex_);
+    if (options == options_) return;
     options_ = options;
     judge_again(last_.value_or(UtcTime{}));
 }

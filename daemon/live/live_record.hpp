@@ -72,7 +72,7 @@ public:
     std::vector<verdict::Change> take(const PlacedSample& sample);
     void take(const OvenPoint& point);
 
-    /// Declares that everything taken so far was loaded from the archive.  Samples that a replay
+    /// Declares that everything taken so far is from the archive or a journal.  Samples that a replay
     /// delivers again are ignored, up to the first new one.  The verdict at the end of the history
     /// counts as new.
     void end_of_history();

@@ -16,7 +16,8 @@ namespace a351::daemon::live {
 /// Samples -> the live series of one value in 2 s, with the decimation of a351-correct: to 5 Hz,
 /// then by ten.  Values whose filters touch missing samples are NaN.  After a gap of more than
 /// a minute, or if time is set back, the series begins again.  Blocks of 2 s are counted by the
-/// index of the session, so they have the same samples wherever the series began.
+/// index of the session, so they have the same samples at any speed.  The index of samples from the
+/// archive is another one, so after a restart the blocks may begin elsewhere.
 class Thinning {
 public:
     /// @param rate_hz  a multiple of 10, >= 10: all output rates of the profiles are.

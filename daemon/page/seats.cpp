@@ -6,9 +6,17 @@
 namespace a351::daemon::page {
 namespace {
 
-/// Returns the part of `most` that a client may take.
-std::ptrdiff_t part_of(std::size_t most, bool is_loopback) {
-    return static_cast<std::ptrdiff_t>(is_loopback ? most : most - Seats::kForLoopback);
+/// Returns true if a client finds no room: all places are taken, or all of those for other computers.
+template <class IsCounted>
+bool is_full(const std::list<Seats::Holder>& holders, IsCounted is_counted, std::size_t most,
+             bool is_loopback) {
+    std::size_t all = 0, of_others = 0;
+    for (const Seats::Holder& one : holders)
+        if (is_counted(one)) {
+            ++all;
+            if (!one.is_loopback) ++of_others;
+        }
+    return all >= most || (!is_loopback && of_others >= most - Seats::kForLoopback);
 }
 
 }  // namespace
@@ -21,7 +29,7 @@ Seats::Place Seats::seat(Holder holder) {
     if (!holder.is_loopback &&
         std::ranges::count_if(holders_, is_of_address) >= std::ptrdiff_t{kOfOneAddress})
         return holders_.end();
-    if (std::ranges::count_if(holders_, is_seated) >= part_of(kMost, holder.is_loopback)) {
+    if (is_full(holders_, is_seated, kMost, holder.is_loopback)) {
         const auto oldest = std::ranges::find_if(holders_, [&](const Holder& one) {
             return is_seated(one) && !one.is_streaming && (holder.is_loopback || !one.is_loopback);
         });
@@ -33,8 +41,8 @@ Seats::Place Seats::seat(Holder holder) {
 }
 
 bool Seats::begin_stream(Place place) {
-    return place->is_streaming = std::ranges::count(holders_, true, &Holder::is_streaming) <
-                                 part_of(kMostStreams, place->is_loopback);
+    const auto is_streaming = [](const Holder& one) { return one.is_streaming; };
+    return place->is_streaming = !is_full(holders_, is_streaming, kMostStreams, place->is_loopback);
 }
 
 }  // namespace a351::daemon::page

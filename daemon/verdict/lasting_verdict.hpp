@@ -27,7 +27,7 @@ public:
     explicit LastingVerdict(UtcTime from = {}) : from_(from) {}
 
     /// Takes the verdict on the data up to `time`.
-    /// @return once each that is to be logged
+    /// @return the change, once, if it is to be logged
     [[nodiscard]] std::optional<Change> take(const Verdict& verdict, UtcTime time) {
         if (verdict.state == logged_ || time - verdict.since < kLeastLogged) return std::nullopt;
         logged_ = verdict.state;

@@ -34,6 +34,17 @@ TEST_CASE("two seats are kept for loopback", "[daemon][page]") {
     CHECK(room.left.empty());
 }
 
+TEST_CASE("clients of loopback take no seat of other computers", "[daemon][page]") {
+    Room room;
+    CHECK(room.seats.begin_stream(room.take("127.0.0.1")));
+    CHECK(room.seats.begin_stream(room.take("127.0.0.1")));
+    std::vector<Seats::Place> places;
+    for (int i = 0; i < 30; ++i) places.push_back(room.take("192.0.2." + std::to_string(i)));
+    CHECK(room.left.empty());
+    for (std::size_t i = 0; i < 18; ++i) CHECK(room.seats.begin_stream(places[i]));
+    CHECK_FALSE(room.seats.begin_stream(places[18]));
+}
+
 TEST_CASE("one address takes at most 12 seats, and loopback all that are free", "[daemon][page]") {
     Room room;
     std::vector<Seats::Place> places;

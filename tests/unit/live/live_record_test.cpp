@@ -122,6 +122,28 @@ TEST_CASE("a clock that is set back starts the history again from there", "[live
     CHECK(reading.used_s == Approx(60.0 - 20.0).margin(4.0));
 }
 
+TEST_CASE("the first sample after a gap of 90 s ends the verdict, and equal thresholds do not",
+          "[live]") {
+    Record record(kProfile, 50, {});
+    const auto take = [&](std::int64_t first, std::int64_t end) {
+        std::vector<verdict::Change> changes;
+        for (std::int64_t i = first; i < end; ++i)
+            for (const auto& change : record.take(steady(i))) changes.push_back(change);
+        return changes;
+    };
+    const auto before = take(0, 1800 * 50);
+    REQUIRE_FALSE(before.empty());
+    CHECK(before.back().state == verdict::State::stable);
+    record.judge_by({});
+    CHECK(take(1800 * 50, 1810 * 50).empty());
+    const auto after_gap = take(1900 * 50, 1900 * 50 + 1);
+    CHECK(record.verdict().state == verdict::State::no_data);
+    const UtcTime since = after(1810.0 + verdict::Options{}.gap_s);
+    REQUIRE(after_gap.size() == 1);
+    CHECK(after_gap[0].state == verdict::State::no_data);
+    CHECK(std::abs(seconds_between(since, after_gap[0].since)) < 10.0);
+}
+
 TEST_CASE("the live series is identical to the decimation in the evening's correction",
           "[live][thinning]") {
     Thinning thinning(kProfile, 50);
