@@ -131,7 +131,8 @@ std::optional<std::string> Api::urgent_status() noexcept {
 json Api::status_now() const {
     const status::Status status = sources_.status();
     const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
-    return to_json({status, sources_.occupations, field, sources_.live, sources_.stale_after});
+    const Judgement judgement = judged(status, sources_.stale_after);
+    return to_json({status, sources_.occupations, field, sources_.live, judgement});
 }
 
 Response Api::route(const Request& request) {

@@ -11,13 +11,14 @@
 namespace a351::daemon::page {
 namespace {
 
-/// Returns the entry of a field: its name, meaning, unit and metric.
+/// Returns the entry of a field: its name, meaning, unit, row and metric.
 std::string entry(const Field& field) {
     std::string name = field.path.substr(1);
     for (char& c : name)
         if (c == '/') c = '.';
     std::string text = fmt::format(".TP\n.B {}\n{}", name, field.meaning);
     if (!field.unit.empty()) text += fmt::format(" Unit {}.", field.unit);
+    if (!field.shown.row.empty()) text += fmt::format(" Row {}.", field.shown.row);
     if (!field.metric.name.empty()) text += fmt::format(" Metric {}.", field.metric.name);
     return text + "\n";
 }

@@ -23,21 +23,6 @@ auto of_level(Get get) {
     return only_if(has_level, get);
 }
 
-/// Returns the verdict, which is "no data" if the last sample is old, and why it is not stable.
-std::pair<verdict::Verdict, std::vector<text::Message>> judged(const Moment& now) {
-    const status::Status& status = now.status;
-    if (!status.last_sample) return {{}, {text::message("no sample has been received yet")}};
-    if (status.now - *status.last_sample > now.stale_after) {
-        return {{verdict::State::no_data, *status.last_sample, {}},
-                {text::message("last sample {:.1f} s ago",
-                               seconds_between(*status.last_sample, status.now))}};
-    }
-    std::vector<text::Message> reasons;
-    for (const verdict::Reason& reason : status.verdict.reasons)
-        if (!reason.is_met) reasons.push_back(reason.to_message());
-    return {status.verdict, reasons};
-}
-
 /// Returns the begin of the verdict; std::nullopt if it is not known.
 std::optional<UtcTime> begin_of(const verdict::Verdict& verdict) {
     return verdict.since == UtcTime{} ? std::nullopt : std::optional(verdict.since);
@@ -45,7 +30,7 @@ std::optional<UtcTime> begin_of(const verdict::Verdict& verdict) {
 
 Fields verdict_fields() {
     const auto of_verdict = [](auto get) {
-        return [get](const Moment& now) { return json_of(get(judged(now).first)); };
+        return [get](const Moment& now) { return json_of(get(now.judgement.verdict)); };
     };
     return {
         {.path = "/verdict/state",
@@ -62,7 +47,7 @@ Fields verdict_fields() {
         {.path = "/verdict/held_s",
          .value =
              [](const Moment& now) {
-                 const auto since = begin_of(judged(now).first);
+                 const auto since = begin_of(now.judgement.verdict);
                  return since ? json(seconds_between(*since, now.status.now)) : json();
              },
          .meaning = "Time for which it has not changed.",
@@ -73,14 +58,18 @@ Fields verdict_fields() {
              "Least time until the verdict can be stable, null if more than waiting is needed.",
          .unit = "s"},
         {.path = "/verdict/reasons",
-         .value = [](const Moment& now) { return json(judged(now).second); },
+         .value = [](const Moment& now) { return json(now.judgement.reasons); },
          .meaning = "Why it is not stable, see SENTENCES."},
         {.path = "/verdict/reason_parts",
-         .value = [](const Moment& now) { return parts_of(judged(now).second); },
+         .value = [](const Moment& now) { return parts_of(now.judgement.reasons); },
          .meaning = "The same with their parts."},
         {.path = "/verdict/checks",
-         .value = [](const Moment& now) { return checks_of(judged(now).first); },
-         .meaning = "All checks, each with its value and limit; those not met come first."},
+         .value = [](const Moment& now) { return checks_of(now.judgement.verdict); },
+         .meaning =
+             "All checks, those not met first, each with quantity, value, error (standard error of "
+             "the value, null if it has none), unit, ending (words after the unit), limit, "
+             "is_least (true: the value must reach the limit; false: must not exceed it) and "
+             "is_met."},
     };
 }
 
@@ -96,7 +85,11 @@ Fields stay_fields() {
                  const auto& running = now.occupations.running();
                  return running ? to_json(*running, now.status.now) : json();
              },
-         .meaning = "The running stay with key, site, number and start; null if none runs.",
+         .meaning =
+             "The running stay, null if none runs: key, site, number (of the stay at this site), "
+             "operator, note, start, set_up (start of the set-up that runs), set_up_count "
+             "(number of this set-up, from 1), running_s (time since start), session and index "
+             "(of the first sample, null if the start was moved).",
          .metric = {.name = "a351_occupation_running",
                     .as = Metric::As::existence,
                     .help = "1 while an occupation runs."}},
@@ -131,8 +124,9 @@ Fields stay_fields() {
         {.path = "/occupation/whole",
          .value = of_stay(
              [](const Moment& now) { return to_json(now.field.whole, now.occupations.target()); }),
-         .meaning = "Reading of all set-ups together; good enough only when the last planned one "
-                    "has begun."},
+         .meaning =
+             "Reading of all set-ups together, see A READING; good enough only when the last "
+             "planned one has begun."},
         {.path = "/occupation/warnings",
          .value = of_stay([](const Moment& now) { return json(now.field.warnings); }),
          .meaning = "Warnings on the stay, see SENTENCES."},
@@ -145,9 +139,8 @@ Fields stay_fields() {
              return json{{"utc", json_of(now.field.moved->time)},
                          {"is_at_start", now.field.moved->is_at_start}};
          }),
-         .meaning =
-             "When the box was moved, and whether this is before the first set-up; null if it was "
-             "not."},
+         .meaning = "Move of the box, null if it was not moved: utc, its time, and is_at_start, "
+                    "true if the stay was started before the box was at rest."},
     };
 }
 
@@ -198,12 +191,25 @@ Fields tilt_fields() {
          .value = of_level([](const Moment& now) {
              return json{{"site", now.field.level_site}, {"utc", json_of(now.field.level_utc)}};
          }),
-         .meaning = "Site and start of that first set-up."},
+         .meaning = "That first set-up: its site, and utc, its start."},
     };
 }
 
 }  // namespace
 
-Fields operator_fields() { return joined({verdict_fields(), stay_fields(), tilt_fields()}); }
+Judgement judged(const status::Status& status, Nanoseconds stale_after) {
+    if (!status.last_sample) return {{}, {text::message("no sample has been received yet")}};
+    if (status.now - *status.last_sample > stale_after) {
+        return {{verdict::State::no_data, *status.last_sample, {}},
+                {text::message("last sample {:.1f} s ago",
+                               seconds_between(*status.last_sample, status.now))}};
+    }
+    std::vector<text::Message> reasons;
+    for (const verdict::Reason& reason : status.verdict.reasons)
+        if (!reason.is_met) reasons.push_back(reason.to_message());
+    return {status.verdict, reasons};
+}
+
+Fields operator_fields() { return concatenated({verdict_fields(), stay_fields(), tilt_fields()}); }
 
 }  // namespace a351::daemon::page

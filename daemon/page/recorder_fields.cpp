@@ -144,6 +144,6 @@ Fields store_fields() {
 
 }  // namespace
 
-Fields recorder_fields() { return joined({timing_fields(), store_fields()}); }
+Fields recorder_fields() { return concatenated({timing_fields(), store_fields()}); }
 
 }  // namespace a351::daemon::page

@@ -52,6 +52,11 @@ Message index_text(const json& status, std::int64_t here) {
                          : text;
 }
 
+/// Returns the word of the catalogue for a state of the interface.
+Message word_text(std::string_view state) {
+    return text::marked_message(state == "given_up" ? text::marked("given up") : state);
+}
+
 std::string number_text(const Field& field, const json& value) {
     if (field.unit == "bytes") return fmt::format("{:.1f} GB", value.get<double>() / 1e9);
     const int decimals = field.shown.decimals;
@@ -72,7 +77,7 @@ Message value_of(const Field& field, const json& value, const json& status) {
         case As::counts:
             return troubles(value);
         case As::word:
-            return text::marked_message(value.get<std::string>());
+            return word_text(value.get_ref<const std::string&>());
         case As::value:
         case As::denial:
             break;

@@ -215,7 +215,8 @@ Fields oven_fields(const std::string& name, std::optional<OvenLinkStatus> Status
          .shown = {row, marked("old")}},
         {.path = "/" + name + "/polls",
          .value = of_oven(source::polls_by_outcome),
-         .meaning = "Polls of the controller, by outcome.",
+         .meaning = "Polls of the controller, by outcome: answered, timed_out, bad_crc, exception, "
+                    "other_unit, malformed, no_port.",
          .metric = {.name = "a351_" + name + "_polls_total",
                     .key = "outcome",
                     .as = Metric::As::items}},
@@ -225,9 +226,9 @@ Fields oven_fields(const std::string& name, std::optional<OvenLinkStatus> Status
 }  // namespace
 
 Fields sensor_fields() {
-    return joined({device_fields(), sample_fields(),
-                   oven_fields("oven", &Status::oven, marked("oven")),
-                   oven_fields("outer_oven", &Status::outer_oven, marked("outer oven"))});
+    return concatenated({device_fields(), sample_fields(),
+                         oven_fields("oven", &Status::oven, marked("oven")),
+                         oven_fields("outer_oven", &Status::outer_oven, marked("outer oven"))});
 }
 
 }  // namespace a351::daemon::page

@@ -41,11 +41,12 @@ Fields general_fields() {
          .value = [](const Moment& now) { return now.occupations.changes(); },
          .meaning =
              "Number of changes of stays, notes, target and sites since the start: read the lists "
-             "again "
-             "when it differs."},
+             "again when it differs."},
         {.path = "/live",
          .value = [](const Moment& now) { return channels_of(now.live); },
-         .meaning = "Scale and offset of each channel of the live stream, see LIVE DATA."},
+         .meaning =
+             "The live stream: rate_hz, interval_s, and channels, each with name, unit, scale and "
+             "offset (value = offset + scale x counts), see LIVE DATA."},
     };
 }
 
@@ -53,7 +54,7 @@ Fields general_fields() {
 
 const std::vector<Field>& status_fields() {
     static const Fields kFields =
-        joined({general_fields(), operator_fields(), sensor_fields(), recorder_fields()});
+        concatenated({general_fields(), operator_fields(), sensor_fields(), recorder_fields()});
     return kFields;
 }
 

@@ -28,13 +28,23 @@ namespace a351::daemon::page {
 /// Version of the interface, published as `api`; increased when a field changes its meaning.
 inline constexpr int kApiVersion = 1;
 
+/// The verdict as published.
+struct Judgement {
+    verdict::Verdict verdict;            ///< "no data" if the last sample is old.
+    std::vector<text::Message> reasons;  ///< Reasons why it is not stable.
+};
+
+/// Returns the verdict of a status.
+/// @param stale_after  age of the last sample from which on there are no data.
+[[nodiscard]] Judgement judged(const status::Status& status, Nanoseconds stale_after);
+
 /// Sources of the status, at one instant.
 struct Moment {
     const status::Status& status;
     const survey::Occupations& occupations;
     const survey::FieldStatus& field;
     const live::Record& live;
-    Nanoseconds stale_after;  ///< The verdict is "no data" if the last sample is older than this.
+    const Judgement& judgement;
 };
 
 /// How people see a field.  A default-constructed one hides it from them.

@@ -19,8 +19,9 @@ struct Row {
 /// Returns the sentences of a list of parts, separated by semicolons.
 [[nodiscard]] text::Message joined(const nlohmann::json& parts);
 
-/// Returns the rows about recorder and sensor; the first one is the state.  A value that is not known is left out; a row without
-/// any is "-".
+/// Returns the rows about recorder and sensor; the first one is the state.  A value that is not
+/// known is left out; a row of which no value is known is "-".  A row of which the status has no
+/// field is left out too.
 /// @param status  the body of GET /api/status.
 [[nodiscard]] std::vector<Row> recorder_rows(const nlohmann::json& status);
 

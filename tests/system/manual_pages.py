@@ -100,6 +100,7 @@ demand_same("paths of the interface", page.name, named, served)
 built = (BIN.parent / "daemon" / "page" / page.name).read_text()
 demand(f"the list of fields is in the built page: {built.count('.TP')} entries, {page.read_text().count('.TP')} in its source",
        ".B timing.uncertainty_ms\n" in built and "FIELDS" not in built)
+demand("its entries name the row of a field", " Row timing. Metric a351_timing_uncertainty_seconds.\n" in built)
 
 page = TOP / "corrector" / "command" / "a351-survey.toml.5"
 for table in ("survey", "prior"):
