@@ -30,7 +30,7 @@ def verdicts_before_stops(written):
 def verdict_lengths_s(folder):
     """Returns the time from each verdict of the event log to the next."""
     events = [json.loads(line) for file in folder.glob("*.jsonl") for line in file.read_text().splitlines()]
-    times = [datetime.datetime.fromisoformat(event["utc"][:26]) for event in events if event["type"] == "verdict"]
+    times = sorted(datetime.datetime.fromisoformat(event["utc"][:26]) for event in events if event["type"] == "verdict")
     return [(after - before).total_seconds() for before, after in zip(times, times[1:])]
 
 
@@ -42,9 +42,10 @@ with Scratch() as scratch:
     print(demo.stdout)
     expected = 4 if IS_SANITIZED else 19
     demand("the demo ends with at most 15 lines", len(demo.stdout.splitlines()) <= 15)
+    out_of_sample = r"(\d+\.\d+|-)" if IS_SANITIZED else r"\d+\.\d+"  # Four readings can be too few for this error.
     for method in (f"a351, {expected} readings", "the publication's method, [0-9]+ readings"):
         demand(f"the demo prints errors in and out of sample: {method}",
-               re.search(rf"^  {method} +\d+\.\d+ +(\d+\.\d+|-)", demo.stdout, re.M))
+               re.search(rf"^  {method} +\d+\.\d+ +{out_of_sample}", demo.stdout, re.M))
     written = (out / "demo.txt").read_text()
     demand("demo.txt has the RMS of Error_1 of the day", "RMS of Error (1), before the drift step: " in written)
     demand("demo.txt has a table with the simulated truth", "Comparison with the simulated truth" in written)
