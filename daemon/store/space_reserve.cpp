@@ -62,8 +62,7 @@ SpaceReserve::Status SpaceReserve::status() const {
 
 const char* to_text(SpaceReserve::State state) {
     // In the order of the enumerators.
-    constexpr std::array kTexts{text::marked("present"), text::marked("given_up"),
-                                text::marked("unavailable")};
+    constexpr std::array kTexts{text::marked("present"), "given_up", text::marked("unavailable")};
     return kTexts.at(static_cast<std::size_t>(state));
 }
 
