@@ -243,7 +243,8 @@ NetworkResult solved(const std::vector<reading::SurveyRow>& rows, const std::vec
             fmt::format(
                 "scale and gravities do not settle: round {} moves a gravity by {:.4g} mGal",
                 adjustment::kScaleRounds, adjusted.moved_mgal),
-            "a prior on scale that is closer to 1, or without the reading that contradicts it"};
+            "a narrower prior on scale, with which the mistake in a reading or a reference is "
+            "searched"};
     else
         result.adjusted = std::move(adjusted);
     return result;

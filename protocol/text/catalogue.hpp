@@ -17,7 +17,7 @@ namespace a351::text {
 struct Language {
     static const Language english;
 
-    std::string_view code = "en";     ///< As in ISO 639-1.
+    std::string_view code = "en";     ///< Code of the language by ISO 639-1.
     std::string_view catalogue = {};  ///< The .mo file that msgfmt made; empty: English.
 
     [[nodiscard]] bool operator==(const Language& other) const { return code == other.code; }

@@ -141,6 +141,7 @@ TEST_CASE("the first sample after a gap of 90 s ends the verdict, and equal thre
     const UtcTime since = after(1810.0 + verdict::Options{}.gap_s);
     REQUIRE(after_gap.size() == 1);
     CHECK(after_gap[0].state == verdict::State::no_data);
+    // The last value of the series is older than the last sample by the reach of its filters, 9 s.
     CHECK(std::abs(seconds_between(since, after_gap[0].since)) < 10.0);
 }
 
