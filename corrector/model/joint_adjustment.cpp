@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "corrector/adjustment/helmert_block.hpp"
 #include "corrector/model/adjusted_day.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/model.hpp"
@@ -27,17 +28,33 @@ struct Reference {
 struct Prepared {
     std::vector<reading::SurveyRow> rows;
     RowChoice choice;
-    whole_day::DaySurvey day;
+    whole_day::DaySurvey day;  ///< With white noise only its stations are used.
+    std::optional<adjustment::HelmertBlock> block;  ///< Absent for the whole-day model.
+    std::vector<std::string> sites_of_block;
 };
 
-Prepared prepared(const RecordedSurvey& survey) {
-    Prepared result;
+/// Prepares a survey.
+/// @return why it cannot take part; empty if it can.
+text::Message prepare(Prepared& result, const RecordedSurvey& survey) {
     for (const CorrectedRow& row : survey.result->rows) result.rows.push_back(row.row);
     const SurveyOptions& options = survey.result->options;
     result.choice = choose_rows(result.rows, options.datum, options.use_flags);
     result.day =
         day_survey({result.rows, options, survey.day}, result.choice, day_priors_of(options));
-    return result;
+    if (survey.result->as<WholeDayPart>() != nullptr) return {};
+    const Model& model = *find_model(survey.result->model);
+    if (!model.joint)
+        return text::message("{} is corrected by {}, which is no adjustment", survey.name,
+                             model.name);
+    result.rows = without_known_tilt(std::move(result.rows), options.calibration);
+    const auto adjusted = model.joint({result.rows, options, nullptr}, result.choice);
+    if (adjusted) result.block = adjustment::helmert_block(*adjusted);
+    if (!result.block)
+        return text::message("{} has too few readings for the noise of {}", survey.name,
+                             model.name);
+    for (const adjustment::EquationStation& station : adjusted->survey.stations())
+        result.sites_of_block.push_back(station.site);
+    return {};
 }
 
 /// Returns the references that a survey holds, by site; a site with two of them instead.
@@ -59,21 +76,18 @@ bool are_equal(const whole_day::DayPriors& a, const whole_day::DayPriors& b) {
     return a.mean == b.mean && a.factor == b.factor && a.bias_factor == b.bias_factor;
 }
 
-/// Returns the time of a record's bins.
-std::pair<UtcTime, UtcTime> span_of(const reading::DayRecord& day) {
-    return {day.bins.front().time, day.bins.back().time};
+/// Returns the time of the readings.
+std::pair<UtcTime, UtcTime> span_of(const RecordedSurvey& survey) {
+    return {survey.result->rows.front().row.time, survey.result->rows.back().row.time};
 }
 
-/// Returns why the surveys cannot be adjusted; empty if they can.
-text::Message refusal_of(const std::vector<RecordedSurvey>& surveys) {
-    for (const RecordedSurvey& survey : surveys)
-        if (survey.day == nullptr || survey.result->as<WholeDayPart>() == nullptr)
-            return text::message("{} is not corrected by the whole-day model", survey.name);
+/// Returns two surveys of one unit at the same time, in words; empty if there are none.
+text::Message same_time_of(const std::vector<RecordedSurvey>& surveys) {
     for (std::size_t b = 0; b < surveys.size(); ++b)
         for (std::size_t a = 0; a < b; ++a) {
             if (surveys[a].serial_number != surveys[b].serial_number) continue;
-            const auto of_a = span_of(*surveys[a].day), of_b = span_of(*surveys[b].day);
-            if (of_a.first < of_b.second && of_b.first < of_a.second)
+            const auto of_a = span_of(surveys[a]), of_b = span_of(surveys[b]);
+            if (of_a.first <= of_b.second && of_b.first <= of_a.second)
                 return text::message("{} and {} are of one unit ({}) at the same time",
                                      surveys[a].name, surveys[b].name,
                                      surveys[a].serial_number.empty()
@@ -107,6 +121,15 @@ private:
     std::size_t count_ = 0;
 };
 
+/// Holds the reference of a site, if any survey holds it.
+void hold(whole_day::DayStation& station, const std::string& site,
+          const std::map<std::string, Reference>& held) {
+    const auto reference = held.find(site);
+    if (reference == held.end()) return;
+    station.gravity = reference->second.gravity;
+    station.u_gravity = reference->second.u;
+}
+
 /// Numbers the gravities of a survey, and holds what any survey holds.
 void join(Prepared& survey, const std::map<std::string, Reference>& held, Numbers& numbers) {
     for (std::size_t i = 0; i < survey.rows.size(); ++i) {
@@ -119,21 +142,39 @@ void join(Prepared& survey, const std::map<std::string, Reference>& held, Number
             continue;
         }
         gravities[station.number] = numbers.of(site);
-        const auto reference = held.find(site);
-        if (reference == held.end()) continue;
-        station.gravity = reference->second.gravity;
-        station.u_gravity = reference->second.u;
+        hold(station, site, held);
     }
+}
+
+/// Returns a survey with white noise, joined like the others.
+whole_day::WhiteSurvey white_survey(const Prepared& survey,
+                                    const std::map<std::string, Reference>& held,
+                                    Numbers& numbers) {
+    whole_day::WhiteSurvey result{*survey.block, {}};
+    for (const std::string& site : survey.sites_of_block) {
+        whole_day::DayStation& station = result.stations.emplace_back();
+        station.number = numbers.of(site);
+        hold(station, site, held);
+    }
+    return result;
+}
+
+/// Returns true if a test says that the model does not fit the readings.
+bool is_misfit(const Fit& fit) {
+    if (const auto* const network = fit.as<NetworkPart>())
+        return !network->passes_global_test().value_or(true);
+    const auto* const day = fit.as<WholeDayPart>();
+    return day != nullptr &&
+           std::ranges::any_of(day->fit_tests,
+                               [](const whole_day::FitTest& test) { return test.is_misfit(); });
 }
 
 /// Returns the factor of JointAdjustment::uncertainty_factor.
 double factor_of(const std::vector<RecordedSurvey>& surveys,
                  const std::vector<JointGravity>& stations,
                  const std::map<std::string, Reference>& held) {
-    const bool has_misfit = std::ranges::any_of(surveys, [](const RecordedSurvey& survey) {
-        return std::ranges::any_of(survey.result->as<WholeDayPart>()->fit_tests,
-                                   [](const whole_day::FitTest& test) { return test.is_misfit(); });
-    });
+    const bool has_misfit = std::ranges::any_of(
+        surveys, [](const RecordedSurvey& survey) { return is_misfit(*survey.result); });
     double squares = 0.0, count = 0.0;
     for (const JointGravity& station : stations) {
         const auto reference = held.find(station.site);
@@ -184,10 +225,12 @@ void set_stations(JointAdjustment& result, const whole_day::DayAdjustment& fit,
 
 std::variant<JointAdjustment, text::Message> adjust_jointly(
     const std::vector<RecordedSurvey>& surveys) {
-    if (text::Message refusal = refusal_of(surveys); !refusal.empty()) return refusal;
-    std::vector<Prepared> rows;
-    for (const RecordedSurvey& survey : surveys) rows.push_back(prepared(survey));
-    const auto references = held_references(rows);
+    std::vector<Prepared> prepared(surveys.size());
+    for (std::size_t k = 0; k < surveys.size(); ++k)
+        if (text::Message refusal = prepare(prepared[k], surveys[k]); !refusal.empty())
+            return refusal;
+    if (text::Message refusal = same_time_of(surveys); !refusal.empty()) return refusal;
+    const auto references = held_references(prepared);
     if (const auto* const site = std::get_if<std::string>(&references))
         return text::message(
             "the surveys have different references of {}, or different uncertainties of it", *site);
@@ -195,32 +238,40 @@ std::variant<JointAdjustment, text::Message> adjust_jointly(
 
     Numbers numbers;
     std::vector<whole_day::DaySurvey> days;
-    std::vector<std::size_t> first_of_unit;
+    std::vector<whole_day::WhiteSurvey> white;
+    std::vector<std::size_t> of_day, first_of_unit;  // numbers of surveys
     for (std::size_t k = 0; k < surveys.size(); ++k) {
-        join(rows[k], held, numbers);
-        days.push_back(rows[k].day);
+        if (prepared[k].block) {
+            white.push_back(white_survey(prepared[k], held, numbers));
+            continue;
+        }
+        join(prepared[k], held, numbers);
         const auto unit = std::ranges::find_if(first_of_unit, [&](std::size_t other) {
             return !surveys[k].serial_number.empty() &&
                    surveys[other].serial_number == surveys[k].serial_number &&
-                   are_equal(days[other].priors, days[k].priors);
+                   are_equal(prepared[other].day.priors, prepared[k].day.priors);
         });
-        days.back().unit = static_cast<std::size_t>(unit - first_of_unit.begin());
+        prepared[k].day.unit = static_cast<std::size_t>(unit - first_of_unit.begin());
         if (unit == first_of_unit.end()) first_of_unit.push_back(k);
+        days.push_back(prepared[k].day);
+        of_day.push_back(k);
     }
-    const whole_day::DayAdjustment adjusted = whole_day::adjust_days(days);
+    const whole_day::DayAdjustment adjusted = whole_day::adjust_days(days, white);
     JointAdjustment result;
     set_stations(result, adjusted, numbers, held, surveys);
     result.units.resize(first_of_unit.size());
-    for (std::size_t k = 0; k < surveys.size(); ++k) {
+    for (const RecordedSurvey& survey : surveys)
+        result.surveys.push_back({survey.name, survey.result->model, survey.serial_number, {}});
+    for (std::size_t k = 0; k < days.size(); ++k) {
         const whole_day::DayFit fit = adjusted.fit(k);
         using adjustment::Scope;
-        result.surveys.push_back(
-            {surveys[k].name, surveys[k].serial_number, coefficients_of(fit, Scope::loop)});
+        JointTerms& survey = result.surveys[of_day[k]];
+        survey.coefficients = coefficients_of(fit, Scope::loop);
         // A day with the temperature of an outer oven says more of the unit.
         JointTerms& unit = result.units[days[k].unit];
         std::vector<Coefficient> of_unit = coefficients_of(fit, Scope::unit);
         if (of_unit.size() > unit.coefficients.size())
-            unit = {"", surveys[k].serial_number, std::move(of_unit)};
+            unit = {"", "", survey.serial_number, std::move(of_unit)};
     }
     result.share = adjusted.share();
     return result;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One adjustment of several corrected surveys by the whole-day model (whole_day/day_model.hpp).
+/// One adjustment of several corrected surveys (whole_day/day_model.hpp).
 ///
 ///     const auto joint = adjust_jointly(surveys);
 ///     if (const auto* const reason = std::get_if<text::Message>(&joint)) return *reason;
@@ -25,7 +25,7 @@ struct RecordedSurvey {
     std::string name;
     std::string serial_number;  ///< Empty: not known, so a unit of its own.
     const SurveyCorrection* result = nullptr;
-    const reading::DayRecord* day = nullptr;  ///< Null: there is none.
+    const reading::DayRecord* day = nullptr;  ///< Null: there is none; with `day` there is one.
 };
 
 /// A station of the adjustment.
@@ -39,6 +39,7 @@ struct JointGravity {
 /// A unit or a survey of the adjustment, with what belongs to it.
 struct JointTerms {
     std::string name;           ///< Name of the survey; empty for a unit.
+    std::string model;          ///< Model of the survey; empty for a unit.
     std::string serial_number;  ///< Serial number of the unit.
     std::vector<Coefficient> coefficients;
 };
@@ -47,10 +48,11 @@ struct JointTerms {
 struct JointAdjustment {
     std::vector<JointGravity> stations;  ///< In the order of their first accepted reading.
     std::vector<StationDifference>
-        differences;                  ///< One for each pair, with both references hidden.
-    StationCovariance covariance;     ///< Covariance of the gravities in `stations`.
-    std::vector<JointTerms> units;    ///< Lags, slopes, axis biases, scale.
-    std::vector<JointTerms> surveys;  ///< Constant, drift, warm-up, steps, noise.
+        differences;                ///< One for each pair, with both references hidden.
+    StationCovariance covariance;   ///< Covariance of the gravities in `stations`.
+    std::vector<JointTerms> units;  ///< Lags, slopes, axis biases, scale.
+    /// Constant, drift, warm-up, steps, noise; of a survey with white noise none.
+    std::vector<JointTerms> surveys;
     /// Share of the placement that the sensors of a box have in common; absent without a box.
     std::optional<whole_day::PlacementShare> share;
     /// Factor by which all uncertainties are multiplied: the rms of reference minus gravity divided by
@@ -61,9 +63,10 @@ struct JointAdjustment {
 /// Adjusts the surveys together, or says in words why they cannot be.
 ///
 /// Held are the references that a survey holds, in all surveys.  Surveys with one serial number and one
-/// calibration are of one unit.  It refuses surveys of which
+/// calibration are of one unit.  A survey that another model corrected takes part with white noise and
+/// with terms of its own (adjustment/helmert_block.hpp).  It refuses surveys of which
 ///
-/// - one was not corrected by the whole-day model,
+/// - one was corrected by `paper`, or its readings do not determine its noise,
 /// - two have different references of one station, or different uncertainties,
 /// - two of one unit are at the same time.
 /// @param surveys  at least one.  Order: as whole_day::adjust_days().

@@ -26,6 +26,17 @@ std::vector<std::string> stations_in(const SurveyProblem& problem,
     return names;
 }
 
+adjustment::SurveyEquations equations_of(const LinearModel& model, const SurveyProblem& problem,
+                                         const std::vector<bool>& in_use, bool is_exact) {
+    adjustment::Design design{std::string(model.name), model.terms, false, is_exact};
+    if (problem.options.priors.find(adjustment::kScale) != nullptr)
+        design.terms.push_back(&adjustment::kScaleTerm);
+    return {problem.rows,
+            in_use,
+            std::move(design),
+            {problem.options.datum, problem.options.priors, problem.options.steps, {}}};
+}
+
 /// Returns reading - tide - effects - reference of a row, mGal: the error of its prediction, with the
 /// sign of the reading.
 double difference_left_mgal(const AdjustedSurvey& adjusted, std::size_t row) {
@@ -78,20 +89,18 @@ bool takes_part(const LinearModel& model, const SurveyProblem& problem,
     for (std::size_t i = 0; i < in_use.size(); ++i)
         if (in_use[i] && problem.rows[i].site == problem.options.base)
             base_stays.insert(problem.rows[i].occupation);
-    return base_stays.size() >= kFewestBaseStays ||
-           std::ranges::count(in_use, true) >= kEnoughRows;
+    return base_stays.size() >= kFewestBaseStays || std::ranges::count(in_use, true) >= kEnoughRows;
 }
 
 FitResult fit(const LinearModel& model, const SurveyProblem& problem, const RowChoice& choice) {
     const AdjustedSurvey adjusted = adjust_linear(model, problem, choice.in_use);
     if (!adjusted.is_determined())
-        return Refusal{
-            fmt::format("{} rows with a reference do not determine it",
-                        std::ranges::count(choice.in_use, true)),
-            fmt::format("at least {} rows between which temperature, rate and time vary "
-                        "independently{}",
-                        model.terms.size() + problem.options.steps.size(),
-                        problem.options.steps.empty() ? "" : ", some after each step")};
+        return Refusal{fmt::format("{} rows with a reference do not determine it",
+                                   std::ranges::count(choice.in_use, true)),
+                       fmt::format("at least {} rows between which temperature, rate and time vary "
+                                   "independently{}",
+                                   model.terms.size() + problem.options.steps.size(),
+                                   problem.options.steps.empty() ? "" : ", some after each step")};
     Fit result = fit_of(adjusted, problem, choice);
     result.score = score_linear_model(model, problem, choice.in_use);
     set_loo_interval(result, problem.options.seed);
@@ -110,6 +119,28 @@ std::unique_ptr<adjustment::Trials> trials(const LinearModel& model, const Surve
     AdjustedSurvey adjusted = adjust_linear(model, problem, choice.in_use);
     if (!adjusted.is_determined()) return nullptr;
     return adjustment::white_trials(std::move(adjusted));
+}
+
+/// Fewest degrees of freedom with which the noise of a survey is known for a joint adjustment.
+/// Reason: with 2 the expected variance is infinite.
+constexpr std::size_t kFewestJointDof = 3;
+
+/// Returns Model::joint: the references are unknowns, as the joint adjustment holds them itself.
+///
+/// The noise has the expected variance s^2 dof / (dof - 2), that of Student's t: with few degrees of
+/// freedom a survey whose readings agree by chance would outweigh all others.
+/// Source: JCGM 101:2008, 6.4.9.4.
+std::optional<AdjustedSurvey> joint(const LinearModel& model, const SurveyProblem& problem,
+                                    const RowChoice& choice) {
+    const AdjustedSurvey own = adjust_linear(model, problem, choice.in_use);
+    const std::size_t dof = own.adjustment.dof();
+    if (!own.is_determined() || dof < kFewestJointDof) return std::nullopt;
+    adjustment::SurveyEquations survey = equations_of(model, problem, choice.accepted, false);
+    survey.set_noise(*own.adjustment.s0() *
+                     std::sqrt(static_cast<double>(dof) / static_cast<double>(dof - 2)));
+    AdjustedSurvey adjusted = adjustment::adjust(std::move(survey), adjustment::Cofactor::left_out);
+    if (!adjusted.is_determined()) return std::nullopt;
+    return adjusted;
 }
 
 }  // namespace
@@ -141,12 +172,7 @@ const LinearModel* find_linear_model(std::string_view name) {
 
 AdjustedSurvey adjust_linear(const LinearModel& model, const SurveyProblem& problem,
                              const std::vector<bool>& in_use) {
-    adjustment::Design design{std::string(model.name), model.terms, false, true};
-    if (problem.options.priors.find(adjustment::kScale) != nullptr)
-        design.terms.push_back(&adjustment::kScaleTerm);
-    return adjustment::adjust(adjustment::SurveyEquations(
-        problem.rows, in_use, std::move(design),
-        {problem.options.datum, problem.options.priors, problem.options.steps, {}}));
+    return adjustment::adjust(equations_of(model, problem, in_use, true));
 }
 
 Score score_linear_model(const LinearModel& model, const SurveyProblem& problem,
@@ -227,7 +253,7 @@ std::vector<Model> linear_models() {
                         [model](const SurveyProblem& problem, const RowChoice& choice) {
                             return score_linear_model(model, problem, choice.in_use);
                         },
-                        std::bind_front(trials, model)});
+                        std::bind_front(trials, model), std::bind_front(joint, model)});
     };
     for (const LinearModel& model : compared_models()) add(model, true);
     for (const LinearModel& model : models_on_request()) add(model, false);

@@ -86,6 +86,12 @@ struct Model {
     /// `paper`.  The problem must exist as long as the result.
     std::function<std::unique_ptr<adjustment::Trials>(const SurveyProblem&, const RowChoice&)>
         trials = {};
+
+    /// Returns the survey for a joint adjustment, with the noise of its own fit; nullopt if it cannot
+    /// take part.  Empty for `day`, which takes part with its record, and for `paper`.  The problem must
+    /// exist as long as the result.
+    std::function<std::optional<adjustment::AdjustedSurvey>(const SurveyProblem&, const RowChoice&)>
+        joint = {};
 };
 
 /// Returns all models, in the order of model_names().

@@ -363,15 +363,21 @@ Score score_network(const SurveyProblem& problem, const RowChoice& choice) {
     return score_of(adjust(problem, choice), problem.options.priors.reading_sd_mgal);
 }
 
+/// Returns the adjustment without its Q.
+std::optional<AdjustedSurvey> adjusted_network(const SurveyProblem& problem,
+                                               const RowChoice& choice) {
+    const SurveyOptions& options = problem.options;
+    return solved(problem.rows, choice.accepted,
+                  {options.datum, options.priors, options.steps,
+                   MilliGal(options.network.datum_sd_mgal)},
+                  options.network, adjustment::Cofactor::left_out)
+        .adjusted;
+}
+
 std::unique_ptr<adjustment::Trials> network_trials(const SurveyProblem& problem,
                                                    const RowChoice& choice) {
-    const SurveyOptions& options = problem.options;
-    NetworkResult network = solved(
-        problem.rows, choice.accepted,
-        {options.datum, options.priors, options.steps, MilliGal(options.network.datum_sd_mgal)},
-        options.network, adjustment::Cofactor::left_out);
-    if (!network.adjusted) return nullptr;
-    return adjustment::white_trials(std::move(*network.adjusted));
+    std::optional<AdjustedSurvey> adjusted = adjusted_network(problem, choice);
+    return adjusted ? adjustment::white_trials(std::move(*adjusted)) : nullptr;
 }
 
 }  // namespace
@@ -390,7 +396,7 @@ NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,
 }
 
 Model network_model() {
-    return {kNetwork, false, true, fit_network, score_network, network_trials};
+    return {kNetwork, false, true, fit_network, score_network, network_trials, adjusted_network};
 }
 
 }  // namespace a351::corrector::model

@@ -1,5 +1,7 @@
 #include "corrector/result/joint_report.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +20,10 @@ Json terms_json(const std::vector<model::JointTerms>& all, bool are_surveys) {
     Json list = Json::array();
     for (const model::JointTerms& terms : all) {
         Json one;
-        if (are_surveys) one["name"] = terms.name;
+        if (are_surveys) {
+            one["name"] = terms.name;
+            one["model"] = terms.model;
+        }
         one["serial_number"] = text::or_null(terms.serial_number);
         one["coefficients"] = coefficients_json(terms.coefficients);
         list.push_back(std::move(one));
@@ -71,8 +76,16 @@ std::vector<std::string> joint_sentences(const JointResult& joint) {
                      "side by side.",
                      std::get<text::Message>(joint))};
     std::vector<std::string> sentences{
-        text::tr("The values are from one adjustment of {} surveys of {} units.",
-                 adjustment->surveys.size(), adjustment->units.size())};
+        text::tr("The values are from one adjustment of {} surveys.", adjustment->surveys.size())};
+    std::vector<std::string> white;
+    for (const model::JointTerms& survey : adjustment->surveys)
+        if (survey.coefficients.empty())
+            white.push_back(fmt::format("{} ({})", survey.name, survey.model));
+    if (!white.empty())
+        sentences.push_back(
+            text::tr("Corrected by another model than day: {}. They take part with white noise and "
+                     "with terms of their own.",
+                     text::joined(white)));
     if (adjustment->share)
         sentences.push_back(text::tr(
             "The sensors of a box have {} % of the variance of the placement in common (95 % "

@@ -66,28 +66,38 @@ void DayAdjustment::set_columns() {
                 .push_back(problem.of(k).scaled(problem.part_of(point, k), lagged));
         }
     }
-    const std::vector<Eigen::VectorXd> scaled = problem.solve(found_.most_likely, most_likely),
-                                       at_expected = problem.solve(found_.expected, expected);
+    const DayProblem::Solution solution = problem.solve(found_.most_likely, most_likely),
+                               at_expected = problem.solve(found_.expected, expected);
+    common_ = solution.common;
     std::vector<DayProblem::Normal> normals;
     for (std::size_t k = 0; k < problem.surveys().size(); ++k) {
         const DayRegression& regression = problem.of(k);
         SurveyPart& part = surveys_.emplace_back();
-        part.scaled = scaled[k];
+        part.scaled = solution.surveys[k];
         part.values = regression.unscaled(problem.part_of(found_.most_likely, k),
-                                          scaled[k].head(regression.estimated()));
+                                          part.scaled.head(regression.estimated()));
         part.placement_mgal = placement_mgal(k, most_likely[k]);
         DayProblem::Normal& normal = normals.emplace_back();
         part.columns =
             problem.whitened(found_.expected, k, expected[k], &part.values, normal.log_determinant);
         normal.products = part.columns.transpose() * part.columns;
-        part.left = part.columns.col(0) -
-                    part.columns.middleCols(1, at_expected[k].size()) * at_expected[k];
+        part.left =
+            part.columns.col(0) -
+            part.columns.middleCols(1, at_expected.surveys[k].size()) * at_expected.surveys[k];
     }
-    const Index common = problem.common_count() + static_cast<Index>(problem.gravity_count());
+    const auto gravities = static_cast<Index>(problem.gravity_count());
+    const Index common = problem.common_count() + gravities;
     information_ = Eigen::MatrixXd::Identity(common, common);
+    gradient_ = Eigen::VectorXd::Zero(common);
     sources_.resize(static_cast<std::size_t>(common));
     for (std::size_t group = 0; group < problem.groups().size(); ++group) {
         const DayProblem::Normal normal = problem.of_group(normals, group, true);
+        if (const Eigen::MatrixXd& white = problem.groups()[group].of_white_surveys;
+            white.size() > 0)
+            gradient_.tail(gravities) =
+                white.col(common).segment(problem.common_count(), gravities) -
+                white.block(problem.common_count(), 0, gravities, problem.common_count()) *
+                    at_expected.common;
         information_ += problem.reduced(normal, group).products.topLeftCorner(common, common);
         const auto own = static_cast<std::size_t>(problem.groups()[group].own_count);
         const linear_algebra::Cholesky factor(
@@ -138,8 +148,16 @@ Eigen::VectorXd DayAdjustment::placement_mgal(std::size_t survey,
 
 void DayAdjustment::set_gravities() {
     const DayProblem& problem = *problem_;
-    gradient_ = Eigen::VectorXd::Zero(information_.rows());
     gravities_.resize(problem.gravity_count());
+    for (const WhiteSurvey& survey : problem.white_surveys())
+        for (const DayStation& station : survey.stations) {
+            Gravity& gravity = gravities_[station.number];
+            gravity.held = gravity.own = problem.place_of(station.number);
+            gravity.fitted_mgal = problem.base_mgal(station);
+            if (gravity.held >= 0)
+                gravity.fitted_mgal += station.deviation_mgal() * common_(gravity.held);
+            gravity.hold(station);
+        }
     for (std::size_t k = 0; k < surveys_.size(); ++k) {
         const DayRegression& regression = problem.of(k);
         const std::size_t numbers = regression.base_mgal().size();
@@ -152,12 +170,8 @@ void DayAdjustment::set_gravities() {
             if (const Index place = regression.place_of(number); place >= 0)
                 gravity.fitted_mgal += surveys_[k].values(place) / scale;
         }
-        for (const DayStation& station : problem.surveys()[k].stations) {
-            if (!station.gravity) continue;
-            Gravity& gravity = gravities_[problem.gravity_of(k, station.number)];
-            gravity.is_held = true;
-            gravity.u_mgal = station.u_gravity.value();
-        }
+        for (const DayStation& station : problem.surveys()[k].stations)
+            gravities_[problem.gravity_of(k, station.number)].hold(station);
     }
     for (std::size_t number = 0; number < gravities_.size(); ++number)
         if (gravities_[number].is_held) gravities_[number].own = problem.own_place_of(number);
@@ -329,6 +343,10 @@ void DayAdjustment::set_sources(GravityEstimate& gravity, const Eigen::VectorXd&
         for (std::size_t k = 0; k < groups_[group].sources.size(); ++k)
             square(groups_[group].sources[k]) += std::pow(all(static_cast<Index>(k)), 2);
     }
+    for (const DayProblem::Group& group : problem_->groups())
+        if (group.of_white_surveys.size() > 0)
+            square(ErrorSource::white) +=
+                parts.dot(group.of_white_surveys.topLeftCorner(parts.size(), parts.size()) * parts);
     // The noise is split with the weights of the readings, W'X s, where W is the whitening.
     for (std::size_t k = 0; k < surveys_.size(); ++k) {
         const SurveyPart& survey = surveys_[k];
@@ -356,6 +374,7 @@ void DayAdjustment::set_sources(GravityEstimate& gravity, const Eigen::VectorXd&
     }
     std::ranges::transform(squares, gravity.parts_mgal.begin(),
                            [](double value) { return std::sqrt(value); });
+    if (surveys_.empty()) return;
     const Eigen::VectorXd of_first = parts_of(parts, 0);
     const Index lags =
         surveys_.front().columns.cols() - 1 - kLags - std::ssize(problem_->of(0).base_mgal());

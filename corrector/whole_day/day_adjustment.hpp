@@ -99,6 +99,12 @@ private:
         double u_mgal = 0.0;  ///< Uncertainty of the reference that is held.
         Index held = -1;      ///< Column of the fit: of an unknown, or an uncertain reference.
         Index own = -1;       ///< Column without prior knowledge; of an unknown the same.
+        /// Holds the reference of a station, if it is held.
+        void hold(const DayStation& station) {
+            if (!station.gravity) return;
+            is_held = true;
+            u_mgal = station.u_gravity.value();
+        }
     };
     void set_columns();
     /// Returns the expected placement of each set-up, placement^2 M' C^-1 r: C is the covariance of the
@@ -149,7 +155,8 @@ private:
     std::vector<ErrorSource> sources_;  ///< Sources of the priors of the common columns.
     Eigen::MatrixXd information_;       ///< (common, common) X'X + 1.
     Eigen::MatrixXd
-        covariance_;  ///< Covariance of the coefficients of the common columns of the fit.
+        covariance_;          ///< Covariance of the coefficients of the common columns of the fit.
+    Eigen::VectorXd common_;  ///< Most likely coefficients of the common columns of the fit.
     Eigen::VectorXd gradient_;  ///< (common) 0 for the columns of the fit.
     std::vector<Gravity> gravities_;
 };

@@ -19,16 +19,22 @@ bool is_any_held(const DaySurvey& survey) {
 
 /// Returns the mean of the gravities that the surveys found alone, by number in the adjustment.
 std::vector<double> rough_gravities_mgal(const std::vector<DaySurvey>& surveys,
-                                         const std::vector<std::optional<DayAdjustment>>& alone) {
+                                         const std::vector<std::optional<DayAdjustment>>& alone,
+                                         const std::vector<WhiteSurvey>& white_surveys) {
     std::vector<double> sums, counts;
+    const auto add = [&](std::size_t number, double value_mgal) {
+        sums.resize(std::max(sums.size(), number + 1));
+        counts.resize(sums.size());
+        sums[number] += value_mgal;
+        counts[number] += 1.0;
+    };
     for (std::size_t k = 0; k < surveys.size(); ++k)
-        for (std::size_t i = 0; i < surveys[k].gravities.size(); ++i) {
-            const std::size_t number = surveys[k].gravities[i];
-            sums.resize(std::max(sums.size(), number + 1));
-            counts.resize(sums.size());
-            sums[number] += alone[k]->value_mgal(i);
-            counts[number] += 1.0;
-        }
+        for (std::size_t i = 0; i < surveys[k].gravities.size(); ++i)
+            add(surveys[k].gravities[i], alone[k]->value_mgal(i));
+    for (const WhiteSurvey& survey : white_surveys)
+        for (std::size_t k = 0; k < survey.stations.size(); ++k)
+            add(survey.stations[k].number,
+                survey.block.gravities_mgal(static_cast<Eigen::Index>(k)));
     for (std::size_t number = 0; number < sums.size(); ++number)
         if (counts[number] > 0.0) sums[number] /= counts[number];
     return sums;
@@ -44,13 +50,16 @@ std::optional<DayAdjustment> adjust_day(DaySurvey survey, const SurveyPoint* nea
     return DayAdjustment(problem, search_alone(*problem, nearby));
 }
 
-DayAdjustment adjust_days(std::vector<DaySurvey> surveys) {
-    if (surveys.size() == 1) return adjust_day(std::move(surveys.front())).value();
+DayAdjustment adjust_days(std::vector<DaySurvey> surveys,
+                          const std::vector<WhiteSurvey>& white_surveys) {
+    if (surveys.size() == 1 && white_surveys.empty())
+        return adjust_day(std::move(surveys.front())).value();
     std::vector<std::optional<DayAdjustment>> alone(surveys.size());
     archive_series::on_all_cores(surveys.size(),
                                  [&](std::size_t k) { alone[k] = adjust_day(surveys[k]); });
-    const std::vector<double> rough_mgal = rough_gravities_mgal(surveys, alone);
-    const auto problem = std::make_shared<const DayProblem>(std::move(surveys), rough_mgal);
+    const std::vector<double> rough_mgal = rough_gravities_mgal(surveys, alone, white_surveys);
+    const auto problem =
+        std::make_shared<const DayProblem>(std::move(surveys), rough_mgal, white_surveys);
     std::vector<SurveyPoint> points;
     for (const auto& one : alone) points.push_back(one->fit().point);
     DayPoint start = mean_point(*problem, points);
@@ -62,7 +71,8 @@ DayAdjustment adjust_days(std::vector<DaySurvey> surveys) {
     std::vector<double> found_mgal;
     for (std::size_t number = 0; number < problem->gravity_count(); ++number)
         found_mgal.push_back(adjusted.value_mgal(number));
-    return DayAdjustment(std::make_shared<const DayProblem>(problem->surveys(), found_mgal), found);
+    return DayAdjustment(
+        std::make_shared<const DayProblem>(problem->surveys(), found_mgal, white_surveys), found);
 }
 
 std::optional<DayAdjustment> adjust_planned_day(reading::DayRecord& record, DaySurvey survey,

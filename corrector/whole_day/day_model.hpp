@@ -93,11 +93,13 @@ namespace a351::corrector::whole_day {
 /// Order: gravities depend on the order of the surveys by up to 0.02 mGal (joint_days_test.cpp), because
 /// the search ends within 0.02 deviations, and because a survey joins the first box with which it shares
 /// a set-up.  Sort them for equal bytes.
-/// @param surveys  at least one; each holds a gravity.
+/// @param surveys        each holds a gravity.
+/// @param white_surveys  surveys of other models; there is at least one of either kind.
 /// Source: R. Thompson, Biometrics 18, 273-289, 1962, and D. A. Harville, J. Am. Stat. Assoc. 72,
 /// 320-338, 1977 (variance components by restricted likelihood); S. S. Wilks, Ann. Math. Stat. 9,
 /// 60-62, 1938 (limits by the likelihood ratio).
-[[nodiscard]] DayAdjustment adjust_days(std::vector<DaySurvey> surveys);
+[[nodiscard]] DayAdjustment adjust_days(std::vector<DaySurvey> surveys,
+                                        const std::vector<WhiteSurvey>& white_surveys = {});
 
 /// Returns the adjustment to be expected of a day that is only planned, with a noise that is known.
 ///

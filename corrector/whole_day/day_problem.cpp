@@ -67,22 +67,29 @@ Eigen::MatrixXd with_priors(const Eigen::MatrixXd& products, Index count) {
     return information;
 }
 
-DayProblem::DayProblem(std::vector<DaySurvey> surveys, const std::vector<double>& rough_mgal)
-    : surveys_(std::move(surveys)) {
+DayProblem::DayProblem(std::vector<DaySurvey> surveys, std::vector<double> rough_mgal,
+                       std::vector<WhiteSurvey> white_surveys)
+    : surveys_(std::move(surveys)),
+      white_surveys_(std::move(white_surveys)),
+      rough_mgal_(std::move(rough_mgal)) {
     std::size_t gravities = 0;
     for (const DaySurvey& survey : surveys_) {
         std::vector<double> rough;
         for (std::size_t number = 0; number < count_of(survey); ++number) {
             gravities = std::max(gravities, number_of(survey, number) + 1);
-            if (!rough_mgal.empty()) rough.push_back(rough_mgal[number_of(survey, number)]);
+            if (!rough_mgal_.empty()) rough.push_back(rough_mgal_[number_of(survey, number)]);
         }
         regressions_.push_back(std::make_unique<DayRegression>(survey, rough));
         unit_count_ = std::max(unit_count_, survey.unit + 1);
     }
+    for (const WhiteSurvey& survey : white_surveys_)
+        for (const DayStation& station : survey.stations)
+            gravities = std::max(gravities, station.number + 1);
     places_.assign(gravities, -1);
     set_groups();
     set_hypers();
     set_columns();
+    if (!white_surveys_.empty()) add_white_surveys();
 }
 
 void DayProblem::set_groups() {
@@ -143,6 +150,11 @@ void DayProblem::set_columns() {
             Index& place = places_[gravity_of(k, number)];
             if (place < 0 && of(k).place_of(number) >= 0) place = common_count_++;
         }
+    for (const WhiteSurvey& survey : white_surveys_)
+        for (const DayStation& station : survey.stations) {
+            Index& place = places_[station.number];
+            if (place < 0 && station.deviation_mgal() > 0.0) place = common_count_++;
+        }
     own_begin_.resize(surveys_.size());
     for (Group& group : groups_) {
         // A single sensor has no need of the columns of its set-ups.
@@ -154,6 +166,26 @@ void DayProblem::set_columns() {
             group.own_count += of(k).outer_begin() - of(k).steps_begin();
         }
     }
+}
+
+void DayProblem::add_white_surveys() {
+    const Index size = common_count_ + std::ssize(places_) + 1;
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(size, size);
+    for (const WhiteSurvey& survey : white_surveys_) {
+        // gravity = base + deviation x coefficient, and the misclosures count from the base.
+        const Index stations = std::ssize(survey.stations);
+        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(stations + 1, size);
+        for (Index k = 0; k < stations; ++k) {
+            const DayStation& station = survey.stations[static_cast<std::size_t>(k)];
+            if (const Index place = places_[station.number]; place >= 0)
+                columns(k, place) = station.deviation_mgal();
+            columns(k, own_place_of(station.number)) = kFreeGravity_mgal;
+            columns(k, size - 1) = survey.block.gravities_mgal(k) - base_mgal(station);
+        }
+        columns(stations, size - 1) = 1.0;
+        products += columns.transpose() * survey.block.products * columns;
+    }
+    groups_.emplace_back().of_white_surveys = std::move(products);
 }
 
 bool DayProblem::has_boxes() const { return std::ranges::any_of(groups_, &Group::is_box); }
@@ -273,11 +305,18 @@ DayProblem::Normal DayProblem::of_group(const std::vector<Normal>& surveys, std:
         normal.products(places, places) += surveys[survey].products;
         normal.log_determinant += surveys[survey].log_determinant;
     }
+    if (const Eigen::MatrixXd& all = groups_[group].of_white_surveys; all.size() > 0) {
+        std::vector<Index> places;
+        for (Index k = 0; k < common_count_ + extra; ++k) places.push_back(k);
+        places.push_back(all.rows() - 1);
+        normal.products += all(places, places);
+    }
     return normal;
 }
 
 DayProblem::Normal DayProblem::reduced(const Normal& normal, std::size_t group) const {
     const Index own = groups_[group].own_count, rest = normal.products.rows() - own;
+    if (own == 0) return normal;
     const linear_algebra::Cholesky factor(with_priors(normal.products, own));
     if (!factor.is_positive_definite())
         return {Eigen::MatrixXd::Zero(rest, rest), HUGE_VAL};  // overflow, far from the priors
@@ -298,8 +337,8 @@ double DayProblem::cost(const DayPoint& point, const Normal& sum) const {
     return 0.5 * twice;
 }
 
-std::vector<Eigen::VectorXd> DayProblem::solve(const DayPoint& point,
-                                               const std::vector<Eigen::MatrixXd>& scaled) const {
+DayProblem::Solution DayProblem::solve(const DayPoint& point,
+                                       const std::vector<Eigen::MatrixXd>& scaled) const {
     std::vector<Normal> surveys, groups;
     for (std::size_t k = 0; k < surveys_.size(); ++k)
         surveys.push_back(of_survey(point, k, scaled[k]));
@@ -308,20 +347,20 @@ std::vector<Eigen::VectorXd> DayProblem::solve(const DayPoint& point,
         groups.push_back(of_group(surveys, group));
         products += reduced(groups.back(), group).products;
     }
-    const Eigen::VectorXd common = linear_algebra::Cholesky(with_priors(products, common_count_))
-                                       .solve(products.col(common_count_).head(common_count_));
-    std::vector<Eigen::VectorXd> solution(surveys_.size());
+    Solution solution{linear_algebra::Cholesky(with_priors(products, common_count_))
+                          .solve(products.col(common_count_).head(common_count_)),
+                      std::vector<Eigen::VectorXd>(surveys_.size())};
     for (std::size_t group = 0; group < groups_.size(); ++group) {
         const Index own = groups_[group].own_count;
         const Eigen::MatrixXd& all = groups[group].products;
         Eigen::VectorXd coefficients(own + common_count_);
         coefficients << linear_algebra::Cholesky(with_priors(all, own))
                             .solve(all.col(own + common_count_).head(own) -
-                                   all.block(0, own, own, common_count_) * common),
-            common;
+                                   all.block(0, own, own, common_count_) * solution.common),
+            solution.common;
         for (const std::size_t survey : groups_[group].surveys) {
             const std::vector<Index> places = places_in_group(survey, false);
-            Eigen::VectorXd& of_one = solution[survey];
+            Eigen::VectorXd& of_one = solution.surveys[survey];
             of_one.resize(std::ssize(places) - 1);
             for (Index k = 0; k < of_one.size(); ++k)
                 of_one(k) = coefficients(places[static_cast<std::size_t>(k) + 1]);

@@ -14,7 +14,8 @@
 ///
 /// A *group* is the surveys that have set-ups in common: the sensors of a box on one day; mostly it is
 /// one survey.  What only a group has is eliminated in it, so that the cost of a likelihood grows
-/// with the number of surveys, and a search that moves one survey computes its group only.
+/// with the number of surveys, and a search that moves one survey computes its group only.  The surveys
+/// with white noise are one more group; it depends on no number of the search.
 
 #include <Eigen/Core>
 #include <array>
@@ -52,6 +53,8 @@ public:
         std::vector<std::vector<std::size_t>> set_ups;
         std::size_t set_up_count = 0;
         Eigen::Index own_count = 0;  ///< Columns that only the group has.
+        /// Products of the white surveys' readings, as of_group() with is_extended; empty: none.
+        Eigen::MatrixXd of_white_surveys = {};
         [[nodiscard]] bool is_box() const { return surveys.size() > 1; }
     };
     /// Products of whitened columns, and ln det of what is integrated out of them: noise, own columns.
@@ -60,15 +63,17 @@ public:
         double log_determinant = 0.0;
     };
 
-    /// @param surveys     at least one.
+    /// @param surveys     at least one, or a white survey.
     /// @param rough_mgal  gravity from which each unknown counts, by number in the adjustment.  Empty:
     ///                    from the readings; then there is one survey, of which a set-up is held.
-    explicit DayProblem(std::vector<DaySurvey> surveys, const std::vector<double>& rough_mgal = {});
+    explicit DayProblem(std::vector<DaySurvey> surveys, std::vector<double> rough_mgal = {},
+                        std::vector<WhiteSurvey> white_surveys = {});
     DayProblem(const DayProblem&) = delete;
     DayProblem& operator=(const DayProblem&) = delete;
     ~DayProblem() = default;
 
     [[nodiscard]] const std::vector<DaySurvey>& surveys() const { return surveys_; }
+    [[nodiscard]] const std::vector<WhiteSurvey>& white_surveys() const { return white_surveys_; }
     [[nodiscard]] const DayRegression& of(std::size_t survey) const {
         return *regressions_[survey];
     }
@@ -98,6 +103,10 @@ public:
     [[nodiscard]] Eigen::Index common_count() const { return common_count_; }
     /// Returns the common column of a gravity; -1 if an exact reference is held.
     [[nodiscard]] Eigen::Index place_of(std::size_t gravity) const { return places_[gravity]; }
+    /// Returns the gravity from which the station of a white survey counts, mGal.
+    [[nodiscard]] double base_mgal(const DayStation& station) const {
+        return station.gravity ? station.gravity->value() : rough_mgal_[station.number];
+    }
     /// Returns the further common column of a gravity without its reference.
     [[nodiscard]] Eigen::Index own_place_of(std::size_t gravity) const {
         return common_count_ + static_cast<Eigen::Index>(gravity);
@@ -140,20 +149,27 @@ public:
     /// @param sum  of the groups' reduced() equations.
     [[nodiscard]] double cost(const DayPoint& point, const Normal& sum) const;
 
-    /// Returns the least-squares coefficients of each survey at a point: of scaled(), and of the set-ups
-    /// of a box.
+    /// Least-squares coefficients at a point.
+    struct Solution {
+        Eigen::VectorXd common;                ///< Those of the columns that groups share.
+        std::vector<Eigen::VectorXd> surveys;  ///< Those of scaled(), then of the set-ups of a box.
+    };
     /// @param scaled  DayRegression::scaled() of each survey at the point.
-    [[nodiscard]] std::vector<Eigen::VectorXd> solve(
-        const DayPoint& point, const std::vector<Eigen::MatrixXd>& scaled) const;
+    [[nodiscard]] Solution solve(const DayPoint& point,
+                                 const std::vector<Eigen::MatrixXd>& scaled) const;
 
 private:
     void set_groups();
     void set_hypers();
     void set_columns();
+    /// Adds the group of the white surveys.
+    void add_white_surveys();
     [[nodiscard]] std::vector<std::size_t> surveys_of_unit(std::size_t unit) const;
     [[nodiscard]] bool has_outer(std::size_t unit) const;
 
     std::vector<DaySurvey> surveys_;
+    std::vector<WhiteSurvey> white_surveys_;
+    std::vector<double> rough_mgal_;
     std::vector<std::unique_ptr<DayRegression>> regressions_;
     std::vector<Group> groups_;
     std::vector<std::size_t> group_of_, place_in_group_;  ///< One of each survey.

@@ -94,7 +94,8 @@ private:
             is_group_moved[problem_.group_of(k)] = true;
         }
         for (std::size_t group = 0; group < groups_.size(); ++group)
-            if (is_group_moved[group])
+            // The white surveys never move: their group is computed once.
+            if (is_group_moved[group] || groups_[group].products.size() == 0)
                 groups_[group] = problem_.reduced(problem_.of_group(surveys_, group), group);
     }
 

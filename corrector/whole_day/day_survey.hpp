@@ -1,11 +1,13 @@
 #pragma once
 /// @file
-/// A survey of the whole-day model: one unit on one day, with its record.
+/// The surveys of an adjustment: those of the whole-day model, one unit on one day with its record, and
+/// those of other models, whose readings have white noise.
 
 #include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "corrector/adjustment/helmert_block.hpp"
 #include "corrector/reading/day_record.hpp"
 #include "corrector/whole_day/day_priors.hpp"
 
@@ -21,6 +23,12 @@ struct DayStation {
         u_gravity{};  ///< Standard uncertainty of the reference, 0.001 to 1000; or 0: it is exact.
     /// Number of steps before the set-up: its reading has the offsets of all of them.
     std::size_t steps = 0;
+
+    /// Returns the standard deviation of what is known of its gravity before the readings, mGal; 0: an
+    /// exact reference is held.
+    [[nodiscard]] double deviation_mgal() const {
+        return gravity ? u_gravity.value() : kFreeGravity_mgal;
+    }
 };
 
 /// One unit on one day.
@@ -40,6 +48,13 @@ struct DaySurvey {
     /// survey holds is held, with the same value, in all surveys that have it.
     std::vector<std::size_t> gravities = {};
     std::size_t unit = 0;  ///< Number of the unit from 0.
+};
+
+/// A survey with white noise and terms of its own, as it acts on gravities.
+struct WhiteSurvey {
+    adjustment::HelmertBlock block;
+    /// One for each station of the block; the number is that in the adjustment.
+    std::vector<DayStation> stations;
 };
 
 }  // namespace a351::corrector::whole_day

@@ -1,23 +1,37 @@
 """Measures whether differences between stations scatter as differences.csv and joint-differences.csv say.
 
-usage: differences.py [SEEDS [KNOWN]]    (A351_BIN, A351_TOOLS)
+usage: differences.py [SEEDS [KNOWN [MODEL]]]    (A351_BIN, A351_TOOLS)
 SEEDS: default 9701-9740, which were not used while the differences were developed.  Each seed draws a unit within +-25 % and
-two days of tsukuba with it.  Each of the 91 differences of a day is measured without the references of its two stations.
-KNOWN: the sites whose gravity is known, joined by commas; default: all 14.
+two days of tsukuba with it, a month apart.  Each of the 91 differences of a day is measured without the references of its two stations.
+KNOWN: the sites whose gravity is known, joined by commas; default or empty: all 14.
+MODEL: model of the second day; default: day.
 Promised: the rms error of the differences of single days is within 10 % of the rms of their uncertainties.  The same is printed
 of the differences of both days together.
 """
 
 import concurrent.futures
 import os
+import re
 import shutil
 import sys
 
-from simulated_units import correct, hide_references, rms, seeds_of, simulate
-from programs import Scratch, rows
+from simulated_units import correct, hide_references, rms, seeds_of, simulate, unit_of
+from programs import BIN, TOP, Scratch, rows, run
 
 PROMISED = 0.9, 1.1
 SECOND_DAY = 1_000_000  # Far from the seeds of units and first days.
+
+
+def simulate_a_month_later(folder, name, seed):
+    """Simulates tsukuba a month later with the seed's unit; returns its folder."""
+    text = (TOP / "config" / "scenarios" / "tsukuba.toml").read_text().replace("2017-07-", "2017-08-")
+    for key, value in unit_of(seed, 0.25).items():
+        text, count = re.subn(rf"^{key} = .*$", f"{key} = {value}", text, flags=re.MULTILINE)
+        assert count == 1, key
+    scenario = folder / f"{name}-scenario.toml"
+    scenario.write_text(text.replace('name = "tsukuba"', f'name = "{name}"', 1))
+    run(BIN / "a351-sim", "survey", "--scenario", scenario, "--seed", SECOND_DAY + seed, "--out", folder / name)
+    return folder / name
 
 
 def errors_and_uncertainties(scratch, seed):
@@ -25,11 +39,13 @@ def errors_and_uncertainties(scratch, seed):
     folder = scratch / str(seed)
     folder.mkdir()
     surveys = []
-    for name, day in (("first", seed), ("second", SECOND_DAY + seed)):
-        root = simulate(folder, name, "tsukuba", seed, 0.25, day=day)
+    for root, model in ((simulate(folder, "first", "tsukuba", seed, 0.25), "day"),
+                        (simulate_a_month_later(folder, "second", seed), second_model)):
         truth = {row["site"]: float(row["gravity_mgal"]) for row in rows(root / "sites.csv")}
-        surveys.append(hide_references(root, known or truth, name)[0])
-    out = correct(folder, surveys[0], "result", surveys[1], "--model", "day")
+        survey = hide_references(root, known or truth, root.name)[0]
+        survey.write_text(survey.read_text().replace('model = "auto"', f'model = "{model}"'))
+        surveys.append(survey)
+    out = correct(folder, surveys[0], "result", surveys[1])
 
     def errors(file):
         return [(float(row["difference_mgal"]) - truth[row["to"]] + truth[row["from"]], float(row["u_difference_mgal"]))
@@ -50,7 +66,8 @@ def ratio_of(name, every):
 
 
 seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "9701-9740")
-known = sys.argv[2].split(",") if len(sys.argv) > 2 else []
+known = sys.argv[2].split(",") if len(sys.argv) > 2 and sys.argv[2] else []
+second_model = sys.argv[3] if len(sys.argv) > 3 else "day"
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     every = list(pool.map(lambda seed: errors_and_uncertainties(scratch, seed), seeds))
 ratio = ratio_of("of single days", [one for single, _ in every for one in single])

@@ -2,6 +2,7 @@
 
 #include "tests/support/catch.hpp"
 
+#include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/rows_of_day.hpp"
 
@@ -30,7 +31,19 @@ Corrected corrected(std::uint64_t seed, const std::string& model = "day",
     }
     SurveyOptions options;
     options.model = model;
-    one.result = correct_survey(rows, options, &one.day);
+    one.result = correct_survey(rows, options, model == "day" ? &one.day : nullptr);
+    return one;
+}
+
+Corrected a_day_later(Corrected one) {
+    const auto day = std::chrono::hours(24);
+    const TimeSeries<DegC>& degc = one.day.temperature.series;
+    one.day.temperature.series = TimeSeries<DegC>(degc.start() + day, degc.rate(), degc.values());
+    for (DayBin& bin : one.day.bins) {
+        bin.time += day;
+        for (UtcTime& time : bin.times) time += day;
+    }
+    for (CorrectedRow& row : one.result.rows) row.row.time += day;
     return one;
 }
 
@@ -60,32 +73,91 @@ TEST_CASE("two units at one time are one box, and each station has one gravity",
 }
 
 TEST_CASE("without a serial number each day is a unit of its own", "[survey][joint]") {
-    const Corrected a = corrected(1), b = corrected(2);
-    DayRecord later = b.day;
-    const auto one_day = std::chrono::hours(24);
-    const TimeSeries<DegC>& degc = b.day.temperature.series;
-    later.temperature.series = TimeSeries<DegC>(degc.start() + one_day, degc.rate(), degc.values());
-    for (DayBin& bin : later.bins) {
-        bin.time += one_day;
-        for (UtcTime& time : bin.times) time += one_day;
-    }
+    const Corrected a = corrected(1), b = a_day_later(corrected(2));
     const auto units = [&](const std::string& serial) {
         const auto joint =
-            adjust_jointly({{"a", serial, &a.result, &a.day}, {"b", serial, &b.result, &later}});
+            adjust_jointly({{"a", serial, &a.result, &a.day}, {"b", serial, &b.result, &b.day}});
         return std::get<JointAdjustment>(joint).units.size();
     };
     CHECK(units("1") == 1);
     CHECK(units("") == 2);
 }
 
+TEST_CASE("a day of another model takes part with white noise", "[survey][joint]") {
+    const Corrected day = corrected(1);
+    for (const std::string model : {"t-drift", "network"}) {
+        const Corrected other = a_day_later(corrected(2, model));
+        const auto joint =
+            adjust_jointly({{"a", "1", &day.result, &day.day}, {"b", "1", &other.result, nullptr}});
+        REQUIRE(std::holds_alternative<JointAdjustment>(joint));
+        const auto& adjustment = std::get<JointAdjustment>(joint);
+        CHECK(adjustment.units.size() == 1);
+        CHECK_FALSE(adjustment.surveys.front().coefficients.empty());
+        CHECK(adjustment.surveys.back().coefficients.empty());
+        CHECK(adjustment.surveys.back().model == model);
+        REQUIRE(adjustment.stations.size() == 10);
+        double squares = 0.0, squares_alone = 0.0;
+        for (const JointGravity& station : adjustment.stations) {
+            const StationValue& alone =
+                *std::ranges::find(day.result.stations, station.site, &StationValue::site);
+            squares += std::pow(station.u.value(), 2);
+            squares_alone += std::pow(alone.u_left_out->value(), 2);
+            const auto number = static_cast<std::size_t>(std::stoi(station.site.substr(1)));
+            CHECK(std::abs(station.gravity.value() - MadeUpDay::gravity_mgal(number)) <
+                  4.0 * station.u.value());
+        }
+        CHECK(squares < squares_alone);
+    }
+}
+
+TEST_CASE("days of other models alone are adjusted together", "[survey][joint]") {
+    const Corrected a = corrected(1, "t-drift"), b = a_day_later(corrected(2, "network"));
+    const auto joint = adjust_jointly({{"a", "1", &a.result}, {"b", "1", &b.result}});
+    REQUIRE(std::holds_alternative<JointAdjustment>(joint));
+    const auto& adjustment = std::get<JointAdjustment>(joint);
+    CHECK(adjustment.units.empty());
+    CHECK(adjustment.differences.size() == 45);
+    for (const JointGravity& station : adjustment.stations) {
+        const auto number = static_cast<std::size_t>(std::stoi(station.site.substr(1)));
+        CHECK(std::abs(station.gravity.value() - MadeUpDay::gravity_mgal(number)) <
+              4.0 * station.u.value());
+    }
+}
+
+TEST_CASE("a day whose readings hardly determine its noise does not take part", "[survey][joint]") {
+    const Corrected day = corrected(1);
+    Corrected few = a_day_later(corrected(2, "t-drift"));
+    const auto reason_with = [&](std::size_t rows) {
+        Corrected fewer = few;
+        fewer.result.rows.resize(rows);
+        const auto joint =
+            adjust_jointly({{"a", "1", &day.result, &day.day}, {"b", "1", &fewer.result}});
+        const auto* const reason = std::get_if<text::Message>(&joint);
+        return reason == nullptr ? std::string() : reason->english();
+    };
+    // A constant, a slope and a drift: six readings leave three degrees of freedom.
+    CHECK(reason_with(5) == "b has too few readings for the noise of t-drift");
+    CHECK(reason_with(6).empty());
+
+    // With few degrees of freedom the expected variance is larger than the estimated one.
+    std::vector<SurveyRow> rows;
+    for (const CorrectedRow& row : few.result.rows) rows.push_back(row.row);
+    const auto joint = find_model("t-drift")->joint({rows, few.result.options, nullptr},
+                                                    choose_rows(rows, {}, true));
+    const auto dof = static_cast<double>(few.result.score.dof);
+    CHECK(joint.value().survey.noise() * few.result.options.priors.reading_sd_mgal ==
+          Approx(few.result.score.s_mgal.value() * std::sqrt(dof / (dof - 2.0))));
+}
+
 TEST_CASE("surveys that cannot be adjusted together are refused with the reason",
           "[survey][joint]") {
-    const Corrected a = corrected(1), linear = corrected(2, "t"), moved = corrected(2, "day", 3.0);
+    const Corrected a = corrected(1), paper = corrected(2, "paper"),
+                    moved = corrected(2, "day", 3.0);
     const auto reason = [&](const Corrected& other, const std::string& serial) {
         return std::get<text::Message>(adjust_jointly(
             {{"a", "1", &a.result, &a.day}, {"b", serial, &other.result, &other.day}}));
     };
-    CHECK(reason(linear, "2") == "b is not corrected by the whole-day model");
+    CHECK(reason(paper, "2") == "b is corrected by paper, which is no adjustment");
     CHECK(reason(moved, "2") ==
           "the surveys have different references of S4, or different uncertainties of it");
     CHECK(reason(moved, "1") == "a and b are of one unit (1) at the same time");

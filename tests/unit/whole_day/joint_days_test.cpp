@@ -157,7 +157,7 @@ TEST_CASE("the likelihood and the gravities of a box are those of dense matrices
         const auto reduced = problem.reduced(problem.of_group(normals, 0), 0);
         const auto [twice, gravities] = dense(surveys, problem, point, rough_mgal);
         CHECK(2.0 * problem.cost(point, reduced) == Approx(twice).margin(1e-3));
-        const auto solution = problem.solve(point, scaled);
+        const auto solution = problem.solve(point, scaled).surveys;
         for (const std::size_t number : kUnknown)
             for (const std::size_t k : {0U, 1U})
                 CHECK(rough_mgal[number] +
