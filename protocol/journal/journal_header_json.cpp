@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "protocol/wire/device_profile.hpp"
+
 namespace a351::journal {
 
 namespace {
@@ -58,6 +60,9 @@ Header header_from_json(const Json& json) {
     header.codes.axes = json.at("axes").get<std::array<std::string, 3>>();
     if (!are_valid(header.codes)) throw std::invalid_argument("codes");
     header.profile = json.at("profile").get<std::string>();
+    // A profile that cannot be read remains unknown.  The bytes of the stream are still whole.
+    if (json.contains("profile_toml"))
+        wire::add_recorded_profile(header.profile, json.at("profile_toml").get<std::string>());
     header.product_id = json.at("product_id").get<std::string>();
     header.serial_number = json.at("serial_number").get<std::string>();
     header.firmware = json.at("firmware").get<std::uint16_t>();
@@ -104,6 +109,8 @@ std::string header_to_json(const Header& header) {
                  {"filter", header.filter},
                  {"burst_ctrl", header.burst_ctrl},
                  {"baud", header.baud}};
+    const wire::DeviceProfile* const profile = wire::find_profile(header.profile);
+    if (profile != nullptr && !profile->toml.empty()) json["profile_toml"] = profile->toml;
     if (header.is_device_assumed) json["device_assumed"] = true;
     if (!header.port.empty()) json["port"] = header.port;
     if (header.declared_rate_hz) json["declared_rate_hz"] = *header.declared_rate_hz;

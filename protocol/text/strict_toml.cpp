@@ -191,11 +191,15 @@ std::filesystem::path TomlTable::path_or_empty(std::string_view key) {
     return (document_->origin.parent_path() / value).lexically_normal();
 }
 
+/// Returns the path of a key of this table from the root.
+std::string TomlTable::dotted(std::string_view key) const {
+    return name_.empty() ? std::string(key) : name_ + "." + std::string(key);
+}
+
 TomlTable TomlTable::table(std::string_view key) {
     const toml::node* node = find(key);
     if (node != nullptr && !node->is_table()) refuse(key, "wrong type", "a table");
-    const std::string name = name_.empty() ? std::string(key) : name_ + "." + std::string(key);
-    return TomlTable(document_, node == nullptr ? nullptr : node->as_table(), name);
+    return TomlTable(document_, node == nullptr ? nullptr : node->as_table(), dotted(key));
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) {
@@ -204,7 +208,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
     if (node == nullptr) return tables;
     if (!node->is_array_of_tables()) refuse(key, "wrong type", "an array of tables");
     for (const toml::node& item : *node->as_array())
-        tables.push_back(TomlTable(document_, item.as_table(), std::string(key)));
+        tables.push_back(TomlTable(document_, item.as_table(), dotted(key)));
     return tables;
 }
 

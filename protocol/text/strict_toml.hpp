@@ -112,6 +112,7 @@ private:
     TomlTable(std::shared_ptr<const Document> document, const toml::table* table, std::string name);
     [[nodiscard]] const toml::node* find(std::string_view key);
     void refuse_misspelt(std::string_view right) const;
+    [[nodiscard]] std::string dotted(std::string_view key) const;
 
     std::shared_ptr<const Document> document_;
     const toml::table* table_;  ///< Owned by document_; null for an absent table.

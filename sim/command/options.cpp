@@ -54,7 +54,7 @@ void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restricti
 const wire::DeviceProfile& profile_of(const std::string& name) { return *wire::find_profile(name); }
 
 std::string product_of(const UnitOptions& unit) {
-    return unit.product.empty() ? device::product_id_of(profile_of(unit.profile)) : unit.product;
+    return unit.product.empty() ? profile_of(unit.profile).product_id : unit.product;
 }
 
 CLI::Option* add_clock(CLI::App& command, std::string& clock) {

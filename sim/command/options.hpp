@@ -23,7 +23,7 @@ void add_day(CLI::App& command, DayOptions& day);
 /// The emulated unit.
 struct UnitOptions {
     std::string profile = "A351";
-    std::string product;  ///< Empty: the identifier of the profile, product_id_of().
+    std::string product;  ///< Empty: that of the profile.
     std::string serial = "00000001";
 };
 

@@ -12,7 +12,6 @@ using wire::Window;
 
 constexpr std::uint8_t kWriteBit = 0x80;
 constexpr std::uint8_t kEvenAddress = 0xFE;
-constexpr std::uint8_t kFirstUserFilter = 0xB;   // FILTER_SEL (7.12).
 constexpr std::uint16_t kReducedNoise = 0x0010;  // SIG_CTRL: MESMOD_SEL (7.9).
 constexpr std::uint16_t kReducedState = 0x1000;  // GLOB_CMD: MESMOD_STAT (7.14).
 
@@ -23,18 +22,16 @@ std::uint16_t with(std::uint16_t value, bool is_high_byte, std::uint8_t byte) {
 
 }  // namespace
 
-std::string product_id_of(const wire::DeviceProfile& profile) {
-    // The identifier of the A351 is not public; the suffix follows the names of the family.
-    std::string id(profile.product_id_prefix);
-    if (id == "A351") id += "AU10";
-    return id;
+Nanoseconds power_on_time(const wire::DeviceProfile& profile) noexcept {
+    constexpr std::chrono::milliseconds kMargin{20};
+    return profile.start_up - kMargin;
 }
 
 RegisterMachine::RegisterMachine(const wire::DeviceProfile& profile, MachineIdentity identity,
                                  Nanoseconds power_on, const FlashMemory& flash)
     : profile_(profile), identity_(std::move(identity)), flash_(flash), now_(power_on) {
     assert(identity_.product_id.size() == 8 && identity_.serial_number.size() == 8);
-    reset(power_on + kPowerOnTime);
+    reset(power_on + power_on_time(profile_));
 }
 
 void RegisterMachine::reset(Nanoseconds ready_at) {
@@ -216,12 +213,12 @@ void RegisterMachine::put_register(const Register& reg, std::uint16_t value) {
         registers_.at(reg) = before;
         return;
     }
-    if (&reg == &wire::kFilterCtrl) select_filter(value);
+    if (&reg == &wire::kFilterCtrl) select_filter();
     if (&reg == &wire::kSmplCtrl || &reg == &wire::kFilterCtrl) check_aliasing();
 }
 
-void RegisterMachine::select_filter(std::uint16_t code) {
-    const bool is_user = code >= kFirstUserFilter;
+void RegisterMachine::select_filter() {
+    const bool is_user = filter().is_user;
     filter_ready_at_ = now_ + (is_user ? kUserFilterTime : kFilterTime);
     put_gain_in_force();
     if (is_user && coefficients_ != flash_.coefficients) {
@@ -230,13 +227,12 @@ void RegisterMachine::select_filter(std::uint16_t code) {
 }
 
 void RegisterMachine::put_gain_in_force() {
-    const bool is_user = registers_.at(wire::kFilterCtrl) >= kFirstUserFilter;
-    user_gain_ = is_user ? constant_gain(coefficients_, filter().taps) : 1.0;
+    user_gain_ = filter().is_user ? constant_gain(coefficients_, filter().taps) : 1.0;
 }
 
 /// Updates is_aliased_.  The external trigger may be used with any filter (note at table 5.4).
 void RegisterMachine::check_aliasing() {
-    const auto rates = filter().allowed_rates_hz;
+    const auto& rates = filter().allowed_rates_hz;
     is_aliased_ = !has(wire::kMscCtrl, wire::kMscExternalTrigger) &&
                   std::ranges::count(rates, output_rate_hz()) == 0;
 }
@@ -251,7 +247,7 @@ int RegisterMachine::output_rate_hz() const {
 
 void RegisterMachine::power_cycle(Nanoseconds now) {
     pass_time(now);
-    reset(now + kPowerOnTime);
+    reset(now + power_on_time(profile_));
 }
 
 void RegisterMachine::spontaneous_reset(Nanoseconds now) {

@@ -48,8 +48,10 @@ struct MachineIdentity {
     bool operator==(const MachineIdentity&) const = default;
 };
 
-/// Returns the default product identifier of an emulated device with this profile.
-[[nodiscard]] std::string product_id_of(const wire::DeviceProfile& profile);
+/// Returns the time from power-on until the device answers: the longest one of the profile, minus a
+/// margin.  A host that waits for just the longest must find the device ready, even if the emulator
+/// handled the command before that wait late.
+[[nodiscard]] Nanoseconds power_on_time(const wire::DeviceProfile& profile) noexcept;
 
 /// A change of a register that holds settings.
 struct RegisterChange {
@@ -60,10 +62,8 @@ struct RegisterChange {
 
 class RegisterMachine {
 public:
-    /// Start-up times: the maxima of table 2.4 for power-on (900 ms), reset (970 ms) and wake-up
-    /// (16 ms), minus a margin.  A host that waits for just the maximum must find the device ready,
-    /// even if the emulator handled the command before that wait late.
-    static constexpr std::chrono::milliseconds kPowerOnTime{880};
+    /// Times after reset (970 ms) and wake-up (16 ms): the maxima of table 2.4, minus the margin of
+    /// power_on_time().
     static constexpr std::chrono::milliseconds kResetTime{950};
     static constexpr std::chrono::milliseconds kWakeTime{10};
 
@@ -107,7 +107,7 @@ public:
     void skip_sample();
 
     // Events from outside; every time is on the clock of receive().
-    void power_cycle(Nanoseconds now);        ///< Switches off and on: start-up of kPowerOnTime.
+    void power_cycle(Nanoseconds now);        ///< Switches off and on: start-up of power_on_time().
     void spontaneous_reset(Nanoseconds now);  ///< Acts as SOFT_RST.
     void external_edge(Nanoseconds now);      ///< Edge at pin EXT, polarity of EXT_POL; wakes it.
     void fall_back_to_configuration();        ///< Stops sampling without a command.
@@ -164,7 +164,7 @@ private:
     void write_register(const wire::Register& reg, bool is_high_byte, std::uint8_t value);
     void put_register(const wire::Register& reg, std::uint16_t value);
     void write_flash(const FlashMemory& content);
-    void select_filter(std::uint16_t code);
+    void select_filter();
     void put_gain_in_force();
     void check_aliasing();
     void put_identity();

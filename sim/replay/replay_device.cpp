@@ -37,7 +37,7 @@ Device::Device(std::unique_ptr<Recording> recording, Timing timing, Nanoseconds 
 void Device::install_unit(Nanoseconds now) {
     const RecordedUnit& unit = recording_->unit();
     machine_ = std::make_unique<device::RegisterMachine>(
-        *unit.profile, unit.identity, now - device::RegisterMachine::kPowerOnTime, flash_of(unit));
+        *unit.profile, unit.identity, now - device::power_on_time(*unit.profile), flash_of(unit));
     run_ = machine_->sampling_run();
 }
 

@@ -115,8 +115,7 @@ TimedSample Source::next() {
     const double temperature_degc = from_.temperature.value() +
                                     share * (to_.temperature - from_.temperature).value() +
                                     scenario_.sensor.temperature_white_degc * temperature_.normal();
-    sample.values.temperature_counts = to_counts(
-        (temperature_degc - profile_.temperature_offset_degc) / profile_.temperature_slope_degc);
+    sample.values.temperature_counts = profile_.temperature_counts(DegC(temperature_degc));
     if (++index_ % kRateHz == 0) {
         from_ = to_;
         to_ = slow_.next();

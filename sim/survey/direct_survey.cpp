@@ -263,9 +263,9 @@ DirectSurvey write_day(const scenario::Scenario& scenario, const wire::DevicePro
                        const std::string& serial_number) {
     device::MachineIdentity identity;
     identity.serial_number = serial_number;
-    identity.product_id = device::product_id_of(profile);
+    identity.product_id = profile.product_id;
     device::RegisterMachine machine(profile, identity, Nanoseconds(0));
-    start_logging(machine, device::RegisterMachine::kPowerOnTime);
+    start_logging(machine, device::power_on_time(profile));
 
     const journal::Header header = journal_header(scenario, profile, identity, seed);
     truth::Writer truth(root / "truth.bin");
@@ -293,7 +293,7 @@ DirectSurvey write_day(const scenario::Scenario& scenario, const wire::DevicePro
                             oven::Controller(*source.outer_oven()));
     for (UtcTime now = scenario.start() + 1s; stream.next_due(); now += 1s) {
         take(clock_at(scenario, now - 1s), now - 1s);
-        stream.advance_to({now, device::RegisterMachine::kPowerOnTime}, collected);
+        stream.advance_to({now, device::power_on_time(profile)}, collected);
         if (!collected.is_empty()) take(collected.take(), now);
         if (!controllers) continue;
         take(poll_of(controllers->first, journal::OvenPlace::inner, raw_at(scenario, now)), now);

@@ -92,11 +92,11 @@ SimulatedSensor::SimulatedSensor(std::uint64_t seed, Schedule& schedule, Host& h
       host_(host),
       profile_(*wire::find_profile("A351")),
       samples_(host.true_time()),
-      machine_(profile_, {.product_id = sim::device::product_id_of(profile_)}, Nanoseconds(0)),
+      machine_(profile_, {.product_id = profile_.product_id}, Nanoseconds(0)),
       device_(samples_, machine_),
       line_(line, seed, host.true_time(), [this](const auto& record) { settle(record); }),
       injector_({.planned = {}, .random = {}, .seed = seed}, host.true_time(), line_, machine_,
-                profile_, {.product_id = sim::device::product_id_of(profile_)},
+                profile_, {.product_id = profile_.product_id},
                 [](std::string_view, int) { return false; }) {}
 
 sim::device::Instant SimulatedSensor::instant() const {

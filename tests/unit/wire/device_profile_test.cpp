@@ -14,7 +14,8 @@ using Names = std::vector<std::string_view>;
 
 TEST_CASE("profiles are found by name, and only the documented one is verified",
           "[wire][device_profile]") {
-    CHECK(profile_names() == std::vector<std::string>{"A351", "A352AD10"});
+    CHECK(profile_names() == std::vector<std::string>{"A351", "A352AD10", "A370AD10"});
+    CHECK_FALSE(find_profile("A370AD10")->is_verified);
     const DeviceProfile* documented = find_profile("A352AD10");
     const DeviceProfile* copy = find_profile("A351");
     REQUIRE(documented != nullptr);
@@ -49,6 +50,18 @@ TEST_CASE("temperature falls with rising counts, as published", "[wire][device_p
     const DeviceProfile& profile = *find_profile("A352AD10");
     CHECK(profile.temperature(2634).value() == Approx(25.0).margin(0.0019));  // half a count
     CHECK(profile.temperature(-1981).value() == Approx(42.4986).margin(5e-5));
+    CHECK(profile.temperature_counts(DegC(42.4986)) == -1981);
+}
+
+TEST_CASE("the A370 differs from the A352 as its brief sheet says", "[wire][device_profile]") {
+    const DeviceProfile& profile = *find_profile("A370AD10");
+    CHECK(profile.product_id_prefix == "A370AD10");
+    CHECK(profile.acceleration(1 << 24).value() == 1.0);
+    CHECK(profile.rated_range == StandardGravity(10.0));
+    CHECK(profile.temperature(2634).value() == Approx(25.0).margin(0.0019));  // half a count
+    CHECK(profile.temperature_counts(DegC(1e6)) == -32768);                   // 16 bits
+    CHECK(profile.temperature_counts(DegC(-1e6)) == 32767);
+    CHECK(profile.start_up == std::chrono::milliseconds(1100));
 }
 
 TEST_CASE("COUNT steps are those of the data sheet", "[wire][device_profile]") {
@@ -62,7 +75,7 @@ TEST_CASE("group delays are those of the data sheet", "[wire][device_profile]") 
     const DeviceProfile& profile = *find_profile("A352AD10");
     const std::map<int, int> delays_us{{64, 7'875}, {128, 15'875}, {512, 63'875}};  // table 5.3
     for (const FilterSpec& filter : profile.filters) {
-        if (filter.name.starts_with("user")) continue;
+        if (filter.is_user) continue;
         CHECK(profile.group_delay(filter) ==
               Nanoseconds(std::chrono::microseconds(delays_us.at(filter.taps))));
     }

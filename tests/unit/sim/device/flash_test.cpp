@@ -24,7 +24,7 @@ void back_up(Bench& bench) {
 
 void power_cycle(Bench& bench) {
     bench.machine.power_cycle(bench.now);
-    bench.wait(RegisterMachine::kPowerOnTime);
+    bench.wait(power_on_time(*wire::find_profile("A352AD10")));
 }
 
 std::filesystem::path scratch(const std::string& name) {
@@ -113,7 +113,7 @@ TEST_CASE("with AUTO_START and UART_AUTO in flash the device streams right after
     bench.send({"FE 01", "85 06", "86 06", "88 03", "8C 03", "8D C7"});
     back_up(bench);
     bench.machine.power_cycle(bench.now);
-    bench.wait(RegisterMachine::kPowerOnTime - 1ns);
+    bench.wait(power_on_time(*wire::find_profile("A352AD10")) - 1ns);
     CHECK_FALSE(bench.machine.is_sampling());
     bench.wait(1ns);
     REQUIRE(bench.machine.is_sampling());

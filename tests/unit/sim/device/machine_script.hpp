@@ -47,7 +47,7 @@ struct Bench {
                    MachineIdentity identity = {"A352AD10", "01234567", 0x000D},
                    const FlashMemory& flash = {})
         : machine(*wire::find_profile(profile), std::move(identity), Nanoseconds(0), flash) {
-        now = RegisterMachine::kPowerOnTime;
+        now = power_on_time(*wire::find_profile(profile));
         machine.pass_time(now);
     }
 

@@ -145,7 +145,7 @@ TEST_CASE("during start-up NOT_READY is answered and nothing else", "[sim][regis
     Bench bench;
     bench.machine.power_cycle(bench.now);
     CHECK(bench.send({"FE 00", "02 00", "FE 01", "0A 00", "85 06"}) == "0A 04 00 0D");
-    bench.wait(RegisterMachine::kPowerOnTime);
+    bench.wait(power_on_time(*wire::find_profile("A352AD10")));
     CHECK(bench.send({"0A 00", "04 00"}) == "0A 00 00 0D 04 04 00 0D");
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("a power cycle wakes a sleeping device too", "[sim][register_machine]"
     Bench bench;
     bench.send({"83 03"});
     bench.machine.power_cycle(bench.now);
-    bench.wait(RegisterMachine::kPowerOnTime);
+    bench.wait(power_on_time(*wire::find_profile("A352AD10")));
     CHECK(bench.read("W0:02") == "0400");
 }
 
@@ -275,7 +275,7 @@ TEST_CASE("settings cannot be changed from outside while the device starts up or
     bench.machine.power_cycle(bench.now);
     bench.machine.apply_settings(changes, bench.now);
     CHECK_FALSE(bench.machine.is_sampling());
-    bench.wait(RegisterMachine::kPowerOnTime);
+    bench.wait(power_on_time(*wire::find_profile("A352AD10")));
     CHECK(bench.read("W1:04") == "0400");
 }
 

@@ -120,7 +120,7 @@ struct Served {
     Scenario scenario = load_scenario("tsukuba");
     signal::Source source{scenario, profile, 1};
     RegisterMachine machine{
-        profile, {"A352AD10", "01234567", 1}, steady_now() - RegisterMachine::kPowerOnTime};
+        profile, {"A352AD10", "01234567", 1}, steady_now() - power_on_time(profile)};
     std::vector<truth::Record> truth;
     DeviceStream stream{source, machine};
     Line line{{}, 1, scenario.start(), [this](const truth::Record& r) { truth.push_back(r); }};
