@@ -118,6 +118,17 @@ source::PortAddress read_address(TomlTable& table) {
     return address;
 }
 
+/// Reads the name of a shipped profile, or the path of a file.
+const wire::DeviceProfile* read_profile(TomlTable& table) {
+    const std::vector<std::string> names = wire::profile_names();
+    const std::string name = table.string_or("profile", "A351");
+    if (std::ranges::count(names, name) > 0) return wire::find_profile(name);
+    const std::filesystem::path file = table.path_or_empty("profile");
+    if (!std::filesystem::is_regular_file(file))
+        table.refuse("profile", "neither a profile nor a file", joined(names) + ", or a file");
+    return &wire::load_profile(file);
+}
+
 void read_filter(TomlTable& table, source::LinkOptions& sensor, station::Description& station) {
     const int rate_hz = sensor.settings.output_rate_hz;
     station.filter = table.string_or("filter", "k512_fc9");
@@ -136,8 +147,7 @@ void read_filter(TomlTable& table, source::LinkOptions& sensor, station::Descrip
 source::LinkOptions read_sensor(TomlTable table, station::Description& station) {
     source::LinkOptions sensor;
     sensor.address = read_address(table);
-    sensor.profile = wire::find_profile(table.choice_or("profile", "A351", wire::profile_names()));
-
+    sensor.profile = read_profile(table);
     sensor.baud = coded_value(table, "baud", 460800, sensor.profile->baud_rates);
     sensor.settings.output_rate_hz =
         coded_value(table, "output_rate_hz", 50, sensor.profile->output_rates_hz);

@@ -14,8 +14,8 @@ constexpr std::size_t kProductIdLength = 8;  ///< Characters of PROD_ID1 to PROD
 constexpr int kLargestCode = 15;             ///< The widest fields of registers have four bits.
 constexpr int kLargestBaudCode = 3;
 constexpr int kMostUserTaps = 512;  ///< Coefficients for which the device has memory.
-/// COUNT has 16 bits, so a longer step between frames is not unique.
-constexpr int kLargestCountStep = 65535;
+/// Rates for which the programs are tested.  The live view lowers each to 5 Hz.
+constexpr int kLowestRate_hz = 50, kHighestRate_hz = 1000, kRateUnit_hz = 5;
 
 void require(const TomlTable& table, std::string_view key, std::string_view allowed) {
     if (!table.has(key)) table.refuse(key, "missing", allowed);
@@ -126,13 +126,13 @@ void add_coded(const TomlTable& table, std::string_view key, Coded coded,
 void read_rates(TomlTable& document, DeviceProfile& profile) {
     TomlTable rates = required_table(document, "output_rate");
     for (TomlTable& choice : required_choices(rates)) {
-        const int hz = required_integer(choice, "hz", 1, 100'000);
+        const int hz = required_integer(choice, "hz", kLowestRate_hz, kHighestRate_hz);
         const int code = required_integer(choice, "code", 0, kLargestCode);
         const int tick_hz = profile.internal_rate_hz;
-        if (tick_hz % hz != 0 || tick_hz / hz > kLargestCountStep) {
-            choice.refuse("hz", "not a whole number of ticks per sample",
-                          "a divisor of timing.tick_hz = " + std::to_string(tick_hz) +
-                              ", at most 65535 ticks");
+        if (tick_hz % hz != 0 || hz % kRateUnit_hz != 0) {
+            choice.refuse(
+                "hz", "not a whole number of ticks per sample, or no multiple of 5",
+                "a divisor of timing.tick_hz = " + std::to_string(tick_hz) + " and multiple of 5");
         }
         choice.require_all_read();
         add_coded(choice, "hz", {hz, static_cast<std::uint8_t>(code)}, profile.output_rates_hz);

@@ -1,8 +1,13 @@
 #include "sim/command/options.hpp"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/echo.hpp"
 #include "protocol/wire/device_profile.hpp"
-#include "sim/device/register_machine.hpp"
+#include "sim/device/register_file.hpp"
 #include "sim/line/service.hpp"
 
 namespace a351::sim::command {
@@ -28,9 +33,10 @@ void add_day(CLI::App& command, DayOptions& day) {
 }
 
 void add_profile(CLI::App& command, std::string& profile, const std::string& restriction) {
-    command.add_option("--profile", profile, "Kind of device" + restriction)
-        ->type_name("NAME")
-        ->check(CLI::IsMember(wire::profile_names()))
+    command
+        .add_option("--profile", profile,
+                    "Kind of device: name of a profile, or a TOML file" + restriction)
+        ->type_name("NAME|FILE")
         ->capture_default_str();
 }
 
@@ -51,7 +57,22 @@ void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restricti
     add_serial(command, unit.serial, restriction);
 }
 
-const wire::DeviceProfile& profile_of(const std::string& name) { return *wire::find_profile(name); }
+const wire::DeviceProfile& profile_of(const std::string& name_or_file) {
+    const std::vector<std::string> names = wire::profile_names();
+    if (std::ranges::count(names, name_or_file) > 0) return *wire::find_profile(name_or_file);
+    if (!std::filesystem::is_regular_file(name_or_file)) {
+        throw InputError("--profile " + text::echoed(name_or_file) +
+                         ": neither a profile nor a file; allowed: " + text::joined(names) +
+                         ", or a file");
+    }
+    const wire::DeviceProfile& profile = wire::load_profile(name_or_file);
+    if (!device::has_factory_codes(profile)) {
+        throw InputError(text::echoed(name_or_file) +
+                         ": the emulated device cannot start with it; allowed: a profile with code "
+                         "4 of output_rate, 1 of baud and 8 of filter");
+    }
+    return profile;
+}
 
 std::string product_of(const UnitOptions& unit) {
     return unit.product.empty() ? profile_of(unit.profile).product_id : unit.product;

@@ -35,7 +35,9 @@ void add_serial(CLI::App& command, std::string& serial, const std::string& restr
 /// Adds --profile, --product and --serial.
 void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restriction = {});
 
-[[nodiscard]] const wire::DeviceProfile& profile_of(const std::string& name);
+/// Returns the profile of that name, or the one in that file.
+/// @throws InputError  there is none, the file breaks the format, or the emulator cannot use it.
+[[nodiscard]] const wire::DeviceProfile& profile_of(const std::string& name_or_file);
 [[nodiscard]] std::string product_of(const UnitOptions& unit);
 
 /// Adds --clock; its syntax is that of parse_clock_scale().

@@ -35,6 +35,12 @@ bool may_hold(const wire::DeviceProfile& profile, const wire::Register& reg, std
     return true;
 }
 
+bool has_factory_codes(const wire::DeviceProfile& profile) {
+    return may_hold(profile, wire::kSmplCtrl, wire::kSmplCtrl.default_value) &&
+           may_hold(profile, wire::kFilterCtrl, wire::kFilterCtrl.default_value) &&
+           may_hold(profile, wire::kUartCtrl, wire::kUartCtrl.default_value);
+}
+
 RegisterFile::RegisterFile() {
     for (const wire::Register& reg : wire::kRegisters) at(reg) = reg.default_value;
 }

@@ -43,6 +43,10 @@ inline constexpr std::uint16_t kLongFilterOn = 0x0001;  ///< LONGFILT_CTRL: FILT
 [[nodiscard]] bool may_hold(const wire::DeviceProfile& profile, const wire::Register& reg,
                             std::uint16_t value);
 
+/// Returns true if the profile has the codes of rate, filter and baud of a device with factory flash.
+/// The emulated device starts with them.
+[[nodiscard]] bool has_factory_codes(const wire::DeviceProfile& profile);
+
 class RegisterFile {
 public:
     RegisterFile();  ///< Starts with the factory values.

@@ -44,7 +44,8 @@ void require_known_settings(const std::filesystem::path& file, const journal::He
         std::ranges::count(profile->baud_rates, header.baud, &wire::Coded::value) > 0;
     if (!profile->has_output_rate(header.output_rate_hz) || !has_baud ||
         profile->filter_named(header.filter) == nullptr ||
-        !wire::BurstLayout::from_burst_ctrl(header.burst_ctrl)) {
+        !wire::BurstLayout::from_burst_ctrl(header.burst_ctrl) ||
+        !device::has_factory_codes(*profile)) {
         throw InputError(fmt::format(
             "{}: {}, {} baud: settings that profile {} does not have; allowed: those of its data "
             "sheet",

@@ -42,7 +42,7 @@ class Session:
     """Emulator and daemon running together.  end() stops both and reads the emulator's report."""
 
     def __init__(self, scratch, faults="", speed=20, scenario="tsukuba", start=None, config="", storage="", prepare_port=None,
-                 on_host_clock=False, host="127.0.0.1", **options):
+                 on_host_clock=False, host="127.0.0.1", emulator=(), **options):
         """Starts both.
 
         @param start  begin of simulated time, RFC 3339; default: that of the scenario
@@ -51,6 +51,7 @@ class Session:
         @param prepare_port  function called with the emulator's terminal before the daemon starts
         @param on_host_clock  both run on the host's clock; speed must be 1, and `start` must not be in the future
         @param host  address on which the daemon listens
+        @param emulator  further options of `a351-sim device`
         @param options  options of subprocess.Popen for the daemon
         """
         self.scratch = scratch
@@ -67,7 +68,7 @@ class Session:
         self.sim = self._start(
             [BIN / "a351-sim", "device", "--link", "sensor", "--scenario", scenario, "--clock", self.clock,
              "--faults", "faults.toml", "--control", "control", "--truth", "truth.bin", "--report",
-             "report.json"])
+             "report.json", *emulator])
         wait_for("the control socket exists", (scratch / "control").exists)
         if prepare_port:
             prepare_port(scratch / "sensor")

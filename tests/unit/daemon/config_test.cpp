@@ -8,6 +8,7 @@
 
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/wire/shipped_profiles.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351::daemon;
@@ -59,6 +60,35 @@ TEST_CASE_METHOD(Fixture, "a token that every user can read is noticed", "[daemo
         std::filesystem::permissions(file, std::filesystem::perms(0640));
         CHECK_FALSE(shows_token(config));
     }
+}
+
+TEST_CASE_METHOD(Fixture, "the profile is a name, or a file beside the configuration",
+                 "[daemon][config]") {
+    const auto with = [](const std::string& profile) {
+        return kStation + kSensor + "profile = \"" + profile + "\"\n" + kStorage;
+    };
+    CHECK(read(with("A370AD10")).sensor.profile->rated_range == StandardGravity(10.0));
+
+    std::string text(wire::shipped_profiles()[1].toml);
+    const std::string slope = "slope_degc = -0.0037918",
+                      slope_of_16_16 = "slope_degc = -5.78583e-8";
+    text.replace(text.find(slope), slope.size(), slope_of_16_16);
+    const auto path = directory.write("profiles/mine.toml", text);
+    for (const std::string& given : {std::string("profiles/mine.toml"), path.string()}) {
+        const Config config = read(with(given));
+        CHECK(config.sensor.profile->temperature_slope_degc == -5.78583e-8);
+        CHECK(config.station.profile == config.sensor.profile->name);
+        CHECK(config.station.profile.starts_with("mine#"));
+    }
+    CHECK(refusal(with("A353")) ==
+          "a351d.toml:7: sensor.profile = 'A353': neither a profile nor a file; allowed: A351, "
+          "A352AD10, A370AD10, or a file");
+    text.replace(text.find(slope_of_16_16), slope_of_16_16.size(), "slope_degc = 0.0");
+    directory.write("profiles/mine.toml", text);
+    CHECK(
+        refusal(with("profiles/mine.toml")) ==
+        "profiles/mine.toml:17: temperature.slope_degc = 0: has no inverse; allowed: a number from "
+        "-1 to 1, but not 0");
 }
 
 TEST_CASE_METHOD(Fixture, "a minimal configuration has the documented defaults",

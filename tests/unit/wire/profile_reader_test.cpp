@@ -53,9 +53,14 @@ TEST_CASE("a profile file with a mistake is refused with key, value and what is 
           "source, width_bits");
     CHECK(refusal("width_bits = 32", "width_bits = 24") ==
           "mine.toml:19: temperature.width_bits = 24: not a width of the device; allowed: 16, 32");
-    CHECK(refusal("hz = 1000, code = 2", "hz = 1500, code = 2") ==
-          "mine.toml:30: output_rate.choices.hz = 1500: not a whole number of ticks per sample; "
-          "allowed: a divisor of timing.tick_hz = 4000, at most 65535 ticks");
+    CHECK(
+        refusal("hz = 1000, code = 2", "hz = 600, code = 2") ==
+        "mine.toml:30: output_rate.choices.hz = 600: not a whole number of ticks per sample, or no "
+        "multiple of 5; allowed: a divisor of timing.tick_hz = 4000 and multiple of 5");
+    CHECK(
+        refusal("hz = 50, code = 6", "hz = 40, code = 6") ==
+        "mine.toml:34: output_rate.choices.hz = 40: out of range; allowed: a whole number from 50 "
+        "to 1000");
     CHECK(refusal("hz = 500, code = 3", "hz = 500, code = 2") ==
           "mine.toml:31: output_rate.choices.code = 2: given twice; allowed: each code once");
     CHECK(refusal("hz = 500, code = 3", "hz = 1000, code = 3") ==

@@ -68,7 +68,8 @@ TEST_CASE("a file that cannot be replayed is refused with its name and what is a
 
     auto header = test::journal_header();
     header.profile = "A999";
-    CHECK(with(segment_of({header})) == name + ": profile A999: unknown; allowed: A351, A352AD10");
+    CHECK(with(segment_of({header})) ==
+          name + ": profile A999: unknown; allowed: A351, A352AD10, A370AD10");
     for (int field = 0; field < 4; ++field) {
         header = test::journal_header();
         if (field == 0) header.output_rate_hz = 51;

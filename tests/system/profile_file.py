@@ -1,0 +1,48 @@
+"""Emulator and daemon use a profile from a file, and show what such a sensor measures.
+
+The profile is that of the A352AD10, but each count of its temperature is 65536 times as fine.  Read with a shipped profile,
+the same bytes would be a temperature of half a million degrees.
+"""
+
+from emulated_session import Session
+from programs import BIN, TOP, Scratch, demand, run
+
+SLOPE_DEGC = -0.0037918
+OVEN_DEGC = 42.5
+
+
+def write_profile(file):
+    text = (TOP / "config" / "profiles" / "A352AD10.toml").read_text()
+    file.write_text(text.replace(f"slope_degc = {SLOPE_DEGC}", f"slope_degc = {SLOPE_DEGC / 65536!r}"))
+
+
+def refused(*command):
+    result = run(*command, check=False)
+    lines = result.stderr.splitlines()
+    demand(f"{command[0].name} ends with 2 and one line: {result.returncode}, {lines}", result.returncode == 2 and len(lines) == 1)
+    return lines[0]
+
+
+with Scratch() as scratch:
+    write_profile(scratch / "fine.toml")
+    (scratch / "wrong.toml").write_text((scratch / "fine.toml").read_text().replace("hz = 500,", "hz = 600,"))
+    line = refused(BIN / "a351-sim", "device", "--link", scratch / "s", "--profile", scratch / "wrong.toml")
+    demand(f"the emulator names file, line, key and value: {line}",
+           f"{scratch / 'wrong.toml'}:31: output_rate.choices.hz = 600: " in line and "; allowed: " in line)
+
+    session = Session(scratch, emulator=("--profile", "fine.toml"), config='profile = "fine.toml"\n')
+    session.wait_for_frames(500)
+    shown = session.status()["sample"]["temperature_degc"]
+    demand(f"the daemon shows the temperature of the oven: {shown} degC", abs(shown - OVEN_DEGC) < 1.0)
+    session.end()
+    response = (scratch / "data" / "metadata" / "station.xml").read_text()
+    demand("the metadata have the slope of the file", f">{SLOPE_DEGC / 65536!r}<" in response)
+
+    # Without the file of the profile the journal still says how to read its bytes.
+    (scratch / "fine.toml").unlink()
+    rates = {}
+    for root in ("data", "again"):
+        if root == "again":
+            run(BIN / "a351-correct", "retime", "data", "--out", "again", cwd=scratch)
+        rates[root] = sorted(file.name for file in (scratch / root / "archive").rglob("*") if file.is_file())
+    demand(f"re-timing finds the profile in the journal: {rates}", rates["again"] and rates["again"] == rates["data"])
