@@ -57,7 +57,7 @@ std::string required_word(TomlTable& table, std::string_view key, std::string_vi
     return word;
 }
 
-/// Checks the key `source`.  Programs show the file, so they do not keep it.
+/// Checks the key `source`, which is for people who read the file.
 void require_source(TomlTable& table) {
     constexpr std::string_view kAllowed = "where the values are from, or \"assumed: ...\"";
     require(table, "source", kAllowed);

@@ -7,6 +7,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/unit/calibration.hpp"
 #include "protocol/wire/device_profile.hpp"
+#include "protocol/wire/profile_reader.hpp"
 #include "sim/line/fault_script.hpp"
 #include "sim/scenario/scenario.hpp"
 #include "tests/fuzz/fuzz_file.hpp"
@@ -31,6 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto file = fuzz::file_of(text, "input.toml");
     take_or_refuse([&] { (void)daemon::config::read_config(file); });
     take_or_refuse([&] { (void)unit::parse_calibration(text, "calibration.toml"); });
+    take_or_refuse([&] { (void)wire::parse_profile(text, "mine", "mine.toml"); });
     take_or_refuse([&] { (void)sim::scenario::parse_scenario(text, "scenario.toml"); });
     const sim::line::FaultRules rules{.profile = *wire::find_profile("A351")};
     take_or_refuse(
