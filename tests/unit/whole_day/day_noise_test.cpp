@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 #include "tests/support/catch.hpp"
 
 #include "tests/unit/whole_day/made_up_day.hpp"
@@ -43,23 +44,27 @@ TEST_CASE("means of simulated flicker have the covariance of the bins", "[day]")
     }
     const Eigen::MatrixXd expected = noise_covariance(bins, {0.0, 1.0, 0.0});
 
-    // The processes are stepped by 0.25 s.
+    // The processes are stepped by 0.25 s in a bin, and at once over the time between two bins.
     constexpr double kStep_s = 0.25;
-    constexpr int kDays = 4000, kSteps = 8 * 300;
+    constexpr int kDays = 4000;
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (int day = 0; day < kDays; ++day) {
         Eigen::Vector3d means = Eigen::Vector3d::Zero();
         for (const double period_s : kFlickerPeriods_s) {
-            const double keep = std::exp(-2.0 * std::numbers::pi * kStep_s / period_s);
             double value = normal(random);
-            for (int i = 0; i < kSteps; ++i) {
+            const auto advance = [&](int steps) {
+                const double keep = std::exp(-2.0 * std::numbers::pi * steps * kStep_s / period_s);
                 value = keep * value + std::sqrt(1.0 - keep * keep) * normal(random);
-                for (std::size_t b = 0; b < 3; ++b)
-                    if (i / 8 >= kFirst.at(b) && i / 8 < kFirst.at(b) + kSamples.at(b))
-                        means(static_cast<Eigen::Index>(b)) +=
-                            value / std::sqrt(7.0) / (8.0 * kSamples.at(b));
+            };
+            int last = 0;
+            for (std::size_t b = 0; b < 3; ++b) {
+                for (int i = 8 * kFirst.at(b); i < 8 * (kFirst.at(b) + kSamples.at(b)); ++i) {
+                    advance(i - std::exchange(last, i));
+                    means(static_cast<Eigen::Index>(b)) +=
+                        value / std::sqrt(7.0) / (8.0 * kSamples.at(b));
+                }
             }
         }
         sum += means * means.transpose() / kDays;

@@ -1,6 +1,7 @@
 /// The temperature of an outer oven in the whole-day model and in the adjustment of several days.
 #include <cmath>
 #include "tests/support/catch.hpp"
+#include "tests/support/long_tests.hpp"
 
 #include "corrector/whole_day/day_model.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
@@ -14,8 +15,9 @@ namespace {
 
 /// Returns the rms error of stations 3 and 9 if they are unknown, over days.
 double error_with_outer(double slope, bool is_seen) {
+    const std::uint64_t days = test::is_long() ? 10 : 3;
     double squares = 0.0;
-    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    for (std::uint64_t seed = 1; seed <= days; ++seed) {
         DayRecord day = with_outer_oven(MadeUpDay{.placement_mgal = 1.2}.record(seed), 0.0, slope);
         if (!is_seen) day.outer.reset();
         for (const std::size_t s : {3U, 9U}) {
@@ -26,7 +28,7 @@ double error_with_outer(double slope, bool is_seen) {
             squares += std::pow(fit.value().gravity_mgal[s].value - MadeUpDay::gravity_mgal(s), 2);
         }
     }
-    return std::sqrt(squares / 20.0);
+    return std::sqrt(squares / (2.0 * static_cast<double>(days)));
 }
 
 }  // namespace
