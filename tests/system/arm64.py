@@ -56,7 +56,7 @@ def unit_and_golden(root):
     said = inside(root, "cd /a351 && ctest --preset arm64")
     print("\n".join(said.splitlines()[-12:]))
     passed = re.search(r"100% tests passed, 0 tests failed out of (\d+)", said)
-    demand(f"{passed[1] if passed else 'not all'} unit and golden tests pass on arm64", passed and int(passed[1]) > 90)
+    demand(f"{passed[1] if passed else 'not all'} unit and golden tests pass on arm64", passed and int(passed[1]) > 50)
 
 
 def make_files(root, preset, runner):
