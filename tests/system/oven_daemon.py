@@ -156,7 +156,8 @@ def play_all(scratch, session):
     time.sleep(1.0)
     status = session.status()
     session.sim.send_signal(signal.SIGTERM)
-    demand("the emulator ends cleanly", session.sim.wait(timeout=30) == 0)
+    demand("the emulator ends cleanly and removes the oven's link",
+           session.sim.wait(timeout=30) == 0 and not (scratch / "oven").is_symlink())
     session.daemon.send_signal(signal.SIGTERM)
     began = time.monotonic()
     status_at_end = session.daemon.wait(timeout=30)
@@ -188,6 +189,7 @@ def play_all(scratch, session):
                                        if outcome != "answered"))
     report = read_json(scratch / "report.json")["oven"]
     print("emulator:", report)
+    demand("the emulator reports each kind of faulty answer", report["faults"].keys() == {kind for kind, _, _ in SPOILS})
     demand("the daemon sent only read requests", report["unreadable"] == report["for_other_units"]
            == report["broadcasts"] == report["resets"] == 0)
     log = (scratch / "a351d.log").read_text()
