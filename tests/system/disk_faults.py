@@ -15,7 +15,7 @@ import sys
 import time
 
 import small_disk
-from programs import BIN, Scratch, compare_truth, daemon_config, daemon_status, demand, run, skip, unused_port
+from programs import BIN, Scratch, compare_truth, daemon_config, daemon_status, demand, run, skip, together, unused_port
 from small_disk import RESERVE
 
 SPEED = 5  # Low, because strace stops the daemon twice in every system call.
@@ -246,9 +246,7 @@ def read_only(day):
     day.wait_for_more()
 
 
-def failing_calls():
-    if shutil.which("strace") is None:
-        skip("strace is missing")
+def failing_syncs():
     with Scratch() as scratch:
         day = Day(scratch)
         day.wait_for("the verdict settling is logged, which syncs too", lambda state: any(
@@ -257,13 +255,25 @@ def failing_calls():
             failing_sync(day, "journal", n)
         failing_sync(day, "archive", 1)
         stall(day, "write", 7, 3)
-        stall(day, "fdatasync", 2, 10)
-        read_only(day)
         with injecting(day, "fdatasync:error=EIO:when=1", "fsync:delay_enter=3000000:when=1"):
             day.wait_for("a stall at a new segment is reported", lambda state: has_reason(state, STALL))
         day.wait_for_more()
         print("counters:", day.counters())
         day.end()
+
+
+def long_faults():
+    with Scratch() as scratch:
+        day = Day(scratch)
+        stall(day, "fdatasync", 2, 10)
+        read_only(day)
+        day.end()
+
+
+def failing_calls():
+    if shutil.which("strace") is None:
+        skip("strace is missing")
+    together(failing_syncs, long_faults)  # Both wait most of their time.
 
 
 {"full": full_disk, "failing": failing_calls}[sys.argv[1]]()

@@ -210,7 +210,8 @@ def start_with_lost_logs():
             "to a reader that has ended": Session(scratch_directory(), stderr=gone)}
 
 
-def logs_lost(sessions):
+def logs_lost():
+    sessions = start_with_lost_logs()
     for where, session in sessions.items():
         session.wait_for_frames(5000)
         report, counters = session.end()
@@ -238,8 +239,7 @@ def clocks_of_host():
     end_awake(sleeper, alarm)
 
 
-logs_lost(start_with_lost_logs())
-together(clocks_of_host, clocks_changed)  # Both wait most of their time.
+together(clocks_of_host, clocks_changed, logs_lost)  # They wait most of their time.
 for scratch in scratches:
     scratch.__exit__(None, None, None)
 table.finish()

@@ -4,6 +4,7 @@ The time counts from the last sample of the record; its first sample is a second
 it looks for new records once a second when it has sent all.  The way is the real one: emulated sensor, daemon, archive, a351-stream,
 ringserver, slinktool; without the last two (see stream_ringserver.py) it ends at datalink_ring.py.  Then the daemon is killed and
 started again, and records that are lost are made again from the journal (recovery_test.cpp has all cases).
+A351_LONG=1: for a minute; otherwise for half a minute.
 """
 
 import datetime
@@ -14,13 +15,13 @@ import time
 
 from datalink_ring import Ring
 from emulated_session import Session, wait_for
-from programs import BIN, IS_SANITIZED, ONE_SITE, Scratch, demand, unused_port
+from programs import BIN, IS_LONG, IS_SANITIZED, ONE_SITE, Scratch, demand, unused_port
 from seedlink import day_files, is_listening, program
 
-RECORD, SECONDS = 512, 60
+RECORD, SECONDS = 512, 60 if IS_LONG else 30
 MOST_S = 2.0
 TIME_ERROR_S = 0.01  # That of kill_daemon.py at factor 1.
-START = "2017-07-15T23:59:30Z"  # Half a minute before midnight.
+START = "2017-07-15T23:59:45Z"  # A quarter of a minute before midnight.
 SCENARIO = f"""base = "quiet"
 name = "short-records"
 [schedule]
