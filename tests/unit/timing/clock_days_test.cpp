@@ -20,7 +20,7 @@ namespace {
 const std::uint64_t kSeeds = 3, kFewerSeeds = 3;
 constexpr int kHours = 1;
 #else
-const std::uint64_t kSeeds = test::is_long() ? 40 : 8, kFewerSeeds = test::is_long() ? 8 : 2;
+const std::uint64_t kSeeds = test::is_long() ? 40 : 4, kFewerSeeds = test::is_long() ? 8 : 2;
 constexpr int kHours = 4;
 #endif
 
