@@ -67,9 +67,9 @@ void JournalKeeper::run() noexcept {
 }
 
 void JournalKeeper::note_fault(const std::string& trouble) {
+    trouble_ = trouble;
     const std::lock_guard lock(mutex_);
     ++status_.faults;
-    status_.trouble = trouble;
 }
 
 void JournalKeeper::tidy() noexcept {
@@ -79,6 +79,8 @@ void JournalKeeper::tidy() noexcept {
     } catch (const std::exception& error) {
         note_fault(error.what());
     }
+    const std::lock_guard lock(mutex_);
+    status_.trouble = std::exchange(trouble_, {});
 }
 
 void JournalKeeper::remove_old() {

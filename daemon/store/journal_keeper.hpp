@@ -31,7 +31,7 @@ public:
         std::uint64_t compressed = 0;
         std::uint64_t removed = 0;
         std::uint64_t faults = 0;
-        std::string trouble;  ///< Text of the last fault.
+        std::string trouble;  ///< Text of the last fault of the newest tidy(); empty if none.
     };
 
     JournalKeeper(files::FileLayer& files, std::filesystem::path journal, Options options);
@@ -64,6 +64,7 @@ private:
     std::filesystem::path journal_;
     Options options_;
     std::atomic<bool> are_names_read_{false};
+    std::string trouble_;  ///< Trouble of the tidy() in progress; used by its thread only.
 
     mutable std::mutex mutex_;
     std::condition_variable stopped_;

@@ -98,6 +98,7 @@ bool JournalThread::drop_oldest() {
     if (oldest == queued_.chunks().end()) return false;
     if (const auto* const rx = std::get_if<journal::RxChunk>(&oldest->chunk))
         status_.reads_dropped += rx->reads.size();
+    status_.is_dropping = true;
     queued_.erase(oldest);
     return true;
 }
@@ -131,7 +132,6 @@ JournalStatus JournalThread::status() const {
     const std::lock_guard lock(mutex_);
     JournalStatus status = status_;
     status.is_faulty |= is_fault_recent();
-    status.is_dropping = is_stuck() && queued_.bytes() >= capacity_bytes_;
     if (on_disk_since_) {
         status.present_sync =
             std::chrono::duration_cast<milliseconds>(time_.now() - *on_disk_since_);
@@ -248,7 +248,7 @@ void JournalThread::sync() {
     {
         const std::lock_guard lock(mutex_);
         faults_running_ = 0;
-        status_.is_faulty = false;
+        status_.is_faulty = status_.is_dropping = false;
     }
     progress_.journal_synced(last_chunk_);
 }

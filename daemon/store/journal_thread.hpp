@@ -36,7 +36,7 @@ struct JournalStatus {
     std::uint64_t rounds = 0;                   ///< Rounds of the thread.
     std::uint64_t events_refused = 0;           ///< Events not written to the event log.
     std::uint64_t reads_dropped = 0;            ///< Reads dropped, writing failed for too long.
-    bool is_dropping = false;                   ///< The next chunks that arrive are dropped too.
+    bool is_dropping = false;                   ///< Chunks were dropped since the last good sync.
     std::chrono::milliseconds longest_sync{0};  ///< Longest sync or write, or one in progress.
     std::chrono::milliseconds present_sync{0};  ///< Duration of the one in progress; 0: none.
 };

@@ -169,7 +169,7 @@ void Store::fill(status::Status& status) {
                                  {"journal_segments_removed", keeper.removed},
                                  {"journal_keeper_faults", keeper.faults},
                                  {"reserve_given_up", reserve.times_given_up}});
-    if (keeper.faults > 0)
+    if (!keeper.trouble.empty())
         status.warn(
             text::message("closed journal segment: not compressed or removed: {}", keeper.trouble));
     if (journal.is_faulty) {

@@ -15,12 +15,6 @@ using std::chrono::seconds;
 
 namespace {
 
-bool has_reason(const Status& status, const std::string& part) {
-    for (const std::string& reason : status.reasons)
-        if (reason.find(part) != std::string::npos) return true;
-    return false;
-}
-
 /// Zeroes the last two records of each day file, as the kernel may drop them after a failed sync.
 void zero_newest_records(const std::filesystem::path& root) {
     for (const char* channel : {"BN1", "BN2", "BNZ", "BK1"}) {

@@ -33,12 +33,6 @@ struct SmallRig : SteppedRig {
     [[nodiscard]] std::filesystem::path reserve_file() const { return root / "state" / "reserve"; }
 };
 
-bool has_reason(const Status& status, const std::string& part) {
-    for (const std::string& reason : status.reasons)
-        if (reason.find(part) != std::string::npos) return true;
-    return false;
-}
-
 }  // namespace
 
 TEST_CASE("the blocks of the reserve are really allocated", "[daemon][reserve]") {

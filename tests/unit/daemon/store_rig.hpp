@@ -2,6 +2,7 @@
 /// @file
 /// A store over files that can be made to hang or fail, fed with frames of known values.
 
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <memory>
@@ -93,6 +94,12 @@ inline status::Status status_of(store::Store& store) {
     status::Status status;
     store.fill(status);
     return status;
+}
+
+inline bool has_reason(const status::Status& status, const std::string& part) {
+    return std::ranges::any_of(status.reasons, [&](const text::Message& reason) {
+        return reason.english().find(part) != std::string::npos;
+    });
 }
 
 struct Rig {

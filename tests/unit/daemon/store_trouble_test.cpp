@@ -130,9 +130,11 @@ TEST_CASE_METHOD(
         REQUIRE(eventually([&] { return reads.fill() == 0; }));
     }
     CHECK(status_of(store).level == Status::Level::fault);
+    CHECK(has_reason(status_of(store), "the oldest data are being discarded"));
     files.does_append_fail = false;
     REQUIRE(eventually([&] { return status_of(store).journaled == 1099; }));
     const Status status = status_of(store);
+    CHECK_FALSE(has_reason(status, "the oldest data are being discarded"));
     CHECK(store.stop());
 
     const std::size_t frame_size = bytes.size() / 1100;
