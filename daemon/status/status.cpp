@@ -9,10 +9,6 @@
 namespace a351::daemon::status {
 namespace {
 
-// Free space below which the status warns.  Reason: 1 GiB lasts 9 days at 50 Hz, with 100 MB of
-// journal and 15 MB of archive a day, so there is time for a remedy.
-constexpr std::uint64_t kLittleSpace_bytes = std::uint64_t{1} << 30;
-
 /// Replaces unprintable characters: a device may report any bytes as its name.
 std::string printable(std::string text) {
     std::ranges::replace_if(
@@ -179,12 +175,6 @@ void assess(Status& status) {
                           "synchronise the clock, then run a351-correct retime",
                           status.counters.records_withheld));
     }
-    if (!status.disk_free_bytes)
-        status.warn(text::message(
-            "disk: the free space cannot be determined; check the disk of storage.root"));
-    else if (*status.disk_free_bytes < kLittleSpace_bytes)
-        status.warn(
-            text::message("disk: less than 1 GiB free, at most 9 days at 50 Hz; make room"));
 }
 
 }  // namespace a351::daemon::status

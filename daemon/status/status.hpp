@@ -90,8 +90,8 @@ struct Status {
 /// Copies the state of the sensor's link into the status, and adds its reasons.
 void fill(Status& status, const source::LinkStatus& link);
 
-/// Adds the level and reasons of a completely filled status: sample rate, oven, calibration, sample
-/// times and disk space.
+/// Adds the level and reasons of a completely filled status: sample rate, oven, calibration and
+/// sample times.
 void assess(Status& status);
 
 }  // namespace a351::daemon::status

@@ -13,7 +13,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr seconds kArchiveSyncInterval{30};
-constexpr seconds kSpaceInterval{1};                 // A disk can fill up within a minute.
 constexpr seconds kModelInterval{10};                // Instrument time, and
 constexpr milliseconds kShortestModelInterval{100};  // real time.
 constexpr milliseconds kWriteInterval{50};
@@ -45,6 +44,7 @@ ArchiveThread::ArchiveThread(files::FileLayer& files, std::filesystem::path arch
       most_waiting_bytes_(most_waiting_bytes),
       plan_(plan),
       last_sync_(time_.now()),
+      retry_(0, time_),
       archiver_(std::make_unique<archive::Archiver>(outbox_)) {
     status_.is_replaying = true;
     outbox_.placed = [this](const archive::Sample& sample) {
@@ -81,7 +81,7 @@ bool ArchiveThread::join() {
     else
         run_writing();
     lock.lock();
-    return !status_.is_faulty && status_.chunks_lost == 0;
+    return status_.trouble.empty() && status_.chunks_lost == 0;
 }
 
 void ArchiveThread::run() noexcept {
@@ -214,36 +214,34 @@ bool ArchiveThread::may_write() {
         last_look_at_space_ = time_.now();
         reserve_.tend();
     }
-    if (reserve_.is_space_short()) {
-        const std::lock_guard lock(mutex_);
-        if (outbox_.bytes <= most_waiting_bytes_) return false;
-    }
-    return !retry_at_ || time_.now() >= *retry_at_;
+    const std::lock_guard lock(mutex_);
+    return may_archive(reserve_.is_space_short(), outbox_.bytes > most_waiting_bytes_) &&
+           retry_.may_try(time_.now());
 }
 
 /// Writes the waiting records.  @return false if writing failed; the rest waits.
 bool ArchiveThread::store_records(bool is_last) {
     try {
-        if (retry_at_) reopen();
+        if (retry_.is_failing()) reopen();
         describe_sessions();
         write_outbox();
         if (is_last || time_.now() - last_sync_ >= kArchiveSyncInterval) sync();
     } catch (const std::exception& error) {
         note_fault(error.what());
-        retry_at_ = time_.now() + time_.retry_interval;
+        retry_.note_failure(time_.now());
         const std::lock_guard lock(mutex_);
         is_refused_ = true;
         return false;
     }
-    retry_at_.reset();
+    retry_.note_success();
     const std::lock_guard lock(mutex_);
-    is_refused_ = status_.is_faulty = false;
+    is_refused_ = false;
+    status_.trouble.clear();
     return true;
 }
 
 void ArchiveThread::note_fault(const std::string& trouble) {
     const std::lock_guard lock(mutex_);
-    status_.is_faulty = true;
     status_.trouble = trouble;
     ++status_.faults;
 }

@@ -3,10 +3,7 @@
 /// From chunks to samples, times and miniSEED records, by two threads.  The first decodes, and never
 /// waits for the disk once the chunks that the last run left in the journal are processed;
 /// acquisition does not wait for them.  The second writes a record when the journal holds its chunk.
-/// If the archive cannot be written, or the journal needs the remaining disk space, records wait in
-/// memory (64 MiB, 18 h at 50 Hz), and writing is tried again at intervals.  When this memory is
-/// full, the records are written if possible, even if space is short.  Otherwise the oldest are
-/// dropped; they are in the journal.
+/// What they do on a full or failing disk is in disk_policy.hpp.
 
 #include <atomic>
 #include <chrono>
@@ -35,8 +32,7 @@
 namespace a351::daemon::store {
 
 struct ArchiveStatus {
-    bool is_faulty = false;
-    std::string trouble;
+    std::string trouble;  ///< Text of the last fault; empty if it is over.
     std::uint64_t faults = 0;
     std::uint64_t chunks_lost = 0;  ///< Chunks that could not be parsed; they are in the journal.
     std::uint64_t records_dropped = 0;  ///< Records dropped because they waited for too long.
@@ -52,7 +48,7 @@ struct ArchiveStatus {
     timing::State timing_state = timing::State::unlocked;
     std::optional<Nanoseconds> timing_uncertainty;  ///< Absent before the first session.
     bool is_host_synchronised = false;
-    std::optional<status::ClockStep> clock_step;    ///< Newest one of this run.
+    std::optional<status::ClockStep> clock_step;  ///< Newest one of this run.
     std::optional<timing::MeasuredRate> measured_rate;
 };
 
@@ -182,17 +178,15 @@ private:
     std::size_t most_waiting_bytes_;
     const archive::RecoveryPlan& plan_;
 
-    using steady_time = std::chrono::steady_clock::time_point;
-
     // Used by the decoding thread only.
-    steady_time last_model_real_;
+    SteadyTime last_model_real_;
     RawTime last_model_;
     ClockWatch clock_watch_;
 
     // Used by the decoding thread during the replay, then by the writing thread only.
     std::unique_ptr<archive::Writer> writer_;
-    steady_time last_sync_, last_look_at_space_;
-    std::optional<steady_time> retry_at_;       ///< Time of the next try; set after a fault.
+    SteadyTime last_sync_, last_look_at_space_;
+    Retry retry_;
     std::optional<journal::SessionId> marked_;  ///< Session of the records in the writer.
 
     std::atomic<bool> are_marks_true_{true};

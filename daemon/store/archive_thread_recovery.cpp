@@ -15,7 +15,7 @@ bool ArchiveThread::recover() noexcept {
         const std::lock_guard lock(mutex_);
         if (!status_.is_replaying) return true;
     }
-    if (retry_at_ && time_.now() < *retry_at_) return false;
+    if (!retry_.may_try(time_.now())) return false;
     archive::RecoveryReport report;
     reserve_.tend();
     try {
@@ -27,14 +27,14 @@ bool ArchiveThread::recover() noexcept {
         const auto* const failure = dynamic_cast<const std::system_error*>(&error);
         if (failure == nullptr || !files::is_disk_full(failure->code())) are_marks_true_ = false;
         note_fault(error.what());
-        retry_at_ = time_.now() + time_.retry_interval;
+        retry_.note_failure(time_.now());
         return false;
     }
-    retry_at_.reset();
+    retry_.note_success();
     if (report.chunks_lost > 0) are_marks_true_ = false;
     const std::lock_guard lock(mutex_);
     status_.counters = archiver_->counters();
-    status_.is_faulty = false;
+    status_.trouble.clear();
     status_.is_replaying = false;
     return true;
 }

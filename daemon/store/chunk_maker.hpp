@@ -15,8 +15,8 @@
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/read_queue.hpp"
 #include "daemon/store/chunk_queue.hpp"
+#include "daemon/store/disk_policy.hpp"
 #include "daemon/store/journal_thread.hpp"
-#include "daemon/store/space_reserve.hpp"
 
 namespace a351::daemon::store {
 

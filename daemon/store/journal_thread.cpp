@@ -10,21 +10,9 @@ namespace a351::daemon::store {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 
 constexpr milliseconds kSyncLookInterval{50};      // Time between looks whether a sync is due.
 constexpr milliseconds kJournalSyncInterval{800};  // Leaves 0.2 s of the promised 1 s.
-// Duration of one disk operation above which the queue no longer waits for it.  Disks that recover
-// do so within the kernel's own time-out of 30 s and a repetition.
-constexpr seconds kHopeless{60};
-
-/// Returns true if the journal may lose a chunk so that newer ones are kept.
-bool is_expendable(const NumberedChunk& numbered) {
-    return std::holds_alternative<journal::RxChunk>(numbered.chunk) ||
-           std::holds_alternative<journal::TxChunk>(numbered.chunk) ||
-           std::holds_alternative<journal::OvenChunk>(numbered.chunk) ||
-           std::holds_alternative<timing::ClockReading>(numbered.chunk);
-}
 
 }  // namespace
 
@@ -37,7 +25,8 @@ JournalThread::JournalThread(files::FileLayer& files, const std::filesystem::pat
       capacity_bytes_(capacity_bytes),
       progress_(progress),
       reserve_(reserve),
-      writer_(files, data_root / "journal") {}
+      writer_(files, data_root / "journal"),
+      retry_(1, time_) {}
 
 JournalThread::~JournalThread() {
     if (!thread_.joinable()) return;
@@ -69,13 +58,13 @@ bool JournalThread::finish() {
     else
         run_once(Phase::finishing);
     lock.lock();
-    return !status_.is_faulty;
+    return !retry_.is_faulty();
 }
 
 void JournalThread::push(std::uint64_t number, const journal::Chunk& chunk) {
     const std::lock_guard lock(mutex_);
     queued_.push(number, chunk);
-    while (queued_.bytes() > capacity_bytes_ && is_stuck() && drop_oldest()) {
+    while (overflow() == Overflow::oldest_dropped && drop_oldest()) {
     }
     has_news_ = true;
     woken_.notify_all();
@@ -83,18 +72,25 @@ void JournalThread::push(std::uint64_t number, const journal::Chunk& chunk) {
 
 bool JournalThread::has_room() const {
     const std::lock_guard lock(mutex_);
-    return queued_.bytes() < capacity_bytes_ || is_stuck();
+    return overflow() != Overflow::reader_waits;
 }
 
-/// Returns true if the disk refuses data or hangs.  Must be called with the lock held.
-bool JournalThread::is_stuck() const {
-    return faults_running_ >= 2 || (on_disk_since_ && time_.now() - *on_disk_since_ > kHopeless);
+/// Must be called with the lock held.
+Overflow JournalThread::overflow() const {
+    return overflow_of(queued_.bytes(), capacity_bytes_, is_stuck(retry_, present_operation()));
+}
+
+/// Returns the duration of the disk operation in progress.  Must be called with the lock held.
+milliseconds JournalThread::present_operation() const {
+    if (!on_disk_since_) return milliseconds{0};
+    return std::chrono::duration_cast<milliseconds>(time_.now() - *on_disk_since_);
 }
 
 /// Drops the oldest chunk that may be lost.  Must be called with the lock held.
 /// @return false if there is none.
 bool JournalThread::drop_oldest() {
-    const auto oldest = std::ranges::find_if(queued_.chunks(), is_expendable);
+    const auto oldest =
+        std::ranges::find_if(queued_.chunks(), is_expendable, &NumberedChunk::chunk);
     if (oldest == queued_.chunks().end()) return false;
     if (const auto* const rx = std::get_if<journal::RxChunk>(&oldest->chunk))
         status_.reads_dropped += rx->reads.size();
@@ -131,12 +127,9 @@ void JournalThread::note(const events::Event& event) {
 JournalStatus JournalThread::status() const {
     const std::lock_guard lock(mutex_);
     JournalStatus status = status_;
-    status.is_faulty |= is_fault_recent();
-    if (on_disk_since_) {
-        status.present_sync =
-            std::chrono::duration_cast<milliseconds>(time_.now() - *on_disk_since_);
-        status.longest_sync = std::max(status.longest_sync, status.present_sync);
-    }
+    if (!retry_.is_faulty() && !retry_.is_recent(time_.now())) status.trouble.clear();
+    status.present_sync = present_operation();
+    status.longest_sync = std::max(status.longest_sync, status.present_sync);
     return status;
 }
 
@@ -213,7 +206,6 @@ void JournalThread::retry_unwritten() {
     is_unwritten_ = false;
     progress_.journal_written(last_chunk_);
     const std::lock_guard lock(mutex_);
-    status_.is_faulty = false;
     status_.bytes_written = writer_.bytes_written();
 }
 
@@ -247,14 +239,13 @@ void JournalThread::sync() {
     is_dirty_ = false;
     {
         const std::lock_guard lock(mutex_);
-        faults_running_ = 0;
-        status_.is_faulty = status_.is_dropping = false;
+        retry_.note_success();
+        status_.is_dropping = false;
     }
     progress_.journal_synced(last_chunk_);
 }
 
-/// Runs a disk operation and measures its time.  If the disk is full, gives up the reserve and
-/// tries once more.
+/// Runs a disk operation, if needed with the space of the reserve, and measures its time.
 void JournalThread::on_disk(const std::function<void()>& operation) {
     {
         const std::lock_guard lock(mutex_);
@@ -264,39 +255,24 @@ void JournalThread::on_disk(const std::function<void()>& operation) {
         JournalThread& thread;
         ~Measurement() {
             const std::lock_guard lock(thread.mutex_);
-            const auto took = thread.time_.now() - *thread.on_disk_since_;
-            thread.on_disk_since_.reset();
             auto& longest = thread.status_.longest_sync;
-            longest = std::max(longest, std::chrono::duration_cast<milliseconds>(took));
+            longest = std::max(longest, thread.present_operation());
+            thread.on_disk_since_.reset();
         }
     } measurement{*this};
-    try {
-        operation();
-    } catch (const std::system_error& error) {
-        if (!files::is_disk_full(error.code()) || !reserve_.give_up()) throw;
-        operation();
-    }
+    reserve_.use_for(operation);
 }
 
 void JournalThread::note_fault(const std::string& trouble) {
     const std::lock_guard lock(mutex_);
-    ++faults_running_;
-    last_fault_ = time_.now();
-    status_.is_faulty = true;
+    retry_.note_failure(time_.now());
     status_.trouble = trouble;
     ++status_.faults;
 }
 
-// Tries again at once after the first fault, then at intervals: each try may begin a segment.
 bool JournalThread::may_try_again() const {
-    if (faults_running_ < 2) return true;
     const std::lock_guard lock(mutex_);
-    return phase_ != Phase::running || !is_fault_recent();
-}
-
-/// Must be called with the lock held.
-bool JournalThread::is_fault_recent() const {
-    return last_fault_ && time_.now() - *last_fault_ < time_.retry_interval;
+    return phase_ != Phase::running || retry_.may_try(time_.now());
 }
 
 }  // namespace a351::daemon::store

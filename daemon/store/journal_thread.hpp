@@ -1,9 +1,8 @@
 #pragma once
 /// @file
 /// The journal thread.  Received bytes go to disk within 100 ms and survive a power cut after
-/// one second, both in real time.  Only this thread waits for the journal's disk.  When the disk is
-/// full, the reserve is used first.  If the disk refuses data, or hangs, for longer than the queue
-/// of chunks can store, the newest chunks are kept.
+/// one second, both in real time.  Only this thread waits for the journal's disk.  What it does on a
+/// full or failing disk is in disk_policy.hpp.
 
 #include <chrono>
 #include <condition_variable>
@@ -29,8 +28,8 @@
 namespace a351::daemon::store {
 
 struct JournalStatus {
-    bool is_faulty = false;  ///< A fault now or within the last retry interval, so that it is seen.
-    std::string trouble;     ///< Text of the last disk fault.
+    /// Text of a disk fault now or within the last retry interval, so that it is seen.
+    std::string trouble;
     std::uint64_t faults = 0;
     std::uint64_t bytes_written = 0;
     std::uint64_t rounds = 0;                   ///< Rounds of the thread.
@@ -96,14 +95,14 @@ private:
     void retry_unwritten();
     [[nodiscard]] bool take_next();
     [[nodiscard]] std::shared_ptr<Commit> next_commit();
-    [[nodiscard]] bool is_stuck() const;
+    [[nodiscard]] Overflow overflow() const;
+    [[nodiscard]] std::chrono::milliseconds present_operation() const;
     [[nodiscard]] bool drop_oldest();
     void carry_out(Commit& commit);
     void sync();
     void on_disk(const std::function<void()>& operation);
     void note_fault(const std::string& trouble);
     [[nodiscard]] bool may_try_again() const;
-    [[nodiscard]] bool is_fault_recent() const;
 
     DiskTime time_;
     files::FileLayer& files_;
@@ -121,7 +120,7 @@ private:
     NumberedChunk taken_;           ///< Chunk that was taken from the queue last.
     bool is_unwritten_ = false;     ///< That chunk could not be written yet.
     std::uint64_t last_chunk_ = 0;  ///< Number of the last chunk that was written.
-    std::chrono::steady_clock::time_point last_sync_;
+    SteadyTime last_sync_;
 
     mutable std::mutex mutex_;
     std::condition_variable woken_;
@@ -129,10 +128,10 @@ private:
     bool is_drained_ = false;
     bool has_news_ = false;  ///< A chunk was pushed since the last round.
     ChunkList queued_;
-    int faults_running_ = 0;  ///< Faults since the last successful sync.
+    Retry retry_;  ///< Its successes are syncs.  At once after one fault: a new segment may do.
     std::deque<std::shared_ptr<Commit>> commits_;
     JournalStatus status_;
-    std::optional<std::chrono::steady_clock::time_point> on_disk_since_, last_fault_;
+    std::optional<SteadyTime> on_disk_since_;
     std::thread thread_;
 };
 

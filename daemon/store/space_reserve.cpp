@@ -1,7 +1,6 @@
 #include "daemon/store/space_reserve.hpp"
 
 #include <array>
-#include <system_error>
 #include <utility>
 
 #include "protocol/text/catalogue.hpp"
@@ -17,10 +16,9 @@ SpaceReserve::SpaceReserve(files::FileLayer& files, std::filesystem::path file,
 
 bool SpaceReserve::give_up() {
     const std::lock_guard lock(disk_mutex_);
-    if (state_ != State::present) return false;
+    if (status().state != State::present) return false;
     files_.remove(file_);
-    state_ = State::given_up;
-    ++times_given_up_;
+    set(State::given_up);
     files_.sync_directory(file_.parent_path());
     return true;
 }
@@ -28,21 +26,19 @@ bool SpaceReserve::give_up() {
 void SpaceReserve::tend() {
     const std::lock_guard lock(disk_mutex_);
     const auto free_bytes = files_.free_bytes(file_.parent_path());
-    is_little_free_ = free_bytes && *free_bytes < size_bytes_;
-    if (state_ == State::given_up && (!free_bytes || *free_bytes > 2 * size_bytes_)) make();
+    {
+        const std::lock_guard state_lock(mutex_);
+        free_bytes_ = free_bytes;
+    }
+    if (status().state == State::given_up && may_create_reserve(free_bytes, size_bytes_)) make();
 }
 
 void SpaceReserve::make() {
     try {
         files_.allocate(file_, size_bytes_);
-        state_ = State::present;
-        return;
+        return set(State::present);
     } catch (const std::system_error& error) {
-        if (!files::is_disk_full(error.code())) {
-            state_ = State::unavailable;
-            const std::lock_guard lock(trouble_mutex_);
-            trouble_ = error.what();
-        }
+        if (!files::is_disk_full(error.code())) set(State::unavailable, error.what());
     }
     try {
         files_.remove(file_);  // It may occupy some of the space.
@@ -51,13 +47,23 @@ void SpaceReserve::make() {
     }
 }
 
-bool SpaceReserve::is_space_short() const noexcept {
-    return state_ == State::given_up || is_little_free_;
+void SpaceReserve::set(State state, const std::string& trouble) {
+    const std::lock_guard lock(mutex_);
+    if (state == State::given_up) ++status_.times_given_up;
+    status_.state = state;
+    status_.trouble = trouble;
+}
+
+bool SpaceReserve::is_space_short() const {
+    const std::lock_guard lock(mutex_);
+    return store::is_space_short(status_.state, free_bytes_, size_bytes_);
 }
 
 SpaceReserve::Status SpaceReserve::status() const {
-    const std::lock_guard lock(trouble_mutex_);
-    return {state_, trouble_, times_given_up_, is_space_short()};
+    const std::lock_guard lock(mutex_);
+    Status status = status_;
+    status.is_space_short = store::is_space_short(status_.state, free_bytes_, size_bytes_);
+    return status;
 }
 
 const char* to_text(SpaceReserve::State state) {

@@ -2,18 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <system_error>
 #include <utility>
 
 #include "protocol/archive/time_gate.hpp"
 
 namespace a351::daemon::store {
-namespace {
-
-// Duration of a sync above which a power cut would cost more than the promised second.
-constexpr std::chrono::seconds kStall{1};
-
-}  // namespace
 
 Store::Store(files::FileLayer& files, Options options, const source::HostClock& clock,
              source::ReadQueue& reads)
@@ -22,7 +15,8 @@ Store::Store(files::FileLayer& files, Options options, const source::HostClock& 
       lock_(files, options_.root),
       keeper_(files, options_.root / "journal", options_.keeper),
       reserve_(files, options_.root / "state" / "reserve", options_.reserve_bytes),
-      plan_(plan_recovery()),
+      plan_(reserve_.use_for(
+          [this] { return archive::begin_recovery(files_, options_.root / "journal"); })),
       known_stream_(plan_.replays.empty() ? std::nullopt
                                           : journal::stream_end(plan_.replays.back().segments)),
       profile_(wire::find_profile(options_.station.profile)),
@@ -64,17 +58,6 @@ bool Store::stop() {
     journal_.drain();
     const bool is_archived = archive_.join();
     return journal_.finish() && is_archived;
-}
-
-/// Begins recovery.  On a full disk it gives up the reserve, because recording must continue.
-archive::RecoveryPlan Store::plan_recovery() {
-    const auto journal = options_.root / "journal";
-    try {
-        return archive::begin_recovery(files_, journal);
-    } catch (const std::system_error& error) {
-        if (!files::is_disk_full(error.code()) || !reserve_.give_up()) throw;
-        return archive::begin_recovery(files_, journal);
-    }
 }
 
 void Store::finish_recovery(const archive::RecoveryReport& report) {
@@ -146,11 +129,6 @@ void Store::fill(status::Status& status) {
         status.temperature = profile_->temperature(values.temperature);
     }
 
-    if (archive.is_replaying) {
-        status.warn(text::message(
-            "archive: the last run's data are being added from the journal; occupations can be "
-            "started and stopped when this is finished"));
-    }
     const JournalStatus journal = journal_.status();
     const JournalKeeper::Status keeper = keeper_.status();
     const SpaceReserve::Status reserve = reserve_.status();
@@ -169,51 +147,13 @@ void Store::fill(status::Status& status) {
                                  {"journal_segments_removed", keeper.removed},
                                  {"journal_keeper_faults", keeper.faults},
                                  {"reserve_given_up", reserve.times_given_up}});
-    if (!keeper.trouble.empty())
-        status.warn(
-            text::message("closed journal segment: not compressed or removed: {}", keeper.trouble));
-    if (journal.is_faulty) {
-        status.fail(text::message(
-            "journal: {}; new data wait in memory and a power cut would lose them; check the disk",
-            journal.trouble));
-    }
-    if (archive.is_faulty) status.fail(text::message("archive: {}", archive.trouble));
-    const bool is_stalled = journal.present_sync >= kStall;
-    if (journal.is_dropping) {
-        status.fail(text::message(
-            "journal: writing has failed for so long that the buffer is full; the oldest data are "
-            "being discarded; check the disk"));
-    }
-    if (archive.chunks_lost + archive.records_dropped > 0) {
-        status.fail(text::message(
-            "archive: some data could not be added; they are safe in the journal and will be added "
-            "at the next start"));
-    }
-    {
-        const std::lock_guard lock(metadata_mutex_);
-        if (!metadata_trouble_.empty())
-            status.warn(text::message("metadata: {}", metadata_trouble_));
-    }
-    if (!archive.is_marking) {
-        status.warn(text::message(
-            "archive: a sync failed or a chunk was lost, so newer data are not confirmed as "
-            "archived; they are safe in the journal and will be added at the next start"));
-    }
-
     status.longest_sync = journal.longest_sync;
-    if (is_stalled) {
-        status.warn(text::message(
-            "the disk stalls: new data wait in memory and a power cut would lose them; check the "
-            "disk"));
-    }
-
     status.disk_free_bytes = files_.free_bytes(options_.root);
     status.disk_reserve = to_text(reserve.state);
     status.disk_reserve_trouble = reserve.trouble;
-    if (reserve.is_space_short) {
-        status.fail(text::message(
-            "disk full: the archive waits so that the journal can continue; make room"));
-    }
+
+    const std::lock_guard lock(metadata_mutex_);
+    report(journal, archive, keeper.trouble, metadata_trouble_, reserve.is_space_short, status);
 }
 
 }  // namespace a351::daemon::store

@@ -36,13 +36,11 @@ struct Options {
     /// Station as configured; device and times are added for each session.
     station::Description station = {};
     DiskTime time = {};
-    std::uint64_t reserve_bytes = SpaceReserve::kSize_bytes;
+    std::uint64_t reserve_bytes = kReserve_bytes;
     std::size_t queue_bytes = ChunkQueue::kCapacityBytes;
-    /// Memory of records that wait for the archive: 18 h at 50 Hz.
-    std::size_t waiting_records_bytes = std::size_t{64} << 20;
+    std::size_t waiting_records_bytes = kWaitingRecords_bytes;
     JournalKeeper::Options keeper = {};
-    /// Longest time that an event waits for its turn.
-    std::chrono::milliseconds commit_patience{10'000};
+    std::chrono::milliseconds commit_patience = kCommitPatience;
     /// Called by another thread when the last run's journal is completely in the archive.
     std::function<void(const archive::RecoveryReport&)> recovered = [](const auto&) {};
     /// Called by another thread, once, before anything is recorded or recovered.  Must not throw.
@@ -99,7 +97,6 @@ public:
     void fill(status::Status& status);
 
 private:
-    archive::RecoveryPlan plan_recovery();
     void finish_recovery(const archive::RecoveryReport& report);
     void describe(const journal::Header& header);
     void log_clock_step(const status::ClockStep& step);

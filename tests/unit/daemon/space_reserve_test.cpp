@@ -18,7 +18,7 @@ constexpr std::uint64_t kKiB = 1024;
 constexpr std::uint64_t kReserve = 64 * kKiB;  // 50 s of journal at 50 Hz.
 
 struct SmallRig : SteppedRig {
-    test::SmallDisk disk{1024 * kKiB};
+    test::SmallDisk disk{std::uint64_t{2} << 30};  // Above 1 GiB free it is a good disk.
 
     [[nodiscard]] store::Options options() const {
         store::Options options = SteppedRig::options();

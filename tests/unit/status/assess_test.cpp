@@ -11,14 +11,12 @@ namespace {
 Status healthy() {
     Status status;
     status.timing_state = timing::State::locked;
-    status.disk_free_bytes = std::uint64_t{100} << 30;
     return status;
 }
 
 }  // namespace
 
-TEST_CASE("a sampling link with a good clock and enough disk space has the level good",
-          "[daemon][assess]") {
+TEST_CASE("a sampling link with a good clock has the level good", "[daemon][assess]") {
     Status status = healthy();
     LinkStatus link;
     link.state = LinkStatus::State::sampling;
@@ -43,18 +41,6 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     status.timing_state = timing::State::unlocked;
     assess(status);
     CHECK(status.level == Status::Level::warning);
-
-    status = healthy();
-    status.disk_free_bytes = 1000;
-    assess(status);
-    CHECK(status.level == Status::Level::warning);
-
-    status = healthy();
-    status.disk_free_bytes.reset();
-    assess(status);
-    CHECK(status.reasons ==
-          std::vector<text::Message>{"disk: the free space cannot be determined; check the disk of "
-                                   "storage.root"});
 
     status = healthy();
     link.state = LinkStatus::State::sampling;
@@ -85,7 +71,8 @@ TEST_CASE("samples from the future are a warning with the remedy", "[daemon][ass
     status.last_sample = status.now + std::chrono::seconds(847);
     assess(status);
     REQUIRE(status.reasons.size() == 1);
-    CHECK_THAT(status.reasons[0].english(), ContainsSubstring("--clock") && ContainsSubstring("later than"));
+    CHECK_THAT(status.reasons[0].english(),
+               ContainsSubstring("--clock") && ContainsSubstring("later than"));
     CHECK(status.level == Status::Level::warning);
 }
 
@@ -108,9 +95,10 @@ TEST_CASE("a step of the clock is a warning for an hour, and an overlap is annou
     status.now = noon;
     assess(status);
     REQUIRE(status.reasons.size() == 1);
-    CHECK_THAT(status.reasons[0].english(), ContainsSubstring("set back by 80.0 s") &&
-                                      ContainsSubstring("the times from 2026-03-14T11:58:40.0Z to "
-                                                        "2026-03-14T12:00:00.0Z occur twice"));
+    CHECK_THAT(status.reasons[0].english(),
+               ContainsSubstring("set back by 80.0 s") &&
+                   ContainsSubstring("the times from 2026-03-14T11:58:40.0Z to "
+                                     "2026-03-14T12:00:00.0Z occur twice"));
 
     status = healthy();
     status.clock_step = ClockStep{noon, noon + std::chrono::hours(1)};
@@ -129,8 +117,8 @@ TEST_CASE("a clock that was never synchronised is one warning, however its uncer
     assess(status);
     REQUIRE(status.reasons.size() == 1);
     CHECK_THAT(status.reasons[0].english(), ContainsSubstring("never synchronised") &&
-                                      ContainsSubstring("wrong by many seconds") &&
-                                      ContainsSubstring("a351-correct retime"));
+                                                ContainsSubstring("wrong by many seconds") &&
+                                                ContainsSubstring("a351-correct retime"));
     Status later = healthy();
     later.timing_uncertainty = std::chrono::seconds(45);
     assess(later);
