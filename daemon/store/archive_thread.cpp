@@ -114,9 +114,11 @@ void ArchiveThread::run_writing() noexcept {
     std::unique_lock lock(mutex_);
     while (!is_ending_) {
         changed_.wait_for(lock, kWriteInterval, [this] { return is_ending_; });
-        if (is_ending_ || status_.is_replaying) continue;
+        if (is_ending_) continue;
+        const bool is_replaying = status_.is_replaying;
         lock.unlock();
-        if (may_write()) store_records(false);
+        look_at_space();
+        if (!is_replaying && may_write() && retry_.may_try(time_.now())) store_records(false);
         lock.lock();
     }
     const bool is_left_to_next_start = status_.is_replaying;
@@ -126,10 +128,11 @@ void ArchiveThread::run_writing() noexcept {
 }
 
 void ArchiveThread::step() {
+    look_at_space();
     if (!recover()) return;
     NumberedChunk numbered;
     while (chunks_.try_pop(numbered)) handle(numbered);
-    if (may_write()) store_records(false);
+    if (may_write() && retry_.may_try(time_.now())) store_records(false);
 }
 
 void ArchiveThread::handle(const NumberedChunk& numbered) noexcept {
@@ -184,7 +187,6 @@ void ArchiveThread::take(const NumberedChunk& numbered) {
     if (header != nullptr) outbox_.session = header->session;
     status_.counters = archiver_->counters();
     status_.last_sample = outbox_.last_sample;
-    status_.records_waiting = outbox_.entries.size();
     if (outbox_.session)
         progress_.parsed(numbered.number, *outbox_.session, archiver_->last_index());
 }
@@ -207,16 +209,16 @@ void ArchiveThread::note_session(const journal::SessionId& session) {
     if (ended_.size() > kSessionsRemembered) ended_.pop_front();
 }
 
-/// Returns true if records may be written now: not while the journal needs the space, unless memory
-/// is full, and after a fault only at intervals.
-bool ArchiveThread::may_write() {
-    if (time_.now() - last_look_at_space_ >= kSpaceInterval) {
-        last_look_at_space_ = time_.now();
-        reserve_.tend();
-    }
+/// Looks at the free space, whatever the archive does: the reserve is the journal's.
+void ArchiveThread::look_at_space() {
+    if (time_.now() - last_look_at_space_ < kSpaceInterval) return;
+    last_look_at_space_ = time_.now();
+    reserve_.tend();
+}
+
+bool ArchiveThread::may_write() const {
     const std::lock_guard lock(mutex_);
-    return may_archive(reserve_.is_space_short(), outbox_.bytes > most_waiting_bytes_) &&
-           retry_.may_try(time_.now());
+    return may_archive(reserve_.is_space_short(), outbox_.bytes > most_waiting_bytes_);
 }
 
 /// Writes the waiting records.  @return false if writing failed; the rest waits.
@@ -224,7 +226,7 @@ bool ArchiveThread::store_records(bool is_last) {
     try {
         if (retry_.is_failing()) reopen();
         describe_sessions();
-        write_outbox();
+        write_outbox(is_last);
         if (is_last || time_.now() - last_sync_ >= kArchiveSyncInterval) sync();
     } catch (const std::exception& error) {
         note_fault(error.what());
@@ -261,7 +263,6 @@ void ArchiveThread::describe_sessions() {
 std::optional<ArchiveThread::Outbox::Entry> ArchiveThread::next_record() {
     const std::lock_guard lock(mutex_);
     auto& entries = outbox_.entries;
-    status_.records_waiting = entries.size();
     if (entries.empty() || entries.front().chunk > progress_.written()) return std::nullopt;
     std::optional<Outbox::Entry> next(std::move(entries.front()));
     outbox_.bytes -= next->record.bytes.size();
@@ -269,8 +270,10 @@ std::optional<ArchiveThread::Outbox::Entry> ArchiveThread::next_record() {
     return next;
 }
 
-void ArchiveThread::write_outbox() {
-    while (auto entry = next_record()) {
+void ArchiveThread::write_outbox(bool is_last) {
+    while (is_last || may_write()) {
+        auto entry = next_record();
+        if (!entry) break;
         try {
             write_record(*entry);
         } catch (...) {
@@ -379,6 +382,7 @@ ArchiveStatus ArchiveThread::status() {
     const std::lock_guard lock(mutex_);
     ArchiveStatus status = status_;
     status.is_marking = are_marks_true_;
+    status.records_waiting = outbox_.entries.size();
     if (const timing::SampleClock* const sample_clock = archiver_->clock()) {
         status.timing_state = sample_clock->state();
         status.timing_uncertainty = sample_clock->uncertainty();

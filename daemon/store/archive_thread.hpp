@@ -155,11 +155,12 @@ private:
     void write_replayed();
     void begin_session(const journal::Header& header);
     void note_session(const journal::SessionId& session);
-    [[nodiscard]] bool may_write();
+    void look_at_space();
+    [[nodiscard]] bool may_write() const;
     bool store_records(bool is_last);
     void describe_sessions();
     [[nodiscard]] std::optional<Outbox::Entry> next_record();
-    void write_outbox();
+    void write_outbox(bool is_last);
     void write_record(const Outbox::Entry& entry);
     void sync();
     void note_fault(const std::string& trouble);

@@ -1,8 +1,6 @@
 /// @file
 /// The begin of the decoding thread: it adds the data that the last run left in the journal.
 
-#include <system_error>
-
 #include "daemon/store/archive_thread.hpp"
 
 namespace a351::daemon::store {
@@ -17,15 +15,13 @@ bool ArchiveThread::recover() noexcept {
     }
     if (!retry_.may_try(time_.now())) return false;
     archive::RecoveryReport report;
-    reserve_.tend();
     try {
         report.journal = plan_.cut;
         if (!replay(report)) return false;
         hooks_.recovered(report);
     } catch (const std::exception& error) {
         // After a failed sync it is not known which data the kernel kept and which it dropped.
-        const auto* const failure = dynamic_cast<const std::system_error*>(&error);
-        if (failure == nullptr || !files::is_disk_full(failure->code())) are_marks_true_ = false;
+        are_marks_true_ = false;
         note_fault(error.what());
         retry_.note_failure(time_.now());
         return false;
@@ -80,11 +76,14 @@ void ArchiveThread::open_archive(const journal::StationCodes& codes) {
     outbox_.writer = writer_.get();
 }
 
-/// Processes one chunk of the replay.  @return false if the daemon is stopping.
+/// Processes one chunk of the replay.
+/// @return false if the daemon is stopping, or the remaining space is the journal's.
 bool ArchiveThread::replay_chunk(const journal::Chunk& chunk) {
-    if (reserve_.is_space_short())
-        throw std::system_error(std::make_error_code(std::errc::no_space_on_device),
-                                "the remaining space is kept for the journal");
+    if (reserve_.is_space_short()) {
+        note_fault("the remaining space is kept for the journal");
+        retry_.note_failure(time_.now());
+        return false;
+    }
     bool is_new_session = false;
     {
         const std::lock_guard lock(mutex_);

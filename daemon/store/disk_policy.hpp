@@ -11,8 +11,8 @@
 ///       reserve is given up               (is_space_short, may_archive); a replay waits too
 ///     the disk is full for journal,     the reserve is given up and the operation is repeated once
 ///       event log or start                (SpaceReserve::use_for); without a reserve it fails
-///     memory of waiting records full    they are written even if space is short; if this fails, or
-///                                         the journal has not taken them, the oldest are dropped
+///     memory of waiting records full    the excess is written even if space is short; if this fails,
+///                                         or the journal has not taken it, the oldest are dropped
 ///     journal: a write or sync fails    repeated at once in a new segment, then at intervals (Retry)
 ///     archive: a write or sync fails    repeated at intervals, after a repair of the day files
 ///     an event cannot be written        it is refused, also if its turn does not come in time

@@ -55,6 +55,8 @@ TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journa
     store::Options again = options();
     again.root = directory.path() / "crashed";
     again.queue_bytes = std::size_t{256} << 10;  // About 6 000 frames.
+    std::atomic<std::chrono::seconds> later{std::chrono::seconds(0)};
+    again.time.now = [&] { return std::chrono::steady_clock::now() + later.load(); };
     {
         Store store(files, options(), clock, reads);
         store.start();
@@ -79,6 +81,12 @@ TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journa
         CHECK(status.more_counters.at("archive_waits") == 0);
         feed(4 * kFrames);  // More than the queue holds.
         REQUIRE(eventually([&] { return reads.fill() == 0; }));
+        // The free space is the journal's concern too.
+        for (const std::uint64_t free : {0, 1 << 30}) {
+            files.free = free;
+            later = later.load() + std::chrono::seconds(2);
+            CHECK(eventually([&] { return has_reason(status_of(store), "disk full") == !free; }));
+        }
         CHECK_FALSE(store.stop());
     }
     CHECK(read_journal(again.root).bytes == bytes);
@@ -86,6 +94,42 @@ TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journa
     const auto report = recover(files, again, clock);
     CHECK(report.records_conflicting == 0);
     CHECK(recorded_counts(again.root, "BNZ") == expected_counts(fed));
+}
+
+TEST_CASE_METHOD(
+    Rig, "a replay stops when the remaining space becomes the journal's, and continues later",
+    "[daemon][store][recovery]") {
+    store::Options again = options();
+    again.root = directory.path() / "crashed";
+    {
+        Store store(files, options(), clock, reads);
+        store.start();
+        begin_session(1);
+        feed(kFrames);
+        REQUIRE(eventually([&] { return status_of(store).journaled == kFrames - 1; }));
+        std::filesystem::copy(root, again.root, std::filesystem::copy_options::recursive);
+    }
+    std::filesystem::remove_all(again.root / "archive");
+    std::atomic<std::chrono::seconds> later{std::chrono::seconds(0)};
+    again.time.now = [&] { return std::chrono::steady_clock::now() + later.load(); };
+    files.does_archive_hang = true;
+    Store store(files, again, clock, reads);
+    store.start();
+    REQUIRE(eventually([&] { return files.archive_hanging == 1; }));
+    files.free = 0;
+    later = std::chrono::seconds(2);
+    const int looks = files.looks;
+    CHECK(eventually([&] { return files.looks > looks; }));
+    files.does_archive_hang = false;
+    REQUIRE(eventually([&] {
+        return has_reason(status_of(store), "the remaining space is kept for the journal");
+    }));
+    CHECK(recorded_counts(again.root, "BNZ").size() < kFrames);
+    files.free = std::uint64_t{100} << 30;
+    later = std::chrono::seconds(4);
+    REQUIRE(eventually([&] { return !has_reason(status_of(store), "are being added"); }));
+    CHECK(store.stop());
+    CHECK(recorded_counts(again.root, "BNZ") == expected_counts(kFrames));
 }
 
 TEST_CASE_METHOD(
@@ -117,6 +161,7 @@ TEST_CASE_METHOD(
     RecoveryRig,
     "after a failed sync during a replay nothing is marked, and the next start replays it",
     "[daemon][store][recovery]") {
+    files.error_of_archive_sync = GENERATE(EIO, ENOSPC);  // As network file systems report it.
     const store::Options again = crash();
     const auto marks_before = read_journal(crashed).marks.size();
     {
@@ -221,9 +266,10 @@ TEST_CASE_METHOD(RecoveryRig, "a host clock at 1970 starts no epoch of the stati
     CHECK(store.stop());
 }
 
-TEST_CASE_METHOD(RecoveryRig,
-                 "records that a stop ended early are continued although another session follows soon",
-                 "[daemon][store][recovery]") {
+TEST_CASE_METHOD(
+    RecoveryRig,
+    "records that a stop ended early are continued although another session follows soon",
+    "[daemon][store][recovery]") {
     {
         Store store(files, options(), clock, reads);
         begin_session(1);

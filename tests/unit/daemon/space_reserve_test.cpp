@@ -175,6 +175,31 @@ TEST_CASE_METHOD(SmallRig,
     CHECK(is_archive_complete());
 }
 
+TEST_CASE_METHOD(
+    SmallRig, "if the memory of waiting records is full, only the excess takes the journal's space",
+    "[daemon][store][reserve]") {
+    constexpr std::uint64_t kMost = 4;  // Records.
+    store::Options small = options();
+    small.waiting_records_bytes = kMost * archive::kRecordSize;
+    Store store(disk, small, clock, reads);
+    begin_session();
+    advance(store, seconds(10));
+    disk.fill_up_to(kReserve - 1);
+    std::uint64_t most_waiting = 0;
+    const auto before = archived_counts(root, "BNZ").size();
+    for (int i = 0; i < 15; ++i) {
+        advance(store, seconds(1));
+        const auto waiting = status_of(store).more_counters.at("archive_records_waiting");
+        CHECK(waiting <= kMost);
+        CHECK(waiting >= most_waiting);
+        most_waiting = waiting;
+    }
+    CHECK(most_waiting == kMost);
+    CHECK(archived_counts(root, "BNZ").size() > before);
+    CHECK(store.stop());
+    CHECK(is_archive_complete());
+}
+
 TEST_CASE_METHOD(SmallRig,
                  "a start on a full disk records to the journal, and recovers once there is space",
                  "[daemon][store][reserve]") {

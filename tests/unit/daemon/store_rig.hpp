@@ -34,9 +34,17 @@ public:
     std::atomic<bool> does_append_fail{false};
     std::atomic<bool> does_archive_fail{false};
     std::atomic<bool> does_archive_sync_fail{false};
+    std::atomic<int> error_of_archive_sync{EIO};
     std::atomic<bool> does_archive_hang{false};
     std::atomic<int> hanging{0}, archive_hanging{0};
+    std::atomic<std::uint64_t> free{std::uint64_t{100} << 30};
+    mutable std::atomic<int> looks{0};  ///< Number of questions for the free space.
 
+    [[nodiscard]] std::optional<std::uint64_t> free_bytes(
+        const std::filesystem::path&) const override {
+        ++looks;
+        return free;
+    }
     std::unique_ptr<files::AppendFile> open_append(const std::filesystem::path& file) override {
         if (file.extension() == ".a351j")
             return std::make_unique<JournalFile>(*this, files_.open_append(file));
@@ -81,7 +89,8 @@ private:
         }
         void sync() override {
             if (owner_.does_archive_sync_fail)
-                throw std::system_error(EIO, std::generic_category(), "sync of the archive");
+                throw std::system_error(owner_.error_of_archive_sync, std::generic_category(),
+                                        "sync of the archive");
             file_->sync();
         }
 
