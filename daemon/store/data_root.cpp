@@ -1,16 +1,12 @@
 #include "daemon/store/data_root.hpp"
 
 #include <fcntl.h>
-#include <fmt/core.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <span>
 #include <system_error>
-
-#include "protocol/core/input_error.hpp"
 
 namespace a351::daemon::store {
 namespace {
@@ -53,29 +49,6 @@ int DataRootLock::open(const std::filesystem::path& root, int folder,
                                 root.string() + ": cannot open " + name.string());
     descriptors_.push_back(descriptor);
     return descriptor;
-}
-
-std::optional<std::string> describe_station(files::FileLayer& files,
-                                            const std::filesystem::path& root,
-                                            const station::Description& description) {
-    const std::filesystem::path file = root / "metadata" / "station.xml";
-    std::optional<std::string> xml, trouble;
-    try {
-        xml = std::filesystem::exists(file) ? station::extend_station_xml(file, description)
-                                            : station::to_station_xml(description);
-    } catch (const InputError& damage) {
-        std::filesystem::path aside = file;
-        aside += ".damaged";
-        for (int n = 2; std::filesystem::exists(aside); ++n)
-            aside = fmt::format("{}.damaged.{}", file.string(), n);
-        files.rename(file, aside);
-        trouble = fmt::format(
-            "{}; the file is kept as {}, and a new one without its earlier epochs was written",
-            damage.what(), aside.filename().string());
-        xml = station::to_station_xml(description);
-    }
-    if (xml) files::replace_file(files, file, std::as_bytes(std::span(*xml)));
-    return trouble;
 }
 
 }  // namespace a351::daemon::store

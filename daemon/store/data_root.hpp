@@ -3,13 +3,10 @@
 /// The data root, which contains journal/ archive/ metadata/ events/ state/.
 
 #include <filesystem>
-#include <optional>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "protocol/files/file_layer.hpp"
-#include "protocol/station/station_xml.hpp"
 
 namespace a351::daemon::store {
 
@@ -37,13 +34,5 @@ private:
 
     std::vector<int> descriptors_;
 };
-
-/// Extends `metadata/station.xml` by the epochs that begin with this description, or creates it.  A
-/// file that cannot be used is renamed and replaced by a new one.
-/// @return  the trouble with the existing file; std::nullopt if none.
-/// @throws std::system_error  it cannot be read or written.
-std::optional<std::string> describe_station(files::FileLayer& files,
-                                            const std::filesystem::path& root,
-                                            const station::Description& description);
 
 }  // namespace a351::daemon::store

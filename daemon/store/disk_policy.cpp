@@ -15,7 +15,7 @@ constexpr std::uint64_t kLittleSpace_bytes = std::uint64_t{1} << 30;
 }  // namespace
 
 void report(const JournalStatus& journal, const ArchiveStatus& archive, const std::string& keeper,
-            const std::string& metadata, bool is_short, status::Status& status) {
+            bool is_short, status::Status& status) {
     if (archive.is_replaying) {
         status.warn(text::message(
             "archive: the last run's data are being added from the journal; occupations can be "
@@ -39,7 +39,8 @@ void report(const JournalStatus& journal, const ArchiveStatus& archive, const st
             "archive: some data could not be added; they are safe in the journal and will be added "
             "at the next start"));
     }
-    if (!metadata.empty()) status.warn(text::message("metadata: {}", metadata));
+    if (!archive.metadata_trouble.empty())
+        status.warn(text::message("metadata: {}", archive.metadata_trouble));
     if (!archive.is_marking) {
         status.warn(text::message(
             "archive: a sync failed or a chunk was lost, so newer data are not confirmed as "

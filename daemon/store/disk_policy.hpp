@@ -146,6 +146,6 @@ enum class Overflow { none, reader_waits, oldest_dropped };
 /// @param keeper           trouble of JournalKeeper; empty if none.
 /// @param is_short         as is_space_short().
 void report(const JournalStatus& journal, const ArchiveStatus& archive, const std::string& keeper,
-            const std::string& metadata, bool is_short, status::Status& status);
+            bool is_short, status::Status& status);
 
 }  // namespace a351::daemon::store

@@ -1,10 +1,6 @@
 #include "daemon/store/store.hpp"
 
-#include <fmt/core.h>
-
 #include <utility>
-
-#include "protocol/archive/time_gate.hpp"
 
 namespace a351::daemon::store {
 
@@ -23,16 +19,7 @@ Store::Store(files::FileLayer& files, Options options, const source::HostClock& 
       chunks_(options_.queue_bytes),
       journal_(files, options_.root, reads.capacity(), progress_, reserve_, options_.time),
       chunk_maker_(clock, reads, journal_, chunks_, options_.time),
-      archive_(
-          files, options_.root / "archive", options_.station.codes, clock, chunks_, progress_,
-          reserve_,
-          {.post = [this](const journal::Chunk& chunk) { journal_.push(0, chunk); },
-           .session_began = [this](const journal::Header& header) { describe(header); },
-           .clock_set = [this](const status::ClockStep& step) { log_clock_step(step); },
-           .recovered = [this](const archive::RecoveryReport& report) { finish_recovery(report); },
-           .begin = options_.begin,
-           .sample = options_.sample},
-          options_.time, options_.waiting_records_bytes, plan_) {}
+      archive_(files, options_, clock, chunks_, progress_, reserve_, journal_, keeper_, plan_) {}
 
 void Store::start() {
     is_running_ = true;
@@ -58,45 +45,6 @@ bool Store::stop() {
     journal_.drain();
     const bool is_archived = archive_.join();
     return journal_.finish() && is_archived;
-}
-
-void Store::finish_recovery(const archive::RecoveryReport& report) {
-    options_.recovered(report);
-    keeper_.keep_names(false);
-}
-
-/// Writes the station metadata.  Trouble is shown in the status and does not delay the archive; the
-/// next header tries again.
-void Store::describe(const journal::Header& header) {
-    // Without a host clock the start of the epoch is not known.
-    if (header.clock.realtime < archive::TimeGate::kEarliest) return;
-    station::Description description = options_.station;
-    // The times of the first samples precede their header by the filter's delay.
-    description.start = header.clock.realtime - description.group_delay;
-    description.product_id = header.product_id;
-    description.serial_number = header.serial_number;
-    description.firmware = header.firmware;
-    description.declared_rate_hz = header.declared_rate_hz;
-    description.oven_interval = header.oven_interval;
-    description.outer_oven_interval = header.outer_oven_interval;
-    std::optional<std::string> trouble;
-    try {
-        trouble = describe_station(files_, options_.root, description);
-    } catch (const std::exception& error) {
-        trouble = error.what();
-    }
-    const std::lock_guard lock(metadata_mutex_);
-    metadata_trouble_ = trouble.value_or("");
-}
-
-void Store::log_clock_step(const status::ClockStep& step) {
-    events::Event event;
-    event.type = "clock_step";
-    event.utc = step.after;
-    event.details["clock_before"] = to_rfc3339(step.before, 3);
-    event.details["clock_after"] = to_rfc3339(step.after, 3);
-    event.details["by_s"] = fmt::format("{:+.3f}", seconds_between(step.before, step.after));
-    journal_.note(event);
 }
 
 bool Store::is_alive() {
@@ -152,8 +100,7 @@ void Store::fill(status::Status& status) {
     status.disk_reserve = to_text(reserve.state);
     status.disk_reserve_trouble = reserve.trouble;
 
-    const std::lock_guard lock(metadata_mutex_);
-    report(journal, archive, keeper.trouble, metadata_trouble_, reserve.is_space_short, status);
+    report(journal, archive, keeper.trouble, reserve.is_space_short, status);
 }
 
 }  // namespace a351::daemon::store

@@ -3,12 +3,7 @@
 /// Everything between the reader's queue and the disk: chunks, recovery at start, journal, archive,
 /// station metadata, events.  It also answers the requests of survey and page about recorded data.
 
-#include <chrono>
 #include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <mutex>
-#include <string>
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/read_queue.hpp"
@@ -17,8 +12,8 @@
 #include "daemon/store/chunk_maker.hpp"
 #include "daemon/store/chunk_queue.hpp"
 #include "daemon/store/data_root.hpp"
-#include "daemon/store/journal_keeper.hpp"
 #include "daemon/store/journal_thread.hpp"
+#include "daemon/store/options.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"
 #include "daemon/survey/recorder.hpp"
@@ -26,29 +21,9 @@
 #include "protocol/files/file_layer.hpp"
 #include "protocol/journal/journal.hpp"
 #include "protocol/journal/stream_end.hpp"
-#include "protocol/station/station_xml.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon::store {
-
-struct Options {
-    std::filesystem::path root;
-    /// Station as configured; device and times are added for each session.
-    station::Description station = {};
-    DiskTime time = {};
-    std::uint64_t reserve_bytes = kReserve_bytes;
-    std::size_t queue_bytes = ChunkQueue::kCapacityBytes;
-    std::size_t waiting_records_bytes = kWaitingRecords_bytes;
-    JournalKeeper::Options keeper = {};
-    std::chrono::milliseconds commit_patience = kCommitPatience;
-    /// Called by another thread when the last run's journal is completely in the archive.
-    std::function<void(const archive::RecoveryReport&)> recovered = [](const auto&) {};
-    /// Called by another thread, once, before anything is recorded or recovered.  Must not throw.
-    std::function<void()> begin = [] {};
-    /// Called by another thread for each sample that received its index and time, also those of the
-    /// last run's journal.
-    std::function<void(const archive::Sample&, UtcTime)> sample = [](const auto&, UtcTime) {};
-};
 
 class Store : public survey::Recorder {
 public:
@@ -97,10 +72,6 @@ public:
     void fill(status::Status& status);
 
 private:
-    void finish_recovery(const archive::RecoveryReport& report);
-    void describe(const journal::Header& header);
-    void log_clock_step(const status::ClockStep& step);
-
     files::FileLayer& files_;
     Options options_;
     DataRootLock lock_;
@@ -114,8 +85,6 @@ private:
     JournalThread journal_;
     ChunkMaker chunk_maker_;
     ArchiveThread archive_;
-    std::mutex metadata_mutex_;
-    std::string metadata_trouble_;
     bool is_running_ = false;
     std::uint64_t rounds_ = 0, journal_rounds_ = 0;  ///< Rounds at the last call of is_alive().
 };

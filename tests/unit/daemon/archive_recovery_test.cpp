@@ -82,7 +82,7 @@ TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journa
         feed(4 * kFrames);  // More than the queue holds.
         REQUIRE(eventually([&] { return reads.fill() == 0; }));
         // The free space is the journal's concern too.
-        for (const std::uint64_t free : {0, 1 << 30}) {
+        for (const std::uint64_t free : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
             files.free = free;
             later = later.load() + std::chrono::seconds(2);
             CHECK(eventually([&] { return has_reason(status_of(store), "disk full") == !free; }));

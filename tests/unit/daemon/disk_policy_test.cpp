@@ -12,7 +12,7 @@ TEST_CASE("below 1 GiB of free space, or if it is unknown, the status warns", "[
     const auto reported = [](std::optional<std::uint64_t> free_bytes) {
         Status status;
         status.disk_free_bytes = free_bytes;
-        report({}, {}, {}, {}, false, status);
+        report({}, {}, {}, false, status);
         return status;
     };
     constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;

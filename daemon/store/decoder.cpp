@@ -1,0 +1,180 @@
+#include "daemon/store/decoder.hpp"
+
+#include <fmt/core.h>
+
+#include <utility>
+#include <variant>
+
+namespace a351::daemon::store {
+namespace {
+
+constexpr std::chrono::seconds kModelInterval{10};                // Instrument time, and
+constexpr std::chrono::milliseconds kShortestModelInterval{100};  // real time.
+constexpr std::size_t kSessionsRemembered = 8;  // Each has 24 h of times, up to 3.5 MB.
+
+std::optional<survey::Instant> instant_of(const journal::SessionId& session,
+                                          const timing::SampleClock& clock,
+                                          std::optional<std::int64_t> index) {
+    const auto time = index ? clock.time_of(*index) : std::nullopt;
+    return time ? std::optional(survey::Instant{session, *index, time->utc}) : std::nullopt;
+}
+
+}  // namespace
+
+Decoder::Decoder(const Options& options, const source::HostClock& clock, WaitingRecords& records,
+                 Progress& progress, JournalThread& journal)
+    : options_(options),
+      clock_(clock),
+      records_(records),
+      progress_(progress),
+      journal_(journal),
+      archiver_(std::make_unique<archive::Archiver>(*this)) {}
+
+void Decoder::begin_replay() {
+    const std::lock_guard lock(mutex_);
+    archiver_ = std::make_unique<archive::Archiver>(*this);
+    archive_ = nullptr;
+    session_.reset();
+    ended_.clear();
+}
+
+void Decoder::replay_into(const archive::Writer& archive) {
+    const std::lock_guard lock(mutex_);
+    archive_ = &archive;
+}
+
+bool Decoder::replay(const journal::Chunk& chunk) {
+    const std::lock_guard lock(mutex_);
+    const bool is_next_session = begin_session(chunk);
+    archiver_->take(chunk);
+    return is_next_session;
+}
+
+std::optional<journal::SessionId> Decoder::end_replay(archive::Writer::Held held) {
+    const std::lock_guard lock(mutex_);
+    archive_ = nullptr;
+    held_ = std::move(held);
+    record_session_ = session_;
+    status_.counters = archiver_->counters();
+    return session_;
+}
+
+void Decoder::take(const NumberedChunk& numbered) {
+    const std::lock_guard lock(mutex_);
+    watch_clock(numbered.chunk);
+    const bool is_header = std::holds_alternative<journal::Header>(numbered.chunk);
+    has_recorded_ |= is_header;
+    const bool is_next_session = begin_session(numbered.chunk);
+    if (is_next_session) last_sample_.reset();
+    chunk_ = numbered.number;
+    archiver_->take(numbered.chunk);
+    if (is_next_session) held_.clear();  // Not before: the last session's records end now.
+    if (is_header) record_session_ = session_;
+    status_.counters = archiver_->counters();
+    status_.last_sample = last_sample_;
+    if (record_session_)
+        progress_.parsed(numbered.number, *record_session_, archiver_->last_index());
+    note_model();
+}
+
+/// Begins a session if the chunk is the header of one.  @return false if none begins.
+bool Decoder::begin_session(const journal::Chunk& chunk) {
+    const auto* const header = std::get_if<journal::Header>(&chunk);
+    if (header == nullptr || session_ == header->session) return false;
+    const auto ended = std::exchange(session_, header->session);
+    if (const auto last_index = archiver_->last_index(); ended && last_index)
+        ended_.push_back({*ended, *archiver_->clock(), *last_index});
+    if (ended_.size() > kSessionsRemembered) ended_.pop_front();
+    return true;
+}
+
+void Decoder::watch_clock(const journal::Chunk& chunk) {
+    const auto* const header = std::get_if<journal::Header>(&chunk);
+    const auto* const reading =
+        header != nullptr ? &header->clock : std::get_if<timing::ClockReading>(&chunk);
+    const auto step = reading != nullptr ? clock_watch_.observe(*reading) : std::nullopt;
+    if (!step) return;
+    status_.clock_step = step;
+    events::Event event;
+    event.type = "clock_step";
+    event.utc = step->after;
+    event.details["clock_before"] = to_rfc3339(step->before, 3);
+    event.details["clock_after"] = to_rfc3339(step->after, 3);
+    event.details["by_s"] = fmt::format("{:+.3f}", seconds_between(step->before, step->after));
+    journal_.note(event);
+}
+
+void Decoder::note_model() {
+    const auto now = options_.time.now();
+    if (now - last_model_real_ < kShortestModelInterval) return;
+    const RawTime raw = clock_.raw();
+    if (raw - last_model_ < kModelInterval) return;
+    const auto index = archiver_->last_index();
+    const auto time = index ? archiver_->clock()->time_of(*index) : std::nullopt;
+    if (!time) return;
+    last_model_ = raw;
+    last_model_real_ = now;
+    journal_.push(0, journal::ModelChunk{*index, *time});
+}
+
+void Decoder::close_records() {
+    const std::lock_guard lock(mutex_);
+    archiver_->close_records();
+}
+
+void Decoder::end_run() {
+    const std::lock_guard lock(mutex_);
+    if (!has_recorded_ || archiver_->are_times_fixed()) archiver_->close_records();
+}
+
+void Decoder::record(const std::string& channel, const archive::PackedRecord& record,
+                     std::int64_t last_index) {
+    records_.push({chunk_, record_session_, channel, record, last_index});
+}
+
+void Decoder::sample(const archive::Sample& sample) {
+    last_sample_ = sample;
+    if (const auto placed = archiver_->clock()->time_of(sample.index))
+        options_.sample(sample, placed->utc);
+}
+
+std::optional<std::size_t> Decoder::samples_in_archive(const std::string& channel,
+                                                       UtcTime start) const {
+    if (archive_ != nullptr) return archive_->samples_in_archive(channel, start);
+    const auto records = held_.find(channel);
+    if (records == held_.end()) return std::nullopt;
+    const auto record = records->second.find(start);
+    return record == records->second.end() ? std::nullopt : std::optional(record->second);
+}
+
+std::optional<survey::Instant> Decoder::latest() const {
+    const std::lock_guard lock(mutex_);
+    if (const auto index = archiver_->last_index(); index && session_)
+        return instant_of(*session_, *archiver_->clock(), index);
+    if (ended_.empty()) return std::nullopt;
+    return instant_of(ended_.back().session, ended_.back().clock, ended_.back().last_index);
+}
+
+std::optional<survey::Instant> Decoder::at(UtcTime utc) const {
+    const std::lock_guard lock(mutex_);
+    for (const Ended& one : ended_)
+        if (const auto found = instant_of(one.session, one.clock, one.clock.index_at(utc)))
+            return found;
+    const timing::SampleClock* const clock = archiver_->clock();
+    if (clock == nullptr || !session_) return std::nullopt;
+    return instant_of(*session_, *clock, clock->index_at(utc));
+}
+
+Decoder::Status Decoder::status() const {
+    const std::lock_guard lock(mutex_);
+    Status status = status_;
+    if (const timing::SampleClock* const clock = archiver_->clock()) {
+        status.timing_state = clock->state();
+        status.timing_uncertainty = clock->uncertainty();
+        status.is_host_synchronised = clock->is_host_synchronised();
+        status.measured_rate = clock->measured_rate();
+    }
+    return status;
+}
+
+}  // namespace a351::daemon::store

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "daemon/source/host_clock.hpp"
+#include "daemon/store/clock_watch.hpp"
+#include "daemon/store/journal_thread.hpp"
+#include "daemon/store/options.hpp"
+#include "daemon/store/waiting_records.hpp"
+#include "daemon/survey/recorder.hpp"
+#include "protocol/archive/archive_writer.hpp"
+#include "protocol/archive/archiver.hpp"
+
+namespace a351::daemon::store {
+
+/// Makes samples, their times and records of the chunks, and answers which sample belongs to a time.
+/// The journal gets the time of the newest sample (MODEL), the event log each step of the clock.
+///
+/// One thread decodes, any thread may ask.  The lock is held while a chunk is decoded.  This reads the
+/// archive during a replay, and never waits for the disk afterwards.
+class Decoder : public archive::Sink {
+public:
+    struct Status {
+        archive::Counters counters;
+        std::optional<archive::Sample> last_sample;
+        timing::State timing_state = timing::State::unlocked;
+        std::optional<Nanoseconds> timing_uncertainty;  ///< Absent before the first session.
+        bool is_host_synchronised = false;
+        std::optional<status::ClockStep> clock_step;  ///< Newest one of this run.
+        std::optional<timing::MeasuredRate> measured_rate;
+    };
+
+    /// All objects passed by reference must outlive this.
+    Decoder(const Options& options, const source::HostClock& clock, WaitingRecords& records,
+            Progress& progress, JournalThread& journal);
+
+    /// Forgets everything, for a replay of the last run from its begin.
+    void begin_replay();
+    /// Chooses the archive that holds the records of the chunks that follow.
+    void replay_into(const archive::Writer& archive);
+    /// Decodes a chunk of the last run.  @return true if it begins a session.
+    bool replay(const journal::Chunk& chunk);
+    /// Ends the replay.  An adopted stream continues the last session.
+    /// @param held  records of the archive that the replay has not matched.
+    /// @return the last session.
+    std::optional<journal::SessionId> end_replay(archive::Writer::Held held);
+
+    /// Decodes a chunk of this run.
+    /// @throws what Archiver::take() throws.
+    void take(const NumberedChunk& numbered);
+
+    void close_records();
+    /// Closes the records at the end of this run, unless the next run may adopt the session: its
+    /// replay then computes times that are not fixed yet.
+    void end_run();
+
+    [[nodiscard]] std::optional<survey::Instant> latest() const;
+    [[nodiscard]] std::optional<survey::Instant> at(UtcTime utc) const;
+    [[nodiscard]] Status status() const;
+
+private:
+    /// A session that has ended and is still remembered.
+    struct Ended {
+        journal::SessionId session;
+        timing::SampleClock clock;
+        std::int64_t last_index = 0;
+    };
+
+    void record(const std::string& channel, const archive::PackedRecord& record,
+                std::int64_t last_index) override;
+    void sample(const archive::Sample& sample) override;
+    [[nodiscard]] std::optional<std::size_t> samples_in_archive(const std::string& channel,
+                                                                UtcTime start) const override;
+    bool begin_session(const journal::Chunk& chunk);
+    void watch_clock(const journal::Chunk& chunk);
+    void note_model();
+
+    const Options& options_;
+    const source::HostClock& clock_;
+    WaitingRecords& records_;
+    Progress& progress_;
+    JournalThread& journal_;
+
+    mutable std::mutex mutex_;  ///< Mutex of all that follows.
+    std::unique_ptr<archive::Archiver> archiver_;
+    const archive::Writer* archive_ = nullptr;  ///< Not null during a replay only.
+    archive::Writer::Held held_;
+    std::optional<journal::SessionId> session_;  ///< Session of archiver_.
+    std::deque<Ended> ended_;
+    std::uint64_t chunk_ = 0;  ///< Number of the chunk that is being decoded; 0 in a replay.
+    std::optional<journal::SessionId> record_session_;  ///< Session of the records being made.
+    std::optional<archive::Sample> last_sample_;
+    bool has_recorded_ = false;  ///< This run recorded a session or a part of one.
+    ClockWatch clock_watch_;
+    SteadyTime last_model_real_;
+    RawTime last_model_;
+    Status status_;
+};
+
+}  // namespace a351::daemon::store
