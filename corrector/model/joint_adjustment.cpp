@@ -31,6 +31,7 @@ struct Prepared {
     whole_day::DaySurvey day;  ///< With white noise only its stations are used.
     std::optional<adjustment::HelmertBlock> block;  ///< Absent for the whole-day model.
     std::vector<std::string> sites_of_block;
+    bool has_prior = false;  ///< A term of the block has a prior.
 };
 
 /// Prepares a survey.
@@ -50,10 +51,13 @@ text::Message prepare(Prepared& result, const RecordedSurvey& survey) {
     const auto adjusted = model.joint({result.rows, options, nullptr}, result.choice);
     if (adjusted) result.block = adjustment::helmert_block(*adjusted);
     if (!result.block)
-        return text::message("{} has too few readings for the noise of {}", survey.name,
-                             model.name);
+        return text::message("{} has too few readings at known stations for the noise of {}",
+                             survey.name, model.name);
     for (const adjustment::EquationStation& station : adjusted->survey.stations())
         result.sites_of_block.push_back(station.site);
+    result.has_prior = std::ranges::any_of(
+        adjusted->survey.terms(),
+        [](const adjustment::SurveyTerm& term) { return term.prior.has_value(); });
     return {};
 }
 
@@ -94,6 +98,19 @@ text::Message same_time_of(const std::vector<RecordedSurvey>& surveys) {
                                          ? text::message("no serial number in the metadata")
                                          : text::Message(surveys[a].serial_number));
         }
+    return {};
+}
+
+/// Returns a survey whose prior would count again for each survey of its unit, in words; empty if there
+/// is none.
+text::Message prior_again_of(const std::vector<RecordedSurvey>& surveys,
+                             const std::vector<Prepared>& prepared) {
+    for (std::size_t k = 0; k < surveys.size(); ++k)
+        if (prepared[k].has_prior && !surveys[k].serial_number.empty() &&
+            std::ranges::count(surveys, surveys[k].serial_number, &RecordedSurvey::serial_number) >
+                1)
+            return text::message("the prior of {} would count again for each day of its unit",
+                                 surveys[k].name);
     return {};
 }
 
@@ -230,6 +247,7 @@ std::variant<JointAdjustment, text::Message> adjust_jointly(
         if (text::Message refusal = prepare(prepared[k], surveys[k]); !refusal.empty())
             return refusal;
     if (text::Message refusal = same_time_of(surveys); !refusal.empty()) return refusal;
+    if (text::Message refusal = prior_again_of(surveys, prepared); !refusal.empty()) return refusal;
     const auto references = held_references(prepared);
     if (const auto* const site = std::get_if<std::string>(&references))
         return text::message(

@@ -25,7 +25,7 @@ struct RecordedSurvey {
     std::string name;
     std::string serial_number;  ///< Empty: not known, so a unit of its own.
     const SurveyCorrection* result = nullptr;
-    const reading::DayRecord* day = nullptr;  ///< Null: there is none; with `day` there is one.
+    const reading::DayRecord* day = nullptr;  ///< Null for other models than `day`.
 };
 
 /// A station of the adjustment.
@@ -66,7 +66,8 @@ struct JointAdjustment {
 /// calibration are of one unit.  A survey that another model corrected takes part with white noise and
 /// with terms of its own (adjustment/helmert_block.hpp).  It refuses surveys of which
 ///
-/// - one was corrected by `paper`, or its readings do not determine its noise,
+/// - one was corrected by `paper`, or its readings at known stations do not determine its noise,
+/// - one of another model than `day` has a prior, and another one is of the same unit,
 /// - two have different references of one station, or different uncertainties,
 /// - two of one unit are at the same time.
 /// @param surveys  at least one.  Order: as whole_day::adjust_days().

@@ -139,7 +139,8 @@ std::optional<AdjustedSurvey> joint(const LinearModel& model, const SurveyProble
     survey.set_noise(*own.adjustment.s0() *
                      std::sqrt(static_cast<double>(dof) / static_cast<double>(dof - 2)));
     AdjustedSurvey adjusted = adjustment::adjust(std::move(survey), adjustment::Cofactor::left_out);
-    if (!adjusted.is_determined()) return std::nullopt;
+    if (!adjusted.is_determined() || adjusted.moved_mgal > adjustment::kSettled_mgal)
+        return std::nullopt;
     return adjusted;
 }
 

@@ -88,7 +88,8 @@ TEST_CASE("a day of another model takes part with white noise", "[survey][joint]
     for (const std::string model : {"t-drift", "network"}) {
         const Corrected other = a_day_later(corrected(2, model));
         const auto joint =
-            adjust_jointly({{"a", "1", &day.result, &day.day}, {"b", "1", &other.result, nullptr}});
+            adjust_jointly({{"a", "1", &day.result, &day.day},
+                            {"b", model == "network" ? "2" : "1", &other.result, nullptr}});
         REQUIRE(std::holds_alternative<JointAdjustment>(joint));
         const auto& adjustment = std::get<JointAdjustment>(joint);
         CHECK(adjustment.units.size() == 1);
@@ -112,7 +113,7 @@ TEST_CASE("a day of another model takes part with white noise", "[survey][joint]
 
 TEST_CASE("days of other models alone are adjusted together", "[survey][joint]") {
     const Corrected a = corrected(1, "t-drift"), b = a_day_later(corrected(2, "network"));
-    const auto joint = adjust_jointly({{"a", "1", &a.result}, {"b", "1", &b.result}});
+    const auto joint = adjust_jointly({{"a", "1", &a.result}, {"b", "2", &b.result}});
     REQUIRE(std::holds_alternative<JointAdjustment>(joint));
     const auto& adjustment = std::get<JointAdjustment>(joint);
     CHECK(adjustment.units.empty());
@@ -136,7 +137,7 @@ TEST_CASE("a day whose readings hardly determine its noise does not take part", 
         return reason == nullptr ? std::string() : reason->english();
     };
     // A constant, a slope and a drift: six readings leave three degrees of freedom.
-    CHECK(reason_with(5) == "b has too few readings for the noise of t-drift");
+    CHECK(reason_with(5) == "b has too few readings at known stations for the noise of t-drift");
     CHECK(reason_with(6).empty());
 
     // With few degrees of freedom the expected variance is larger than the estimated one.
@@ -152,7 +153,8 @@ TEST_CASE("a day whose readings hardly determine its noise does not take part", 
 TEST_CASE("surveys that cannot be adjusted together are refused with the reason",
           "[survey][joint]") {
     const Corrected a = corrected(1), paper = corrected(2, "paper"),
-                    moved = corrected(2, "day", 3.0);
+                    moved = corrected(2, "day", 3.0),
+                    network = a_day_later(corrected(2, "network"));
     const auto reason = [&](const Corrected& other, const std::string& serial) {
         return std::get<text::Message>(adjust_jointly(
             {{"a", "1", &a.result, &a.day}, {"b", serial, &other.result, &other.day}}));
@@ -160,5 +162,6 @@ TEST_CASE("surveys that cannot be adjusted together are refused with the reason"
     CHECK(reason(paper, "2") == "b is corrected by paper, which is no adjustment");
     CHECK(reason(moved, "2") ==
           "the surveys have different references of S4, or different uncertainties of it");
+    CHECK(reason(network, "1") == "the prior of b would count again for each day of its unit");
     CHECK(reason(moved, "1") == "a and b are of one unit (1) at the same time");
 }
