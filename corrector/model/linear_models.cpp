@@ -136,8 +136,11 @@ std::optional<AdjustedSurvey> joint(const LinearModel& model, const SurveyProble
     const std::size_t dof = own.adjustment.dof();
     if (!own.is_determined() || dof < kFewestJointDof) return std::nullopt;
     adjustment::SurveyEquations survey = equations_of(model, problem, choice.accepted, false);
-    survey.set_noise(*own.adjustment.s0() *
-                     std::sqrt(static_cast<double>(dof) / static_cast<double>(dof - 2)));
+    // Readings that a line fits exactly keep the resolution of the tables.
+    const double reading_sd_mgal = problem.options.priors.reading_sd_mgal;
+    survey.set_noise(std::max(
+        *own.adjustment.s0() * std::sqrt(static_cast<double>(dof) / static_cast<double>(dof - 2)),
+        adjustment::kLeastSd_mgal / reading_sd_mgal));
     AdjustedSurvey adjusted = adjustment::adjust(std::move(survey), adjustment::Cofactor::left_out);
     if (!adjusted.is_determined() || adjusted.moved_mgal > adjustment::kSettled_mgal)
         return std::nullopt;

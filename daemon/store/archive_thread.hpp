@@ -3,7 +3,7 @@
 /// From chunks to samples, times and miniSEED records, by two threads.  The first decodes, and never
 /// waits for the disk once the chunks that the last run left in the journal are processed;
 /// acquisition does not wait for them.  The second writes a record when the journal holds its chunk.
-/// What they do on a full or failing disk is in disk_policy.hpp.
+/// disk_policy.hpp says what they do when a disk is full or fails.
 ///
 ///     first thread:   ArchiveRecovery, then ChunkQueue -> Decoder -> WaitingRecords
 ///     second thread:  WaitingRecords -> RecordWriter -> day files, MARK in the journal

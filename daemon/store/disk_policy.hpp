@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a full or failing disk does: every decision of the store, asked by its threads.  The page for
+/// All decisions of the store about a full or failing disk.  Its threads ask here.  The page for
 /// operators is a351d(1), "FULL AND FAILING DISKS"; report() has the sentences of the status.
 ///
 /// The journal has priority: archive and metadata can be made of it again.

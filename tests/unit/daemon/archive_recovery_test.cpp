@@ -161,7 +161,7 @@ TEST_CASE_METHOD(
     RecoveryRig,
     "after a failed sync during a replay nothing is marked, and the next start replays it",
     "[daemon][store][recovery]") {
-    files.error_of_archive_sync = GENERATE(EIO, ENOSPC);  // As network file systems report it.
+    files.error_of_archive_sync = GENERATE(EIO, ENOSPC);  // network file systems report ENOSPC here
     const store::Options again = crash();
     const auto marks_before = read_journal(crashed).marks.size();
     {

@@ -7,6 +7,7 @@
 #include "tests/unit/model/rows_of_day.hpp"
 
 using namespace a351;
+using namespace a351::corrector;
 using namespace a351::corrector::model;
 using namespace a351::corrector::reading;
 using namespace a351::corrector::whole_day;
@@ -148,6 +149,15 @@ TEST_CASE("a day whose readings hardly determine its noise does not take part", 
     const auto dof = static_cast<double>(few.result.score.dof);
     CHECK(joint.value().survey.noise() * few.result.options.priors.reading_sd_mgal ==
           Approx(few.result.score.s_mgal.value() * std::sqrt(dof / (dof - 2.0))));
+
+    // Readings that a line fits exactly keep the resolution of the tables.
+    for (SurveyRow& row : rows)
+        if (row.reference) row.acceleration = *row.reference + MilliGal(1800.0);
+    std::erase_if(rows, [](const SurveyRow& row) { return row.is_flagged; });
+    const auto exact = find_model("t-drift")->joint({rows, few.result.options, nullptr},
+                                                    choose_rows(rows, {}, true));
+    CHECK(exact.value().survey.noise() * few.result.options.priors.reading_sd_mgal ==
+          Approx(adjustment::kLeastSd_mgal));
 }
 
 TEST_CASE("surveys that cannot be adjusted together are refused with the reason",

@@ -39,8 +39,9 @@ struct WhiteReadings {
 struct RandomDays {
     std::vector<std::unique_ptr<DayRecord>> records;
     std::vector<WhiteReadings> white;
-    std::vector<std::optional<double>> u_held;  ///< Of the references that are held, mGal.
-    std::vector<double> base_mgal;              ///< Gravities from which estimates count.
+    std::vector<std::optional<double>>
+        u_held;                     ///< Uncertainty of each reference that is held, mGal.
+    std::vector<double> base_mgal;  ///< Gravities from which estimates count.
     std::shared_ptr<const DayProblem> problem;
     DayPoint point;
 };
