@@ -11,7 +11,7 @@
 #include "corrector/job/survey_file.hpp"
 #include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/model.hpp"
-#include "corrector/reduction/normal_gravity.hpp"
+#include "corrector/reduction/plate_and_pressure.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/result/anomalies.hpp"
 #include "corrector/result/result_files.hpp"

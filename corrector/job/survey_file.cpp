@@ -6,7 +6,7 @@
 
 #include "corrector/model/model.hpp"
 #include "corrector/reading/representative_value.hpp"
-#include "corrector/reduction/normal_gravity.hpp"
+#include "corrector/reduction/plate_and_pressure.hpp"
 #include "protocol/text/or_null.hpp"
 #include "protocol/text/strict_toml.hpp"
 
@@ -29,15 +29,17 @@ ReferenceSurvey read_reference(text::TomlTable table) {
     if (!std::filesystem::is_regular_file(reference.observations))
         table.refuse("observations", "no such file: " + reference.observations.string(),
                      "a table as a351-correct import writes it");
-    reference.priors.reading_sd_mgal = table.number_or(
-        "reading_sd_mgal", kReferenceReadingSd_mgal, adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
+    reference.priors.reading_sd_mgal =
+        table.number_or("reading_sd_mgal", kReferenceReadingSd_mgal, adjustment::kLeastSd_mgal,
+                        adjustment::kGreatestSd_mgal);
     reference.network.drift_degree = static_cast<int>(table.integer_or(
         "drift_degree", reference.network.drift_degree, 0, model::kGreatestDriftDegree));
     const std::vector<double> scale = table.numbers("scale", -1.0, 2.0);
     if (table.has("scale")) {
         if (scale.size() != 2)
             table.refuse("scale", fmt::format("{} numbers", scale.size()), "[mean, sd]");
-        adjustment::set_prior(reference.priors, "reference.scale", adjustment::kScale, {scale[0], scale[1]});
+        adjustment::set_prior(reference.priors, "reference.scale", adjustment::kScale,
+                              {scale[0], scale[1]});
     }
     table.require_all_read();
     return reference;
@@ -133,8 +135,8 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
         table.number_or("reading_sd_mgal", survey.survey.priors.reading_sd_mgal,
                         adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
     survey.survey.network.datum_sd_mgal =
-        table.number_or("datum_sd_mgal", survey.survey.network.datum_sd_mgal, adjustment::kLeastSd_mgal,
-                        adjustment::kGreatestSd_mgal);
+        table.number_or("datum_sd_mgal", survey.survey.network.datum_sd_mgal,
+                        adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
     survey.survey.network.drift_degree = static_cast<int>(table.integer_or(
         "drift_degree", survey.survey.network.drift_degree, 0, model::kGreatestDriftDegree));
     refuse_removed_keys(table);

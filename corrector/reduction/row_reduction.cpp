@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corrector/reduction/air_pressure.hpp"
-#include "corrector/reduction/normal_gravity.hpp"
+#include "corrector/reduction/plate_and_pressure.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 

@@ -1,6 +1,7 @@
 #include "corrector/result/anomalies.hpp"
 
-#include "corrector/reduction/normal_gravity.hpp"
+#include "corrector/reduction/plate_and_pressure.hpp"
+#include "protocol/core/normal_gravity.hpp"
 
 namespace a351::corrector::result {
 
@@ -10,9 +11,8 @@ void add_anomalies(std::vector<model::StationValue>& stations, const std::vector
         const text::Site* const site = text::find_site(sites, station.site);
         if (site == nullptr || !site->is_placed || !site->has_altitude) continue;
         model::Anomalies& anomalies = station.anomalies.emplace();
-        anomalies.normal_gravity = reduction::normal_gravity(site->latitude);
-        anomalies.free_air =
-            station.gravity - reduction::normal_gravity(site->latitude, site->altitude);
+        anomalies.normal_gravity = a351::normal_gravity(site->latitude);
+        anomalies.free_air = station.gravity - a351::normal_gravity(site->latitude, site->altitude);
         anomalies.bouguer =
             anomalies.free_air - reduction::bouguer_plate(site->altitude, density_kg_per_m3);
     }

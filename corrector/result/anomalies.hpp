@@ -15,7 +15,7 @@ namespace a351::corrector::result {
 ///     Bouguer  = free air - 2 pi G density altitude
 ///
 /// gravity is StationValue::gravity, and altitude that of the table of sites, taken as above sea
-/// level.  Formulas and accuracy: reduction/normal_gravity.hpp.
+/// level.  Formulas and accuracy: protocol/core/normal_gravity.hpp.
 /// @param density_kg_per_m3  of the plate, reduction::kLeastDensity_kg_per_m3 to
 ///                           kGreatestDensity_kg_per_m3; not checked.
 void add_anomalies(std::vector<model::StationValue>& stations, const std::vector<text::Site>& sites,

@@ -1,4 +1,4 @@
-#include "corrector/reduction/normal_gravity.hpp"
+#include "protocol/core/normal_gravity.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -8,7 +8,6 @@
 #include "tests/support/catch.hpp"
 
 using namespace a351;
-using namespace a351::corrector::reduction;
 
 namespace {
 
@@ -60,7 +59,7 @@ double largest_error_mgal(double height_m) {
 
 }  // namespace
 
-TEST_CASE("normal gravity has the published values of GRS80", "[reduction]") {
+TEST_CASE("normal gravity has the published values of GRS80", "[core]") {
     // Moritz 2000: gamma_e, gamma_45 and gamma_p.
     CHECK(gravity_mgal(0.0) == Approx(978032.67715).epsilon(0.0).margin(0.00005));
     CHECK(gravity_mgal(45.0) == Approx(980619.9203).epsilon(0.0).margin(0.0001));  // last digit
@@ -69,7 +68,7 @@ TEST_CASE("normal gravity has the published values of GRS80", "[reduction]") {
     CHECK(gravity_mgal(36.0, 0.0) == gravity_mgal(36.0));
 }
 
-TEST_CASE("normal gravity agrees with the gradient of the exact potential", "[reduction]") {
+TEST_CASE("normal gravity agrees with the gradient of the exact potential", "[core]") {
     CHECK(largest_error_mgal(0.0) < 0.00001);
     CHECK(largest_error_mgal(-500.0) < 0.006);
     CHECK(largest_error_mgal(1000.0) < 0.011);
@@ -77,26 +76,12 @@ TEST_CASE("normal gravity agrees with the gradient of the exact potential", "[re
     CHECK(largest_error_mgal(9000.0) < 0.07);
 }
 
-TEST_CASE("gravity decreases by 0.3086 mGal per metre, a plate adds 0.1120", "[reduction]") {
+TEST_CASE("gravity decreases by 0.3086 mGal per metre", "[core]") {
     CHECK(gravity_mgal(45.0, 0.0) - gravity_mgal(45.0, 1.0) == Approx(0.3086).margin(0.00005));
-    CHECK(bouguer_plate(Metres(1.0), kCrust_kg_per_m3).value() == Approx(0.11197).margin(0.000005));
-    CHECK(bouguer_plate(Metres(-100.0), 1000.0).value() == Approx(-4.1936).margin(0.0001));
 }
 
-TEST_CASE("the standard atmosphere has the pressures of its tables", "[reduction]") {
-    // ISO 2533:1975, table 1.
-    CHECK(normal_pressure_hpa(Metres(0.0)) == 1013.25);
-    CHECK(normal_pressure_hpa(Metres(1000.0)) == Approx(898.75).margin(0.02));
-    CHECK(normal_pressure_hpa(Metres(3000.0)) == Approx(701.09).margin(0.02));
-    // The nominal pressures of an absolute gravimeter, tests/golden/usgs/rg26_ and rg36_2017-12-01.
-    CHECK(normal_pressure_hpa(Metres(1630.83)) == Approx(832.07).epsilon(0.0).margin(0.005));
-    CHECK(normal_pressure_hpa(Metres(1630.0)) == Approx(832.16).epsilon(0.0).margin(0.005));
-}
-
-TEST_CASE("a value that is not a number gives none", "[reduction]") {
+TEST_CASE("a latitude or height that is not a number gives no gravity", "[core]") {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     CHECK(std::isnan(gravity_mgal(kNaN)));
     CHECK(std::isnan(gravity_mgal(45.0, kNaN)));
-    CHECK(std::isnan(bouguer_plate(Metres(kNaN), 2670.0).value()));
-    CHECK(std::isnan(normal_pressure_hpa(Metres(kNaN))));
 }
