@@ -35,6 +35,7 @@
 #include "daemon/survey/occupations.hpp"
 #include "daemon/verdict/lasting_verdict.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/doubtful_site.hpp"
 
 namespace {
 
@@ -150,6 +151,12 @@ gravity::GravityOptions gravity_options(const config::Config& config, spdlog::lo
     return options;
 }
 
+/// Logs what is doubtful in the list of sites, after it was read.
+void log_doubt(const config::SurveyConfig& survey, spdlog::logger& log) {
+    if (const auto doubt = text::doubtful_site(survey.sites); !doubt.empty())
+        log.warn("{}: {}", survey.sites_file.string(), doubt.english());
+}
+
 /// Reads the configuration again after SIGHUP, and takes sites, the plan of a stay and thresholds
 /// from it.  A file that is refused changes nothing.
 void reload(const std::filesystem::path& config_file, spdlog::logger& log, live::Record& live,
@@ -162,6 +169,7 @@ void reload(const std::filesystem::path& config_file, spdlog::logger& log, live:
         });
         log.info(
             "SIGHUP: [verdict], sites, occupation_min and set_ups were read again and are in use");
+        log_doubt(fresh.survey, log);
     } catch (const std::exception& error) {
         log.error("SIGHUP: the configuration was refused and nothing was changed: {}",
                   error.what());
@@ -241,6 +249,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         log.warn("every user of this computer can read the token in {}; chmod o-r {}",
                  config.file.string(), config.file.string());
     }
+
+    log_doubt(config.survey, log);
 
     store.start();
     link.start();

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/doubtful_site.hpp"
 
 namespace a351::corrector::judgement {
 namespace {
@@ -29,6 +30,14 @@ std::optional<Finding> base_not_revisited(const model::SurveyCorrection& result)
     finding.text = text::message(
         "the base {} has 1 stay of {}, at least 2 show a drift without the references", base,
         stays.size());
+    return finding;
+}
+
+std::optional<Finding> doubt_about(const std::vector<text::Site>& sites) {
+    const text::Message doubt = text::doubtful_site(sites);
+    if (doubt.empty()) return std::nullopt;
+    Finding finding{.kind = FindingKind::doubtful_site, .code = "doubtful_site"};
+    finding.text = doubt;
     return finding;
 }
 
@@ -55,6 +64,7 @@ std::vector<Finding> survey_remarks(const model::SurveyCorrection& result,
                                     const std::vector<text::Site>& sites) {
     std::vector<Finding> remarks;
     if (auto finding = base_not_revisited(result)) remarks.push_back(std::move(*finding));
+    if (auto finding = doubt_about(sites)) remarks.push_back(std::move(*finding));
     if (auto finding = not_visited(rows, sites)) remarks.push_back(std::move(*finding));
     return remarks;
 }

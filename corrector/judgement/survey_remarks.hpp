@@ -9,9 +9,11 @@
 
 namespace a351::corrector::judgement {
 
-/// Returns what is worth a look in a corrected survey and no mistake: base_not_revisited and not_visited, in this order.
+/// Returns what is worth a look in a corrected survey and no mistake: base_not_revisited, doubtful_site and not_visited, in
+/// this order.
 ///
 /// - base_not_revisited: the base has one stay, of five or more.
+/// - doubtful_site: text::doubtful_site().
 /// @param rows  all readings of the survey, also those that could not be corrected.
 [[nodiscard]] std::vector<reading::Finding> survey_remarks(
     const model::SurveyCorrection& result, const std::vector<reading::SurveyRow>& rows,

@@ -31,6 +31,7 @@ namespace a351::corrector::reading {
 /// - missed_set_up: the box was lifted and set down during the stay, and no set-up was entered.
 /// - short_stay: the set-up is much shorter than the others of the day.
 /// - base_not_revisited: the base has one stay only.
+/// - doubtful_site: the list of sites has one that does not fit the others.
 /// - clock: times are uncertain, or the host's clock was set back.
 enum class FindingKind {
     moved_box,
@@ -47,6 +48,7 @@ enum class FindingKind {
     missed_set_up,
     short_stay,
     base_not_revisited,
+    doubtful_site,
     clock,
 };
 

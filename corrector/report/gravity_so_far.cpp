@@ -27,9 +27,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kRefusals
     {"no_reference", text::marked("no benchmark with known gravity was read yet")},
 }};
 
-/// Findings that say what is still to be done in the day; they mean nothing before its end.
-constexpr std::array kOfWholeDay{reading::FindingKind::not_visited,
-                                 reading::FindingKind::base_not_revisited};
+/// Findings that say what is still to be done in the day, which mean nothing before its end, and that
+/// about the list of sites, which the recorder says itself.
+constexpr std::array kLeftOut{reading::FindingKind::not_visited,
+                              reading::FindingKind::base_not_revisited,
+                              reading::FindingKind::doubtful_site};
 
 /// A stay, and the places of its set-ups in the lists of the survey.
 struct Stay {
@@ -141,8 +143,8 @@ Json to_json(const GravitySoFar& so_far) {
     json["stays"] = Json::array();
     std::vector<reading::LeftOut> left_out;
     if (so_far.read) left_out = so_far.result ? so_far.result->left_out : so_far.read->left_out;
-    const auto grades =
-        so_far.result ? judgement::grade_readings(*so_far.result) : std::vector<judgement::ReadingGrade>();
+    const auto grades = so_far.result ? judgement::grade_readings(*so_far.result)
+                                      : std::vector<judgement::ReadingGrade>();
     for (const Stay& stay : stays_of(rows_of(so_far), left_out)) {
         Json one;
         one["key"] = text::or_null(stay.key);
@@ -162,7 +164,7 @@ Json to_json(const GravitySoFar& so_far) {
     std::vector<reading::Finding> findings;
     if (so_far.read) findings = so_far.result ? so_far.result->findings : so_far.read->findings;
     std::erase_if(findings, [](const reading::Finding& finding) {
-        return std::ranges::count(kOfWholeDay, finding.kind) > 0;
+        return std::ranges::count(kLeftOut, finding.kind) > 0;
     });
     json["findings"] = reading::findings_json(findings);
     return json;

@@ -94,7 +94,8 @@ std::string site_table(const json& answer) {
              number_of(site, "latitude_deg", "{:.6f}"), number_of(site, "altitude_m", "{:.2f}"),
              number_of(site, "gravity_mgal", "{:.3f}"), number_of(site, "distance_m", "{:.0f}")});
     }
-    return table(rows);
+    const std::string doubt = printable(sentence_of(answer, "doubt", "doubt_parts"));
+    return table(rows) + (doubt.empty() ? "" : doubt + "\n");
 }
 
 std::string occupation_table(const json& answer) {

@@ -13,6 +13,7 @@
 #include "daemon/page/status_json.hpp"
 #include "daemon/page/status_rows.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/doubtful_site.hpp"
 
 namespace a351::daemon::page {
 namespace {
@@ -208,7 +209,8 @@ Response Api::sites_around() const {
     json sites = json::array();
     for (const auto& one : survey::nearest_first(sources_.occupations.sites(), latitude, longitude))
         sites.push_back(to_json(one));
-    return ok({{"sites", sites}});
+    const text::Message doubt = text::doubtful_site(sources_.occupations.sites());
+    return ok({{"sites", sites}, {"doubt", doubt.english()}, {"doubt_parts", doubt.to_json()}});
 }
 
 Response Api::occupations_so_far() const {

@@ -1,10 +1,7 @@
 #include "daemon/survey/field_status.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-
-#include "protocol/core/units.hpp"
 
 namespace a351::daemon::survey {
 namespace {
@@ -12,7 +9,6 @@ namespace {
 constexpr double kForgottenAfter = 3.0;  ///< Time until a reminder, in planned lengths.
 /// A move is looked for in this time before now.  Reason: the search costs a millisecond for it.
 constexpr Nanoseconds kMoveMemory = std::chrono::hours(2);
-constexpr double kEarthRadiusMetres = 6371000.0;
 
 using SetUp = events::Occupation::SetUp;
 
@@ -53,16 +49,6 @@ void compare_level(FieldStatus& field, const Occupations& occupations, const liv
     field.level_site = day.empty() ? running->site : day.front().site;
     field.level_utc = first.start;
     field.level = live.level_against(first.start, first.end);
-}
-
-/// Returns the distance by the haversine formula.
-double distance_m(const text::Site& site, Degrees latitude, Degrees longitude) {
-    const double phi_1 = kRadPerDeg * latitude.value(), phi_2 = kRadPerDeg * site.latitude.value();
-    const double half_phi = 0.5 * (phi_2 - phi_1);
-    const double half_lambda = 0.5 * kRadPerDeg * (site.longitude - longitude).value();
-    const double h = std::pow(std::sin(half_phi), 2) +
-                     std::cos(phi_1) * std::cos(phi_2) * std::pow(std::sin(half_lambda), 2);
-    return 2.0 * kEarthRadiusMetres * std::asin(std::min(1.0, std::sqrt(h)));
 }
 
 }  // namespace
@@ -121,7 +107,7 @@ std::vector<SiteDistance> nearest_first(const std::vector<text::Site>& sites, De
     std::vector<SiteDistance> list;
     for (const text::Site& site : sites) {
         list.push_back({site, std::nullopt});
-        if (site.is_placed) list.back().distance = Metres(distance_m(site, latitude, longitude));
+        if (site.is_placed) list.back().distance = distance(site, latitude, longitude);
     }
     std::ranges::stable_sort(list, {}, [](const SiteDistance& one) {
         return one.distance ? one.distance->value() : std::numeric_limits<double>::infinity();

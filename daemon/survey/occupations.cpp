@@ -10,6 +10,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
+#include "protocol/text/doubtful_site.hpp"
 
 namespace a351::daemon::survey {
 namespace {
@@ -206,8 +207,10 @@ Outcome Occupations::add_site(const text::Site& site) {
                           file.string(), error.code().message())};
     }
     ++changes_;
-    return {Outcome::Kind::done, text::message("added {}: {} sites in {}{}", site.name,
-                                               sites_.size(), file.string(), remark)};
+    text::Message answer = text::message("added {}: {} sites in {}{}", site.name, sites_.size(),
+                                         file.string(), remark);
+    if (const auto doubt = text::doubtful_site(sites_); !doubt.empty()) answer += "; " + doubt;
+    return {Outcome::Kind::done, answer};
 }
 
 void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& options) {

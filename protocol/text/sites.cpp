@@ -139,6 +139,16 @@ std::string trouble_with_site_name(std::string_view name) {
                            : fmt::format("the name of the site {}; allowed: {}", trouble, allowed);
 }
 
+Metres distance(const Site& site, Degrees latitude, Degrees longitude) {
+    constexpr double kEarthRadius_m = 6371000.0;
+    const double phi_1 = kRadPerDeg * latitude.value(), phi_2 = kRadPerDeg * site.latitude.value();
+    const double half_phi = 0.5 * (phi_2 - phi_1);
+    const double half_lambda = 0.5 * kRadPerDeg * (site.longitude - longitude).value();
+    const double h = std::pow(std::sin(half_phi), 2) +
+                     std::cos(phi_1) * std::cos(phi_2) * std::pow(std::sin(half_lambda), 2);
+    return Metres(2.0 * kEarthRadius_m * std::asin(std::min(1.0, std::sqrt(h))));
+}
+
 const Site* find_site(const std::vector<Site>& sites, std::string_view name) {
     const auto found = std::ranges::find(sites, name, &Site::name);
     return found == sites.end() ? nullptr : &*found;

@@ -11,6 +11,7 @@
 
 #include "corrector/judgement/survey_findings.hpp"
 #include "corrector/tide/tide_choice.hpp"
+#include "protocol/text/doubtful_site.hpp"
 
 using namespace a351;
 using namespace a351::corrector;
@@ -53,8 +54,8 @@ std::vector<text::Site> sites() {
 /// Returns the readings with the scales of the published solution, and the references of `held`.
 std::vector<reading::SurveyRow> rows(const std::vector<std::string>& held) {
     std::vector<reading::SurveyRow> list;
-    for (const auto& [file, scale] : std::map<std::string, double>{
-             {"QSCW201508p.098", 1.00009}, {"QSCW201508p.099", 1.000637}}) {
+    for (const auto& [file, scale] : std::map<std::string, double>{{"QSCW201508p.098", 1.00009},
+                                                                   {"QSCW201508p.099", 1.000637}}) {
         int loop = 1;
         for (const auto& words : words_of(file)) {
             if (!words.empty() && words[0] == "55555") ++loop;
@@ -96,7 +97,8 @@ const model::StationValue& station(const model::SurveyCorrection& result, const 
 
 }  // namespace
 
-TEST_CASE("a campaign of 112 stations agrees with the solution published with it", "[golden][igp]") {
+TEST_CASE("a campaign of 112 stations agrees with the solution published with it",
+          "[golden][igp]") {
     const auto result = corrected({"11014121"});
     REQUIRE(result.rows.size() == 548);
     REQUIRE(result.stations.size() == 112);
@@ -113,9 +115,9 @@ TEST_CASE("a campaign of 112 stations agrees with the solution published with it
     const double ours_at_base = station(result, "11014121").gravity.value();
     double squares = 0.0;
     for (const model::StationValue& one : result.stations)
-        squares += std::pow((one.gravity.value() - ours_at_base) -
-                                (theirs.at(one.site) - theirs.at("11014121")),
-                            2);
+        squares += std::pow(
+            (one.gravity.value() - ours_at_base) - (theirs.at(one.site) - theirs.at("11014121")),
+            2);
     const double rms_mgal = std::sqrt(squares / static_cast<double>(result.stations.size()));
     std::cout << fmt::format("{:.4f} mGal rms from the published solution\n", rms_mgal);
     CHECK(rms_mgal < 0.0195);
@@ -127,6 +129,12 @@ TEST_CASE("a campaign of 112 stations agrees with the solution published with it
                                  one.u_gravity->value());
         CHECK(std::abs(error_mgal) < 2.0 * one.u_gravity->value());
     }
+}
+
+TEST_CASE("none of the sites of a real campaign is doubtful", "[golden][igp]") {
+    const auto list = sites();
+    REQUIRE(list.size() == 418);
+    CHECK(text::doubtful_site(list).empty());
 }
 
 TEST_CASE("mistakes of a real campaign are few, large enough to be read, and each named once",
@@ -152,8 +160,7 @@ TEST_CASE("a reading of a real campaign that is made wrong by 0.3 mGal is named"
     const int occupation = wrong.occupation;
     model::SurveyOptions options;
     options.priors.reading_sd_mgal = kReadingSd_mgal;
-    const auto findings =
-        judgement::correct_and_search({list, {}, nullptr}, options).findings;
+    const auto findings = judgement::correct_and_search({list, {}, nullptr}, options).findings;
     const auto named = std::ranges::find_if(findings, [&](const reading::Finding& finding) {
         return finding.site == site && finding.occupation == occupation;
     });

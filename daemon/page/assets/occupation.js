@@ -46,6 +46,7 @@ function difference_text(gravity) {
 export class OccupationPanel {
     constructor() {
         this.sites = [];
+        this.doubt = ""; // What is doubtful in their list.
         this.shown_sites = null; // The list of sites that is shown, as JSON.
         this.list = [];
         this.discarded = [];
@@ -70,8 +71,8 @@ export class OccupationPanel {
         on_submit("start-form", () => this.start());
         on_submit("target-form", () => this.set_target());
         on_submit("note-form", () => this.write_note());
-        by_id("start-site").addEventListener("change", () => this.warn_of_repeat());
-        by_id("start-name").addEventListener("input", () => this.warn_of_repeat());
+        by_id("start-site").addEventListener("change", () => this.show_start_warning());
+        by_id("start-name").addEventListener("input", () => this.show_start_warning());
         by_id("stop").addEventListener("click", () => this.dialogs.open("stop", this.running, this.verdict));
         by_id("setup").addEventListener("click", () => this.order("/api/occupation/setup", this.named()));
         by_id("moved-stop").addEventListener("click", () => this.answer_move());
@@ -186,6 +187,7 @@ export class OccupationPanel {
         try {
             const [sites, list] = await Promise.all([get("/api/sites"), get("/api/occupations")]);
             this.sites = sites.sites;
+            this.doubt = sites.doubt ? tr("List of sites: {}", visible(sentence(sites.doubt_parts, sites.doubt))) : "";
             this.list = list.occupations;
             this.discarded = list.discarded ?? [];
         } catch {
@@ -198,7 +200,7 @@ export class OccupationPanel {
         this.shown_sites = shown_sites;
         this.day.set(this.today(), this.of_today(this.discarded));
         this.show_resume();
-        this.warn_of_repeat();
+        this.show_start_warning();
     }
 
     fill_sites(kind) {
@@ -220,16 +222,19 @@ export class OccupationPanel {
         else if (kind === "start") this.wanted_site = null;
     }
 
-    warn_of_repeat() {
+    show_start_warning() {
         const site = this.chosen("start");
         const today = this.today();
         // A return to the first site of the day, the base, is no mistake.
         const before = site && site !== today[0]?.site ? today.filter((one) => one.site === site) : [];
-        show("start-warning", before.length > 0);
+        const warnings = [this.doubt];
         if (before.length) {
-            set_text("start-warning", tr("This site was occupied at {}: is it the right one?",
+            warnings.unshift(tr("This site was occupied at {}: is it the right one?",
                 before.map((one) => time_with_utc(one.set_ups[0].start)).join(", ")));
         }
+        const text = warnings.filter(Boolean).join("\n");
+        show("start-warning", text !== "");
+        set_text("start-warning", text);
     }
 
     of_today(list) {

@@ -197,6 +197,16 @@ TEST_CASE("a site is added by POST with numbers, and a malformed one is refused"
     CHECK(list[place]["latitude_deg"].get<double>() == 36.1);
     CHECK(list[place]["altitude_m"].is_null());
     CHECK(list[place]["distance_m"].is_number());
+    CHECK(is(page.ask(get("/api/sites")), "/doubt", R"("")"));
+
+    const auto answer =
+        page.ask(post("/api/sites", R"({"site":"C","latitude_deg":-36.1,"longitude_deg":140})"));
+    CHECK(is(answer, "/message",
+             json("added C: 3 sites in " + file.string() +
+                  "; C is 8017 km from the nearest other site: check its longitude and latitude")
+                 .dump()));
+    CHECK_THAT(page.ask(get("/api/sites"))["doubt"].get<std::string>(),
+               StartsWith("C is 8017 km from"));
 }
 
 TEST_CASE("a target is set by POST and refused outside the allowed range", "[daemon][page]") {

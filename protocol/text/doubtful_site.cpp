@@ -1,0 +1,86 @@
+#include "protocol/text/doubtful_site.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "protocol/core/normal_gravity.hpp"
+
+namespace a351::text {
+namespace {
+
+constexpr double kNear_m = 100e3;
+constexpr double kMostAltitude_m = 1500.0;
+constexpr double kMostAnomaly_mgal = 300.0;
+
+/// A site and by how much it differs from what was expected.
+struct Doubt {
+    const Site* site = nullptr;
+    double size = 0.0;  ///< Its sign is kept.
+};
+
+/// Returns the site with the largest size above a limit.  A size that is not known is NaN.
+Doubt worst(const std::vector<const Site*>& sites, double limit,
+            const std::function<double(const Site&)>& size_of) {
+    Doubt found{nullptr, limit};
+    for (const Site* const site : sites)
+        if (const double size = size_of(*site); std::abs(size) > std::abs(found.size))
+            found = {site, size};
+    return found;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    if (values.size() % 2 == 1) return *middle;
+    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+}  // namespace
+
+Message doubtful_site(const std::vector<Site>& sites) {
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    std::vector<const Site*> placed;
+    for (const Site& site : sites)
+        if (site.is_placed) placed.push_back(&site);
+    const auto from = [](const Site& site, const Site& other) {
+        return distance(site, other.latitude, other.longitude).value();
+    };
+
+    const Doubt far = worst(placed, kNear_m, [&](const Site& site) {
+        double nearest_m = std::numeric_limits<double>::infinity();
+        for (const Site* const other : placed)
+            if (other != &site) nearest_m = std::min(nearest_m, from(site, *other));
+        return std::isinf(nearest_m) ? kUnknown : nearest_m;
+    });
+    if (far.site)
+        return message(
+            "{} is {:.0f} km from the nearest other site: check its longitude and latitude",
+            far.site->name, far.size / 1000.0);
+
+    const Doubt high = worst(placed, kMostAltitude_m, [&](const Site& site) {
+        std::vector<double> near_m;
+        for (const Site* const other : placed)
+            if (other != &site && other->has_altitude && from(site, *other) < kNear_m)
+                near_m.push_back(other->altitude.value());
+        const bool is_known = site.has_altitude && near_m.size() >= 2;
+        return is_known ? site.altitude.value() - median(std::move(near_m)) : kUnknown;
+    });
+    if (high.site)
+        return message("the altitude of {} differs by {:+.0f} m from its neighbours: check it",
+                       high.site->name, high.size);
+
+    const Doubt heavy = worst(placed, kMostAnomaly_mgal, [&](const Site& site) {
+        if (!site.gravity || !site.has_altitude) return kUnknown;
+        return (*site.gravity - normal_gravity(site.latitude, site.altitude)).value();
+    });
+    if (heavy.site)
+        return message(
+            "the reference of {} differs by {:+.0f} mGal from normal gravity at its latitude and "
+            "altitude: check all three",
+            heavy.site->name, heavy.size);
+    return {};
+}
+
+}  // namespace a351::text

@@ -1,0 +1,78 @@
+#include "protocol/text/doubtful_site.hpp"
+
+#include <filesystem>
+
+#include "protocol/core/normal_gravity.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace a351;
+using namespace a351::text;
+
+namespace {
+
+/// Returns four sites within 5 km of each other, with references equal to normal gravity.
+std::vector<Site> good_list() {
+    std::vector<Site> list;
+    for (const double step : {0.0, 0.01, 0.02, 0.03}) {
+        const Degrees latitude(36.2 + step);
+        const Metres altitude(100.0 + 10000.0 * step);
+        list.push_back({"S" + std::to_string(list.size()), Degrees(140.1), latitude, altitude,
+                        normal_gravity(latitude, altitude)});
+    }
+    return list;
+}
+
+}  // namespace
+
+TEST_CASE("a good list of sites has no doubtful one", "[text][sites]") {
+    CHECK(doubtful_site(good_list()).empty());
+    CHECK(doubtful_site({}).empty());
+    CHECK(doubtful_site({good_list().front()}).empty());
+    CHECK(doubtful_site(read_sites(A351_GOLDEN "/tsukuba/sites.csv")).empty());
+}
+
+TEST_CASE("a site far from every other one is named", "[text][sites]") {
+    auto list = good_list();
+    list[2].longitude = Degrees(-140.1);  // the sign
+    list[1].latitude = Degrees(35.1);     // less far
+    CHECK(doubtful_site(list) ==
+          "S2 is 6930 km from the nearest other site: check its longitude and latitude");
+    list[2].is_placed = false;
+    CHECK_THAT(doubtful_site(list).english(), StartsWith("S1 is 122 km from"));
+}
+
+TEST_CASE("a longitude of 220 degrees is that of -140", "[text][sites]") {
+    auto list = good_list();
+    for (Site& site : list) site.longitude = Degrees(-140.0);
+    list[1].longitude = Degrees(220.0);
+    CHECK(doubtful_site(list).empty());
+}
+
+TEST_CASE("an altitude that differs from that of the neighbours is named", "[text][sites]") {
+    auto list = good_list();
+    for (Site& site : list) site.gravity.reset();
+    list[3].altitude = Metres(2000.0);
+    CHECK(doubtful_site(list) ==
+          "the altitude of S3 differs by +1800 m from its neighbours: check it");
+    list[3].altitude = Metres(1699.0);
+    CHECK(doubtful_site(list).empty());
+    list[3].altitude = Metres(2000.0);
+    list[3].has_altitude = false;
+    CHECK(doubtful_site(list).empty());
+    SECTION("one neighbour decides nothing") {
+        list[3].has_altitude = true;
+        CHECK(doubtful_site({list[3], list[0]}).empty());
+    }
+}
+
+TEST_CASE("a reference that is not that of its place is named", "[text][sites]") {
+    auto list = good_list();
+    list[1].gravity = *list[1].gravity - MilliGal(299.0);
+    CHECK(doubtful_site(list).empty());
+    list[1].gravity = *list[1].gravity - MilliGal(2.0);
+    CHECK(doubtful_site(list) ==
+          "the reference of S1 differs by -301 mGal from normal gravity at its latitude and "
+          "altitude: check all three");
+    list[1].has_altitude = false;
+    CHECK(doubtful_site(list).empty());
+}
