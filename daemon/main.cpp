@@ -108,6 +108,7 @@ status::Status snapshot(const config::Config& config, const source::HostClock& c
     status.version = A351_VERSION;
     const timing::ClockReading reading = clock.read();
     status.now = reading.realtime;
+    status.host_now = source::host_realtime();
     constexpr std::chrono::seconds kSecond{1};
     status.is_in_real_time = clock.instrument_span(kSecond) == kSecond;
     status.leap = reading.leap;

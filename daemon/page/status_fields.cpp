@@ -31,6 +31,11 @@ Fields general_fields() {
          .value = of(&Status::now),
          .meaning = "Time of this status.",
          .shown = {marked("clock")}},
+        {.path = "/host_now",
+         .value = of(&Status::host_now),
+         .meaning =
+             "The same by the clock of the recorder's host: another one if an emulator sets the "
+             "time."},
         {.path = "/session",
          .value =
              [](const Moment& now) {

@@ -81,14 +81,21 @@ void assess_clock(Status& status) {
     // A delay of 16 ms is 16 s of simulated time at 1000x, and says nothing about the host's clock.
     if (!status.is_in_real_time) return;
     constexpr std::chrono::hours kStepShown{1};
-    if (status.clock_step && status.now - status.clock_step->after < kStepShown) {
-        status.warn(sentence_of(*status.clock_step) +
+    const auto& step = status.clock_step;
+    // A clock that was right when it was set back is synchronised.
+    const bool is_behind = step && status.now < step->before && !status.is_host_synchronised;
+    if (is_behind) {
+        status.warn(sentence_of(*step) +
+                    text::message("; it is behind the recorded data: set it (timedatectl), and "
+                                  "correct the times later with a351-correct retime"));
+    } else if (step && status.now - step->after < kStepShown) {
+        status.warn(sentence_of(*step) +
                     text::message(
                         "; if it was wrong to set it, correct the times with a351-correct retime"));
     }
     constexpr std::chrono::seconds kAhead{5};     // above the uncertainty of a locked clock
     constexpr std::chrono::seconds kUnknown{15};  // the kernel's bound of a clock never set is 16 s
-    if (status.last_sample && *status.last_sample > status.now + kAhead) {
+    if (!is_behind && status.last_sample && *status.last_sample > status.now + kAhead) {
         status.warn(text::message(
             "the samples are later than the clock: an emulator or a replay is faster than real "
             "time, or the clock was set back; start a351d with the emulator's --clock, or see "

@@ -45,6 +45,7 @@ struct Status {
 
     std::string session;          ///< Hexadecimal; empty before the first session.
     UtcTime now;                  ///< Instrument time of the snapshot.
+    UtcTime host_now;             ///< The same by the clock of the host.
     bool is_in_real_time = true;  ///< False if instrument time is faster or slower than the host's.
     // Index of the last sample of the session that was parsed (received), survives a power cut
     // (journaled), is in a synced record (archived).

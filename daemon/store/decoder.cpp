@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::chrono::seconds kModelInterval{10};                // Instrument time, and
 constexpr std::chrono::milliseconds kShortestModelInterval{100};  // real time.
+constexpr std::chrono::seconds kLeastBack{5};   // above the uncertainty of a locked clock
 constexpr std::size_t kSessionsRemembered = 8;  // Each has 24 h of times, up to 3.5 MB.
 
 std::optional<survey::Instant> instant_of(const journal::SessionId& session,
@@ -56,6 +57,7 @@ std::optional<journal::SessionId> Decoder::end_replay(archive::Writer::Held held
     held_ = std::move(held);
     record_session_ = session_;
     status_.counters = archiver_->counters();
+    note_if_back(clock_.read().realtime);  // Samples may be an hour away.
     return session_;
 }
 
@@ -93,14 +95,24 @@ void Decoder::watch_clock(const journal::Chunk& chunk) {
     const auto* const reading =
         header != nullptr ? &header->clock : std::get_if<timing::ClockReading>(&chunk);
     const auto step = reading != nullptr ? clock_watch_.observe(*reading) : std::nullopt;
-    if (!step) return;
+    if (step) note_step(*step);
+}
+
+/// Notes a step if this time is before that of the newest sample: the clock was set back while
+/// nothing was recorded, or while the host slept.
+void Decoder::note_if_back(UtcTime utc) {
+    if (newest_ && utc + kLeastBack < *newest_) note_step({*newest_, utc});
+}
+
+void Decoder::note_step(const status::ClockStep& step) {
+    newest_.reset();
     status_.clock_step = step;
     events::Event event;
     event.type = "clock_step";
-    event.utc = step->after;
-    event.details["clock_before"] = to_rfc3339(step->before, 3);
-    event.details["clock_after"] = to_rfc3339(step->after, 3);
-    event.details["by_s"] = fmt::format("{:+.3f}", seconds_between(step->before, step->after));
+    event.utc = step.after;
+    event.details["clock_before"] = to_rfc3339(step.before, 3);
+    event.details["clock_after"] = to_rfc3339(step.after, 3);
+    event.details["by_s"] = fmt::format("{:+.3f}", seconds_between(step.before, step.after));
     journal_.note(event);
 }
 
@@ -134,8 +146,11 @@ void Decoder::record(const std::string& channel, const archive::PackedRecord& re
 
 void Decoder::sample(const archive::Sample& sample) {
     last_sample_ = sample;
-    if (const auto placed = archiver_->clock()->time_of(sample.index))
-        options_.sample(sample, placed->utc);
+    const auto placed = archiver_->clock()->time_of(sample.index);
+    if (!placed) return;
+    options_.sample(sample, placed->utc);
+    if (archive_ == nullptr) note_if_back(placed->utc);  // The last run has noted its own steps.
+    newest_ = placed->utc;
 }
 
 std::optional<std::size_t> Decoder::samples_in_archive(const std::string& channel,

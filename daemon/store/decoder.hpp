@@ -79,6 +79,8 @@ private:
                                                                 UtcTime start) const override;
     bool begin_session(const journal::Chunk& chunk);
     void watch_clock(const journal::Chunk& chunk);
+    void note_if_back(UtcTime utc);
+    void note_step(const status::ClockStep& step);
     void note_model();
 
     const Options& options_;
@@ -96,7 +98,8 @@ private:
     std::uint64_t chunk_ = 0;  ///< Number of the chunk that is being decoded; 0 in a replay.
     std::optional<journal::SessionId> record_session_;  ///< Session of the records being made.
     std::optional<archive::Sample> last_sample_;
-    bool has_recorded_ = false;  ///< This run recorded a session or a part of one.
+    std::optional<UtcTime> newest_;  ///< Time of the newest sample, also of the last run.
+    bool has_recorded_ = false;      ///< This run recorded a session or a part of one.
     ClockWatch clock_watch_;
     SteadyTime last_model_real_;
     RawTime last_model_;

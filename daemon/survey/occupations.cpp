@@ -116,7 +116,7 @@ Outcome Occupations::start(std::string_view site, const Remark& remark, std::opt
     const auto placed = place(at);
     if (!placed.instant) return refused(placed.trouble);
     for (const auto& one : list()) {
-        if (one.set_ups.front().start <= placed.instant->utc &&
+        if (at && one.set_ups.front().start <= placed.instant->utc &&
             placed.instant->utc < one.set_ups.back().end) {
             return refused(text::message(
                 "{} is within the occupation {}, {} to {}", shown(placed.instant->utc), named(one),
@@ -146,7 +146,7 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     const UtcTime utc = placed.instant->utc;
     for (const auto& one : list()) {
         const auto begin = one.set_ups.front().start;
-        if (running()->start < begin && begin < utc) {
+        if (at && running()->start < begin && begin < utc) {
             return refused(text::message("{} lies between the start at {} and {}", named(one),
                                          running()->site, shown(utc)));
         }

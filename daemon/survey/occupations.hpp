@@ -64,7 +64,8 @@ struct OccupationOptions {
 ///   recorder keeps in memory;
 /// - a start while an occupation is running;
 /// - a stop or set-up without a running occupation, or not after its start;
-/// - an overlap with a finished occupation;
+/// - an overlap with a finished occupation, if `at` is given: what begins or ends now is after all that
+///   is finished, also by a clock that is behind the recorded data;
 /// - a site that is not in the list (any name is allowed if the list is empty);
 /// - a change of a stay whose key names none, or whose site is another than the operator saw.
 /// A start, stop or set-up that was made already, at the same instant, is done and changes nothing.

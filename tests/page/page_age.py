@@ -70,6 +70,17 @@ def show_stale(stub, browser):
     demand("the verdict is shown again", browser.text("verdict-word") == "STABLE")
 
 
+def show_other_clock(stub, browser):
+    stub.clock_ahead_s = 4.0
+    time.sleep(3.0)
+    demand("a difference of 4 s between the clocks is not said", browser.text("clock-note") == "")
+    for ahead_s, word in ((-90.0, "1 min 30 s ahead of"), (90.0, "1 min 30 s behind")):
+        stub.clock_ahead_s = ahead_s
+        browser.wait_for_text("clock-note", f"this screen's clock is {word} the recorder's", seconds=8.0)
+    stub.clock_ahead_s = 0.0
+    browser.wait_for("equal clocks are not said", lambda: browser.text("clock-note") == "", seconds=8.0)
+
+
 def show_lost(stub, browser):
     stub.is_away = True
     browser.wait_for_text("banner", "CONNECTION LOST", seconds=3.0)
@@ -126,6 +137,7 @@ with Browser(allowed_errors=["WebSocket connection to", "ERR_EMPTY_RESPONSE", "F
     watch_growth(page)
     page.resize((1366, 768))
     show_stale(daemon, page)
+    show_other_clock(daemon, page)
     page.resize((1366, 1200))
     show_gap(daemon, page)
     page.resize((1366, 768))

@@ -108,6 +108,7 @@ class StubDaemon:
         self.peak_s = None  # Unix time of a peak of 2 mg in the history.
         self.is_sampling = True
         self.is_away = False
+        self.clock_ahead_s = 0.0  # By how much the clock of the daemon's host is ahead of the browser's.
         self.token = "0123456789abcdef"
         self.tells_token = True  # The page gets the token, as on loopback.
         self.begin_s = time.time() - 70
@@ -151,6 +152,7 @@ class StubDaemon:
     def full_status(self):
         status = dict(self.status)
         status["now"] = rfc3339(time.time())
+        status["host_now"] = rfc3339(time.time() + self.clock_ahead_s)
         stay = {**(status["occupation"] or {}), "reading": None, "whole": None}
         status["changes"] = zlib.crc32(json.dumps([self.sites, self.occupations, self.discarded, stay]).encode())
         if self.samples:

@@ -4,7 +4,7 @@ import { follow } from "./alerts.js";
 import "./awake.js";
 import { Charts } from "./charts.js";
 import { by_id, set_text, show } from "./dom.js";
-import { number, visible } from "./format.js";
+import { duration, number, visible } from "./format.js";
 import { refresh_gravity } from "./gravity.js";
 import { show_health } from "./health.js";
 import "./help.js";
@@ -19,6 +19,7 @@ show("boxes-link", document.querySelector('meta[name="a351-boxes"]').content !==
 
 const kRedraw_ms = 200;
 const kStale_s = 3;
+const kClock_ms = 5000; // The smallest difference of two clocks that is said.
 const kSetBack_ms = 1000; // Smaller steps are corrections of a clock that is not well known yet.
 
 const minute = new Minute();
@@ -30,6 +31,18 @@ let is_connected = false;
 let connected_at_ms = 0;
 let newest_ms = null; // Instrument time of the newest sample.
 let advanced_at_ms = performance.now(); // Time at which it became known, by this page's clock.
+
+let clocks_ms = []; // By how much this page's clock was ahead of the recorder's, at the last statuses.
+
+/** Says if the clocks of page and recorder differ.  A status that comes late looks like a fast clock, so several must say so. */
+function compare_clocks(host_now) {
+    clocks_ms = [Date.now() - Date.parse(host_now), ...clocks_ms].slice(0, 5);
+    const ahead_ms = clocks_ms.reduce((least, one) => (Math.abs(one) < Math.abs(least) ? one : least));
+    show("clock-note", Math.abs(ahead_ms) > kClock_ms);
+    const by = duration(Math.abs(ahead_ms) / 1000);
+    set_text("clock-note", ahead_ms > 0 ? tr("⚠ this screen's clock is {} ahead of the recorder's", by)
+        : tr("⚠ this screen's clock is {} behind the recorder's", by));
+}
 
 function advance_to(sample_ms) {
     if (newest_ms !== null && sample_ms <= newest_ms) return;
@@ -52,6 +65,7 @@ const stream = {
     },
     status(said, rows) {
         status = said;
+        compare_clocks(status.host_now);
         if (status.live) minute.configure(status.live);
         if (status.sample) {
             const is_first = newest_ms === null;

@@ -301,6 +301,21 @@ TEST_CASE("occupations do not overlap, but a forgotten one can be entered later"
     CHECK(occupations.running()->number == 2);
 }
 
+TEST_CASE("a stay by a clock that was set back starts and stops, whatever stays its times lie in",
+          "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    occupations.start("No.0", {}, minute(40));
+    occupations.stop({}, minute(50));
+    occupations.start("No.0", {}, minute(52));
+    occupations.stop({}, minute(55));
+    recorder.last = minute(45);
+    CHECK(occupations.start("No.1", {}, {}).kind == Kind::done);
+    recorder.last = minute(58);
+    CHECK(occupations.stop({}, {}).kind == Kind::done);
+    CHECK(occupations.list().size() == 3);
+}
+
 TEST_CASE("stop and setup need a running occupation and a time after its last set-up",
           "[daemon][occupations]") {
     FakeRecorder recorder;

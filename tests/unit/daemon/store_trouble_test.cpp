@@ -328,6 +328,19 @@ TEST_CASE_METHOD(Rig, "data that the archive cannot take are in the journal, and
     CHECK(read_journal(root).bytes == bytes);
 }
 
+namespace {
+
+/// Returns by how much the clock was set, rounded to seconds, by each clock_step of the event log.
+std::vector<double> clock_steps_s(const std::filesystem::path& root) {
+    std::vector<double> steps;
+    for (const events::Event& event : events::read_events(root / "events").events)
+        if (event.type == "clock_step")
+            steps.push_back(std::round(std::stod(event.details.at("by_s"))));
+    return steps;
+}
+
+}  // namespace
+
 TEST_CASE_METHOD(SteppedRig,
                  "a session after a restart with the clock set back is archived completely",
                  "[daemon][store]") {
@@ -346,4 +359,48 @@ TEST_CASE_METHOD(SteppedRig,
         CHECK(status_of(store).more_counters.at("archive_conflicts") == 0);
     }
     CHECK(recorded_counts(root, "BNZ") == stepped_counts(fed, 2));
+    CHECK(clock_steps_s(root) == std::vector<double>{-40.0});
+}
+
+TEST_CASE_METHOD(SteppedRig,
+                 "a clock that is behind the recorded data is named once: at the start or after a "
+                 "sleep, and a running one by its step alone",
+                 "[daemon][store]") {
+    std::optional<Store> store(std::in_place, files, options(), clock, reads);
+    begin_session(1);
+    advance(*store, std::chrono::seconds(60));
+    CHECK(clock_steps_s(root).empty());
+    SECTION("at the start, before the first sample") {
+        CHECK(store->stop());
+        const UtcTime before = utc;
+        set_clock_back(std::chrono::hours(1));
+        store.reset();  // unlocks the data root
+        store.emplace(files, options(), clock, reads);
+        store->step();
+        const auto step = status_of(*store).clock_step;
+        REQUIRE(step);
+        CHECK(std::abs(seconds_between(before, step->before)) < 1.0);
+        CHECK(step->after == utc);
+        begin_session(2);
+        advance(*store, std::chrono::seconds(60));
+        CHECK(store->stop());
+        CHECK(clock_steps_s(root) == std::vector<double>{-3600.0});
+    }
+    SECTION("while it sleeps") {
+        set_clock_back(std::chrono::minutes(10));
+        begin_session(2);
+        advance(*store, std::chrono::seconds(60));
+        CHECK(store->stop());
+        CHECK(clock_steps_s(root) == std::vector<double>{-600.0});
+    }
+    SECTION("a few seconds are the uncertainty of a clock") {
+        CHECK(store->stop());
+        set_clock_back(std::chrono::seconds(4));
+        store.reset();  // unlocks the data root
+        store.emplace(files, options(), clock, reads);
+        begin_session(2);
+        advance(*store, std::chrono::seconds(60));
+        CHECK(store->stop());
+        CHECK(clock_steps_s(root).empty());
+    }
 }

@@ -107,6 +107,29 @@ TEST_CASE("a step of the clock is a warning for an hour, and an overlap is annou
     CHECK(status.reasons.empty());
 }
 
+TEST_CASE("a clock that stays behind the recorded data is a warning until it is right",
+          "[daemon][assess]") {
+    Status status = healthy();
+    const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
+    status.clock_step = ClockStep{noon, noon - std::chrono::hours(20)};
+    status.now = noon - std::chrono::hours(2);
+    status.last_sample = noon;  // that of the last run
+    Status right = status;
+    Status passed = status;
+
+    assess(status);
+    REQUIRE(status.reasons.size() == 1);
+    CHECK_THAT(status.reasons[0].english(),
+               ContainsSubstring("set back by 72000.0 s") && ContainsSubstring("timedatectl"));
+    right.is_host_synchronised = true;
+    right.last_sample = right.now;
+    assess(right);
+    CHECK(right.reasons.empty());
+    passed.now = noon;
+    assess(passed);
+    CHECK(passed.reasons.empty());
+}
+
 TEST_CASE("a clock that was never synchronised is one warning, however its uncertainty grows",
           "[daemon][assess]") {
     Status status = healthy();
