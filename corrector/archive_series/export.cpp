@@ -140,6 +140,9 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
         if (run.values.empty()) return;
         if (run.first != next || report.runs == 0) {
             if (report.runs > 0) writer.end_run();
+            if (run.first < next && !report.twice)
+                report.twice = {grid_time(run.first, options.rate_hz),
+                                grid_time(next, options.rate_hz)};
             ++report.runs;
         }
         writer.put(run);

@@ -12,9 +12,11 @@
 ///
 /// Values are counts of the channel, or acceleration by the scale in station.xml of the data root.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +53,8 @@ struct ExportReport {
     std::int64_t values = 0;              ///< Values written.
     std::int64_t runs = 0;                ///< Runs without a gap.
     std::vector<archive::Damage> damage;  ///< Damaged records of the archive, each once.
+    /// First instants that were written twice, because the host's clock was set back: begin and end.
+    std::optional<std::array<UtcTime, 2>> twice;
 };
 
 /// Exports a channel on an exact grid of UTC, see UtcGrid.

@@ -45,6 +45,13 @@ void run(Texts texts) {
         std::cerr << "a351-correct: " << archive::to_text(damage) << '\n';
     std::cout << fmt::format("{}: {} values of {} at {} Hz in {} runs without a gap\n", texts.out,
                              report.values, options.channel, options.rate_hz, report.runs);
+    if (report.twice)
+        std::cerr << fmt::format(
+            "a351-correct: {}: instants from {} to {} occur twice, because the host's clock was "
+            "set "
+            "back: the values are in the order of recording; correct the times with retime\n",
+            options.root.string(), to_rfc3339(report.twice->front(), 3),
+            to_rfc3339(report.twice->back(), 3));
     report_damaged_input(!report.damage.empty());
 }
 

@@ -90,6 +90,11 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
             continue;
         }
         Part& last = joined.back();
+        if (next.number == last.number && start_of(next) <= last.stretch.times.back())
+            throw InputError(fmt::format(
+                "{}: instants from {} on occur twice, because the host's clock was set back; "
+                "allowed: each instant once; correct the times with a351-correct retime",
+                parts[next.number].source.string(), to_rfc3339(start_of(next))));
         if (start_of(next) <= last.stretch.times.back())
             throw InputError(fmt::format(
                 "{}: at {} it overlaps {}; allowed: each instant in one part of a record",

@@ -76,6 +76,17 @@ with Scratch() as scratch:
 
     demand("a refused export leaves no file", not list(scratch.glob("refused*")))
 
+    again = bytearray(whole[-20 * 512:])  # After the clock was set back; later by 5 ms, in 0.1 ms.
+    for at in range(28, len(again), 512):
+        again[at:at + 2] = ((int.from_bytes(again[at:at + 2], "big") + 50) % 10000).to_bytes(2, "big")
+    day_file.write_bytes(whole + again)
+    twice = export(root, scratch / "twice.csv", 50, "csv")
+    print(twice.stderr, end="")
+    demand("instants that occur twice are named in one line", twice.stderr.count("\n") == 1
+           and "instants from 2017-07-15T23:5" in twice.stderr and "occur twice" in twice.stderr)
+    written = [row["time_utc"] for row in rows(scratch / "twice.csv")]
+    demand("their values are there twice", len(written) - len(set(written)) > 1000)
+
 # A journal is re-timed as far as it can be read.
 LOG = TOP / "tests" / "golden" / "logs" / "clean_start.a351j"
 with Scratch() as scratch:

@@ -102,3 +102,11 @@ TEST_CASE("files with different steps, and files that overlap, are refused",
                       ContainsSubstring("from-3980.csv: at ") &&
                           ContainsSubstring("Z it overlaps ") && ContainsSubstring("from-0.csv; "));
 }
+
+TEST_CASE("a record whose clock was set back is refused with the remedy", "[long_record][joining]") {
+    LongRecord record = part(20.0, 0.0, 4000.0);
+    record.stretches.push_back(part(20.0, 3000.0, 8000.0).stretches.front());
+    CHECK_THROWS_WITH(joined_record({record}), ContainsSubstring("from-0.csv: instants from ") &&
+                                                   ContainsSubstring("occur twice") &&
+                                                   ContainsSubstring("retime"));
+}
