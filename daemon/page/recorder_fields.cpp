@@ -10,6 +10,8 @@ using status::Status;
 using text::marked;
 using Fields = std::vector<Field>;
 
+double in_ms(Nanoseconds span) { return std::chrono::duration<double, std::milli>(span).count(); }
+
 Fields timing_fields() {
     using timing::MeasuredRate;
     using Hours = std::chrono::duration<double, std::ratio<3600>>;
@@ -26,14 +28,16 @@ Fields timing_fields() {
          .meaning = "State of the sample times: unlocked, coarse, locked or holdover.",
          .shown = {.row = marked("timing"), .as = Shown::As::word}},
         {.path = "/timing/uncertainty_ms",
-         .value = of(&Status::timing_uncertainty,
-                     [](Nanoseconds span) {
-                         return std::chrono::duration<double, std::milli>(span).count();
-                     }),
+         .value = of(&Status::timing_uncertainty, in_ms),
          .meaning = "Uncertainty (95 %) of the time of the last sample.",
          .unit = "ms",
          .shown = {marked("timing"), marked("uncertainty"), 2},
          .metric = {.name = "a351_timing_uncertainty_seconds", .scale = 1e-3}},
+        {.path = "/timing/host_uncertainty_ms",
+         .value = of(&Status::host_uncertainty, in_ms),
+         .meaning = "Its part that is the host's clock.",
+         .unit = "ms",
+         .shown = {marked("timing"), marked("of it the laptop's clock"), 2}},
         {.path = "/timing/clock_step",
          .value = of(&Status::clock_step,
                      [](const status::ClockStep& step) {

@@ -53,7 +53,8 @@ struct Status {
     std::optional<UtcTime> last_sample;
 
     timing::State timing_state = timing::State::unlocked;
-    std::optional<Nanoseconds> timing_uncertainty;       ///< 95 %; absent before the first sample.
+    std::optional<Nanoseconds> timing_uncertainty;  ///< 95 %; absent before the first sample.
+    std::optional<Nanoseconds> host_uncertainty;    ///< Its part that is the host's clock.
     bool is_host_synchronised = false;
     timing::LeapSecond leap = timing::LeapSecond::none;  ///< Leap second announced by the host.
     std::optional<ClockStep> clock_step;                 ///< Newest one of this run.

@@ -186,6 +186,7 @@ Decoder::Status Decoder::status() const {
     if (const timing::SampleClock* const clock = archiver_->clock()) {
         status.timing_state = clock->state();
         status.timing_uncertainty = clock->uncertainty();
+        status.host_uncertainty = clock->host_uncertainty();
         status.is_host_synchronised = clock->is_host_synchronised();
         status.measured_rate = clock->measured_rate();
     }

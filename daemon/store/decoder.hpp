@@ -31,6 +31,7 @@ public:
         std::optional<archive::Sample> last_sample;
         timing::State timing_state = timing::State::unlocked;
         std::optional<Nanoseconds> timing_uncertainty;  ///< Absent before the first session.
+        std::optional<Nanoseconds> host_uncertainty;    ///< Its part that is the host's clock.
         bool is_host_synchronised = false;
         std::optional<status::ClockStep> clock_step;  ///< Newest one of this run.
         std::optional<timing::MeasuredRate> measured_rate;

@@ -66,6 +66,7 @@ void Store::fill(status::Status& status) {
     if (const auto last = archive_.latest()) status.last_sample = last->utc;
     status.timing_state = archive.timing_state;
     status.timing_uncertainty = archive.timing_uncertainty;
+    status.host_uncertainty = archive.host_uncertainty;
     status.is_host_synchronised = archive.is_host_synchronised;
     status.measured_rate = archive.measured_rate;
     status.clock_step = archive.clock_step;

@@ -14,6 +14,7 @@ using std::chrono::milliseconds;
 
 constexpr Nanoseconds kLargestPull = std::chrono::microseconds(200);  // per second of data
 constexpr Nanoseconds kUnlocked = std::chrono::seconds(60);           // data before any other state
+constexpr double kWorstRate_ppm = 1000.0;                             // ten times a poor crystal
 constexpr Nanoseconds kLocked = milliseconds(3);                // uncertainty of a locked line
 constexpr Nanoseconds kRemembered = std::chrono::hours(24);     // data whose times are kept
 constexpr Nanoseconds kShortestSpan = std::chrono::minutes(1);  // for a measured rate
@@ -191,12 +192,17 @@ std::optional<MeasuredRate> SampleClock::measured_rate() const {
         const double span_s = std::chrono::duration<double>(span).count();
         best = {Hertz(static_cast<double>(*last_ - piece.first) / span_s), ppm, span};
     }
-    return best;
+    return best && best->uncertainty_ppm <= kWorstRate_ppm ? best : std::nullopt;
 }
 
 Nanoseconds SampleClock::uncertainty() const {
     const auto time = last_ ? time_of(*last_) : std::nullopt;
     return time ? time->uncertainty : Nanoseconds(0);
+}
+
+Nanoseconds SampleClock::host_uncertainty() const {
+    const bool is_known = last_ && !is_given_ && line_ && !mapping_.is_empty();
+    return is_known ? mapping_.error_at(line_at(*last_)) : Nanoseconds(0);
 }
 
 }  // namespace a351::timing

@@ -157,7 +157,7 @@ public:
 
     /// Returns the rate of the sensor's oscillator, from the newest sample and that earlier one (of
     /// the remembered 24 h, after the last break) which gives the least uncertainty.  std::nullopt
-    /// while the span is below 1 min, and for times given by use().
+    /// while the span is below 1 min or the uncertainty above 1000 ppm, and for times given by use().
     ///
     /// Cost: O(n) for n remembered pieces, at most one per second of data.
     ///
@@ -169,6 +169,9 @@ public:
     /// Returns the uncertainty of the last sample observed, 95 %; 0 before there is one, or before
     /// its time is known.  Do not read 0 as exact.
     [[nodiscard]] Nanoseconds uncertainty() const;
+
+    /// Returns the part of uncertainty() that is the host's clock; 0 for times given by use().
+    [[nodiscard]] Nanoseconds host_uncertainty() const;
 
 private:
     void fix_until(std::int64_t index);

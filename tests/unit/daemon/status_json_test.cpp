@@ -103,6 +103,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     page.status.journaled = 179'990;
     page.status.timing_state = timing::State::locked;
     page.status.timing_uncertainty = std::chrono::microseconds(1500);
+    page.status.host_uncertainty = std::chrono::microseconds(400);
     page.status.clock_step = {page.status.now, page.status.now - std::chrono::seconds(80)};
     page.status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
     page.status.declared_rate_hz = 50.00025;
@@ -119,6 +120,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/received", "179999"));
     CHECK(is(status, "/timing/state", R"("locked")"));
     CHECK(is(status, "/timing/uncertainty_ms", "1.5"));
+    CHECK(is(status, "/timing/host_uncertainty_ms", "0.4"));
     CHECK(is(status, "/timing/clock_step/by_s", "-80.0"));
     CHECK(is(status, "/timing/rate/measured_hz", "50.0005"));
     CHECK(is(status, "/timing/rate/uncertainty_ppm", "0.03"));

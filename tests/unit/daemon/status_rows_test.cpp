@@ -35,6 +35,7 @@ bool has(Page& page, const std::string& label, const std::string& values) {
 void fill(status::Status& status) {
     status.last_sample = status.now = minute(60);
     status.timing_uncertainty = std::chrono::microseconds(1500);
+    status.host_uncertainty = std::chrono::microseconds(400);
     status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
     status.output_rate_hz = 50;
     status.received = 1000;
@@ -160,7 +161,7 @@ TEST_CASE("a row shows the values that are known, and a dash without any", "[dae
     CHECK(row_of(page, "axes") == "x 1.500 mg, y -2.250 mg, z 999.300 mg");
     CHECK(row_of(page, "journal") == "990, 10 behind (0.2 s)");
     CHECK(row_of(page, "troubles") == "checksum errors 2");
-    CHECK(has(page, "timing", "unlocked, uncertainty 1.50 ms"));
+    CHECK(has(page, "timing", "unlocked, uncertainty 1.50 ms, of it the laptop's clock 0.40 ms"));
     CHECK(has(page, "disk", "free 5.5 GB, reserve given up, longest sync 0 ms"));
     CHECK(has(page, "sampling", "not verified"));
     page.status.is_profile_verified = true;

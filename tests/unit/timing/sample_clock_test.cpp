@@ -216,6 +216,10 @@ TEST_CASE("an unsynchronised host has an uncertainty of at least 1 s", "[timing]
     worse.max_error_us = 16'000'000;  // where the kernel stops counting
     for (std::int64_t k = 0; k < 5000; ++k) worse.frame(k, 0s);
     CHECK(worse.clock.uncertainty() >= Nanoseconds(16s));
+    CHECK(worse.clock.host_uncertainty() >= Nanoseconds(16s));
+    CHECK(worse.clock.uncertainty() - worse.clock.host_uncertainty() <
+          Nanoseconds(4ms));                   // the line
+    CHECK_FALSE(worse.clock.measured_rate());  // it could be wrong by 16 %
 }
 
 TEST_CASE("the clock is unlocked for 60 s of data, then locked", "[timing][sample_clock]") {
