@@ -169,6 +169,7 @@ HandshakeRun run_handshake(wire::Handshake& handshake, Port& port, const HostClo
                            const std::atomic<bool>& stop) {
     HandshakeRun run;
     std::vector<std::byte> answer;
+    std::size_t received = 0;
     while (!stop) {
         wire::HandshakeStep step = handshake.next(answer);
         answer.clear();
@@ -179,12 +180,14 @@ HandshakeRun run_handshake(wire::Handshake& handshake, Port& port, const HostClo
             std::this_thread::sleep_for(transmit->pause_after);
         } else if (const auto* wanted = std::get_if<wire::Receive>(&step)) {
             is_there = receive(port, *wanted, answer);
+            received += answer.size();
         } else if (const auto* silence = std::get_if<wire::DrainUntilSilent>(&step)) {
             is_there = drain(port, *silence, run.bytes_skipped);
         } else if (auto* sampling = std::get_if<wire::Sampling>(&step)) {
             run.outcome = std::move(sampling->identity);
             return run;
         } else if (auto* failure = std::get_if<wire::HandshakeFailure>(&step)) {
+            if (failure->is_unanswered) run.bytes_skipped += received;
             run.outcome = std::move(*failure);
             return run;
         }

@@ -17,6 +17,7 @@ using std::chrono::seconds;
 constexpr milliseconds kShortestRealWait{50};  // a fast emulator is not asked without a pause
 // Waiting times in instrument time, which real_wait() converts.
 constexpr seconds kPortRetry{1};
+constexpr std::size_t kLeastTalk = 16;  // bytes; a plug that is put in makes a few
 constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
                                        seconds(30)};
 
@@ -162,7 +163,9 @@ bool SensorLink::adopt() {
 
 bool SensorLink::begin_sampling() {
     if (!port_) return false;
-    set_state(LinkStatus::State::handshake, text::message("configuring the sensor"));
+    // The reason of a failure stays while the sensor is asked again.
+    if (failures_in_a_row_ == 0)
+        set_state(LinkStatus::State::handshake, text::message("configuring the sensor"));
     if (!is_configurable()) return false;
     wire::Handshake handshake(*options_.profile, options_.settings,
                               options_.expected_serial_number);
@@ -196,9 +199,7 @@ bool SensorLink::is_configurable() {
             lose_port();
             break;
         case Probe::Outcome::silent:
-            handle_failure({.reason = "the sensor does not answer; check its plug and its power",
-                            .is_unanswered = true},
-                           0);
+            handle_failure({.reason = "", .is_unanswered = true}, 0);
             break;
     }
     return false;
@@ -213,10 +214,15 @@ void SensorLink::handle_failure(const wire::HandshakeFailure& failure, std::size
     const bool may_be_baud = failure.is_unanswered && (bytes_skipped > 0 || failures_in_a_row_ > 0);
     if (may_be_baud && try_next_baud()) return;
     bauds_tried_ = 0;
-    text::Message trouble = text::marked_message(failure.reason);
-    if (failure.is_unanswered && bytes_skipped > 0)
-        trouble += text::message("; bytes arrive, but none can be understood at any baud rate");
-    back_off(trouble);
+    strange_bytes_ = failure.is_unanswered ? strange_bytes_ + bytes_skipped : 0;
+    if (!failure.is_unanswered)
+        back_off(text::marked_message(failure.reason));
+    else if (strange_bytes_ >= kLeastTalk)
+        back_off(
+            text::message("bytes arrive, but none can be understood at any baud rate: another "
+                          "device, such as a GPS receiver; check sensor.port"));
+    else
+        back_off(text::message("the sensor does not answer; check its plug and its power"));
 }
 
 /// Selects the next baud rate.  @return false when all have been tried; the first is then in use.
@@ -258,6 +264,7 @@ void SensorLink::back_off(const text::Message& trouble) {
 void SensorLink::expect_stream(std::vector<Read> unread) {
     is_silent_ = false;
     may_continue_ = true;
+    for (const Read& read : unread) strange_bytes_ += read.bytes.size();
     unread_ = std::move(unread);
     if (!known_ || known_->header.baud == bauds_.front()) return;
     const auto last = std::find(bauds_.begin(), bauds_.end(), known_->header.baud);

@@ -92,7 +92,7 @@ SensorLink::End SensorLink::read_stream() {
                 known_->count = frame->values().count;
                 known_->arrival = time;
                 last_frame = now;
-                failures_in_a_row_ = 0;
+                failures_in_a_row_ = strange_bytes_ = 0;
                 has_frames_ = true;
             }
         }

@@ -213,6 +213,38 @@ TEST_CASE("a sensor that answers but never sends a frame starts no session",
     link.stop();
 }
 
+TEST_CASE("another device that talks is named once, however often it is asked",
+          "[daemon][sensor_link]") {
+    Pty pty;
+    std::atomic<bool> is_over{false};
+    std::thread receiver([&] {
+        const std::string line =
+            "$GPRMC,123519,A,4807.038,N,01131.000,E,022.4,084.4,230394,003.1,W*6A\r\n";
+        while (!is_over) {
+            pty.write(std::as_bytes(std::span(line)));
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        }
+    });
+    ReadQueue queue;
+    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
+    SensorLink link(options_for(pty.path()), clock, queue);
+    link.start();
+    std::vector<std::string> said;
+    const bool has_failed_often = eventually([&] {
+        const LinkStatus status = link.status();
+        if (said.empty() || said.back() != status.trouble.english())
+            said.push_back(status.trouble.english());
+        return status.handshake_failures >= 8;
+    });
+    link.stop();
+    is_over = true;
+    receiver.join();
+    REQUIRE(has_failed_often);
+    CHECK(said.size() <= 3);  // looked for, configured, and this:
+    CHECK_THAT(said.back(),
+               ContainsSubstring("another device") && ContainsSubstring("sensor.port"));
+}
+
 TEST_CASE("a port that disappears is named and searched for until it is back",
           "[daemon][sensor_link]") {
     const test::TemporaryDirectory directory;
