@@ -3,21 +3,33 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
 #include "protocol/archive/retime.hpp"
+#include "protocol/station/described_again.hpp"
 
 namespace a351::corrector::command {
 namespace {
 
 struct RetimeOptions {
     std::filesystem::path root, out;
+    std::string profile;
 };
 
+archive::RetimeReport retimed(const RetimeOptions& options) {
+    files::FileLayer& files = files::posix_files();
+    if (options.profile.empty()) return archive::retime(files, options.root, options.out);
+    const auto& profile = wire::profile_option("--profile", options.profile);
+    return archive::retime(files, options.root, options.out, &profile,
+                           [&](const auto& from, const auto& to) {
+                               station::describe_again(files, from, to, profile);
+                           });
+}
+
 void run(const RetimeOptions& options) {
-    const archive::RetimeReport report =
-        archive::retime(files::posix_files(), options.root, options.out);
+    const archive::RetimeReport report = retimed(options);
     for (const journal::Damage& damage : report.damage) {
         std::cerr << fmt::format("a351-correct: {}: offset {}: {} bytes are skipped: {}\n",
                                  damage.file.string(), damage.offset, damage.byte_count,
@@ -43,6 +55,8 @@ void add_retime_command(CLI::App& program) {
     add_required(command, "ROOT", "DIR", options->root, "Data root with a journal");
     add_required(command, "--out", "DIR", options->out,
                  "Data root to write: archive, events, metadata");
+    add_option(command, "--profile", "NAME|FILE", options->profile,
+               "Profile of the sensor, if the record was made with a wrong one");
     command.callback([options] { run(*options); });
 }
 

@@ -120,13 +120,13 @@ source::PortAddress read_address(TomlTable& table) {
 
 /// Reads the name of a shipped profile, or the path of a file.
 const wire::DeviceProfile* read_profile(TomlTable& table) {
-    const std::vector<std::string> names = wire::profile_names();
-    const std::string name = table.string_or("profile", "A351");
-    if (std::ranges::count(names, name) > 0) return wire::find_profile(name);
-    const std::filesystem::path file = table.path_or_empty("profile");
-    if (!std::filesystem::is_regular_file(file))
-        table.refuse("profile", "neither a profile nor a file", joined(names) + ", or a file");
-    return &wire::load_profile(file);
+    const auto* const profile =
+        wire::named_or_loaded(table.string_or("profile", "A351"), table.path_or_empty("profile"));
+    if (profile == nullptr) {
+        table.refuse("profile", "neither a profile nor a file",
+                     joined(wire::profile_names()) + ", or a file");
+    }
+    return profile;
 }
 
 void read_filter(TomlTable& table, source::LinkOptions& sensor, station::Description& station) {

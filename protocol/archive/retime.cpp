@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,7 +17,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Segments = std::vector<fs::path>;
+/// Where the chunks come from, and the profile to read them with, if not their own.
+struct Recording {
+    std::vector<fs::path> segments;
+    const wire::DeviceProfile* profile;
+};
+
+/// The chunks of a recording, in order.
+class Chunks {
+public:
+    explicit Chunks(const Recording& recording)
+        : sequence_(recording.segments), profile_(recording.profile) {}
+
+    [[nodiscard]] std::optional<journal::Chunk> next() {
+        auto chunk = sequence_.next();
+        if (profile_ == nullptr || !chunk) return chunk;
+        if (auto* const header = std::get_if<journal::Header>(&*chunk))
+            *header = recorded_with(*profile_, std::move(*header));
+        return chunk;
+    }
+    [[nodiscard]] const std::vector<journal::Damage>& damage() const noexcept {
+        return sequence_.damage();
+    }
+
+private:
+    journal::Sequence sequence_;
+    const wire::DeviceProfile* profile_;
+};
 
 struct Discard final : Sink {
     void record(const std::string&, const PackedRecord&, std::int64_t) override {}
@@ -56,10 +83,11 @@ private:
 
 /// Reads the journal for the first time.
 /// @throws std::runtime_error  it has no frame of the sensor.
-void gather(const Segments& segments, Retiming& retiming) {
+void gather(const Recording& recording, Retiming& retiming) {
+    const auto& segments = recording.segments;
     Discard nothing;
     Archiver archiver(nothing, &retiming);
-    journal::Sequence chunks(segments);
+    Chunks chunks(recording);
     while (const auto chunk = chunks.next()) archiver.take(*chunk);
     if (archiver.counters().frames > 0) return;
     std::string reason;
@@ -73,11 +101,12 @@ void gather(const Segments& segments, Retiming& retiming) {
                     segments.front().parent_path().string(), segments.size(), reason));
 }
 
-void write(const Segments& segments, Retiming& retiming, Archives& archives, RetimeReport& report) {
+void write(const Recording& recording, Retiming& retiming, Archives& archives,
+           RetimeReport& report) {
     retiming.begin_second_pass();
     Archiver archiver(archives, &retiming);
     std::optional<journal::StationCodes> codes;
-    journal::Sequence chunks(segments);
+    Chunks chunks(recording);
     while (const auto chunk = chunks.next()) {
         if (const auto* header = std::get_if<journal::Header>(&*chunk);
             header && header->codes != codes) {
@@ -151,10 +180,41 @@ std::optional<UtcTime> Retiming::time_of(const journal::SessionId& session, std:
     return nearest;
 }
 
-RetimeReport retime(files::FileLayer& files, const fs::path& root, const fs::path& out_as_given) {
+journal::Header recorded_with(const wire::DeviceProfile& profile, journal::Header header) {
+    const wire::DeviceProfile* const own = wire::find_profile(header.profile);
+    if (own == nullptr)
+        throw InputError("journal: unknown device profile '" + header.profile + "'");
+    const auto lacks = [&](const std::string& setting) {
+        return InputError(fmt::format("profile {} has no {}, with which the journal was recorded",
+                                      profile.name, setting));
+    };
+    const auto own_rate =
+        std::ranges::find(own->output_rates_hz, header.output_rate_hz, &wire::Coded::value);
+    const wire::FilterSpec* const own_filter = own->filter_named(header.filter);
+    header.profile = profile.name;
+    if (own_rate == own->output_rates_hz.end() || own_filter == nullptr) return header;
+    const auto rate =
+        std::ranges::find(profile.output_rates_hz, own_rate->code, &wire::Coded::code);
+    if (rate == profile.output_rates_hz.end())
+        throw lacks(fmt::format("output rate with code {}", own_rate->code));
+    const wire::FilterSpec* const filter = profile.filter_coded(own_filter->code);
+    if (filter == nullptr) throw lacks(fmt::format("filter with code {}", own_filter->code));
+    if (rate->value != header.output_rate_hz) header.declared_rate_hz.reset();
+    header.output_rate_hz = rate->value;
+    header.filter = filter->name;
+    return header;
+}
+
+void copy_metadata(const fs::path& from, const fs::path& to) {
+    if (fs::exists(from / "metadata"))
+        fs::copy(from / "metadata", to / "metadata", fs::copy_options::recursive);
+}
+
+RetimeReport retime(files::FileLayer& files, const fs::path& root, const fs::path& out_as_given,
+                    const wire::DeviceProfile* profile, const MetadataWriter& metadata) {
     const fs::path out = out_as_given.has_filename() ? out_as_given : out_as_given.parent_path();
-    const Segments segments = journal::segment_files(root / "journal");
-    if (segments.empty())
+    const Recording recording{journal::segment_files(root / "journal"), profile};
+    if (recording.segments.empty())
         throw InputError(root.string() + ": no journal; allowed: the data root of a daemon");
     if (fs::exists(out))
         throw InputError("--out " + out.string() + ": already exists; allowed: a new directory");
@@ -165,16 +225,15 @@ RetimeReport retime(files::FileLayer& files, const fs::path& root, const fs::pat
                                      out.string(), partial.string()));
     }
     RetimeReport report;
-    report.segments = segments.size();
+    report.segments = recording.segments.size();
     try {
         files.create_directories(partial);
         Retiming retiming;
-        gather(segments, retiming);
+        gather(recording, retiming);
         Archives archives(files, partial / "archive");
-        write(segments, retiming, archives, report);
+        write(recording, retiming, archives, report);
         write_events(files, root, partial, retiming);
-        if (fs::exists(root / "metadata"))
-            fs::copy(root / "metadata", partial / "metadata", fs::copy_options::recursive);
+        metadata(root, partial);
         files.rename(partial, out);
         files.sync_directory(fs::absolute(out).parent_path());
     } catch (...) {

@@ -3,7 +3,7 @@
 /// The archive of a data root again, with times computed afterwards.
 ///
 /// Use it when a recording is over and the best times are wanted, or when the host's clock was
-/// wrong while it was recorded.  retime() does all; Retiming is its connection to the archiver.
+/// wrong while it was recorded, or when it was recorded with a wrong profile.  retime() does all; Retiming is its connection to the archiver.
 ///
 ///     const RetimeReport report = retime(posix_files(), "/data/box1", "/data/box1-retimed");
 ///     for (const journal::Damage& damage : report.damage) warn(damage.reason);
@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@
 #include "protocol/files/file_layer.hpp"
 #include "protocol/journal/journal_reader.hpp"
 #include "protocol/timing/hindsight.hpp"
+#include "protocol/wire/device_profile.hpp"
 
 namespace a351::archive {
 
@@ -73,6 +75,19 @@ private:
     std::size_t next_run_ = 0;
 };
 
+/// Returns the header that the daemon would have written with another profile.  The device has a
+/// rate and a filter by their codes, so these are the ones of the codes.
+/// @throws InputError  the header's profile is unknown, or `profile` lacks a code.
+[[nodiscard]] journal::Header recorded_with(const wire::DeviceProfile& profile,
+                                            journal::Header header);
+
+/// Writes the folder `metadata` of a data root; `to` is the new root.
+using MetadataWriter =
+    std::function<void(const std::filesystem::path& from, const std::filesystem::path& to)>;
+
+/// Copies the folder `metadata`, if there is one.
+void copy_metadata(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Result of retime().
 struct RetimeReport {
     std::uint64_t segments = 0;           ///< Segments of the journal, damaged ones included.
@@ -84,8 +99,7 @@ struct RetimeReport {
 /// Writes the archive of a data root again, with times computed afterwards: each second from the
 /// arrivals 450 s before and after it, and from the readings at which the host's clock was
 /// synchronised.  Samples, gaps and channels are those of the running daemon; records may end at
-/// other samples.  Events keep their samples and get the new times; metadata are copied.  The
-/// journal is not copied.
+/// other samples.  Events keep their samples and get the new times.  The journal is not copied.
 ///
 /// The result is complete or absent: it is written beside `out` and renamed at the end.
 ///
@@ -97,11 +111,14 @@ struct RetimeReport {
 /// @param root  data root with the folders journal, events and metadata; the last two may be
 ///              absent.  No daemon may write to it meanwhile.
 /// @param out   new directory; `out` + ".partial" beside it must not exist either.
+/// @param profile   if given, everything is as if it had been recorded with it: recorded_with().
+/// @param metadata  writes the metadata; with a profile, station::describe_again() does.
 /// @throws InputError         no journal in `root`, or `out` exists, or a header of the journal
-///                            names unknown settings.
+///                            names unknown settings, or settings that `profile` lacks.
 /// @throws std::runtime_error no frame of the sensor can be read; nothing is written.
 /// @throws std::system_error  a file cannot be read or written.
 RetimeReport retime(files::FileLayer& files, const std::filesystem::path& root,
-                    const std::filesystem::path& out);
+                    const std::filesystem::path& out, const wire::DeviceProfile* profile = nullptr,
+                    const MetadataWriter& metadata = copy_metadata);
 
 }  // namespace a351::archive

@@ -38,4 +38,10 @@ namespace a351::station {
 [[nodiscard]] std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node node,
                                              const char* attribute);
 
+/// Returns true if an epoch is in force at an instant; without one, if the epoch has no end.
+/// @param file  named in the message of an error; it is not read.
+/// @throws InputError  a date of the channel is not an instant.
+[[nodiscard]] bool is_in_force(const std::filesystem::path& file, pugi::xml_node channel,
+                               std::optional<UtcTime> at);
+
 }  // namespace a351::station

@@ -56,15 +56,6 @@ ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channe
     return scale;
 }
 
-/// Returns true if an epoch is in force at an instant; without one, if the epoch has no end.
-bool is_in_force(const std::filesystem::path& file, pugi::xml_node channel,
-                 std::optional<UtcTime> at) {
-    const auto end = date_of(file, channel, "endDate");
-    if (!at) return !end;
-    return date_of(file, channel, "startDate").value_or(UtcTime::min()) <= *at &&
-           *at < end.value_or(UtcTime::max());
-}
-
 std::optional<Position> position_of(pugi::xml_node station) {
     if (!station.child("Latitude") || !station.child("Longitude")) return std::nullopt;
     return Position{Degrees(station.child("Latitude").text().as_double()),
@@ -129,6 +120,14 @@ std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node
                                  node.attribute("code").value(), attribute, text));
     }
     return date;
+}
+
+bool is_in_force(const std::filesystem::path& file, pugi::xml_node channel,
+                 std::optional<UtcTime> at) {
+    const auto end = date_of(file, channel, "endDate");
+    if (!at) return !end;
+    return date_of(file, channel, "startDate").value_or(UtcTime::min()) <= *at &&
+           *at < end.value_or(UtcTime::max());
 }
 
 pugi::xml_document load_station_document(const std::filesystem::path& file) {

@@ -135,6 +135,18 @@ struct DeviceProfile {
 /// @throws InputError  the file cannot be read or breaks the format; one line.
 [[nodiscard]] const DeviceProfile& load_profile(const std::filesystem::path& file);
 
+/// Returns the shipped profile of a name, or else that of a file; null if there is neither.
+/// @param file  regular file for load_profile(); not read if the name is that of a shipped profile.
+/// @throws InputError  as load_profile().
+[[nodiscard]] const DeviceProfile* named_or_loaded(std::string_view name,
+                                                   const std::filesystem::path& file);
+
+/// The same for an option of a program, whose value is a name or a path.
+/// @param option  name of the option, for the message.
+/// @throws InputError  there is neither, or as load_profile().
+[[nodiscard]] const DeviceProfile& profile_option(std::string_view option,
+                                                  const std::string& name_or_file);
+
 /// Adds a profile that a journal contains, so that find_profile() finds it.
 /// @param name  the name that load_profile() gave it, with the digest.
 /// @param toml  DeviceProfile::toml.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/echo.hpp"
 #include "protocol/text/text_file.hpp"
 #include "protocol/wire/device_profile.hpp"
@@ -95,6 +96,19 @@ const DeviceProfile& load_profile(const std::filesystem::path& file) {
                          ": not a name of a profile; allowed: letters, digits, - _ . and .toml");
     }
     return add(toml, stem + "#" + digest_of(toml), file);
+}
+
+const DeviceProfile* named_or_loaded(std::string_view name, const std::filesystem::path& file) {
+    if (std::ranges::count(shipped_profiles(), name, &ShippedProfile::name) > 0)
+        return find_profile(name);
+    return std::filesystem::is_regular_file(file) ? &load_profile(file) : nullptr;
+}
+
+const DeviceProfile& profile_option(std::string_view option, const std::string& name_or_file) {
+    if (const auto* profile = named_or_loaded(name_or_file, name_or_file)) return *profile;
+    throw InputError(std::string(option) + " " + text::echoed(name_or_file) +
+                     ": neither a profile nor a file; allowed: " + text::joined(profile_names()) +
+                     ", or a file");
 }
 
 bool add_recorded_profile(const std::string& name, std::string_view toml) {

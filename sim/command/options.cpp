@@ -58,14 +58,7 @@ void add_unit(CLI::App& command, UnitOptions& unit, const std::string& restricti
 }
 
 const wire::DeviceProfile& profile_of(const std::string& name_or_file) {
-    const std::vector<std::string> names = wire::profile_names();
-    if (std::ranges::count(names, name_or_file) > 0) return *wire::find_profile(name_or_file);
-    if (!std::filesystem::is_regular_file(name_or_file)) {
-        throw InputError("--profile " + text::echoed(name_or_file) +
-                         ": neither a profile nor a file; allowed: " + text::joined(names) +
-                         ", or a file");
-    }
-    const wire::DeviceProfile& profile = wire::load_profile(name_or_file);
+    const wire::DeviceProfile& profile = wire::profile_option("--profile", name_or_file);
     if (!device::has_factory_codes(profile)) {
         throw InputError(text::echoed(name_or_file) +
                          ": the emulated device cannot start with it; allowed: a profile with code "

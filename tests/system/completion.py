@@ -70,7 +70,8 @@ esac
             (("a351-correct", "export", "data", "--channel", "B"), ["BNZ"]),
             (("a351-stream", "data", "ring.example", "--st"), ["--state"]),
             (("a351-sim", "survey", "--scenario", "t"), ["three-links", "tilt-series", "tilted", "transport-step", "tsukuba", "tumble"]),
-            (("a351-sim", "device", "--profile", "A3"), ["A351", "A352AD10", "A370AD10"])):
+            (("a351-sim", "device", "--profile", "A3"), ["A351", "A352AD10", "A370AD10"]),
+            (("a351-correct", "retime", "data", "--profile", "A37"), ["A370AD10"])):
         offered = completed(scratch, *words)
         demand(f"{' '.join(words)} offers {expected}: {offered}", offered == expected)
     demand("sites are asked of the daemon at --url", (scratch / "asked").read_text() == "http://h:8\n")

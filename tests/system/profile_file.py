@@ -16,6 +16,10 @@ def write_profile(file):
     file.write_text(text.replace(f"slope_degc = {SLOPE_DEGC}", f"slope_degc = {SLOPE_DEGC / 65536!r}"))
 
 
+def files_below(root):
+    return {str(file.relative_to(root)): file.read_bytes() for file in root.rglob("*") if file.is_file()}
+
+
 def refused(*command):
     result = run(*command, check=False)
     lines = result.stderr.splitlines()
@@ -38,11 +42,20 @@ with Scratch() as scratch:
     response = (scratch / "data" / "metadata" / "station.xml").read_text()
     demand("the metadata have the slope of the file", f">{SLOPE_DEGC / 65536!r}<" in response)
 
+    # A wrong profile is repaired: StationXML and archive are those that the daemon would have written.
+    line = refused(BIN / "a351-correct", "retime", scratch / "data", "--out", scratch / "no", "--profile", scratch / "wrong.toml")
+    demand(f"retime names file, line, key and value: {line}", f"{scratch / 'wrong.toml'}:31: output_rate.choices.hz = 600: " in line)
+    retime = (BIN / "a351-correct", "retime", "data", "--out")
+    run(*retime, "named", "--profile", "fine.toml", cwd=scratch)
+    run(*retime, "coarse", "--profile", "A352AD10", cwd=scratch)
+    response = (scratch / "coarse" / "metadata" / "station.xml").read_text()
+    demand("the metadata have the slope of the other profile", f">{SLOPE_DEGC!r}<" in response)
+
     # Without the file of the profile the journal still says how to read its bytes.
     (scratch / "fine.toml").unlink()
-    rates = {}
-    for root in ("data", "again"):
-        if root == "again":
-            run(BIN / "a351-correct", "retime", "data", "--out", "again", cwd=scratch)
-        rates[root] = sorted(file.name for file in (scratch / root / "archive").rglob("*") if file.is_file())
-    demand(f"re-timing finds the profile in the journal: {rates}", rates["again"] and rates["again"] == rates["data"])
+    run(*retime, "again", cwd=scratch)
+    archives = [files_below(scratch / root / "archive") for root in ("data", "again")]
+    demand(f"re-timing finds the profile in the journal: {archives[1].keys()}", archives[1] and archives[1].keys() == archives[0].keys())
+    differing = [name for name, content in files_below(scratch / "again").items() if files_below(scratch / "named").get(name) != content]
+    demand(f"the profile of the record named makes no difference: {differing}", not differing)
+    demand("another profile does", files_below(scratch / "again") != files_below(scratch / "coarse"))
