@@ -19,6 +19,9 @@
 #include "daemon/config/config.hpp"
 #include "daemon/config/verdict_config.hpp"
 #include "daemon/gravity/gravity_so_far.hpp"
+#include "daemon/identify/asking.hpp"
+#include "daemon/identify/identify_file.hpp"
+#include "daemon/identify/report.hpp"
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/service/process_setup.hpp"
@@ -36,13 +39,14 @@
 #include "daemon/verdict/lasting_verdict.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/doubtful_site.hpp"
+#include "protocol/text/write_together.hpp"
 
 namespace {
 
 using namespace a351;
 using namespace a351::daemon;
 
-enum ExitStatus { kDone = 0, kFailed = 1, kBadUsage = 2, kAlreadyRunning = 3 };
+enum ExitStatus { kDone = 0, kFailed = 1, kBadUsage = 2, kAlreadyRunning = 3, kDiffers = 4 };
 
 std::shared_ptr<spdlog::logger> make_log() {
     // A full log queue must not stop the acquisition, so the oldest lines are dropped.
@@ -292,6 +296,30 @@ int complain_and_end(ExitStatus status, const std::string& trouble) {
     return status;
 }
 
+/// Compares the sensor with the configuration, and writes a file about it to the working directory.
+ExitStatus identify_sensor(const config::Config& config, const source::HostClock& clock) {
+    std::puts("asking the sensor; leave the box at rest for a minute");
+    std::fflush(stdout);
+    const identify::Observation seen = identify::ask_sensor(config.sensor, clock);
+    if (!seen.has_answered) {
+        complain_and_end(kFailed, identify::explain_silence(seen));
+        return kFailed;
+    }
+    const identify::Report report =
+        identify::report_on(seen, {.profile = config.sensor.profile,
+                                   .settings = config.sensor.settings,
+                                   .baud = config.sensor.baud,
+                                   .serial_number = config.sensor.expected_serial_number,
+                                   .axes = config.station.codes.axes});
+    const std::string stem = identify::file_stem(seen);
+    std::vector<text::NamedText> files{{stem + ".txt", identify::file_text(seen, report)}};
+    if (report.toml) files.emplace_back(stem + ".toml", *report.toml);
+    text::write_together(".", files);
+    std::fputs(identify::to_text(report).c_str(), stdout);
+    std::fputs(identify::advice(report, config.sensor.profile->name, stem).c_str(), stdout);
+    return report.differs() ? kDiffers : kDone;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -303,6 +331,7 @@ int main(int argc, char** argv) {
     std::string clock_text;
     bool is_check = false;
     bool is_list = false;
+    bool is_identify = false;
     app.add_option("--config", config_file, "Configuration file (TOML)")->type_name("FILE");
     app.add_flag("--check-config", is_check, "Check the configuration, print ok, and exit");
     app.add_option("--clock", clock_text,
@@ -311,6 +340,10 @@ int main(int argc, char** argv) {
         ->type_name("SCALE");
     app.add_flag("--list-ports", is_list,
                  "List the serial ports (path, by-id name, USB VID:PID:SERIAL) and exit");
+    app.add_flag(
+        "--identify", is_identify,
+        "Ask the sensor for a minute, without recording, compare it with the configuration, "
+        "write identify-SERIAL-TIME.txt to the working directory, and exit");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& done) {
@@ -339,6 +372,7 @@ int main(int argc, char** argv) {
             std::puts("ok");
             return kDone;
         }
+        if (is_identify) return identify_sensor(config, source::HostClock(scale));
         const sigset_t signals = service::block_signals();
         const auto log = make_log();
         const LogEnd end;
@@ -349,7 +383,8 @@ int main(int argc, char** argv) {
     } catch (const store::DataRootLocked& error) {
         return complain_and_end(kAlreadyRunning, error.what());
     } catch (const source::PortError& error) {
-        return complain_and_end(kAlreadyRunning, error.what());
+        const bool is_locked = error.kind() == source::PortError::Kind::locked;
+        return complain_and_end(is_locked ? kAlreadyRunning : kFailed, error.what());
     } catch (const std::exception& error) {
         return complain_and_end(kFailed, error.what());
     }

@@ -25,7 +25,11 @@ constexpr int kLowLatency = static_cast<int>(ASYNC_LOW_LATENCY);
 constexpr unsigned kControlOn = CS8 | CLOCAL | CREAD;
 
 PortError failure(PortError::Kind kind, const std::filesystem::path& device, const char* step) {
-    return {kind, device, fmt::format("{}: {}", step, std::generic_category().message(errno))};
+    // Debian gives serial ports to the group dialout.
+    const char* const remedy =
+        errno == EACCES ? "; add the user to the group dialout, then log in again" : "";
+    return {kind, device,
+            fmt::format("{}: {}{}", step, std::generic_category().message(errno), remedy)};
 }
 
 unsigned speed_code(int baud, const std::filesystem::path& device) {

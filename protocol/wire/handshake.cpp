@@ -135,9 +135,10 @@ void Handshake::fail(std::string reason) {
 
 void Handshake::take_answer(std::span<const std::byte> answer) {
     const auto value = parse_answer(*asked_, answer);
-    if (asked_ == &kId) {  // not required: Epson's other devices answer 0x5345
+    if (take_ == nullptr) {
         if (!value) queue_.push_back(kShortDrain);
-        return ask_target();
+        registers_.push_back({asked_, value});
+        return ask_register();
     }
     if (!value) {
         return retry(fmt::format("{}: expected an answer of 4 bytes, found none in {} tries",
@@ -192,7 +193,16 @@ void Handshake::take_identity(std::uint16_t value) {
         return fail(fmt::format("another instrument: serial number {}, expected {}",
                                 identity_.serial_number, expected_serial_number_));
     }
-    ask(nullptr, kId);
+    ask_register();
+}
+
+/// Asks for the next register whose answer is not required: ID, which Epson's other devices have, or
+/// all.
+void Handshake::ask_register() {
+    const std::size_t next = registers_.size();
+    if (reads_all_registers_ && next < kRegisters.size()) return ask(nullptr, kRegisters[next]);
+    if (!reads_all_registers_ && next == 0) return ask(nullptr, kId);
+    ask_target();
 }
 
 void Handshake::ask_target() {

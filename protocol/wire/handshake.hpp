@@ -73,6 +73,12 @@ struct DeviceIdentity {
     bool has_expected_product_id = false;  ///< True if it starts with the profile's prefix.
 };
 
+/// Value of a register as read; absent if the device did not answer.
+struct RegisterValue {
+    const Register* reg = nullptr;
+    std::optional<std::uint16_t> value;
+};
+
 // Steps that the driver has to carry out.  Times are real time.
 
 /// Send these bytes: one command, or a lone CR.  Then wait for `pause_after` and ask for the next
@@ -137,6 +143,16 @@ public:
     Handshake(const DeviceProfile& profile, SensorSettings settings,
               std::string serial_number = {});
 
+    /// Makes the handshake also read each of kRegisters, before it writes a setting.  A register that
+    /// does not answer is no failure.  Call it before next().
+    void read_all_registers() noexcept { reads_all_registers_ = true; }
+
+    /// Return what was read so far, also after a failure.
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept { return identity_; }
+    [[nodiscard]] const std::vector<RegisterValue>& registers() const noexcept {
+        return registers_;
+    }
+
     /// Returns the next step.  After Sampling or HandshakeFailure it returns the same step again.
     ///
     /// Call it once per step that was carried out.  The bytes are not kept after the call.  Bytes
@@ -173,6 +189,7 @@ private:
     void take_configuration(std::uint16_t value);
     void take_aliasing(std::uint16_t value);
     void take_window(std::uint16_t value);
+    void ask_register();
     void ask_target();
 
     const DeviceProfile* profile_;
@@ -180,7 +197,7 @@ private:
     std::string expected_serial_number_;
     std::vector<Target> targets_;
     std::deque<HandshakeStep> queue_;
-    Take take_ = nullptr;
+    Take take_ = nullptr;  ///< Null: the answer is not required.
     const Register* asked_ = &kModeCtrl;
     bool is_waiting_for_answer_ = false;
     bool has_answered_ = false;
@@ -191,6 +208,8 @@ private:
     std::size_t target_index_ = 0;
     std::optional<ConfigMode> config_;
     DeviceIdentity identity_;
+    bool reads_all_registers_ = false;
+    std::vector<RegisterValue> registers_;
 };
 
 }  // namespace a351::wire

@@ -48,6 +48,7 @@ NOT_RUN = {
     r"a351ctl --url .* --url .*": "boxes.py runs it with several daemons",
     r"a351-stream data ring\.example": "stream.py runs it with a ringserver",
     r"sim/relive ROOT": "relive.py runs it",
+    r"a351d --config \S+ --identify": "identify.py runs it",
     r"a351d --config FILE": "FILE is any configuration; others are run",
     r"a351-correct (record|design|import|table)": "names a subcommand",
     r"a351-correct record again": "analyses a day, not the seconds of this test; long_record.py runs it",

@@ -40,6 +40,25 @@ TEST_CASE("a device with factory settings is brought to sampling with the reques
     CHECK(device.received[device.received.size() - 2] == to_bytes({0xFE, 0x00, 0x0D}));
 }
 
+TEST_CASE("on request each register is read before a setting is written, also one that is silent",
+          "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.unanswered[ScriptedRegisters::key(kBurstCtrl)] = 1;
+    Handshake handshake(kProfile, {});
+    handshake.read_all_registers();
+    check_sampling_as_asked(run_handshake(handshake, device), device);
+    REQUIRE(handshake.registers().size() == kRegisters.size());
+    for (std::size_t i = 0; i < kRegisters.size(); ++i) {
+        const auto& [reg, value] = handshake.registers()[i];
+        INFO(reg->name);
+        CHECK(reg == &kRegisters[i]);
+        CHECK(value.has_value() == (reg != &kBurstCtrl));
+        if (value && reg->name != "WIN_CTRL" && reg->name != "MODE_CTRL")
+            CHECK(*value == reg->default_value);
+    }
+    CHECK(handshake.identity().product_id == "A352AD10");
+}
+
 TEST_CASE("each command is preceded by a window selection", "[wire][handshake]") {
     ScriptedRegisters device;
     device.not_ready_reads = 2;

@@ -1,0 +1,138 @@
+"""a351d --identify compares sensors with a configuration: the right one, another product, two other formats of the temperature,
+a GPS receiver, a dead line, a port without permission, and a port in use."""
+
+import datetime
+import fcntl
+import os
+import pty
+import subprocess
+import threading
+import tty
+
+from emulated_session import wait_for
+from programs import BIN, TOP, Scratch, daemon_config, demand, together
+
+DONE, FAILED, LOCKED, DIFFERS = 0, 1, 3, 4
+START = "2017-06-01T09:00:05Z"  # of the scenario `indoor`
+GPS = b"$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n"
+
+
+def folder(scratch, name, sensor=""):
+    """Makes a folder with a configuration, whose port is `sensor`."""
+    made = scratch / name
+    made.mkdir()
+    (made / "a351d.toml").write_text(daemon_config(8351).replace("[storage]", f"{sensor}\n[storage]"))
+    return made
+
+
+def identify(where, clock=(), **options):
+    """Returns exit status, standard output and the line on standard error."""
+    done = subprocess.run([BIN / "a351d", "--config", "a351d.toml", "--identify", *clock], cwd=where, capture_output=True,
+                          text=True, **options)
+    print(f"--- {where.name}: {done.returncode}\n{done.stdout}{done.stderr}", end="")
+    return done.returncode, done.stdout, done.stderr
+
+
+def with_emulator(where, *emulator):
+    """Identifies an emulated sensor at twenty times real time."""
+    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
+    clock = ("--clock", f"scaled:20@{START},{now}")
+    sensor = subprocess.Popen([BIN / "a351-sim", "device", "--link", "sensor", "--scenario", "indoor", *clock, *emulator], cwd=where)
+    try:
+        wait_for("the emulator's terminal exists", (where / "sensor").exists)
+        return identify(where, clock)
+    finally:
+        sensor.terminate()
+        sensor.wait()
+
+
+def different(text):
+    return [line.split(":")[0].split()[1] for line in text.splitlines() if line.startswith("differs")]
+
+
+def check_right(scratch):
+    status, text, _ = with_emulator(folder(scratch, "right"))
+    demand("a sensor that agrees with its configuration ends with 0", status == DONE and not different(text))
+    demand("all but the serial number is confirmed", text.count("\nconfirmed ") == 14 and text.count("\ncannot be seen ") == 1)
+    sent = next((scratch / "right").glob("identify-00000001-*.txt")).read_text()
+    demand("the file has report, registers and bytes", text.split("\n", 1)[1].rsplit("profile A351 fits")[0] in sent
+           and "\nW1:6A PROD_ID1 0x3341\n" in sent and len(sent) - sent.index("[bytes]") > 2 * 24 * 2400)
+
+
+def check_product(scratch):
+    where = folder(scratch, "product")
+    status, text, _ = with_emulator(where, "--profile", "A352AD10")
+    demand("only the product of an A352 differs from the profile A351", status == DIFFERS and different(text) == ["product"])
+    demand("its profile is named", 'set sensor.profile = "A352AD10"' in text)
+    again = folder(scratch, "product-again", 'profile = "A352AD10"')
+    demand("with it nothing differs", with_emulator(again, "--profile", "A352AD10")[0] == DONE)
+
+
+def check_temperature(scratch, name, slope, offset):
+    where = folder(scratch, name)
+    text = (TOP / "config" / "profiles" / "A351.toml").read_text()
+    (where / "sent.toml").write_text(text.replace("slope_degc = -0.0037918", f"slope_degc = {slope!r}")
+                                     .replace("offset_degc = 34.987", f"offset_degc = {offset!r}"))
+    status, text, _ = with_emulator(where, "--profile", "sent.toml")
+    demand("only the temperature differs", status == DIFFERS and different(text) == ["temperature"])
+    made = next(where.glob("identify-*.toml"))
+    demand("the profile that fits is written and named", f'set sensor.profile = "{made.name}"' in text)
+    again = folder(scratch, name + "-again", f'profile = "../{name}/{made.name}"')
+    demand("with it nothing differs", with_emulator(again, "--profile", f"../{name}/sent.toml")[0] == DONE)
+
+
+def with_line(where, text=None):
+    """Identifies what is on a line that repeats a text.  @return also the number of bytes that the line received"""
+    ours, theirs = pty.openpty()
+    tty.setraw(theirs)
+    (where / "sensor").symlink_to(os.ttyname(theirs))
+    received, over = [], threading.Event()
+
+    def talk():
+        os.set_blocking(ours, False)
+        while not over.wait(0.2):
+            if text:
+                os.write(ours, text)
+            try:
+                received.append(os.read(ours, 4096))
+            except BlockingIOError:
+                pass
+
+    line = threading.Thread(target=talk)
+    line.start()
+    try:
+        return (*identify(where), sum(map(len, received)))
+    finally:
+        over.set()
+        line.join()
+
+
+def check_other_lines(scratch):
+    status, _, error, received = with_line(folder(scratch, "gps"), GPS)
+    demand("a GPS receiver is named, and gets no byte", status == FAILED and "GPS receiver" in error and received == 0)
+    demand("its text is shown", GPS.decode().strip() in error)
+    status, _, error, received = with_line(folder(scratch, "dead"))
+    demand("a dead line is asked, and the remedy is named", status == FAILED and received > 0 and "check the sensor's plug" in error)
+    demand("neither leaves a file", not list(scratch.glob("gps/identify*")) + list(scratch.glob("dead/identify*")))
+
+
+def check_refused_ports(scratch):
+    where = folder(scratch, "refused")
+    ours, theirs = pty.openpty()
+    (where / "sensor").symlink_to(os.ttyname(theirs))
+    os.fchmod(theirs, 0)
+    scratch.chmod(0o755)
+    user = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+    status, _, error = identify(where, **user)
+    demand("without permission the group is named", status == FAILED and "group dialout" in error and error.count("\n") == 1)
+    os.fchmod(theirs, 0o600)
+    fcntl.flock(theirs, fcntl.LOCK_EX)
+    status, _, error = identify(where)
+    demand("a port in use ends with 3", status == LOCKED and "in use by another process" in error)
+    os.close(ours)
+
+
+with Scratch() as scratch:
+    together(lambda: check_right(scratch), lambda: check_product(scratch), lambda: check_other_lines(scratch),
+             lambda: check_temperature(scratch, "fine", -0.0037918 / 65536, 34.987),
+             lambda: check_temperature(scratch, "q10", 1 / 1024, 0.0), lambda: check_refused_ports(scratch))

@@ -1,0 +1,247 @@
+#include "daemon/identify/report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "protocol/wire/profile_reader.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/unit/identify/made_up_sensor.hpp"
+
+namespace a351::daemon::identify {
+namespace {
+
+using Catch::Matchers::Contains;
+
+Line line_of(const Report& report, const std::string& topic) {
+    const auto found = std::ranges::find(report.lines, topic, &Line::topic);
+    REQUIRE(found != report.lines.end());
+    return *found;
+}
+
+/// Requires that one topic alone differs, and returns what is said of it.
+std::string only_difference(const Report& report, const std::string& topic) {
+    for (const Line& line : report.lines) {
+        INFO(line.topic << ": " << line.finding);
+        CHECK((line.verdict == Verdict::differs) == (line.topic == topic));
+    }
+    return line_of(report, topic).finding;
+}
+
+}  // namespace
+
+TEST_CASE("a sensor that agrees with its configuration is confirmed in each point", "[identify]") {
+    const Report report = report_on(MadeUpSensor{}.observe(), expected_a351());
+    for (const Line& line : report.lines) {
+        INFO(line.topic << ": " << line.finding);
+        // The configuration names no serial number.
+        CHECK(line.verdict ==
+              (line.topic == "serial number" ? Verdict::unseen : Verdict::confirmed));
+    }
+    CHECK_FALSE(report.differs());
+    CHECK(report.profile == "A351");
+    CHECK_FALSE(report.toml);
+    CHECK(report.sensor == "sensor A351AU10, serial number 00000042, firmware 7, at /dev/ttyUSB0");
+    CHECK_THAT(to_text(report),
+               Contains("confirmed      rate: 50.000 frames a second, expected 50"));
+    CHECK_THAT(advice(report, "A351", "stem"), Contains("profile A351 fits\n"));
+}
+
+TEST_CASE("another product of the family gets the profile that is shipped for it", "[identify]") {
+    MadeUpSensor sensor;
+    sensor.product = "A352AD10";
+    const Report report = report_on(sensor.observe(), expected_a351());
+    CHECK_THAT(only_difference(report, "product"), Contains("begin with A351"));
+    CHECK(report.profile == "A352AD10");
+    CHECK_FALSE(report.toml);
+    CHECK_THAT(advice(report, "A351", "stem"), Contains("set sensor.profile = \"A352AD10\""));
+}
+
+TEST_CASE("an unknown product gets a profile of its own", "[identify]") {
+    MadeUpSensor sensor;
+    sensor.product = "B999XY00";
+    const Report report = report_on(sensor.observe(), expected_a351());
+    REQUIRE(report.toml);
+    const auto profile = wire::parse_profile(*report.toml, "mine", "mine.toml");
+    CHECK(profile.product_id == "B999XY00");
+    CHECK(profile.product_id_prefix == "B999XY00");
+    CHECK_FALSE(profile.is_verified);
+    CHECK_THAT(advice(report, "A351", "stem"), Contains("set sensor.profile = \"stem.toml\""));
+}
+
+TEST_CASE("a scale that is a power of 2 away is named, and is in the profile that fits",
+          "[identify]") {
+    for (const int excess : {-2, -1, 1, 2}) {
+        MadeUpSensor sensor;
+        sensor.change = [&](int, wire::BurstValues& values) {
+            for (std::int32_t& axis : values.axes)
+                axis = static_cast<std::int32_t>(std::lround(std::ldexp(axis, excess)));
+        };
+        const Report report = report_on(sensor.observe(), expected_a351());
+        CHECK_THAT(only_difference(report, "norm"),
+                   Contains("acceleration.fraction_bits = " + std::to_string(24 + excess)));
+        REQUIRE(report.toml);
+        const auto profile = wire::parse_profile(*report.toml, "mine", "mine.toml");
+        CHECK(profile.acceleration_fraction_bits == 24 + excess);
+        CHECK(profile.tilt_fraction_bits == 29);
+    }
+    MadeUpSensor odd;
+    odd.change = [](int, wire::BurstValues& values) {
+        for (std::int32_t& axis : values.axes) axis = axis / 10 * 7;
+    };
+    const Report report = report_on(odd.observe(), expected_a351());
+    CHECK_THAT(only_difference(report, "norm"), Contains("no scale of the family fits"));
+}
+
+TEST_CASE("a bias of 40 mg is no other scale, and a box that moves has no norm", "[identify]") {
+    MadeUpSensor sensor;
+    sensor.change = [](int, wire::BurstValues& values) { values.axes[2] += (1 << 24) / 25; };
+    CHECK(line_of(report_on(sensor.observe(), expected_a351()), "norm").verdict ==
+          Verdict::confirmed);
+    sensor.change = [](int i, wire::BurstValues& values) { values.axes[2] += (i % 100) << 14; };
+    CHECK(line_of(report_on(sensor.observe(), expected_a351()), "norm").verdict == Verdict::unseen);
+}
+
+TEST_CASE("each format of the temperature is named from 0 to 60 degC, whatever the profile says",
+          "[identify]") {
+    struct Format {
+        double slope_degc, offset_degc;
+        int noise_counts;
+    };
+    // One count of a sensor of 16 bits, of the same with 16 more bits, and of counts / 1024.
+    const std::array formats{Format{-0.0037918, 34.987, 1},
+                             Format{-0.0037918 / 65536, 34.987, 65536}, Format{1.0 / 1024, 0.0, 4}};
+    for (std::size_t sent = 0; sent < formats.size(); ++sent) {
+        for (double degc = 0.0; degc <= 60.0; degc += 2.5) {
+            const Format& format = formats.at(sent);
+            // Below 7.2 degC the counts of the A352AD10 are also a temperature of a cold room in
+            // counts / 1024, and the other way round.
+            if (degc < 7.5 && sent != 1) continue;
+            MadeUpSensor sensor;
+            sensor.change = [&](int i, wire::BurstValues& values) {
+                const double counts = (degc - format.offset_degc) / format.slope_degc;
+                values.temperature = static_cast<std::int32_t>(std::lround(counts)) +
+                                     (i % 3 - 1) * format.noise_counts;
+            };
+            const Report report = report_on(sensor.observe(), expected_a351());
+            INFO(sent << ", " << degc << " degC: " << line_of(report, "temperature").finding);
+            if (sent == 0) {
+                CHECK_FALSE(report.differs());
+                continue;
+            }
+            static_cast<void>(only_difference(report, "temperature"));
+            REQUIRE(report.toml);
+            const auto profile = wire::parse_profile(*report.toml, "mine", "mine.toml");
+            CHECK(profile.temperature_slope_degc == format.slope_degc);
+            CHECK(profile.temperature_offset_degc == format.offset_degc);
+        }
+    }
+}
+
+TEST_CASE("a temperature of 0 counts, or of no sample, is dead, and a quiet oven is not",
+          "[identify]") {
+    for (const std::int32_t counts : {0, -1, -1981}) {
+        MadeUpSensor sensor;
+        sensor.change = [&](int, wire::BurstValues& values) { values.temperature = counts; };
+        const Report report = report_on(sensor.observe(), expected_a351());
+        CHECK(report.differs() == (counts != -1981));
+        CHECK_THAT(line_of(report, "temperature").finding,
+                   Contains(counts == -1981 ? "42.50 degC by profile A351" : "dead"));
+    }
+}
+
+TEST_CASE("an axis that is dead, and one that is not the vertical one, are named", "[identify]") {
+    MadeUpSensor sensor;
+    sensor.change = [](int, wire::BurstValues& values) { values.axes[0] = 0; };
+    CHECK_THAT(only_difference(report_on(sensor.observe(), expected_a351()), "noise of x"),
+               Contains("dead"));
+    sensor.change = [](int, wire::BurstValues& values) {
+        std::swap(values.axes[0], values.axes[2]);
+    };
+    CHECK_THAT(only_difference(report_on(sensor.observe(), expected_a351()), "vertical axis"),
+               Contains("x, 0.3 degrees from the vertical; sensor.axes calls z Z"));
+    Expected without_z = expected_a351();
+    without_z.axes = {"1", "2", "3"};
+    CHECK(line_of(report_on(sensor.observe(), without_z), "vertical axis").verdict ==
+          Verdict::unseen);
+}
+
+TEST_CASE("another rate and another tick are told apart", "[identify]") {
+    MadeUpSensor slow;
+    slow.rate_hz = 49.0;
+    const Report rate = report_on(slow.observe(), expected_a351());
+    CHECK(line_of(rate, "rate").verdict == Verdict::differs);
+    CHECK(line_of(rate, "tick").verdict == Verdict::differs);
+
+    MadeUpSensor other;
+    other.count_step = 40;
+    CHECK_THAT(only_difference(report_on(other.observe(), expected_a351()), "tick"),
+               Contains("COUNT rises by 40 a frame, 2000.0 a second"));
+}
+
+TEST_CASE("frames that arrive late, first and last, do not change the rate", "[identify]") {
+    Observation seen = MadeUpSensor{}.observe();
+    for (std::size_t k = 0; k < seen.reads.size(); ++k)
+        if (k < 20 || k + 20 > seen.reads.size())
+            seen.reads[k].time += std::chrono::milliseconds(300);
+    seen.reads[0].time -= std::chrono::milliseconds(300);
+    CHECK_FALSE(report_on(seen, expected_a351()).differs());
+}
+
+TEST_CASE("lost frames do not change the rate, and damaged ones are counted", "[identify]") {
+    Observation seen = MadeUpSensor{}.observe();
+    seen.bytes[24 * 1000 + 7] ^= std::byte{1};
+    const Report report = report_on(seen, expected_a351());
+    CHECK_THAT(only_difference(report, "frames"),
+               Contains("2499 of 24 bytes each; 24 bytes are not understood"));
+}
+
+TEST_CASE("baud rate, serial number, start-up test and silent registers are compared",
+          "[identify]") {
+    Observation seen = MadeUpSensor{}.observe();
+    seen.baud = 230400;
+    CHECK(only_difference(report_on(seen, expected_a351()), "baud rate") ==
+          "230400, expected 460800");
+    seen = MadeUpSensor{}.observe();
+    seen.device.diag_stat = wire::kDiagHardError;
+    CHECK_THAT(only_difference(report_on(seen, expected_a351()), "start-up test"),
+               Contains("0x00E0"));
+    seen = MadeUpSensor{}.observe();
+    seen.registers[3].value.reset();
+    CHECK(only_difference(report_on(seen, expected_a351()), "registers") == "no answer from FLAG");
+    seen = MadeUpSensor{}.observe();
+    Expected expected = expected_a351();
+    expected.serial_number = "00000042";
+    CHECK(line_of(report_on(seen, expected), "serial number").verdict == Verdict::confirmed);
+    expected.serial_number = "00000043";
+    CHECK(only_difference(report_on(seen, expected), "serial number") ==
+          "00000042, expected 00000043");
+}
+
+TEST_CASE("without frames the reason is shown, and what needs frames cannot be seen",
+          "[identify]") {
+    Observation seen = MadeUpSensor{}.observe();
+    seen.trouble = "SMPL_CTRL: expected 0x0600, found 0x0400";
+    seen.bytes.clear();
+    seen.reads.clear();
+    const Report report = report_on(seen, expected_a351());
+    CHECK(only_difference(report, "settings") == seen.trouble);
+    CHECK(line_of(report, "frames").verdict == Verdict::unseen);
+    CHECK(line_of(report, "temperature").verdict == Verdict::unseen);
+}
+
+TEST_CASE("silence, text and other bytes have different explanations", "[identify]") {
+    Observation seen;
+    seen.port = "/dev/ttyUSB0, 115200 baud";
+    CHECK_THAT(explain_silence(seen), Contains("no answer at any baud rate"));
+    seen.heard = "$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n";
+    CHECK_THAT(explain_silence(seen), Contains("(\"$GPGGA,123519,4807.038,N") &&
+                                          Contains("GPS receiver") && !Contains("\\x0D"));
+    const Observation sensor = MadeUpSensor{}.observe();
+    seen.heard.clear();
+    for (std::size_t i = 0; i < 24; ++i) seen.heard.push_back(static_cast<char>(sensor.bytes[i]));
+    CHECK_FALSE(is_text(seen.heard));
+    CHECK_THAT(explain_silence(seen), Contains("none can be understood"));
+}
+
+}  // namespace a351::daemon::identify
