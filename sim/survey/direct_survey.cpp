@@ -32,7 +32,7 @@ namespace {
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFilterName = "k512_fc9";
+constexpr std::uint8_t kRateCode = 6, kFilterCode = 6;  // 50 Hz, k512_fc9
 constexpr int kBaud = 460800;
 
 /// Uptime of the simulated host at the start of the record: it was booted an hour before.
@@ -55,6 +55,14 @@ timing::ClockReading clock_at(const scenario::Scenario& scenario, UtcTime utc) {
     return reading;
 }
 
+/// Returns the filter of a simulated day.
+/// @throws InputError  the profile lacks it.
+const wire::FilterSpec& filter_of(const wire::DeviceProfile& profile) {
+    if (const auto* const filter = profile.filter_coded(kFilterCode)) return *filter;
+    throw InputError(fmt::format("profile {} has no filter with code {}, which a simulated day has",
+                                 profile.name, kFilterCode));
+}
+
 journal::Header journal_header(const scenario::Scenario& scenario,
                                const wire::DeviceProfile& profile,
                                const device::MachineIdentity& identity, std::uint64_t seed) {
@@ -71,7 +79,7 @@ journal::Header journal_header(const scenario::Scenario& scenario,
     header.serial_number = identity.serial_number;
     header.firmware = identity.firmware;
     header.output_rate_hz = signal::Source::kRateHz;
-    header.filter = kFilterName;
+    header.filter = filter_of(profile).name;
     header.burst_ctrl = wire::BurstLayout::recommended().burst_ctrl();
     header.baud = kBaud;
     if (scenario.clock.declared_rate_hz > 0.0)
@@ -88,8 +96,8 @@ void start_logging(device::RegisterMachine& machine, Nanoseconds now) {
     const auto send = [&](const wire::CommandSequence& commands) {
         for (const wire::Command& command : commands) machine.receive(command, now, answers);
     };
-    send(config.write(wire::kSmplCtrl, 0x0600, wire::kHighByte));
-    send(config.write(wire::kFilterCtrl, 0x0006, wire::kFilterSelect));
+    send(config.write(wire::kSmplCtrl, kRateCode << 8U, wire::kHighByte));
+    send(config.write(wire::kFilterCtrl, kFilterCode, wire::kFilterSelect));
     send(config.write(wire::kUartCtrl, wire::kUartAuto, wire::kLowByte));
     send(config.write(wire::kBurstCtrl, wire::BurstLayout::recommended().burst_ctrl(),
                       wire::kBothBytes));
@@ -111,7 +119,7 @@ void write_station_xml(const scenario::Scenario& scenario, const wire::DevicePro
     station.firmware = header.firmware;
     station.output_rate_hz = header.output_rate_hz;
     station.filter = header.filter;
-    station.group_delay = profile.group_delay(*profile.filter_named(kFilterName));
+    station.group_delay = profile.group_delay(filter_of(profile));
     station.declared_rate_hz = header.declared_rate_hz;
     station.has_oven = station.has_outer_oven = scenario.outer_oven.has_value();
     station.start = header.clock.realtime - station.group_delay;  // The daemon does the same.

@@ -6,14 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <set>
 #include "tests/support/catch.hpp"
 
 #include "protocol/archive/archive_reader.hpp"
+#include "protocol/core/input_error.hpp"
 #include "protocol/events/occupations.hpp"
 #include "protocol/journal/journal_reader.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/wire/shipped_profiles.hpp"
 #include "sim/scenario/survey_plan.hpp"
 #include "tests/unit/sim/truth_reader.hpp"
 
@@ -131,6 +134,28 @@ TEST_CASE("a day that cannot be written completely leaves no files", "[sim][dire
     std::signal(SIGXFSZ, handler);
     CHECK(has_failed);
     CHECK(std::filesystem::is_empty(directory.path()));
+}
+
+TEST_CASE("a day has the filter of the profile by its code, and is refused without it",
+          "[sim][direct_survey]") {
+    const Root directory;
+    const auto shipped =
+        std::ranges::find(wire::shipped_profiles(), "A351", &wire::ShippedProfile::name);
+    const auto written = [&](const std::string& filter) {
+        std::string toml(shipped->toml);
+        const std::string_view own = "\"k512_fc9\", code = 6";
+        toml.replace(toml.find(own), own.size(), filter);
+        const auto root = directory.path() / "day";
+        std::filesystem::create_directories(root);
+        std::ofstream(directory.path() / "mine.toml") << toml;
+        static_cast<void>(
+            write_survey(brief_day(), wire::load_profile(directory.path() / "mine.toml"), 1, root));
+        journal::Reader reader(journal::segment_files(root / "journal").front());
+        return std::get<journal::Header>(*reader.next()).filter;
+    };
+    CHECK(written("\"of_mine\", code = 6") == "of_mine");
+    std::filesystem::remove_all(directory.path() / "day");
+    CHECK_THROWS_AS(written("\"of_mine\", code = 15"), InputError);
 }
 
 TEST_CASE("the session id of a day depends on its scenario, start, profile and seed",
