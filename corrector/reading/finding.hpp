@@ -22,6 +22,7 @@ namespace a351::corrector::reading {
 /// - misfit: the model does not fit.
 /// - unusable_day: the day is not usable as it is.
 /// - scale: a coefficient is far from its prior, and is held there.
+/// - start_up_test: the sensor failed its start-up test, or the result is not known.
 ///
 /// From here on they are remarks, which are never headlines:
 ///
@@ -42,6 +43,7 @@ enum class FindingKind {
     misfit,
     unusable_day,
     scale,
+    start_up_test,
     not_visited,
     no_stop,
     early_start,

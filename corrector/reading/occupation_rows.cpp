@@ -11,6 +11,7 @@
 #include "corrector/reading/moved_stay.hpp"
 #include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/refused.hpp"
+#include "corrector/reading/start_up_findings.hpp"
 #include "corrector/reading/stay_remarks.hpp"
 #include "corrector/reading/vertical_axis.hpp"
 #include "protocol/archive/journal_tail.hpp"
@@ -272,8 +273,10 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.warnings.push_back(std::move(warning));
     result.temperature_course = archive_series::temperature_course(samples[kTemperature].segments,
                                                                    epoch.channels[kTemperature]);
-    result.verdicts = verdict_course(events::read_events(source.root / "events").events,
-                                     result.temperature_course);
+    const auto events = events::read_events(source.root / "events").events;
+    result.verdicts = verdict_course(events, result.temperature_course);
+    for (Finding& finding : start_up_findings(events, windows.front().start, windows.back().end))
+        result.findings.push_back(std::move(finding));
     if (!source.is_so_far) result.inputs = inputs_of(source, stays);
     result.running_key = list.running_key;
     if (!samples[kVertical].segments.empty()) result.data_end = last_sample(samples[kVertical]);

@@ -74,15 +74,16 @@ struct SurveyStays {
 /// Invariant: rows and records have the same length, at least 1, and element i of both is one
 /// set-up.  It owns everything; nothing refers to the source.
 struct OccupationRows {
-    std::vector<SurveyRow> rows;  ///< In order of time, with references; tides are 0.
-    std::vector<RepresentativeValue> records;           ///< Record of each row.
+    std::vector<SurveyRow> rows;               ///< In order of time, with references; tides are 0.
+    std::vector<RepresentativeValue> records;  ///< Record of each row.
     /// Temperature over the whole survey.
     std::vector<archive_series::MinuteTemperature> temperature_course;
     std::vector<VerdictSpan> verdicts;    ///< Verdicts of the recorder in this time, if logged.
     std::optional<DayRecord> day;         ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;        ///< Occupations without a value, by start.
     std::vector<text::Message> warnings;  ///< Doubts and omissions, with reasons.
-    std::vector<Finding> findings;        ///< Moved boxes in order of time, then stay_remarks().
+    std::vector<Finding>
+        findings;  ///< Moved boxes in order of time, stay_remarks(), start_up_findings().
     Amendments amendments;
     std::vector<text::Site> sites;        ///< With the references as amended.
     std::vector<text::InputFile> inputs;  ///< All files that were read; empty if is_so_far.

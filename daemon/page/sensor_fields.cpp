@@ -31,6 +31,12 @@ Fields device_fields() {
          .value = of(&Status::serial_number),
          .meaning = "Its serial number.",
          .shown = {row, marked("serial")}},
+        {.path = "/device/start_up_test",
+         .value = of(&Status::start_up_test),
+         .meaning = "Result of its last start-up test: passed (no error was reported), HARD_ERR, "
+                    "FLASH_ERR, or unknown if the answer was lost. An error remains until a later "
+                    "test is passed.",
+         .shown = {row, marked("start-up test")}},
         {.path = "/device/state",
          .value = of(&Status::link_state),
          .meaning = "Connection: searching (for the port), handshake, sampling, waiting (before "

@@ -59,6 +59,7 @@ SensorLink::SensorLink(LinkOptions options, const HostClock& clock, ReadQueue& q
     options_.header.port = options_.address.to_text();
     status_.baud = status_.configured_baud = options_.baud;
     if (!known_) return;
+    status_.start_up_test = known_->header.start_up_test;
     const auto last = std::find(bauds_.begin(), bauds_.end(), known_->header.baud);
     if (last != bauds_.end()) std::rotate(bauds_.begin(), last, bauds_.end());
 }
@@ -167,9 +168,13 @@ bool SensorLink::begin_sampling() {
     if (failures_in_a_row_ == 0)
         set_state(LinkStatus::State::handshake, text::message("configuring the sensor"));
     if (!is_configurable()) return false;
-    wire::Handshake handshake(*options_.profile, options_.settings,
-                              options_.expected_serial_number);
+    wire::Handshake handshake(*options_.profile, options_.settings, options_.expected_serial_number,
+                              status().start_up_test);
     HandshakeRun run = run_handshake(handshake, *port_, clock_, stop_);
+    {
+        const std::lock_guard lock(mutex_);
+        status_.start_up_test = handshake.start_up_test();
+    }
     if (stop_) return false;
     if (std::holds_alternative<PortGone>(run.outcome)) {
         lose_port();
@@ -245,6 +250,7 @@ void SensorLink::prepare_session(const journal::SessionId& session,
     header.baud = bauds_.front();
     header.clock = clock_.read();
     const std::lock_guard lock(mutex_);
+    header.start_up_test = status_.start_up_test;
     status_.device = device;
     status_.is_device_assumed = is_adopted;
     if (is_adopted) ++status_.adoptions;

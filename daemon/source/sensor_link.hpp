@@ -50,6 +50,8 @@ struct LinkStatus {
     int baud = 0;           ///< Rate in use.
     int configured_baud = 0;
     std::optional<wire::DeviceIdentity> device;  ///< Last one that answered.
+    /// Result of the sensor's last start-up test, also if it was in an earlier run.
+    wire::StartUpTest start_up_test = wire::StartUpTest::passed;
     bool is_device_assumed = false;  ///< `device` is that of an adopted stream; it was not asked.
     std::uint64_t sessions = 0;      ///< Sessions begun, without adopted ones.
     std::uint64_t adoptions = 0;

@@ -111,6 +111,35 @@ void assess_clock(Status& status) {
     }
 }
 
+/// Adds the reason if the sensor has not passed its last start-up test.  Reading DIAG_STAT clears the
+/// error in the sensor; here it remains until a later test is passed.
+void assess_start_up_test(Status& status, wire::StartUpTest result) {
+    const std::string error(wire::to_text(result));
+    switch (result) {
+        case wire::StartUpTest::passed:
+            break;
+        case wire::StartUpTest::unknown:
+            status.warn(text::message(
+                "it is not known whether the sensor passed its start-up test: the answer was lost; "
+                "check the sensor's cable, then switch the sensor off and on"));
+            break;
+        case wire::StartUpTest::flash_error:
+            status.fail(text::message(
+                "the sensor failed its start-up test ({}): it may lack its calibration; recording "
+                "continues, but do not trust the readings; switch the sensor off and on, and if "
+                "this remains, use another sensor",
+                error));
+            break;
+        case wire::StartUpTest::hard_error:
+            status.fail(text::message(
+                "the sensor failed its start-up test ({}): it is faulty; recording continues, but "
+                "do not trust the readings; switch the sensor off and on, and if this remains, use "
+                "another sensor",
+                error));
+            break;
+    }
+}
+
 }  // namespace
 
 std::string brief(const Status& status) {
@@ -145,6 +174,8 @@ void fill(Status& status, const source::LinkStatus& link) {
             "product identifier {} does not match the profile; check the sensor and sensor.profile",
             status.product_id));
     }
+    status.start_up_test = wire::to_text(link.start_up_test);
+    assess_start_up_test(status, link.start_up_test);
     const bool is_sampling = link.state == source::LinkStatus::State::sampling;
     if (is_sampling && link.baud != link.configured_baud) {
         status.warn(

@@ -69,7 +69,8 @@ struct Status {
     int output_rate_hz = 0;
     bool is_profile_verified = false;
     std::string calibrated_serial_number;  ///< Unit of the calibration in use; empty if none.
-    bool is_device_assumed = false;        ///< The stream was adopted; the device was not asked.
+    std::string start_up_test;  ///< Result of the sensor's last start-up test, as in the journal.
+    bool is_device_assumed = false;  ///< The stream was adopted; the device was not asked.
 
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;

@@ -66,6 +66,8 @@ void Decoder::take(const NumberedChunk& numbered) {
     watch_clock(numbered.chunk);
     const bool is_header = std::holds_alternative<journal::Header>(numbered.chunk);
     has_recorded_ |= is_header;
+    if (const auto* const header = std::get_if<journal::Header>(&numbered.chunk))
+        watch_sensor(*header);
     const bool is_next_session = begin_session(numbered.chunk);
     if (is_next_session) last_sample_.reset();
     chunk_ = numbered.number;
@@ -83,6 +85,7 @@ void Decoder::take(const NumberedChunk& numbered) {
 bool Decoder::begin_session(const journal::Chunk& chunk) {
     const auto* const header = std::get_if<journal::Header>(&chunk);
     if (header == nullptr || session_ == header->session) return false;
+    start_up_test_ = header->start_up_test;
     const auto ended = std::exchange(session_, header->session);
     if (const auto last_index = archiver_->last_index(); ended && last_index)
         ended_.push_back({*ended, *archiver_->clock(), *last_index});
@@ -113,6 +116,17 @@ void Decoder::note_step(const status::ClockStep& step) {
     event.details["clock_before"] = to_rfc3339(step.before, 3);
     event.details["clock_after"] = to_rfc3339(step.after, 3);
     event.details["by_s"] = fmt::format("{:+.3f}", seconds_between(step.before, step.after));
+    journal_.note(event);
+}
+
+void Decoder::watch_sensor(const journal::Header& header) {
+    if (header.start_up_test == start_up_test_) return;
+    events::Event event;
+    event.type = "start_up_test";
+    event.utc = header.clock.realtime;
+    event.session = header.session;
+    event.details["result"] = wire::to_text(header.start_up_test);
+    event.details["serial_number"] = header.serial_number;
     journal_.note(event);
 }
 

@@ -20,7 +20,8 @@
 namespace a351::daemon::store {
 
 /// Makes samples, their times and records of the chunks, and answers which sample belongs to a time.
-/// The journal gets the time of the newest sample (MODEL), the event log each step of the clock.
+/// The journal gets the time of the newest sample (MODEL), the event log each step of the clock and
+/// each session whose start-up test has another result than the one before.
 ///
 /// One thread decodes, any thread may ask.  The lock is held while a chunk is decoded.  This reads the
 /// archive during a replay, and never waits for the disk afterwards.
@@ -82,6 +83,7 @@ private:
     void watch_clock(const journal::Chunk& chunk);
     void note_if_back(UtcTime utc);
     void note_step(const status::ClockStep& step);
+    void watch_sensor(const journal::Header& header);
     void note_model();
 
     const Options& options_;
@@ -95,6 +97,8 @@ private:
     const archive::Writer* archive_ = nullptr;  ///< Not null during a replay only.
     archive::Writer::Held held_;
     std::optional<journal::SessionId> session_;  ///< Session of archiver_.
+    /// Result of the start-up test in the last header.
+    wire::StartUpTest start_up_test_ = wire::StartUpTest::passed;
     std::deque<Ended> ended_;
     std::uint64_t chunk_ = 0;  ///< Number of the chunk that is being decoded; 0 in a replay.
     std::optional<journal::SessionId> record_session_;  ///< Session of the records being made.

@@ -66,6 +66,7 @@ std::string StationMetadata::describe(const journal::Header& header) const {
     description.product_id = header.product_id;
     description.serial_number = header.serial_number;
     description.firmware = header.firmware;
+    description.start_up_test = header.start_up_test;
     description.declared_rate_hz = header.declared_rate_hz;
     description.oven_interval = header.oven_interval;
     description.outer_oven_interval = header.outer_oven_interval;

@@ -26,6 +26,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/timing/clock_reading.hpp"
 #include "protocol/timing/sample_clock.hpp"
+#include "protocol/wire/start_up_test.hpp"
 
 namespace a351::journal {
 
@@ -92,6 +93,8 @@ struct Header {
     /// True if the device was already sampling and was not queried: product, serial number and
     /// firmware are those of the session before.
     bool is_device_assumed = false;
+    /// Result of the sensor's last start-up test, which may be before this session.
+    wire::StartUpTest start_up_test = wire::StartUpTest::passed;
     std::string port;  ///< Configured path or USB identity; empty if there is none.
     /// Nominal rate of the frames, 1/s; wire::DeviceProfile::has_output_rate() must accept it.
     int output_rate_hz = 0;

@@ -67,6 +67,9 @@ Header header_from_json(const Json& json) {
     header.serial_number = json.at("serial_number").get<std::string>();
     header.firmware = json.at("firmware").get<std::uint16_t>();
     header.is_device_assumed = json.value("device_assumed", false);
+    const auto test = wire::start_up_test_named(json.value("start_up_test", "passed"));
+    if (!test) throw std::invalid_argument("start_up_test");
+    header.start_up_test = *test;
     header.port = json.value("port", "");
     header.output_rate_hz = json.at("output_rate_hz").get<int>();
     header.filter = json.at("filter").get<std::string>();
@@ -112,6 +115,8 @@ std::string header_to_json(const Header& header) {
     const wire::DeviceProfile* const profile = wire::find_profile(header.profile);
     if (profile != nullptr && !profile->toml.empty()) json["profile_toml"] = profile->toml;
     if (header.is_device_assumed) json["device_assumed"] = true;
+    if (header.start_up_test != wire::StartUpTest::passed)
+        json["start_up_test"] = wire::to_text(header.start_up_test);
     if (!header.port.empty()) json["port"] = header.port;
     if (header.declared_rate_hz) json["declared_rate_hz"] = *header.declared_rate_hz;
     if (header.oven_interval != kShortestOvenInterval)

@@ -155,6 +155,9 @@ pugi::xml_node add_sampled_channel(pugi::xml_node station, const Description& de
                             description.filter,
                             to_text(static_cast<double>(description.group_delay.count()) / 1e9)));
     add_comment(channel, fmt::format("firmware {}", description.firmware));
+    if (description.start_up_test != wire::StartUpTest::passed)
+        add_comment(channel, fmt::format("start-up test of the sensor: {}",
+                                         wire::to_text(description.start_up_test)));
     if (!orientation.is_known) add_comment(channel, "orientation not surveyed");
     add_place(channel, description, orientation, rate_hz);
     if (const auto declared_hz = description.declared_rate_hz)

@@ -41,8 +41,10 @@ struct Description {
     std::string product_id;
     std::string serial_number;
     std::uint16_t firmware = 0;  ///< Version as the device reports it; written as a comment.
-    int output_rate_hz = 0;      ///< Nominal output rate, > 0; also gives the band code.
-    std::string filter;          ///< Name of the filter, e.g. k512_fc9; written as a comment.
+    /// Result of the sensor's last start-up test; written as a comment unless it is passed.
+    wire::StartUpTest start_up_test = wire::StartUpTest::passed;
+    int output_rate_hz = 0;  ///< Nominal output rate, > 0; also gives the band code.
+    std::string filter;      ///< Name of the filter, e.g. k512_fc9; written as a comment.
     /// Group delay of the filter, already subtracted from the time stamps; written as a comment.
     Nanoseconds group_delay{0};
     /// Rate of blockette 100, Hz.  Its difference to the nominal rate becomes the clock drift, in

@@ -23,6 +23,9 @@ constexpr milliseconds kStartUpLimit{3000};
 constexpr milliseconds kFilterPoll{5};
 constexpr milliseconds kFilterLimit{500};
 
+// A reset takes 0.97 s (data sheet table 2.2), that of the A370 1.17 s.
+constexpr milliseconds kResetPause{1250};
+
 constexpr milliseconds kModeChangePause{20};
 constexpr DrainUntilSilent kShortDrain{.quiet = milliseconds(20), .limit = milliseconds(200)};
 
@@ -53,8 +56,11 @@ std::uint16_t rate_code(const DeviceProfile& profile, int output_rate_hz) {
 }  // namespace
 
 Handshake::Handshake(const DeviceProfile& profile, SensorSettings settings,
-                     std::string serial_number)
-    : profile_(&profile), settings_(settings), expected_serial_number_(std::move(serial_number)) {
+                     std::string serial_number, StartUpTest last_test)
+    : profile_(&profile),
+      settings_(settings),
+      expected_serial_number_(std::move(serial_number)),
+      start_up_test_(last_test) {
     if (profile.filter_coded(settings.filter_code) == nullptr) {
         throw std::invalid_argument(
             fmt::format("Handshake: profile {} has no filter coded 0x{:04X}", profile.name,
@@ -141,6 +147,7 @@ void Handshake::take_answer(std::span<const std::byte> answer) {
         return ask_register();
     }
     if (!value) {
+        is_result_lost_ |= asked_ == &kDiagStat;
         return retry(fmt::format("{}: expected an answer of 4 bytes, found none in {} tries",
                                  asked_->name, kTries));
     }
@@ -156,7 +163,12 @@ void Handshake::take_mode(std::uint16_t value) {
 }
 
 void Handshake::take_start_up(std::uint16_t value) {
-    if ((value & kGlobNotReady) == 0) return ask(&Handshake::take_diagnosis, kDiagStat);
+    if ((value & kGlobNotReady) == 0) {
+        if (start_up_test_ != StartUpTest::passed && may_repeat_test_)
+            return repeat_start_up_test();
+        start_up_test_ = std::max(start_up_test_, StartUpTest::unknown);  // until it is answered
+        return ask(&Handshake::take_diagnosis, kDiagStat);
+    }
     if (--polls_left_ == 0) {
         return fail(fmt::format("{}: not ready after {} ms",
                                 mismatch(kGlobCmd, 0, value, kGlobNotReady),
@@ -166,12 +178,21 @@ void Handshake::take_start_up(std::uint16_t value) {
     ask(&Handshake::take_start_up, kGlobCmd);
 }
 
+/// Resets the device, and begins again with its mode: it may be set to sample after a start-up.
+void Handshake::repeat_start_up_test() {
+    may_repeat_test_ = is_result_lost_ = false;
+    send(config_->write(kGlobCmd, kGlobSoftReset, kGlobSoftReset));
+    config_.reset();
+    wait(kResetPause);
+    silence();
+    ask(&Handshake::take_mode, kModeCtrl);
+}
+
 void Handshake::take_diagnosis(std::uint16_t value) {
     identity_.diag_stat = value;
-    const std::string found = mismatch(kDiagStat, 0, value, kDiagHardError | kDiagFlashError);
-    if ((value & kDiagHardError) != 0) return fail(found + ": HARD_ERR, the sensor is faulty");
-    if ((value & kDiagFlashError) != 0)
-        return fail(found + ": FLASH_ERR, the sensor could not read its calibration");
+    const StartUpTest found = start_up_test_in(value);
+    start_up_test_ = is_result_lost_ ? std::max(start_up_test_, found) : found;
+    if (start_up_test_ == StartUpTest::unknown && may_repeat_test_) return repeat_start_up_test();
     ask(&Handshake::take_identity, *register_at(Window::w1, kFirstIdentityAddress));
 }
 

@@ -45,6 +45,7 @@
 #include "protocol/wire/burst_frame.hpp"
 #include "protocol/wire/commands.hpp"
 #include "protocol/wire/device_profile.hpp"
+#include "protocol/wire/start_up_test.hpp"
 
 namespace a351::wire {
 
@@ -114,7 +115,7 @@ struct HandshakeFailure {
 /// One step; exactly one alternative.
 using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling, HandshakeFailure>;
 
-/// Sequence: stop and drain twice, check configuration mode, wait for start-up, check diagnosis,
+/// Sequence: stop and drain twice, check configuration mode, wait for start-up, read diagnosis,
 /// read identity, set registers (only those that differ are written), check rate against filter,
 /// check window, start.  A read without a valid answer is repeated.  Flash is never written and the
 /// baud rate is never changed.
@@ -128,8 +129,10 @@ using HandshakeStep = std::variant<Transmit, Receive, DrainUntilSilent, Sampling
 /// and noise mode are left as found.  Offsets, alarm limits and long-term filter are neither read
 /// nor changed.  Nothing is saved: a reset or loss of power restores the settings in the flash.
 ///
-/// HARD_ERR and FLASH_ERR in DIAG_STAT are refused; other bits are only reported.  Another product
-/// identifier is only reported too.
+/// The result of the start-up test is only reported (start_up_test()), as another product identifier
+/// is.  If it is not known to be passed, the handshake begins with a reset (SOFT_RST), which repeats
+/// the test: when the last one failed, or when the answer with its result was lost.  The reset
+/// restores the settings in the flash.
 ///
 /// An object is for one attempt and for one thread at a time.
 class Handshake {
@@ -139,9 +142,14 @@ public:
     /// @param settings       copied; the layout is valid by its type.
     /// @param serial_number  only this instrument is configured; empty: any.  Another one has then
     ///                       been stopped and its DIAG_STAT read, but no setting is changed.
+    /// @param last_test      result of the last start-up test known of this sensor.
     /// @throws std::invalid_argument  the profile lacks the rate or the filter.
-    Handshake(const DeviceProfile& profile, SensorSettings settings,
-              std::string serial_number = {});
+    Handshake(const DeviceProfile& profile, SensorSettings settings, std::string serial_number = {},
+              StartUpTest last_test = StartUpTest::passed);
+
+    /// Returns the result of the start-up test, as far as it is known now; `last_test` before
+    /// DIAG_STAT is read.  It is also valid if the handshake failed or was not completed.
+    [[nodiscard]] StartUpTest start_up_test() const noexcept { return start_up_test_; }
 
     /// Makes the handshake also read each of kRegisters, before it writes a setting.  A register that
     /// does not answer is no failure.  Call it before next().
@@ -184,6 +192,7 @@ private:
     void take_answer(std::span<const std::byte> answer);
     void take_mode(std::uint16_t value);
     void take_start_up(std::uint16_t value);
+    void repeat_start_up_test();
     void take_diagnosis(std::uint16_t value);
     void take_identity(std::uint16_t value);
     void take_configuration(std::uint16_t value);
@@ -195,6 +204,9 @@ private:
     const DeviceProfile* profile_;
     SensorSettings settings_;
     std::string expected_serial_number_;
+    StartUpTest start_up_test_;
+    bool may_repeat_test_ = true;
+    bool is_result_lost_ = false;  ///< An answer with the result of the start-up test was lost.
     std::vector<Target> targets_;
     std::deque<HandshakeStep> queue_;
     Take take_ = nullptr;  ///< Null: the answer is not required.

@@ -61,6 +61,12 @@ public:
         count_ = 0;
     }
 
+    /// Sets bits of DIAG_STAT, as a start-up test that failed.
+    void raise(std::uint16_t diag_stat_bits) {
+        const std::lock_guard lock(mutex_);
+        registers_.set(wire::kDiagStat, diag_stat_bits);
+    }
+
     [[nodiscard]] bool is_sampling() const {
         const std::lock_guard lock(mutex_);
         return registers_.is_sampling;

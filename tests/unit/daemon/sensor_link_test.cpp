@@ -329,6 +329,49 @@ TEST_CASE("a stream that continues where the journal ended is adopted without a 
     CHECK(received.frames()[0] == FakeSensor::values(0));
 }
 
+TEST_CASE("a failed start-up test is reported until a later one is passed",
+          "[daemon][sensor_link]") {
+    FakeSensor sensor;
+    const HostClock clock;
+    LinkOptions options = options_for(sensor.path());
+    sensor.raise(wire::kDiagHardError);  // The test after the next reset is passed.
+    {
+        ReadQueue queue;
+        SensorLink link(options, clock, queue);
+        link.start();
+        REQUIRE(eventually([&] { return link.status().sessions == 1; }));
+        CHECK(link.status().start_up_test == wire::StartUpTest::hard_error);
+        link.stop();
+        const Received received(queue);
+        REQUIRE(received.sessions.size() == 1);
+        CHECK(received.sessions[0].start_up_test == wire::StartUpTest::hard_error);
+        options.known = journal::StreamEnd{received.sessions[0], 0, clock.raw()};
+    }
+    SECTION("an adopted stream is of the same power-on") {
+        ReadQueue queue;
+        sensor.lose_power();  // Its counter is 0, as in `known`.
+        sensor.start_sampling();
+        SensorLink link(options, clock, queue);
+        CHECK(link.status().start_up_test == wire::StartUpTest::hard_error);
+        link.start();
+        REQUIRE(eventually([&] { return link.status().adoptions == 1; }));
+        link.stop();
+        CHECK(link.status().start_up_test == wire::StartUpTest::hard_error);
+        const Received received(queue);
+        REQUIRE(received.sessions.size() == 1);
+        CHECK(received.sessions[0].start_up_test == wire::StartUpTest::hard_error);
+    }
+    SECTION("a sensor that is configured again repeats the test") {
+        ReadQueue queue;
+        SensorLink link(options, clock, queue);
+        link.start();
+        REQUIRE(eventually([&] { return link.status().sessions == 1; }));
+        CHECK(link.status().start_up_test == wire::StartUpTest::passed);
+        link.stop();
+        CHECK(Received(queue).sessions.at(0).start_up_test == wire::StartUpTest::passed);
+    }
+}
+
 TEST_CASE("a stream that may be another one is stopped, and the sensor is configured",
           "[daemon][sensor_link][adoption]") {
     FakeSensor sensor;

@@ -135,6 +135,9 @@ struct Rig {
         return options;
     }
 
+    std::string serial_number = "00000042";                       ///< Of the next sessions.
+    wire::StartUpTest start_up_test = wire::StartUpTest::passed;  ///< Of the next sessions.
+
     void begin_session(std::uint8_t id = 42, const char* profile = "A351",
                        std::chrono::days ago = std::chrono::days(0)) {
         journal::Header header;
@@ -142,7 +145,8 @@ struct Rig {
         header.boot_id = clock.boot_id();
         header.profile = profile;
         header.product_id = "A351AU10";
-        header.serial_number = "00000042";
+        header.serial_number = serial_number;
+        header.start_up_test = start_up_test;
         header.output_rate_hz = 50;
         header.filter = "k512_fc9";
         header.burst_ctrl = wire::BurstLayout::recommended().burst_ctrl();

@@ -111,6 +111,25 @@ TEST_CASE_METHOD(Rig, "a step of the host's clock is in the event log and in the
     CHECK(steps[0].details.at("clock_before") == to_rfc3339(step->before, 3));
 }
 
+TEST_CASE_METHOD(Rig, "another result of the start-up test is in the event log, once",
+                 "[daemon][store]") {
+    Store store(files, options(), clock, reads);
+    record_first(store);
+    start_up_test = wire::StartUpTest::hard_error;
+    begin_session(101);
+    begin_session(102);
+    start_up_test = wire::StartUpTest::passed;
+    begin_session(103);
+    CHECK(store.stop());
+    const std::vector<events::Event> events = events::read_events(root / "events").events;
+    REQUIRE(events.size() == 2);
+    CHECK(events[0].type == "start_up_test");
+    CHECK(events[0].details.at("result") == "HARD_ERR");
+    CHECK(events[0].session->bytes[0] == 101);
+    CHECK(events[1].details.at("result") == "passed");
+    CHECK(events[1].session->bytes[0] == 103);
+}
+
 TEST_CASE("after the journal is drained only chunks posted by the archive are written to it",
           "[daemon][store]") {
     SteppedRig rig;

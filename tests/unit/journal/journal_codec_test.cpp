@@ -62,6 +62,7 @@ TEST_CASE("each kind of chunk has the same bytes again after decoding and encodi
 TEST_CASE("a decoded header has all fields that were encoded", "[record][journal]") {
     auto header = test::journal_header();
     header.is_device_assumed = true;
+    header.start_up_test = wire::StartUpTest::flash_error;
     header.port = "/dev/serial/by-id/adapter";
     const auto read = parse_header(header_to_json(header));
     REQUIRE(read);
@@ -78,6 +79,7 @@ TEST_CASE("a decoded header has all fields that were encoded", "[record][journal
     CHECK(read->baud == header.baud);
     CHECK(read->declared_rate_hz == header.declared_rate_hz);
     CHECK(read->is_device_assumed);
+    CHECK(read->start_up_test == header.start_up_test);
     CHECK(read->port == header.port);
     CHECK(read->clock == header.clock);
     auto uncommissioned = header;
@@ -108,6 +110,10 @@ TEST_CASE("a decoded header has all fields that were encoded", "[record][journal
     const auto as_asked = parse_header(header_to_json(test::journal_header()));
     CHECK_FALSE(as_asked->is_device_assumed);
     CHECK(as_asked->port.empty());
+    CHECK(as_asked->start_up_test == wire::StartUpTest::passed);
+    std::string wrong = header_to_json(header);
+    wrong.replace(wrong.find("FLASH_ERR"), 9, "perhaps");
+    CHECK_FALSE(parse_header(wrong));
 }
 
 TEST_CASE("a header is readable even if the serial number is not text", "[record][journal]") {

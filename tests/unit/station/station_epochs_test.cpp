@@ -48,6 +48,7 @@ TEST_CASE("a change begins a new epoch of the channels it affects", "[record][st
         concerned = 5;
     }
     SECTION("firmware") { station.firmware = 259; }
+    SECTION("start-up test") { station.start_up_test = wire::StartUpTest::flash_error; }
     SECTION("filter") { station.filter = "k512_fc16"; }
     SECTION("declared rate") { station.declared_rate_hz = 50.0006; }
     SECTION("output rate") { station.output_rate_hz = 100; }

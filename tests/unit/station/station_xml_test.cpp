@@ -126,7 +126,10 @@ TEST_CASE("StationXML has filter, firmware, serial number, rate, orientation, po
     }
     auto station = description();
     station.is_profile_verified = true;
-    CHECK_THAT(to_station_xml(station), ContainsSubstring("device profile A351 (verified)"));
+    CHECK_THAT(to_station_xml(station), ContainsSubstring("device profile A351 (verified)") &&
+                                            !ContainsSubstring("start-up test"));
+    station.start_up_test = wire::StartUpTest::hard_error;
+    CHECK_THAT(to_station_xml(station), ContainsSubstring("start-up test of the sensor: HARD_ERR"));
 }
 
 TEST_CASE("the same description gives metadata with the same bytes", "[record][station_xml]") {

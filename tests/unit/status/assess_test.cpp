@@ -49,6 +49,28 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     CHECK(status.level == Status::Level::warning);
 }
 
+TEST_CASE("a start-up test that was not passed is named with its remedy, by seriousness",
+          "[daemon][assess]") {
+    LinkStatus link;
+    link.state = LinkStatus::State::sampling;
+    for (const auto& [result, level] :
+         {std::pair(wire::StartUpTest::passed, Status::Level::good),
+          std::pair(wire::StartUpTest::unknown, Status::Level::warning),
+          std::pair(wire::StartUpTest::flash_error, Status::Level::fault),
+          std::pair(wire::StartUpTest::hard_error, Status::Level::fault)}) {
+        Status status = healthy();
+        link.start_up_test = result;
+        fill(status, link);
+        CHECK(status.level == level);
+        CHECK(status.start_up_test == wire::to_text(result));
+        REQUIRE(status.reasons.size() == (level == Status::Level::good ? 0 : 1));
+        if (level != Status::Level::good)
+            CHECK_THAT(status.reasons[0].english(),
+                       ContainsSubstring("start-up test") &&
+                           ContainsSubstring("switch the sensor off and on"));
+    }
+}
+
 TEST_CASE("another baud rate is reported of a sensor that answers only", "[daemon][assess]") {
     LinkStatus link;
     link.baud = 230400;

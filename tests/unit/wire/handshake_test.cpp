@@ -213,15 +213,66 @@ TEST_CASE("a device that never gets ready fails after three seconds", "[wire][ha
     CHECK(run.waited < std::chrono::milliseconds(3600));
 }
 
-TEST_CASE("a faulty device is refused with its reason", "[wire][handshake]") {
-    ScriptedRegisters hard;
-    hard.set(kDiagStat, 0x0020);
-    CHECK(run_with(hard).reason() ==
-          "DIAG_STAT: expected 0x0000, found 0x0020 (bits compared: 0x00E4): HARD_ERR, the sensor "
-          "is faulty");
-    ScriptedRegisters flash;
-    flash.set(kDiagStat, 0x0004);
-    CHECK_THAT(run_with(flash).reason(), ContainsSubstring("FLASH_ERR"));
+TEST_CASE("a failed start-up test is reported, and the device samples", "[wire][handshake]") {
+    for (const auto& [bits, result] :
+         {std::pair(0x0020, StartUpTest::hard_error), std::pair(0x0004, StartUpTest::flash_error),
+          std::pair(0x0084, StartUpTest::hard_error), std::pair(0x0008, StartUpTest::passed)}) {
+        CAPTURE(bits);
+        ScriptedRegisters device;
+        device.set(kDiagStat, static_cast<std::uint16_t>(bits));
+        Handshake handshake(kProfile, {});
+        check_sampling_as_asked(run_handshake(handshake, device), device);
+        CHECK(handshake.start_up_test() == result);
+        CHECK(device.resets == 0);
+    }
+}
+
+TEST_CASE("a start-up test that failed is repeated by the next handshake, until one is passed",
+          "[wire][handshake]") {
+    for (const bool is_repaired : {false, true}) {
+        CAPTURE(is_repaired);
+        ScriptedRegisters device;  // DIAG_STAT is 0: the last handshake has read it.
+        device.start_up_faults = is_repaired ? 0 : kDiagFlashError;
+        device.samples_after_reset = true;
+        Handshake handshake(kProfile, {}, {}, StartUpTest::hard_error);
+        CHECK(handshake.start_up_test() == StartUpTest::hard_error);
+        check_sampling_as_asked(run_handshake(handshake, device), device);
+        CHECK(device.resets == 1);
+        CHECK(handshake.start_up_test() ==
+              (is_repaired ? StartUpTest::passed : StartUpTest::flash_error));
+    }
+}
+
+TEST_CASE("a start-up test whose result was lost with the answer is repeated once",
+          "[wire][handshake]") {
+    ScriptedRegisters device;
+    device.set(kDiagStat, 0x0020);
+    device.start_up_faults = 0x0020;
+    device.unanswered[ScriptedRegisters::key(kDiagStat)] = 1;
+    Handshake handshake(kProfile, {});
+    check_sampling_as_asked(run_handshake(handshake, device), device);
+    CHECK(device.resets == 1);
+    CHECK(handshake.start_up_test() == StartUpTest::hard_error);
+
+    ScriptedRegisters again;  // The answer after the reset is lost too.
+    again.unanswered[ScriptedRegisters::key(kDiagStat)] = 1;
+    Handshake second(kProfile, {}, {}, StartUpTest::flash_error);
+    check_sampling_as_asked(run_handshake(second, again), again);
+    CHECK(again.resets == 1);
+    CHECK(second.start_up_test() == StartUpTest::flash_error);
+
+    ScriptedRegisters deaf;
+    deaf.unanswered[ScriptedRegisters::key(kDiagStat)] = 3;
+    Handshake third(kProfile, {});
+    CHECK_THAT(run_handshake(third, deaf).reason(), ContainsSubstring("DIAG_STAT"));
+    CHECK(third.start_up_test() == StartUpTest::unknown);
+}
+
+TEST_CASE("the result of a start-up test has a text that reads back", "[wire][handshake]") {
+    for (const auto result : {StartUpTest::passed, StartUpTest::unknown, StartUpTest::flash_error,
+                              StartUpTest::hard_error})
+        CHECK(start_up_test_named(to_text(result)) == result);
+    CHECK(start_up_test_named("") == std::nullopt);
 }
 
 TEST_CASE("a write that is lost once is repeated", "[wire][handshake]") {

@@ -19,11 +19,14 @@ public:
     using Key = std::pair<Window, std::uint8_t>;
 
     bool is_sampling = false;
+    bool samples_after_reset = false;     ///< AUTO_START.
     int not_ready_reads = 0;              ///< Number of reads for which GLOB_CMD reports NOT_READY.
     int filter_busy_reads = 0;            ///< Number of reads with FILTER_STAT busy after a write.
     std::map<Key, int> unanswered;        ///< Number of reads that get no answer, by register.
     std::map<Key, int> lost_writes;       ///< Number of writes that have no effect, by register.
     std::map<Key, std::uint16_t> forced;  ///< Value that reads always return, by register.
+    std::uint16_t start_up_faults = 0;    ///< Bits of DIAG_STAT that each start-up raises.
+    int resets = 0;                       ///< Number of soft resets.
     Bytes half_sent;                      ///< Command that a former host left unfinished.
     std::vector<Bytes> received;          ///< Received commands, including window selections.
 
@@ -77,6 +80,12 @@ private:
             return;
         }
         if (is_sampling || lost_writes[where]-- > 0) return;
+        if (where == key(kGlobCmd) && value == kGlobSoftReset) {
+            ++resets;
+            values[key(kDiagStat)] = start_up_faults;
+            is_sampling = samples_after_reset;
+            return;
+        }
         const auto old = values[where];
         values[where] = static_cast<std::uint16_t>(address % 2 == 1 ? (old & 0x00FF) | (value << 8)
                                                                     : (old & 0xFF00) | value);
@@ -85,7 +94,10 @@ private:
 
     void read(std::uint8_t address) {
         const Key where{window_, address};
-        if (unanswered[where]-- > 0) return;
+        if (unanswered[where]-- > 0) {
+            if (where == key(kDiagStat)) values[where] = 0;
+            return;
+        }
         std::uint16_t value = values[where];
         if (address == kWinCtrl.address) value = static_cast<std::uint16_t>(window_);
         if (where == key(kGlobCmd) && not_ready_reads-- > 0) value |= kGlobNotReady;

@@ -1,0 +1,38 @@
+#include "corrector/reading/start_up_findings.hpp"
+
+#include "tests/support/catch.hpp"
+
+using namespace a351;
+using namespace a351::corrector::reading;
+
+namespace {
+
+UtcTime at(const char* hour) {
+    return parse_rfc3339(std::string("2020-05-01T") + hour + ":00Z").value();
+}
+
+events::Event test_event(const char* hour, const char* result) {
+    return {"start_up_test", at(hour), {}, {}, {{"result", result}}};
+}
+
+}  // namespace
+
+TEST_CASE("a start-up test that was not passed is found in the times until the next test",
+          "[survey][start_up]") {
+    const std::vector<events::Event> events{test_event("12:00", "passed"),
+                                            test_event("08:00", "HARD_ERR"),
+                                            test_event("14:00", "unknown")};
+    const auto morning = start_up_findings(events, at("09:00"), at("11:00"));
+    REQUIRE(morning.size() == 1);
+    CHECK(morning[0].kind == FindingKind::start_up_test);
+    CHECK_FALSE(is_remark(morning[0]));
+    CHECK(morning[0].time == at("08:00"));
+    CHECK(
+        morning[0].text ==
+        "the sensor failed its start-up test at 2020-05-01T08:00:00Z (HARD_ERR): do not trust the "
+        "readings after it");
+    CHECK(start_up_findings(events, at("06:00"), at("08:00")).empty());
+    CHECK(start_up_findings(events, at("12:00"), at("14:00")).empty());
+    CHECK(start_up_findings(events, at("11:00"), at("15:00")).size() == 2);
+    CHECK(start_up_findings(events, at("14:30"), at("15:00"))[0].code == "start_up_test_unknown");
+}
