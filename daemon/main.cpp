@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -190,12 +191,38 @@ void log_verdicts(store::Store& store, const std::vector<verdict::Change>& chang
     }
 }
 
+void announce(const page::Server& page, const config::Config& config, spdlog::logger& log) {
+    for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
+    if (page.is_exposed())
+        log.warn("the page can be reached from other hosts; changes need the token");
+    if (config::shows_token(config)) {
+        log.warn("every user of this computer can read the token in {}; chmod o-r {}",
+                 config.file.string(), config.file.string());
+    }
+}
+
+/// Logs what is left undone at the end.
+/// @param is_on_disk  result of Store::stop().
+ExitStatus report_end(store::Store& store, bool is_on_disk, bool is_recovered,
+                      spdlog::logger& log) {
+    if (!is_recovered)
+        log.warn(
+            "the archive is incomplete; the next start adds the missing data from the journal");
+    if (is_on_disk) return kDone;
+    status::Status end;  // A fault of the last second has not been logged.
+    store.fill(end);
+    for (const auto& reason : end.reasons) log.error("{}", reason.english());
+    log.error("some data could not be written to disk or archived, for the reasons above");
+    return kFailed;
+}
+
 ExitStatus run(const config::Config& config, const source::HostClock& clock, spdlog::logger& log,
                const sigset_t& signals, status::StatusLog& status_log) {
     service::ServiceNotice notice = service::ServiceNotice::from_environment();
     source::ReadQueue reads;
     live::Record live(*config.sensor.profile, config.station.output_rate_hz, config.verdict);
     std::atomic<bool> is_recovered{false};
+    std::function<void(const events::Event&)> end_stay;  // Set before the store starts.
     const auto files = files::files_below(config.storage.root);
     store::Store store(*files,
                        {.root = config.storage.root,
@@ -208,6 +235,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                                 is_recovered = true;
                             },
                         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
+                        .other_unit = [&](const events::Event& event) { end_stay(event); },
                         .sample =
                             [&](const archive::Sample& sample, UtcTime time) {
                                 const auto changes = live.take(placed(sample, time));
@@ -247,16 +275,16 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                        .assets = config.page.assets,
                        .boxes = config.page.boxes,
                        .stale_after = config::stale_after(clock)});
-    for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
-    if (page.is_exposed())
-        log.warn("the page can be reached from other hosts; changes need the token");
-    if (config::shows_token(config)) {
-        log.warn("every user of this computer can read the token in {}; chmod o-r {}",
-                 config.file.string(), config.file.string());
-    }
+    announce(page, config, log);
 
     log_doubt(config.survey, log);
 
+    end_stay = [&](const events::Event& event) {
+        page.post([&occupations, &note_change, event] {
+            occupations.observe(event);
+            note_change();
+        });
+    };
     store.start();
     link.start();
     ovens.start();
@@ -280,15 +308,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     link.stop();
     const bool is_on_disk = store.stop();
     gravity.stop();  // It waits for its child, which a failing disk may hold.
-    if (!is_recovered)
-        log.warn(
-            "the archive is incomplete; the next start adds the missing data from the journal");
-    if (is_on_disk) return kDone;
-    status::Status end;  // A fault of the last second has not been logged.
-    store.fill(end);
-    for (const auto& reason : end.reasons) log.error("{}", reason.english());
-    log.error("some data could not be written to disk or archived, for the reasons above");
-    return kFailed;
+    return report_end(store, is_on_disk, is_recovered, log);
 }
 
 int complain_and_end(ExitStatus status, const std::string& trouble) {

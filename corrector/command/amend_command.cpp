@@ -1,7 +1,9 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "corrector/job/survey_amendments.hpp"
 #include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_readings.hpp"
+#include "corrector/job/survey_units.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::corrector::command {
@@ -24,9 +27,14 @@ struct AmendOptions {
 };
 
 std::vector<reading::Finding> findings_of(const job::SurveyFile& survey) {
-    ProgressBar bar(survey.name);
-    reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
-    return job::correct_survey_day(survey, read).findings;
+    std::vector<reading::Finding> findings;
+    for (const job::SurveyFile& part : job::by_unit(survey)) {
+        ProgressBar bar(part.name);
+        reading::OccupationRows read = job::read_survey(part, std::ref(bar));
+        std::ranges::move(job::correct_survey_day(part, read).findings,
+                          std::back_inserter(findings));
+    }
+    return findings;
 }
 
 /// Returns the findings that are to be carried out.

@@ -6,6 +6,7 @@
 #include "corrector/design/evening.hpp"
 #include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_readings.hpp"
+#include "corrector/job/survey_units.hpp"
 #include "corrector/reading/refused.hpp"
 #include "corrector/report/gravity_so_far.hpp"
 #include "protocol/archive/journal_tail.hpp"
@@ -16,6 +17,7 @@ void print_gravity_so_far(job::SurveyFile survey) {
     survey.is_so_far = true;
     report::GravitySoFar so_far;
     so_far.as_of = survey.running_until = archive::journal_end(survey.root / "journal");
+    survey = job::by_unit(survey).back();  // the sensor that records now
     try {
         so_far.read = job::read_survey(survey, [](std::size_t, std::size_t) {});
         so_far.as_of = so_far.read->as_of;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,6 +17,7 @@
 #include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_readings.hpp"
+#include "corrector/job/survey_units.hpp"
 #include "corrector/model/joint_adjustment.hpp"
 #include "corrector/model/model.hpp"
 #include "corrector/model/trend_comparison.hpp"
@@ -205,6 +207,10 @@ void correct_days(const SurveyCommandOptions& options) {
                                           ? surveys.front().path.parent_path() / "result"
                                           : std::filesystem::path(options.out);
     require_folder_option("--out", out);
+    std::vector<job::SurveyFile> units;
+    for (const job::SurveyFile& survey : surveys)
+        std::ranges::move(job::by_unit(survey), std::back_inserter(units));
+    surveys = std::move(units);
     const bool is_joint = surveys.size() > 1;
     std::vector<Day> days;
     std::vector<std::string> troubles;

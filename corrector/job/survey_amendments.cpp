@@ -91,7 +91,7 @@ std::filesystem::path add_amendments(const SurveyFile& survey,
     text::write_together(folder_of(file), {{candidate.path().filename().string(), text}});
     SurveyFile tried = survey;
     tried.amendments = candidate.path();
-    static_cast<void>(reading::read_survey_inputs(tried));  // refuses what contradicts
+    static_cast<void>(reading::units_of(tried));  // refuses what contradicts
     std::vector<text::NamedText> files{{file.filename().string(), text}};
     const text::NamedText named{survey.path.filename().string(), named_survey};
     const bool is_beside = folder_of(file) == folder_of(survey.path);

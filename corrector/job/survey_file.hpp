@@ -24,7 +24,7 @@ namespace a351::corrector::job {
 /// Readings of reference gravimeters at the stations of a survey, from table [reference].
 struct ReferenceSurvey {
     std::filesystem::path observations;  ///< Table as `a351-correct import` writes it.
-    adjustment::Priors priors;                ///< Standard deviation of a reading, and the scale.
+    adjustment::Priors priors;           ///< Standard deviation of a reading, and the scale.
     model::NetworkOptions network;       ///< Drift of each loop.
 };
 
@@ -45,6 +45,7 @@ inline constexpr double kReferenceReadingSd_mgal = 0.01;
 struct SurveyFile : reading::SurveySource {
     std::string name;                   ///< Name of the day; default: the file's stem.
     std::filesystem::path calibration;  ///< File of survey.calibration; empty: none.
+    std::string unused_calibration;     ///< Unit of a calibration that by_unit() left out.
     model::SurveyOptions survey;
     tide::Choice tide;
     reduction::ReductionChoice reduction;

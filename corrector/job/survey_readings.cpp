@@ -45,6 +45,10 @@ reading::OccupationRows read_survey(const SurveyFile& survey,
     source.averaging = averaging_of(survey);
     const reading::SurveyStays stays = reading::read_survey_inputs(source);
     std::vector<text::Message> warnings;
+    if (!survey.unused_calibration.empty())
+        warnings.push_back(text::message(
+            "the calibration is of the sensor {}: it is not used for the readings of {}",
+            survey.unused_calibration, survey.unit));
     if (survey.survey.calibration)
         warnings = check_calibration(survey, stays.epoch.serial_number, stays.list.windows);
     reading::OccupationRows read = reading::average_occupations(source, stays, progress);

@@ -34,6 +34,7 @@ namespace a351::corrector::reading {
 /// - base_not_revisited: the base has one stay only.
 /// - doubtful_site: the list of sites has one that does not fit the others.
 /// - clock: times are uncertain, or the host's clock was set back.
+/// - other_unit: other sensors recorded in the time of the survey too.
 enum class FindingKind {
     moved_box,
     other_name,
@@ -52,6 +53,7 @@ enum class FindingKind {
     base_not_revisited,
     doubtful_site,
     clock,
+    other_unit,
 };
 
 /// Returns the name of a kind, as above.

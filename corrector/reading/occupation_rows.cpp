@@ -16,6 +16,7 @@
 #include "corrector/reading/vertical_axis.hpp"
 #include "protocol/archive/journal_tail.hpp"
 #include "protocol/station/station_xml.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -190,7 +191,10 @@ void end_with_record(std::vector<OccupationWindow>& windows, const archive::Chan
 
 }  // namespace
 
-SurveyStays read_survey_inputs(const SurveySource& source) {
+namespace {
+
+/// Reads sites, occupations and metadata, with the set-ups of all sensors.
+SurveyStays read_all_stays(const SurveySource& source) {
     SurveyStays stays;
     stays.sites = text::read_sites(source.sites);
     std::tie(stays.list, stays.amendments) = read_occupations(source, stays.sites);
@@ -199,6 +203,69 @@ SurveyStays read_survey_inputs(const SurveySource& source) {
         throw Refused("no_metadata", stays.metadata.string() +
                                          ": no such file; allowed: the metadata that the daemon "
                                          "writes with the first data");
+    stays.units = archive_series::read_unit_spans(stays.metadata);
+    return stays;
+}
+
+/// Returns the sensors of the set-ups, by the end of their last one.
+std::vector<std::string> units_of(const SurveyStays& stays) {
+    std::vector<std::string> units;
+    for (const OccupationWindow& window : stays.list.windows) {
+        const std::string& unit = archive_series::span_at(stays.units, window.start).serial_number;
+        std::erase(units, unit);
+        units.push_back(unit);
+    }
+    return units;
+}
+
+/// Returns that other sensors recorded in the time of the survey too, if so.
+std::optional<Finding> other_units(const SurveyStays& stays, const std::string& unit) {
+    const auto& windows = stays.list.windows;
+    const auto* const first = &archive_series::span_at(stays.units, windows.front().start);
+    const auto* const last = &archive_series::span_at(stays.units, windows.back().end);
+    if (first == last) return std::nullopt;
+    std::string others;
+    for (const auto* span = first + 1; span <= last; ++span)
+        others += fmt::format(", {} {}", span->serial_number, to_rfc3339(span->from));
+    Finding finding{
+        .kind = FindingKind::other_unit, .code = "other_unit", .time = (first + 1)->from};
+    finding.text = text::message(
+        "several sensors recorded (from when each): {}{}; these are the readings of {}, with its "
+        "own constant and response to temperature",
+        first->serial_number, others, unit);
+    return finding;
+}
+
+/// Keeps the set-ups of one sensor.
+void keep_set_ups_of(SurveyStays& stays, const std::string& unit) {
+    std::erase_if(stays.list.windows, [&](OccupationWindow& window) {
+        const auto& span = archive_series::span_at(stays.units, window.start);
+        window.end = std::min(window.end, span.to);
+        return span.serial_number != unit;
+    });
+}
+
+}  // namespace
+
+std::vector<std::string> units_of(const SurveySource& source) {
+    return units_of(read_all_stays(source));
+}
+
+SurveyStays read_survey_inputs(const SurveySource& source) {
+    SurveyStays stays = read_all_stays(source);
+    const std::vector<std::string> units = units_of(stays);
+    if (source.unit.empty() && units.size() > 1)
+        throw InputError(fmt::format(
+            "{}: root = {}: the set-ups are of several sensors ({}), which have no constant in "
+            "common; allowed: set-ups of one of them, by from_utc and to_utc",
+            source.path.string(), source.root.string(), text::joined(units)));
+    const std::string unit = source.unit.empty() ? units.front() : source.unit;
+    if (auto finding = other_units(stays, unit)) stays.findings.push_back(std::move(*finding));
+    keep_set_ups_of(stays, unit);
+    if (stays.list.windows.empty())
+        throw Refused("no_usable_stay",
+                      fmt::format("{}: root = {}: no set-up is of the sensor {}",
+                                  source.path.string(), source.root.string(), unit));
     const UtcTime start = stays.list.windows.front().start;
     stays.epoch = archive_series::epoch_of(start, station::read_station_xml(stays.metadata, start),
                                            stays.metadata);
@@ -207,7 +274,7 @@ SurveyStays read_survey_inputs(const SurveySource& source) {
 
 OccupationRows average_occupations(const SurveySource& source, const SurveyStays& stays,
                                    const archive_series::Progress& progress) {
-    const auto& [sites, list, amendments, metadata, epoch_of_file] = stays;
+    const auto& [sites, list, amendments, metadata, epoch_of_file, units, findings] = stays;
     OccupationRows result;
     Epoch epoch = epoch_of_file;
     result.serial_number = epoch.serial_number;
@@ -219,6 +286,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     if (source.is_so_far)
         journal_end = archive_series::add_journaled(samples, source.root, epoch, span);
     std::vector<OccupationWindow> windows = list.windows;
+    if (units.size() > 1)
+        archive_series::keep_unit(
+            samples, units, archive_series::span_at(units, windows.front().start).serial_number);
     end_with_record(windows, samples[kVertical]);
     text::Message mounting;
     if (source.is_tumbled)
@@ -268,6 +338,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     }
     for (Finding& remark : stay_remarks(averaged, samples[kVertical]))
         result.findings.push_back(std::move(remark));
+    result.findings.insert(result.findings.end(), findings.begin(), findings.end());
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
     for (text::Message& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));

@@ -21,6 +21,7 @@
 #include "corrector/archive_series/epoch.hpp"
 #include "corrector/archive_series/on_all_cores.hpp"
 #include "corrector/archive_series/temperature_course.hpp"
+#include "corrector/archive_series/unit_spans.hpp"
 #include "corrector/reading/amendments.hpp"
 #include "corrector/reading/day_record.hpp"
 #include "corrector/reading/finding.hpp"
@@ -48,6 +49,8 @@ struct SurveySource {
     /// or the last survey day of the log.
     std::optional<UtcTime> from;
     std::optional<UtcTime> to;  ///< End of this time, not included.
+    /// Serial number of the sensor whose set-ups are read; empty: all are of one sensor.
+    std::string unit;
     /// True while the daemon records: an occupation that runs is used up to the last sample, and
     /// samples that have not reached the archive are taken from the journal.
     bool is_so_far = false;
@@ -68,6 +71,8 @@ struct SurveyStays {
     Amendments amendments;           ///< Amendments carried out; empty without a file.
     std::filesystem::path metadata;  ///< StationXML that was read.
     archive_series::Epoch epoch;     ///< Sensor and scales at the first set-up.
+    std::vector<archive_series::UnitSpan> units;  ///< Which sensor recorded when.
+    std::vector<Finding> findings;                ///< That the day has several sensors, if so.
 };
 
 /// The readings of a survey.
@@ -83,7 +88,7 @@ struct OccupationRows {
     std::vector<LeftOut> left_out;        ///< Occupations without a value, by start.
     std::vector<text::Message> warnings;  ///< Doubts and omissions, with reasons.
     std::vector<Finding>
-        findings;  ///< Moved boxes in order of time, stay_remarks(), start_up_findings().
+        findings;  ///< Moved boxes, stay_remarks(), start_up_findings(), other units.
     Amendments amendments;
     std::vector<text::Site> sites;        ///< With the references as amended.
     std::vector<text::InputFile> inputs;  ///< All files that were read; empty if is_so_far.
@@ -101,9 +106,18 @@ struct OccupationRows {
 /// amended, and impossible ones are left out.  The metadata is metadata/station.xml of the root,
 /// with the epochs in force at the first set-up.
 ///
+/// A set-up is of the sensor that recorded at its start; it ends when another one begins.  Those of
+/// other sensors than source.unit are removed.
+///
 /// @throws Refused     no occupation is possible, or there are no metadata yet.
-/// @throws InputError  one of them cannot be read or has a mistake, or a channel is missing.
+/// @throws InputError  one of them cannot be read or has a mistake, or a channel is missing; or the
+///                     set-ups are of several sensors and source.unit is empty.
 [[nodiscard]] SurveyStays read_survey_inputs(const SurveySource& source);
+
+/// Returns the serial numbers of the sensors that have set-ups in the survey, by the end of their last
+/// one; source.unit is not used.
+/// @throws InputError  as read_survey_inputs().
+[[nodiscard]] std::vector<std::string> units_of(const SurveySource& source);
 
 /// Averages every occupation, on all cores.  The result does not depend on their number.  The tide
 /// is left zero.

@@ -75,6 +75,17 @@ text::Message sentence_of(const ClockStep& step) {
                          change, after, before);
 }
 
+/// Adds the reason if another sensor was attached.
+void assess_unit(Status& status) {
+    constexpr std::chrono::hours kChangeShown{1};
+    const auto& change = status.unit_change;
+    if (!change || status.now - change->since >= kChangeShown) return;
+    status.warn(text::message(
+        "another sensor records since {}: {} after {}; a running stay was ended; the correction "
+        "gives each sensor its own constant; if nobody exchanged it, check which box is connected",
+        to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
+}
+
 /// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later
 /// only if more of them come per second than the sensor's rate, or if the clock was set back.
 void assess_clock(Status& status) {
@@ -197,6 +208,7 @@ void assess(Status& status) {
                           "uses another unit's behaviour; check survey.calibration",
                           printable(calibrated), status.serial_number));
     }
+    assess_unit(status);
     assess_clock(status);
     if (status.timing_state == timing::State::unlocked) {
         status.warn(text::message(

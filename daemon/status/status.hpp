@@ -27,6 +27,12 @@ struct ClockStep {
     UtcTime after;   ///< and as it is since then.
 };
 
+/// Another sensor, which records since then.
+struct UnitChange {
+    UtcTime since;
+    std::string before, after;  ///< Serial numbers.
+};
+
 /// A snapshot of the daemon's state as `/api/status` publishes it.
 struct Status {
     enum class Level { good, warning, fault };
@@ -68,7 +74,8 @@ struct Status {
     std::string profile, product_id, serial_number, filter;
     int output_rate_hz = 0;
     bool is_profile_verified = false;
-    std::string calibrated_serial_number;  ///< Unit of the calibration in use; empty if none.
+    std::string calibrated_serial_number;   ///< Unit of the calibration in use; empty if none.
+    std::optional<UnitChange> unit_change;  ///< Newest one of this run.
     std::string start_up_test;  ///< Result of the sensor's last start-up test, as in the journal.
     bool is_device_assumed = false;  ///< The stream was adopted; the device was not asked.
 

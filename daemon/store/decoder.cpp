@@ -85,6 +85,7 @@ void Decoder::take(const NumberedChunk& numbered) {
 bool Decoder::begin_session(const journal::Chunk& chunk) {
     const auto* const header = std::get_if<journal::Header>(&chunk);
     if (header == nullptr || session_ == header->session) return false;
+    serial_number_ = header->serial_number;
     start_up_test_ = header->start_up_test;
     const auto ended = std::exchange(session_, header->session);
     if (const auto last_index = archiver_->last_index(); ended && last_index)
@@ -119,7 +120,25 @@ void Decoder::note_step(const status::ClockStep& step) {
     journal_.note(event);
 }
 
+/// Notes that another sensor records: the last sample of the one before ends its stay.
+void Decoder::note_other_unit(const journal::Header& header) {
+    status_.unit_change = {header.clock.realtime, serial_number_, header.serial_number};
+    events::Event event;
+    event.type = "other_unit";
+    event.utc = header.clock.realtime;
+    if (const auto last = last_instant()) {
+        event.utc = last->utc;
+        event.session = last->session;
+        event.index = last->index;
+    }
+    event.details["before"] = serial_number_;
+    event.details["serial_number"] = header.serial_number;
+    journal_.note(event);
+    options_.other_unit(event);
+}
+
 void Decoder::watch_sensor(const journal::Header& header) {
+    if (!serial_number_.empty() && header.serial_number != serial_number_) note_other_unit(header);
     if (header.start_up_test == start_up_test_) return;
     events::Event event;
     event.type = "start_up_test";
@@ -178,6 +197,11 @@ std::optional<std::size_t> Decoder::samples_in_archive(const std::string& channe
 
 std::optional<survey::Instant> Decoder::latest() const {
     const std::lock_guard lock(mutex_);
+    return last_instant();
+}
+
+/// Returns the last sample.  The lock is held.
+std::optional<survey::Instant> Decoder::last_instant() const {
     if (const auto index = archiver_->last_index(); index && session_)
         return instant_of(*session_, *archiver_->clock(), index);
     if (ended_.empty()) return std::nullopt;

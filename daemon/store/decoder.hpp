@@ -20,8 +20,8 @@
 namespace a351::daemon::store {
 
 /// Makes samples, their times and records of the chunks, and answers which sample belongs to a time.
-/// The journal gets the time of the newest sample (MODEL), the event log each step of the clock and
-/// each session whose start-up test has another result than the one before.
+/// The journal gets the time of the newest sample (MODEL), the event log each step of the clock,
+/// and each session of another sensor or with another result of the start-up test than the one before.
 ///
 /// One thread decodes, any thread may ask.  The lock is held while a chunk is decoded.  This reads the
 /// archive during a replay, and never waits for the disk afterwards.
@@ -34,7 +34,8 @@ public:
         std::optional<Nanoseconds> timing_uncertainty;  ///< Absent before the first session.
         std::optional<Nanoseconds> host_uncertainty;    ///< Its part that is the host's clock.
         bool is_host_synchronised = false;
-        std::optional<status::ClockStep> clock_step;  ///< Newest one of this run.
+        std::optional<status::ClockStep> clock_step;    ///< Newest one of this run.
+        std::optional<status::UnitChange> unit_change;  ///< Newest one of this run.
         std::optional<timing::MeasuredRate> measured_rate;
     };
 
@@ -84,6 +85,8 @@ private:
     void note_if_back(UtcTime utc);
     void note_step(const status::ClockStep& step);
     void watch_sensor(const journal::Header& header);
+    void note_other_unit(const journal::Header& header);
+    [[nodiscard]] std::optional<survey::Instant> last_instant() const;
     void note_model();
 
     const Options& options_;
@@ -97,7 +100,8 @@ private:
     const archive::Writer* archive_ = nullptr;  ///< Not null during a replay only.
     archive::Writer::Held held_;
     std::optional<journal::SessionId> session_;  ///< Session of archiver_.
-    /// Result of the start-up test in the last header.
+    /// Sensor and result of the start-up test in the last header.
+    std::string serial_number_;
     wire::StartUpTest start_up_test_ = wire::StartUpTest::passed;
     std::deque<Ended> ended_;
     std::uint64_t chunk_ = 0;  ///< Number of the chunk that is being decoded; 0 in a replay.

@@ -11,6 +11,7 @@
 #include "daemon/store/journal_keeper.hpp"
 #include "protocol/archive/archiver.hpp"
 #include "protocol/archive/recovery.hpp"
+#include "protocol/events/event_log.hpp"
 #include "protocol/station/station_xml.hpp"
 
 namespace a351::daemon::store {
@@ -30,6 +31,9 @@ struct Options {
     std::function<void(const archive::RecoveryReport&)> recovered = [](const auto&) {};
     /// Called by another thread, once, before anything is recorded or recovered.  Must not throw.
     std::function<void()> begin = [] {};
+    /// Called by another thread when another sensor begins to record, with the event that the log
+    /// gets.  Must not wait.
+    std::function<void(const events::Event&)> other_unit = [](const auto&) {};
     /// Called by another thread for each sample that received its index and time, also those of the
     /// last run's journal.
     std::function<void(const archive::Sample&, UtcTime)> sample = [](const auto&, UtcTime) {};

@@ -70,6 +70,7 @@ void Store::fill(status::Status& status) {
     status.is_host_synchronised = archive.is_host_synchronised;
     status.measured_rate = archive.measured_rate;
     status.clock_step = archive.clock_step;
+    status.unit_change = archive.unit_change;
     status.counters = archive.counters;
     if (archive.last_sample && profile_ != nullptr) {
         const wire::BurstValues& values = archive.last_sample->values;

@@ -219,15 +219,19 @@ void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& op
     ++changes_;
 }
 
+void Occupations::observe(const events::Event& event) {
+    replay_.take(event);
+    note_aside(event);
+    ++changes_;
+}
+
 Outcome Occupations::commit(events::Event event, text::Message message) {
     try {
         recorder_.commit(event);
     } catch (const std::system_error& error) {
         return {Outcome::Kind::failed, text::message("not saved: {}", error.what())};
     }
-    replay_.take(event);
-    note_aside(event);
-    ++changes_;
+    observe(event);
     return {Outcome::Kind::done, std::move(message)};
 }
 

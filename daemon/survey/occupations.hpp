@@ -111,6 +111,9 @@ public:
     /// Returns the planned number of set-ups of the same stay.
     [[nodiscard]] int planned_set_ups() const noexcept;
 
+    /// Takes an event that the recorder has logged by itself: another sensor ends the running stay.
+    void observe(const events::Event& event);
+
     /// Appends a site to the list, see append_site(), and uses it from now on.
     Outcome add_site(const text::Site& site);
 

@@ -91,6 +91,11 @@ void OccupationReplay::apply(const Event& event) {
         if (stay) add_note(stay->note, event);
     }
     if (!running_) return;
+    if (event.type == "other_unit") {
+        add_text(running_->note, "another sensor: " + detail(event, "serial_number") + " after " +
+                                     detail(event, "before"));
+        return end_running(std::max(event.utc, running_->set_ups.back()), true);
+    }
     if (event.type == "setup") running_->set_ups.push_back(event.utc);
     if (event.type == "stop") {
         const std::string site = detail(event, "site");

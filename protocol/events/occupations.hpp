@@ -100,6 +100,7 @@ struct RunningOccupation {
 /// - `not_moved` says that the box was not moved during the stay, up to the instant of the event.
 /// - Notes of start, stop, rename and `note` are joined by "; ".
 /// - A `stop` that names another site ends the running occupation, and its notes say so.
+/// - `other_unit` ends the running occupation, and its notes say so.
 /// - A set-up without duration is left out, and so is an occupation without set-ups.
 /// - `setup` and `stop` change nothing if no occupation runs.  Other types change nothing.
 ///

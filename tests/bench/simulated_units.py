@@ -28,12 +28,12 @@ def unit_of(seed, scatter):
     return {key: value * draw.uniform(1.0 - scatter, 1.0 + scatter) for key, value in UNIT.items()}
 
 
-def simulate(folder, name, base, seed, scatter, more=""):
+def simulate(folder, name, base, seed, scatter, more="", serial="00000001"):
     """Simulates a day of the seed's unit and returns its folder."""
     file = folder / f"{name}-scenario.toml"
     error = "".join(f"{key} = {value}\n" for key, value in unit_of(seed, scatter).items())
     file.write_text(f'base = "{base}"\nname = "{name}"\n[temperature_error]\n{error}{more}')
-    run(BIN / "a351-sim", "survey", "--scenario", file, "--seed", seed, "--out", folder / name)
+    run(BIN / "a351-sim", "survey", "--scenario", file, "--seed", seed, "--serial", serial, "--out", folder / name)
     return folder / name
 
 

@@ -126,10 +126,41 @@ def failed_start_up():
                level == "fault" and all(shown) and events == ["HARD_ERR", "passed"] and comments == 4)
 
 
+def exchanged_unit():
+    """Another sensor is attached during a stay, and the first one comes back."""
+    with Scratch() as scratch:
+        session = Session(scratch, speed=SPEED)
+        session.wait_for_frames(100)
+        session.ctl("start", "No.1")
+        session.wait_for_frames(400)
+        taken_s, stays = [], []
+        for serial in (OTHER, OWN):
+            session.order(f"other_unit serial_number={serial}")
+            runs = len(session.emulated()["runs"])
+            wait_for("the other sensor sends frames", lambda: len(session.emulated()["runs"]) > runs
+                     or session.status()["device"]["serial_number"] == serial)
+            taken_s.append(seconds_until("it is reported", lambda: f"{serial} after" in reasons(session)))
+            stays.append((len(json.loads(session.ctl("list", "--json"))["occupations"]), session.status()["occupation"]))
+        session.daemon.terminate()
+        session.daemon.wait(timeout=60)
+        changes = [event for event in logged(scratch) if event["type"] == "other_unit"]
+        log = (scratch / "a351d.log").read_text()
+    is_cut = stays == [(1, None)] * 2
+    table.note(21, "another device during a stay, and the first again",
+               f"reported {taken_s[0]:.1f} and {taken_s[1]:.1f} s of signal after its first frame (limit 10); the stay was "
+               f"{'' if is_cut else 'not '}ended; events {[change['serial_number'] for change in changes]}",
+               max(taken_s) < 10.0 and is_cut and [change["serial_number"] for change in changes] == [OTHER, OWN]
+               and f"{OTHER} after {OWN}" in log)
+
+
+def logged(scratch):
+    """Returns the events of the log."""
+    return [event for file in sorted((scratch / "data" / "events").glob("*.jsonl"))
+            for event in map(json.loads, file.read_text().splitlines())]
+
+
 def test_results(scratch):
-    """Returns the results of start-up tests in the event log."""
-    return [event["result"] for file in sorted((scratch / "data" / "events").glob("*.jsonl"))
-                 for event in map(json.loads, file.read_text().splitlines()) if event["type"] == "start_up_test"]
+    return [event["result"] for event in logged(scratch) if event["type"] == "start_up_test"]
 
 
 def other_device(session):
@@ -266,4 +297,5 @@ with Scratch() as scratch:
     report, counters = session.end()
     session.archive_is_true(missing=0)
 failed_start_up()
+exchanged_unit()
 table.finish()

@@ -44,6 +44,24 @@ TEST_CASE("a change is committed with its sample before it is answered", "[daemo
     CHECK(recorder.log.back().utc == *recorder.last);
 }
 
+TEST_CASE("another sensor, which the recorder logs by itself, ends the running stay",
+          "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    REQUIRE(occupations.start("No.1", {}, minute(10)).kind == Kind::done);
+    const auto changes = occupations.changes();
+    occupations.observe({"other_unit",
+                         minute(12),
+                         {},
+                         {},
+                         {{"before", "00000001"}, {"serial_number", "00000777"}}});
+    CHECK(recorder.log.size() == 1);
+    CHECK(occupations.changes() > changes);
+    CHECK_FALSE(occupations.running());
+    REQUIRE(occupations.list().size() == 1);
+    CHECK(occupations.list()[0].set_ups.back().end == minute(12));
+}
+
 TEST_CASE("an order that was carried out already changes nothing", "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});

@@ -130,6 +130,42 @@ TEST_CASE_METHOD(Rig, "another result of the start-up test is in the event log, 
     CHECK(events[1].session->bytes[0] == 103);
 }
 
+TEST_CASE_METHOD(
+    Rig, "another sensor is in event log and status, from the last sample of the one before",
+    "[daemon][store]") {
+    std::vector<events::Event> called;
+    const auto run = [&](bool is_first) {
+        Options with_call = options();
+        with_call.other_unit = [&](const events::Event& event) { called.push_back(event); };
+        Store store(files, with_call, clock, reads);
+        if (is_first) {
+            record_first(store);
+            begin_session(101);  // the same sensor
+        } else {
+            store.start();
+            serial_number = "00000777";
+            begin_session(102);
+            CHECK(eventually([&] { return status_of(store).unit_change.has_value(); }));
+        }
+        CHECK(store.stop());
+        return status_of(store).unit_change;
+    };
+    CHECK_FALSE(run(true));
+    const auto change = run(false);  // exchanged while the daemon did not run
+    REQUIRE(change);
+    CHECK(change->before == "00000042");
+    CHECK(change->after == "00000777");
+    const std::vector<events::Event> events = events::read_events(root / "events").events;
+    REQUIRE(events.size() == 1);
+    CHECK(events[0].type == "other_unit");
+    CHECK(events[0].details.at("before") == "00000042");
+    CHECK(events[0].details.at("serial_number") == "00000777");
+    CHECK(events[0].session->bytes[0] == 42);
+    CHECK(events[0].index == 99);
+    REQUIRE(called.size() == 1);
+    CHECK(called[0].utc == events[0].utc);
+}
+
 TEST_CASE("after the journal is drained only chunks posted by the archive are written to it",
           "[daemon][store]") {
     SteppedRig rig;

@@ -135,6 +135,22 @@ TEST_CASE("planned set-ups that are no whole number from 2 to 100 count as not g
     }
 }
 
+TEST_CASE("another sensor ends the running occupation at the last sample of the one before",
+          "[record][occupations]") {
+    const auto change = [](const char* at) {
+        return event_of("other_unit", at, {{"before", "A1"}, {"serial_number", "B2"}});
+    };
+    OccupationReplay replay({start("09:00", "A"), change("09:05"), stop("09:10")});
+    REQUIRE(replay.finished().size() == 1);
+    CHECK(shown({start("09:00", "A"), change("09:05"), stop("09:10")}) == Lines{"A#1 09:00-09:05"});
+    CHECK(replay.finished()[0].is_stopped);
+    CHECK(replay.finished()[0].note == "another sensor: B2 after A1");
+    CHECK(shown({change("08:00"), start("09:00", "A"), stop("09:10")}) == Lines{"A#1 09:00-09:10"});
+    // The set-up began after the last sample.
+    CHECK(shown({start("09:00", "A"), event_of("setup", "09:06"), change("09:05")}) ==
+          Lines{"A#1 09:00-09:06"});
+}
+
 TEST_CASE("events of other kinds change no occupation", "[record][occupations]") {
     CHECK(shown({start("09:00", "A"), event_of("fault", "09:05"), event_of("clock_step", "09:06"),
                  stop("09:10")}) == Lines{"A#1 09:00-09:10"});

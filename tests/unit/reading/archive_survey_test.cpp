@@ -4,6 +4,7 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/job/survey_readings.hpp"
+#include "corrector/job/survey_units.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/events/event_log.hpp"
 
@@ -169,4 +170,77 @@ TEST_CASE("the tide of a row is that of the middle of its interval", "[survey][a
         CHECK(row.tide ==
               direct_tide(middle, {site->latitude, site->longitude, site->altitude}, {1.2, 1.2}));
     }
+}
+
+TEST_CASE("a day with an exchange is one survey for each sensor, each with its own readings",
+          "[survey][archive][units]") {
+    const Morning morning(Morning::Sensors::exchanged);
+    const auto file = morning.folder().write(
+        "day.toml", "[survey]\ntide='none'\noccupations='occupations.csv'\n");
+    const SurveyFile day = read_survey_file(file);
+    CHECK_THROWS_WITH(read_survey(day, [](std::size_t, std::size_t) {}),
+                      ContainsSubstring("several sensors (00000001, 00000777)"));
+
+    const std::vector<SurveyFile> parts = by_unit(day);
+    REQUIRE(parts.size() == 2);
+    for (std::size_t part = 0; part < 2; ++part) {
+        CAPTURE(part);
+        const OccupationRows read = read_survey(parts[part], [](std::size_t, std::size_t) {});
+        CHECK(parts[part].name == (part == 0 ? "day-00000001" : "day-00000777"));
+        CHECK(read.serial_number == (part == 0 ? "00000001" : "00000777"));
+        REQUIRE(read.rows.size() == 2);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const SurveyRow& row = read.rows[i];
+            CHECK(row.site == kMorningSites[2 * part + i]);
+            const double written =
+                Morning::reading_mgal(seconds_between(Morning::kBegin, row.time));
+            CHECK(
+                row.acceleration.value() ==
+                Approx(written + (part == 0 ? 0.0 : Morning::kOther_mgal)).epsilon(0).margin(0.1));
+        }
+        const auto finding =
+            std::ranges::find(read.findings, FindingKind::other_unit, &Finding::kind);
+        REQUIRE(finding != read.findings.end());
+        CHECK(finding->time == Morning::kBegin + Morning::kExchange);
+        CHECK_THAT(finding->text.english(),
+                   ContainsSubstring("00000001, 00000777 2020-05-01T23:58:00Z; these are the "
+                                     "readings of " +
+                                     read.serial_number));
+        // No temperature of the other sensor.
+        REQUIRE_FALSE(read.temperature_course.empty());
+        const UtcTime exchange = Morning::kBegin + Morning::kExchange;
+        CHECK((read.temperature_course.front().middle < exchange) == (part == 0));
+        CHECK((read.temperature_course.back().middle < exchange) == (part == 0));
+    }
+}
+
+TEST_CASE("a stay during which the sensor was exchanged ends there", "[survey][archive][units]") {
+    const Morning morning(Morning::Sensors::exchanged);
+    morning.folder().write("occupations.csv",
+                           "site,occupation,start_utc,end_utc,used,note\n"
+                           "B,1,2020-05-01T23:50:20Z,2020-05-01T23:52:50Z,,\n"
+                           "S1,1,2020-05-01T23:54:20Z,2020-05-02T00:00:50Z,,\n"
+                           "B,2,2020-05-02T00:02:20Z,2020-05-02T00:04:50Z,,\n");
+    const auto file = morning.folder().write(
+        "day.toml", "[survey]\ntide='none'\noccupations='occupations.csv'\n");
+    const std::vector<SurveyFile> parts = by_unit(read_survey_file(file));
+    REQUIRE(parts.size() == 2);
+    const OccupationRows first = read_survey(parts[0], [](std::size_t, std::size_t) {});
+    REQUIRE(first.rows.size() == 2);
+    CHECK(first.rows[1].end.value() <= Morning::kBegin + Morning::kExchange);
+    CHECK(read_survey(parts[1], [](std::size_t, std::size_t) {}).rows.size() == 1);
+}
+
+TEST_CASE("a calibration is used for its sensor alone", "[survey][archive][units]") {
+    const Morning morning(Morning::Sensors::exchanged);
+    const auto file = morning.folder().write(
+        "day.toml", "[survey]\ntide='none'\noccupations='occupations.csv'\n");
+    SurveyFile day = read_survey_file(file);
+    day.survey.calibration.emplace().serial_number = "00000777";
+    const std::vector<SurveyFile> parts = by_unit(day);
+    REQUIRE(parts.size() == 2);
+    CHECK_FALSE(parts[0].survey.calibration);
+    CHECK(parts[1].survey.calibration);
+    CHECK(read_survey(parts[0], [](std::size_t, std::size_t) {}).warnings.at(0) ==
+          "the calibration is of the sensor 00000777: it is not used for the readings of 00000001");
 }

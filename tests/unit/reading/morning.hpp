@@ -31,13 +31,27 @@ public:
     inline static const std::vector<std::string> kSites{"B", "S1", "S2", "B"};
     inline static const std::vector<double> kGravity_mgal{979800.0, 979850.0, 979760.0, 979800.0};
 
-    Morning() {
+    /// The sensor is exchanged before the third stay: ten seconds have no samples, and the readings
+    /// of the second one are kOther_mgal higher.
+    enum class Sensors { one, exchanged };
+    static constexpr std::chrono::seconds kExchange{480}, kPause{10};
+    static constexpr double kOther_mgal = 1000.0;
+
+    explicit Morning(Sensors sensors = Sensors::one) : sensors_(sensors) {
         station::Description description;
         description.start = kBegin;
         description.profile = "A351";
         description.output_rate_hz = 50;
         description.filter = "k512_fc9";
+        if (sensors == Sensors::exchanged) description.serial_number = "00000001";
         folder_.write("data/metadata/station.xml", station::to_station_xml(description));
+        if (sensors == Sensors::exchanged) {
+            description.serial_number = "00000777";
+            description.start = kBegin + kExchange;
+            folder_.write("data/metadata/station.xml",
+                          *station::extend_station_xml(folder_.path() / "data/metadata/station.xml",
+                                                       description));
+        }
         const auto station =
             station::read_station_xml(folder_.path() / "data/metadata/station.xml");
         for (const auto& channel : station.channels)
@@ -84,7 +98,9 @@ private:
             if (channel.code == "BN1") value = kTilt_g * g_mgal * 1e-5;
             if (channel.code == "BN2") value = 0.0;
             if (channel.code == "BNZ") {
-                const double reading = reading_mgal(seconds);
+                const bool is_other =
+                    sensors_ == Sensors::exchanged && from_seconds(seconds) >= kExchange - kPause;
+                const double reading = reading_mgal(seconds) + (is_other ? kOther_mgal : 0.0);
                 value = std::sqrt(reading * reading - kTilt_g * kTilt_g * g_mgal * g_mgal) * 1e-5;
             }
             counts.push_back(
@@ -100,7 +116,15 @@ private:
             header.channel = channel.code;
             header.start = kBegin + from_seconds(static_cast<double>(at) / kTrueRate_hz);
             header.nominal_rate = Hertz(50.0);
-            const std::size_t before_midnight = samples_before_midnight(at, counts.size());
+            if (sensors_ == Sensors::exchanged && is_in_pause(at)) {
+                at = sample_at(kExchange);
+                continue;
+            }
+            const std::size_t before_midnight =
+                std::min(samples_before_midnight(at, counts.size()),
+                         sensors_ == Sensors::exchanged && at < sample_at(kExchange)
+                             ? sample_at(kExchange - kPause) - at
+                             : counts.size());
             const auto packed =
                 archive::pack_record(header, std::span(counts).subspan(at, before_midnight));
             writer.append(channel.code, packed);
@@ -115,6 +139,15 @@ private:
         return at < first_after ? std::min(first_after, count) - at : count - at;
     }
 
+    static std::size_t sample_at(std::chrono::seconds since_begin) {
+        return static_cast<std::size_t>(
+            std::ceil(static_cast<double>(since_begin.count()) * kTrueRate_hz));
+    }
+    static bool is_in_pause(std::size_t sample) {
+        return sample >= sample_at(kExchange - kPause) && sample < sample_at(kExchange);
+    }
+
+    Sensors sensors_;
     test::TemporaryDirectory folder_;
 };
 

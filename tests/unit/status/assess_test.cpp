@@ -49,6 +49,23 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     CHECK(status.level == Status::Level::warning);
 }
 
+TEST_CASE("another sensor is a warning for an hour", "[daemon][assess]") {
+    Status status = healthy();
+    const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
+    status.unit_change = UnitChange{noon, "00000001", "0000\x01" "777"};
+    status.now = noon + std::chrono::minutes(59);
+    assess(status);
+    REQUIRE(status.reasons.size() == 1);
+    CHECK(status.level == Status::Level::warning);
+    CHECK_THAT(status.reasons[0].english(),
+               ContainsSubstring("2026-03-14T12:00:00Z: 0000?777 after 00000001"));
+    status = healthy();
+    status.unit_change = UnitChange{noon, "00000001", "00000777"};
+    status.now = noon + std::chrono::minutes(61);
+    assess(status);
+    CHECK(status.reasons.empty());
+}
+
 TEST_CASE("a start-up test that was not passed is named with its remedy, by seriousness",
           "[daemon][assess]") {
     LinkStatus link;

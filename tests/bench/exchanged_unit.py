@@ -1,0 +1,148 @@
+"""Measures what an exchange of the sensor in the middle of a day costs: left-out errors against those of two separate days.
+
+usage: exchanged_unit.py [FIRST_SEED [DAYS]]   (A351_BIN)
+FIRST_SEED: default 81001, DAYS: default 20.  None of these seeds was used while the division by sensor was developed.
+Each seed draws two units, within +-25 % and with biases within +-5000 mGal, and an instant of the day of tsukuba, with at least four stays before and after it.
+The first unit recorded before it, the second one from it on, into one data root.  A stay that runs at this instant ends there.
+In each fourth seed the first unit comes back later, at a second instant.
+The same records in two data roots, one for each unit, are the separate days.  Both are corrected by `a351-correct survey`.
+An error is the joint value of a station, with its own reference hidden, minus true gravity.
+"""
+
+import concurrent.futures
+import datetime
+import json
+import os
+import random
+import re
+import shutil
+import struct
+import sys
+
+from simulated_units import rms, simulate
+from programs import BIN, Scratch, read_json, rows, run
+
+SERIALS = ("00000001", "00000777")
+BIAS_MGAL = 5000.0  # 5 mg; units of this family differ by 2 to 50 mg.
+UTC = datetime.timezone.utc
+
+
+def instant(text):
+    return datetime.datetime.fromisoformat(text[:26].rstrip("Z") + "+00:00")
+
+
+def records(data):
+    """Yields the records of miniSEED 2 with their first and last time."""
+    at = 0
+    while at < len(data):
+        year, day, hour, minute, second, _, fraction, count, factor, multiplier = struct.unpack_from(">HHBBBBHHhh", data, at + 20)
+        start = datetime.datetime(year, 1, 1, hour, minute, second, 100 * fraction, UTC) + datetime.timedelta(days=day - 1)
+        rate = (factor if factor > 0 else -1.0 / factor) * (multiplier if multiplier > 0 else -1.0 / multiplier)
+        length = 1 << data[at + 54]  # Blockette 1000 is the first.
+        yield data[at:at + length], start, start + datetime.timedelta(seconds=(count - 1) / rate)
+        at += length
+
+
+def copy_archive(day, root, is_wanted):
+    for file in sorted((day / "archive").rglob("*.D.*")):
+        kept = b"".join(record for record, start, end in records(file.read_bytes()) if is_wanted(start, end))
+        target = root / file.relative_to(day)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with open(target, "ab") as out:
+            out.write(kept)
+
+
+def events(day, is_wanted):
+    return [event for file in sorted((day / "events").glob("*.jsonl"))
+            for event in map(json.loads, file.read_text().splitlines()) if is_wanted(instant(event["utc"]))]
+
+
+def write_root(root, log, metadata, day):
+    (root / "events").mkdir(parents=True)
+    (root / "metadata").mkdir()
+    (root / "events" / f"{log[0]['utc'][:7]}.jsonl").write_text("".join(json.dumps(event) + "\n" for event in log))
+    (root / "metadata" / "station.xml").write_text(metadata)
+    shutil.copy(day / "sites.csv", root.parent / "sites.csv")
+
+
+def channels_between(metadata, start, end):
+    """Returns the channels of a metadata file with other dates; None keeps the begin, or leaves the end open."""
+    dates = (f'startDate="{stamp(start)}"' if start else r"\g<0>") + (f' endDate="{stamp(end)}"' if end else "")
+    return "".join(re.sub(r'startDate="[^"]*"', dates, channel)
+                   for channel in re.findall(r" *<Channel .*?</Channel>\n", metadata, re.S))
+
+
+def stamp(time):
+    return time.strftime("%Y-%m-%dT%H:%M:%S.%fZ")
+
+
+def exchanged(days, scratch, times):
+    """Writes the day with exchanges at these times, and the two separate days; returns their data roots.
+
+    @param times  of the second unit, and perhaps of the first one again
+    """
+    root, alone = scratch / "both" / "day", [scratch / "first" / "first", scratch / "second" / "second"]
+    limits = [datetime.datetime.min.replace(tzinfo=UTC), *times, datetime.datetime.max.replace(tzinfo=UTC)]
+    changes = [{"type": "other_unit", "utc": stamp(time), "serial_number": SERIALS[(k + 1) % 2], "before": SERIALS[k % 2]}
+               for k, time in enumerate(times)]
+    metadata = [(day / "metadata" / "station.xml").read_text() for day in days]
+    channels, log, logs = "", [], [[], []]
+    for k, (begin, end) in enumerate(zip(limits, limits[1:])):
+        unit, day = k % 2, days[k % 2]
+        for folder in (root, alone[unit]):
+            copy_archive(day, folder, lambda start, last: begin <= start and last < end)
+        stays = events(day, lambda utc: begin <= utc < end)
+        while stays and stays[0]["type"] != "start":
+            stays.pop(0)  # The box was exchanged during this stay.
+        stays += changes[k:k + 1]
+        log += stays
+        logs[unit] += stays
+        channels += channels_between(metadata[unit], begin if k else None, end if k < len(times) else None)
+    whole = re.sub(r" *<Channel .*</Channel>\n", lambda _: channels, metadata[0], flags=re.S)
+    write_root(root, log, whole, days[0])
+    for unit in range(2):
+        write_root(alone[unit], logs[unit], metadata[unit], days[unit])
+    return root, alone
+
+
+def correct(scratch, name, *roots):
+    out = scratch / name
+    run(BIN / "a351-correct", "survey", *roots, "--out", out, env={"PATH": str(scratch)})  # without gnuplot
+    return {row["site"]: (float(row["gravity_mgal"]), float(row["u_gravity_mgal"])) for row in rows(out / "joint.csv")}, out
+
+
+def look_at(scratch, seed):
+    folder = scratch / str(seed)
+    folder.mkdir()
+    draw = random.Random(f"exchange {seed}")
+    days = [simulate(folder, f"unit{k}", "tsukuba", seed + 100000 * k, 0.25,
+                     f"[sensor]\nbias_mgal = {draw.uniform(-BIAS_MGAL, BIAS_MGAL)}\n", serial)
+            for k, serial in enumerate(SERIALS)]
+    starts = sorted(instant(row["start_utc"]) for row in rows(days[0] / "truth.csv"))
+    first, last = starts[4], starts[-4]
+    at = first + draw.random() * (last - first)
+    times = [at, at + draw.uniform(0.5, 1.0) * (starts[-2] - at)] if seed % 4 == 0 else [at]
+    root, alone = exchanged(days, folder, times)
+    truth = {row["site"]: float(row["gravity_mgal"]) for row in rows(days[0] / "truth.csv")}
+    joint, out = correct(folder, "joint", root)
+    separate, _ = correct(folder, "separate", *alone)
+    kinds = [{finding["kind"] for finding in read_json(file)["findings"]} for file in sorted(out.glob("*/result.json"))]
+    is_named = len(kinds) == 2 and all("other_unit" in each for each in kinds)
+    errors = [[values[site][0] - truth[site] for site in values] for values in (joint, separate)]
+    ratios = [(values[site][0] - truth[site]) / values[site][1] for values in (joint,) for site in values]
+    apart = max(abs(joint[site][0] - separate[site][0]) for site in joint) if joint.keys() == separate.keys() else float("inf")
+    shutil.rmtree(folder)
+    return times, errors, ratios, apart, is_named
+
+
+first_seed = int(sys.argv[1]) if len(sys.argv) > 1 else 81001
+count = int(sys.argv[2]) if len(sys.argv) > 2 else 20
+with Scratch() as scratch:
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = list(pool.map(lambda seed: look_at(scratch, seed), range(first_seed, first_seed + count)))
+print("exchange at           exchanged, separate, mGal   e/u   apart, mGal   named")
+for times, (ours, separate), ratios, apart, is_named in results:
+    print(f"{' and '.join(f'{at:%H:%M:%S}' for at in times):21} {rms(ours):9.2f} {rms(separate):10.2f} {rms(ratios):12.2f} {apart:12.4f}   {is_named}")
+print(f"{len(results)} days: rms {rms([e for r in results for e in r[1][0]]):.3f} mGal with an exchange, "
+      f"{rms([e for r in results for e in r[1][1]]):.3f} as two separate days; e/u {rms([e for r in results for e in r[2]]):.2f}; "
+      f"values differ by at most {max(r[3] for r in results):.4f} mGal; other_unit in {sum(r[4] for r in results)} days")
