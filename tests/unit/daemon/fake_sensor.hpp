@@ -67,6 +67,18 @@ public:
         registers_.set(wire::kDiagStat, diag_stat_bits);
     }
 
+    /// Sets the bits of DIAG_STAT that each start-up raises from now on.
+    void fail_start_ups(std::uint16_t diag_stat_bits) {
+        const std::lock_guard lock(mutex_);
+        registers_.start_up_faults = diag_stat_bits;
+    }
+
+    /// Loses the next answers to reads of a register.
+    void lose_answers(const wire::Register& reg, int count) {
+        const std::lock_guard lock(mutex_);
+        registers_.unanswered[wire::ScriptedRegisters::key(reg)] = count;
+    }
+
     [[nodiscard]] bool is_sampling() const {
         const std::lock_guard lock(mutex_);
         return registers_.is_sampling;

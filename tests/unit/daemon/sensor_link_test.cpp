@@ -361,6 +361,17 @@ TEST_CASE("a failed start-up test is reported until a later one is passed",
         REQUIRE(received.sessions.size() == 1);
         CHECK(received.sessions[0].start_up_test == wire::StartUpTest::hard_error);
     }
+    SECTION("a test whose result is lost on the line is repeated") {
+        sensor.lose_answers(wire::kDiagStat, 1);
+        sensor.fail_start_ups(wire::kDiagFlashError);
+        options.known.reset();
+        ReadQueue queue;
+        SensorLink link(options, clock, queue);
+        link.start();
+        REQUIRE(eventually([&] { return link.status().sessions == 1; }));
+        CHECK(link.status().start_up_test == wire::StartUpTest::flash_error);
+        link.stop();
+    }
     SECTION("a sensor that is configured again repeats the test") {
         ReadQueue queue;
         SensorLink link(options, clock, queue);

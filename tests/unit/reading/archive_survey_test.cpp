@@ -225,6 +225,8 @@ TEST_CASE("a stay during which the sensor was exchanged ends there", "[survey][a
         "day.toml", "[survey]\ntide='none'\noccupations='occupations.csv'\n");
     const std::vector<SurveyFile> parts = by_unit(read_survey_file(file));
     REQUIRE(parts.size() == 2);
+    CHECK(read_survey_inputs(parts[0]).list.windows.back().end ==
+          Morning::kBegin + Morning::kExchange);
     const OccupationRows first = read_survey(parts[0], [](std::size_t, std::size_t) {});
     REQUIRE(first.rows.size() == 2);
     CHECK(first.rows[1].end.value() <= Morning::kBegin + Morning::kExchange);
