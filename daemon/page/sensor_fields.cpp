@@ -35,8 +35,7 @@ Fields device_fields() {
          .value = of(&Status::start_up_test),
          .meaning = "Result of its last start-up test: passed (no error was reported), HARD_ERR, "
                     "FLASH_ERR, or unknown if the answer was lost. An error remains until a later "
-                    "test is passed.",
-         .shown = {row, marked("start-up test")}},
+                    "test is passed."},
         {.path = "/device/state",
          .value = of(&Status::link_state),
          .meaning = "Connection: searching (for the port), handshake, sampling, waiting (before "

@@ -108,6 +108,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     page.status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
     page.status.declared_rate_hz = 50.00025;
     page.status.rate_advice = "change it";
+    page.status.start_up_test = "HARD_ERR";
     page.status.acceleration = {StandardGravity(0.001), StandardGravity(-0.002),
                                 StandardGravity(0.9993)};
     page.status.temperature = DegC(31.25);
@@ -118,6 +119,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/level", R"("warning")"));
     CHECK(is(status, "/reasons", R"(["disk nearly full"])"));
     CHECK(is(status, "/received", "179999"));
+    CHECK(is(status, "/device/start_up_test", R"("HARD_ERR")"));
     CHECK(is(status, "/timing/state", R"("locked")"));
     CHECK(is(status, "/timing/uncertainty_ms", "1.5"));
     CHECK(is(status, "/timing/host_uncertainty_ms", "0.4"));
