@@ -39,6 +39,7 @@
 #include "daemon/survey/occupations.hpp"
 #include "daemon/verdict/lasting_verdict.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/normal_gravity.hpp"
 #include "protocol/text/doubtful_site.hpp"
 #include "protocol/text/write_together.hpp"
 
@@ -330,7 +331,9 @@ ExitStatus identify_sensor(const config::Config& config, const source::HostClock
                                    .settings = config.sensor.settings,
                                    .baud = config.sensor.baud,
                                    .serial_number = config.sensor.expected_serial_number,
-                                   .axes = config.station.codes.axes});
+                                   .axes = config.station.codes.axes,
+                                   .gravity = to_standard_gravity(normal_gravity(
+                                       config.station.latitude, config.station.elevation))});
     const std::string stem = identify::file_stem(seen);
     std::vector<text::NamedText> files{{stem + ".txt", identify::file_text(seen, report)}};
     if (report.toml) files.emplace_back(stem + ".toml", *report.toml);

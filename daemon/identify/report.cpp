@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemon/believable/limits.hpp"
 #include "daemon/identify/received.hpp"
 #include "daemon/identify/temperature.hpp"
 #include "protocol/text/echo.hpp"
@@ -13,7 +14,6 @@ namespace a351::daemon::identify {
 namespace {
 
 constexpr double kRateTolerance = 0.005;
-constexpr double kNormTolerance = 0.05;
 // Standard deviation of an axis at rest, as a part of the norm.  A walk beside the box is a tenth.
 constexpr double kRestTolerance = 0.005;
 // Largest angle between the vertical and an axis that is called vertical.
@@ -132,14 +132,17 @@ private:
     }
 
     void judge_norm(double norm_g) {
-        const double expected_g = expected_.gravity.value();
-        const std::string found =
-            fmt::format("{:.5f} g, expected {:.5f} g within 5 %", norm_g, expected_g);
+        const std::string found = fmt::format(
+            "{:.5f} g, {:+.2f} mg from normal gravity at the position; at rest {:.1f} to {:.1f} g",
+            norm_g, 1e3 * (norm_g - expected_.gravity.value()), believable::kLeastNorm.value(),
+            believable::kMostNorm.value());
         changes_.acceleration_fraction_bits = profile_.acceleration_fraction_bits;
-        if (is_near(norm_g, expected_g, kNormTolerance))
-            return add(Verdict::confirmed, "norm", found);
-        const int excess = norm_g > 0.0 ? std::ilogb(norm_g / expected_g * std::sqrt(2.0)) : 0;
-        if (excess == 0 || !is_near(std::ldexp(norm_g, -excess), expected_g, kNormTolerance))
+        const auto is_scale = [&](int excess) {
+            return believable::is_norm_believable(StandardGravity(std::ldexp(norm_g, -excess)));
+        };
+        if (is_scale(0)) return add(Verdict::confirmed, "norm", found);
+        const int excess = norm_g > 0.0 ? static_cast<int>(std::lround(std::log2(norm_g))) : 0;
+        if (!is_scale(excess))
             return add(Verdict::differs, "norm", found + "; no scale of the family fits");
         *changes_.acceleration_fraction_bits += excess;
         add(Verdict::differs, "norm",

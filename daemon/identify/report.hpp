@@ -50,7 +50,7 @@ struct Report {
 /// Compares what was seen with the configuration.
 ///
 /// The box must be at rest.  Limits: rate and tick 0.5 %, a hundred times the error of a crystal; norm
-/// 5 %, above the bias of any unit of the family.  Noise is shown, not judged.
+/// and temperature as in daemon/believable.  Noise is shown, not judged.
 /// @param seen  an observation with `has_answered`.
 [[nodiscard]] Report report_on(const Observation& seen, const Expected& expected);
 

@@ -91,6 +91,10 @@ TEST_CASE("a scale that is a power of 2 away is named, and is in the profile tha
     };
     const Report report = report_on(odd.observe(), expected_a351());
     CHECK_THAT(only_difference(report, "norm"), Contains("no scale of the family fits"));
+    Expected lower = expected_a351();
+    lower.gravity = StandardGravity(0.999);
+    CHECK_THAT(line_of(report_on(MadeUpSensor{}.observe(), lower), "norm").finding,
+               Contains("1.00002 g, +1.02 mg from normal gravity"));
 }
 
 TEST_CASE("a bias of 40 mg is no other scale, and a box that moves has no norm", "[identify]") {
@@ -145,8 +149,10 @@ TEST_CASE("a temperature of 0 counts, or of no sample, is dead, and a quiet oven
         sensor.change = [&](int, wire::BurstValues& values) { values.temperature = counts; };
         const Report report = report_on(sensor.observe(), expected_a351());
         CHECK(report.differs() == (counts != -1981));
-        CHECK_THAT(line_of(report, "temperature").finding,
-                   Contains(counts == -1981 ? "42.50 degC by profile A351" : "dead"));
+        CHECK_THAT(
+            line_of(report, "temperature").finding,
+            Contains(counts == -1981 ? "profile A351: in each format of the family: 42.50 degC"
+                                     : "none of them is possible"));
     }
 }
 
