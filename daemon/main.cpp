@@ -119,6 +119,7 @@ status::Status snapshot(const config::Config& config, const source::HostClock& c
     status.is_in_real_time = clock.instrument_span(kSecond) == kSecond;
     status.leap = reading.leap;
     status.verdict = live.verdict();
+    status.sensor_troubles = live.troubles();
     status.profile = config.station.profile;
     status.is_profile_verified = config.station.is_profile_verified;
     status.filter = config.station.filter;

@@ -17,6 +17,15 @@ inline constexpr StandardGravity kLeastNorm(0.9), kMostNorm(1.1);
     return norm >= kLeastNorm && norm <= kMostNorm;
 }
 
+/// Largest half peak-to-peak value of an axis in a second for a box at rest, as a share of its norm,
+/// so that a wrong scale does not hide it.  The sensor's noise and traffic are below 0.0005.
+inline constexpr double kMostRestlessness = 0.02;
+/// Smallest norm that this share is taken of: that of a box whose vertical axis is dead.
+inline constexpr StandardGravity kLeastScale(0.1);
+
+/// Share of the rated range beyond which no axis can be: the sensor limits its output to the range.
+inline constexpr double kMostOfRange = 1.1;
+
 /// Limits of the temperature.  The family is rated for -30 to +85 degC: M-A352AD10 data sheet rev.
 /// 20251023, maximum ratings.  The rest is the error of its thermometer, "a reference value" (7.6).
 inline constexpr DegC kColdest(-40.0), kHottest(90.0);
@@ -26,8 +35,37 @@ inline constexpr DegC kColdest(-40.0), kHottest(90.0);
     return temperature >= kColdest && temperature <= kHottest;
 }
 
-/// Largest difference between the sensor's temperature and its oven's: the heat of the sensor and
-/// the error of both thermometers, with a margin.  The published unit in its oven was within 1 degC.
+/// Largest difference between the temperatures of the sensor and of its oven: the heat of the
+/// sensor and the errors of both thermometers, with a margin.  The published unit in its oven was
+/// within 1 degC.
 inline constexpr double kMostFromOven_degc = 5.0;
+/// Largest difference between an oven and its set point that counts as reached.  The published oven
+/// was within 0.5 degC.
+inline constexpr double kAtSetPoint_degc = 1.0;
+/// Largest change in 10 min of a sensor that does not follow its oven.  A box that approaches its
+/// oven from 5 degC away changes by more if its time constant is below 95 min; that of the published
+/// box is 17 min.
+inline constexpr double kMostStill_degc = 0.5;
+
+/// Age of the oven's last answer above which its temperature is not known, s.
+inline constexpr double kOldAnswer_s = 120.0;
+
+/// Time without any change after which a temperature is frozen, s.  A quiet oven changes by one count
+/// of 0.0038 degC in two minutes, and the sensor's noise is several counts.
+inline constexpr int kFrozen_s = 600;
+/// Step of the temperature for which kFrozen_s is valid, degC: M-A352AD10 data sheet rev. 20251023,
+/// 7.6.  A coarser counter changes less often.
+inline constexpr double kUsualStep_degc = 0.0037918;
+/// Ratio of a frozen time to the longest pause before, for a unit with little noise.
+inline constexpr int kFrozenPauses = 5;
+
+/// Time for which every other trouble must last, s.
+inline constexpr int kConfirm_s = 6;
+/// Gap of the samples after which the watch begins again, s: another sensor may be there.
+inline constexpr double kLongGap_s = 10.0;
+
+/// Largest relative error of the sample rate.  A crystal clock is within 0.0001, and a declared rate
+/// must be within 0.001 (a351d.toml(5)); the nearest wrong rate is 2 times.
+inline constexpr double kMostRateError = 0.005;
 
 }  // namespace a351::daemon::believable

@@ -48,7 +48,8 @@ Record::Record(const wire::DeviceProfile& profile, int rate_hz, const verdict::O
       recent_(static_cast<std::size_t>(std::max(kRecentSeconds * rate_hz, kLeastRecent)),
               1.0 / rate_hz),
       thinning_(profile, rate_hz),
-      judge_(options) {}
+      judge_(options),
+      watch_(profile, rate_hz) {}
 
 std::vector<verdict::Change> Record::take(const PlacedSample& sample) {
     const std::lock_guard lock(mutex_);
@@ -71,6 +72,7 @@ std::vector<verdict::Change> Record::take(const PlacedSample& sample) {
     if (!last_ || is_after_gap) judged(judge_.at(sample.time), sample.time);
     last_ = sample.time;
     recent_.take(sample);
+    watch_.take(sample.time, sample.counts);
     std::array<float, kLiveChannelCount> values{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         values[axis] = static_cast<float>(1e3 * profile_.acceleration(sample.counts[axis]).value());
@@ -91,6 +93,7 @@ void Record::end_of_history() {
     const std::lock_guard lock(mutex_);
     history_end_ = last_;
     if (last_) lasting_ = verdict::LastingVerdict(*last_);
+    watch_.restart();
 }
 
 /// Removes the series from `time` on, and judges the rest again.
@@ -110,6 +113,8 @@ void Record::judge_again(UtcTime from) {
 
 void Record::take(const OvenPoint& point) {
     const std::lock_guard lock(mutex_);
+    if (point.place == journal::OvenPlace::inner)
+        watch_.take_oven(point.time, point.process_value, point.set_point);
     std::deque<OvenPoint>& points = ovens_.at(static_cast<std::size_t>(point.place));
     while (!points.empty() && points.back().time > point.time) points.pop_back();
     if (!points.empty() && point.time - points.back().time < kOvenStep) return;
@@ -155,6 +160,11 @@ void Record::judge_by(const verdict::Options& options) {
 verdict::Verdict Record::verdict() const {
     const std::lock_guard lock(mutex_);
     return judge_.verdict();
+}
+
+std::vector<text::Message> Record::troubles() const {
+    const std::lock_guard lock(mutex_);
+    return watch_.troubles();
 }
 
 verdict::RunningReading Record::reading(std::span<const events::Occupation::SetUp> set_ups,

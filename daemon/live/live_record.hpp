@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/believable/watch.hpp"
 #include "daemon/live/history.hpp"
 #include "daemon/live/live_thinning.hpp"
 #include "daemon/verdict/lasting_verdict.hpp"
@@ -95,6 +96,9 @@ public:
     /// caller to judge.
     [[nodiscard]] verdict::Verdict verdict() const;
 
+    /// Returns what is not believable of the samples since the end of the history.
+    [[nodiscard]] std::vector<text::Message> troubles() const;
+
     /// Returns the reading of these set-ups together, as far as they are in memory.
     /// Data outside do not affect it.
     [[nodiscard]] verdict::RunningReading reading(
@@ -127,6 +131,7 @@ private:
     Thinning thinning_;
     verdict::Judge judge_;
     verdict::LastingVerdict lasting_;
+    believable::Watch watch_;
     std::vector<verdict::LiveSample> fresh_;  ///< Kept for reuse.
     std::deque<verdict::LiveSample> thinned_;
     std::array<std::deque<OvenPoint>, 2> ovens_;  ///< In the order of OvenPlace.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "daemon/believable/rate_watch.hpp"
 #include "protocol/oven/controller_values.hpp"
 
 namespace a351::daemon::status {
@@ -37,9 +38,12 @@ void assess_oven(Status& status, const char* name, const source::OvenLinkStatus&
     }
 }
 
-/// Compares the declared rate with one measured over a day, which includes the temperature's daily
-/// course.
+/// Adds a rate that is far from the configured one, and compares the declared rate with one measured
+/// over a day, which includes the temperature's daily course.
 void assess_rate(Status& status) {
+    // An emulator that is faster than real time may lag behind its clock.
+    if (status.wrong_rate && status.is_in_real_time)
+        status.fail(believable::rate_trouble(*status.wrong_rate, status.output_rate_hz));
     constexpr std::chrono::hours kNearlyADay{23};
     // Limit in ppm.  Above it, readers that join records by their rate lose samples in three days.
     constexpr double kTolerable_ppm = 0.2;
@@ -197,6 +201,7 @@ void fill(Status& status, const source::LinkStatus& link) {
 }
 
 void assess(Status& status) {
+    for (const text::Message& trouble : status.sensor_troubles) status.fail(trouble);
     assess_rate(status);
     if (status.oven) assess_oven(status, text::marked("oven"), *status.oven);
     if (status.outer_oven) assess_oven(status, text::marked("outer oven"), *status.outer_oven);

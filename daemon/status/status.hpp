@@ -65,6 +65,7 @@ struct Status {
     timing::LeapSecond leap = timing::LeapSecond::none;  ///< Leap second announced by the host.
     std::optional<ClockStep> clock_step;                 ///< Newest one of this run.
     std::optional<timing::MeasuredRate> measured_rate;
+    std::optional<Hertz> wrong_rate;         ///< See believable::RateWatch.
     std::optional<double> declared_rate_hz;  ///< Rate set in the configuration.
     text::Message rate_advice;               ///< Advice on setting declared_rate_hz; empty if none.
 
@@ -82,6 +83,7 @@ struct Status {
     std::array<StandardGravity, 3> acceleration{};
     DegC temperature;
     verdict::Verdict verdict;
+    std::vector<text::Message> sensor_troubles;        ///< See live::Record::troubles().
     std::optional<source::OvenLinkStatus> oven;        ///< Absent if not enabled.
     std::optional<source::OvenLinkStatus> outer_oven;  ///< Absent if not enabled.
 
@@ -100,8 +102,8 @@ struct Status {
 /// Copies the state of the sensor's link into the status, and adds its reasons.
 void fill(Status& status, const source::LinkStatus& link);
 
-/// Adds the level and reasons of a completely filled status: sample rate, oven, calibration and
-/// sample times.
+/// Adds the level and reasons of a completely filled status: values of the sensor, sample rate, oven,
+/// calibration and sample times.
 void assess(Status& status);
 
 }  // namespace a351::daemon::status

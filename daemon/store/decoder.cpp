@@ -72,6 +72,7 @@ void Decoder::take(const NumberedChunk& numbered) {
     if (is_next_session) last_sample_.reset();
     chunk_ = numbered.number;
     archiver_->take(numbered.chunk);
+    watch_rate(numbered.chunk);
     if (is_next_session) held_.clear();  // Not before: the last session's records end now.
     if (is_header) record_session_ = session_;
     status_.counters = archiver_->counters();
@@ -100,6 +101,16 @@ void Decoder::watch_clock(const journal::Chunk& chunk) {
         header != nullptr ? &header->clock : std::get_if<timing::ClockReading>(&chunk);
     const auto step = reading != nullptr ? clock_watch_.observe(*reading) : std::nullopt;
     if (step) note_step(*step);
+}
+
+void Decoder::watch_rate(const journal::Chunk& chunk) {
+    if (const auto* const header = std::get_if<journal::Header>(&chunk))
+        rate_watch_.emplace(header->output_rate_hz);
+    const auto* const received = std::get_if<journal::RxChunk>(&chunk);
+    const auto index = archiver_->last_index();
+    if (!rate_watch_ || !index || received == nullptr || received->reads.empty()) return;
+    rate_watch_->take(*index, received->reads.back().time);
+    status_.wrong_rate = rate_watch_->wrong_rate();
 }
 
 /// Notes a step if this time is before that of the newest sample: the clock was set back while

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "daemon/believable/rate_watch.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/store/clock_watch.hpp"
 #include "daemon/store/journal_thread.hpp"
@@ -37,6 +38,7 @@ public:
         std::optional<status::ClockStep> clock_step;    ///< Newest one of this run.
         std::optional<status::UnitChange> unit_change;  ///< Newest one of this run.
         std::optional<timing::MeasuredRate> measured_rate;
+        std::optional<Hertz> wrong_rate;  ///< See believable::RateWatch.
     };
 
     /// All objects passed by reference must outlive this.
@@ -82,6 +84,7 @@ private:
                                                                 UtcTime start) const override;
     bool begin_session(const journal::Chunk& chunk);
     void watch_clock(const journal::Chunk& chunk);
+    void watch_rate(const journal::Chunk& chunk);
     void note_if_back(UtcTime utc);
     void note_step(const status::ClockStep& step);
     void watch_sensor(const journal::Header& header);
@@ -110,6 +113,7 @@ private:
     std::optional<UtcTime> newest_;  ///< Time of the newest sample, also of the last run.
     bool has_recorded_ = false;      ///< This run recorded a session or a part of one.
     ClockWatch clock_watch_;
+    std::optional<believable::RateWatch> rate_watch_;  ///< Absent before a session.
     SteadyTime last_model_real_;
     RawTime last_model_;
     Status status_;

@@ -69,6 +69,7 @@ void Store::fill(status::Status& status) {
     status.host_uncertainty = archive.host_uncertainty;
     status.is_host_synchronised = archive.is_host_synchronised;
     status.measured_rate = archive.measured_rate;
+    status.wrong_rate = archive.wrong_rate;
     status.clock_step = archive.clock_step;
     status.unit_change = archive.unit_change;
     status.counters = archive.counters;

@@ -1,6 +1,6 @@
 // Samples are decoded for the live view whatever the disk does.
 
-#include "tests/unit/daemon/store_rig.hpp"
+#include "tests/unit/daemon/stepped_rig.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -103,4 +103,21 @@ TEST_CASE_METHOD(ViewRig,
     CHECK(recover(files, options(), clock).records_conflicting == 0);
     CHECK(archived_counts(root, "BNZ") == expected_counts(fed));
     CHECK(samples_in_records(root, "BNZ") == static_cast<std::size_t>(fed));
+}
+
+TEST_CASE("samples that come 2 % too fast are another rate, until the next session",
+          "[daemon][store][decoding]") {
+    SteppedRig rig;
+    Store store(rig.files, rig.options(), rig.clock, rig.reads);
+    rig.begin_session();
+    rig.period = kPeriod * 50 / 51;
+    rig.advance(store, std::chrono::seconds(40));
+    CHECK_FALSE(status_of(store).wrong_rate);
+    rig.advance(store, std::chrono::seconds(20));
+    const auto rate = status_of(store).wrong_rate;
+    REQUIRE(rate);
+    CHECK(std::abs(rate->value() - 51.0) < 0.05);
+    rig.begin_session(43);
+    rig.advance(store, std::chrono::seconds(1));
+    CHECK_FALSE(status_of(store).wrong_rate);
 }

@@ -42,12 +42,13 @@ struct SteppedRig : Rig {
         return static_cast<std::int32_t>(mixed >> 20) + 16'000'000;
     }
 
+    Nanoseconds period = kPeriod;     ///< From frame to frame.
     Nanoseconds largest_lateness{0};  ///< Largest delay of a frame; less than a period.
 
     /// Returns the arrival time of the frame of sample i.
     [[nodiscard]] UtcTime arrival(int i) const {
         const Nanoseconds late = largest_lateness * (counts(i, 0) % 256) / 256;
-        return UtcTime((first + i * kPeriod + late).time_since_epoch());
+        return UtcTime((first + i * period + late).time_since_epoch());
     }
 
     /// Moves the clock on by `span`.  Every 250 ms frames arrive, and the store takes one step.
@@ -73,7 +74,7 @@ struct SteppedRig : Rig {
     /// Sets the clock back; frames continue at their period.
     void set_clock_back(Nanoseconds by) {
         set(utc - by);
-        first = clock.raw() + kPeriod - fed * kPeriod;
+        first = clock.raw() + period - fed * period;
     }
 
     [[nodiscard]] events::Event note(const std::string& text) const {

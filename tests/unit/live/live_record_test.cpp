@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -29,6 +30,33 @@ TEST_CASE("until the filters are full the verdict is no data, since the first sa
     const Verdict verdict = record.verdict();
     CHECK(verdict.state == verdict::State::no_data);
     CHECK(verdict.since == kZero);
+}
+
+TEST_CASE("troubles of the sensor are those of this run, not of the history", "[live]") {
+    Record record(kProfile, 50, {});
+    const auto play = [&](std::int64_t from) {
+        for (std::int64_t i = from; i < from + 500; ++i) record.take(placed(i, 0.0, 0.0, 490000.0));
+        return record.troubles().size();
+    };
+    CHECK(play(0) == 1);
+    record.end_of_history();
+    CHECK(record.troubles().empty());
+    CHECK(play(500) == 1);
+}
+
+TEST_CASE("the oven inside, not the outer one, is compared with the sensor", "[live]") {
+    for (const auto place : {journal::OvenPlace::inner, journal::OvenPlace::outer}) {
+        Record record(kProfile, 50, {});  // The sensor has 42.5 degC.
+        for (std::int64_t i = 0; i < 50 * 650; ++i) {
+            const PlacedSample sample = placed(i, 0.0, 0.0, 980000.0);
+            if (i % 50 == 0) record.take(OvenPoint{sample.time, DegC(60.0), DegC(60.0), place});
+            record.take(sample);
+        }
+        const auto troubles = record.troubles();
+        CHECK(std::ranges::count_if(troubles, [](const text::Message& trouble) {
+                  return trouble.english().find("follow the oven") != std::string::npos;
+              }) == (place == journal::OvenPlace::inner ? 1 : 0));
+    }
 }
 
 TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]") {

@@ -287,3 +287,22 @@ TEST_CASE("the calibration of another unit is a warning", "[daemon][assess]") {
           "the calibration is for unit 00000042, but the sensor is unit 00000043: the verdict uses "
           "another unit's behaviour; check survey.calibration");
 }
+
+TEST_CASE("values of the sensor that are not believable are a fault", "[daemon][assess]") {
+    Status status = healthy();
+    status.sensor_troubles = {"the acceleration reads 0.50 g"};
+    assess(status);
+    CHECK(status.level == Status::Level::fault);
+    CHECK(status.reasons == status.sensor_troubles);
+}
+
+TEST_CASE("a rate that is 2 % off is a fault in real time", "[daemon][assess]") {
+    for (const bool is_in_real_time : {true, false}) {
+        Status status = healthy();
+        status.is_in_real_time = is_in_real_time;
+        status.output_rate_hz = 50;
+        status.wrong_rate = Hertz(51.0);
+        assess(status);
+        CHECK((status.level == Status::Level::fault) == is_in_real_time);
+    }
+}

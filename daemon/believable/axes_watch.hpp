@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "daemon/believable/limits.hpp"
+#include "daemon/believable/second.hpp"
+#include "protocol/text/message.hpp"
+#include "protocol/wire/device_profile.hpp"
+
+namespace a351::daemon::believable {
+
+/// Watches the axes.  An axis is dead if it has not changed for kConfirm_s while another did.  The
+/// quietest sensor of the family, the M-A370AD10, has a noise of one count: 0.02 uG/sqrt(Hz) over
+/// 9 Hz (its brief sheet).  A scale is wrong if the norm of the box at rest is outside its limits,
+/// or if an axis is beyond the rated range, to which the sensor limits its output.
+///
+/// A box that is knocked, lifted or driven is not at rest, and says nothing about its scale.  The
+/// trouble of a scale lasts until a box at rest contradicts it.
+class AxesWatch {
+public:
+    explicit AxesWatch(const wire::DeviceProfile& profile);
+
+    void take(const Second& second);
+    void append_troubles(std::vector<text::Message>& troubles) const;
+
+private:
+    void judge_life(const Second& second);
+    void judge_scale(const Second& second);
+
+    double g_per_count_, most_g_;
+    std::array<Lasting, kAxisCount> constant_{Lasting(kConfirm_s), Lasting(kConfirm_s),
+                                              Lasting(kConfirm_s)};
+    std::array<bool, kAxisCount> is_dead_{};
+    std::array<std::int32_t, kAxisCount> last_{};
+    Lasting wrong_{kConfirm_s};
+    std::optional<StandardGravity> wrong_norm_;  ///< As it was when the trouble began.
+};
+
+}  // namespace a351::daemon::believable

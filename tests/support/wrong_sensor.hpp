@@ -1,0 +1,63 @@
+#pragma once
+/// @file
+/// Sensors whose profile or hardware is wrong, and what the recorder's watch says of them.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/core/units.hpp"
+#include "protocol/wire/device_profile.hpp"
+#include "sim/scenario/scenario.hpp"
+#include "sim/signal/sample_source.hpp"
+
+namespace a351::sim {
+
+/// Conversion of the counts of a temperature: degC = slope x counts + offset.
+struct TemperatureFormat {
+    double slope_degc = -0.0037918;  ///< That of the profile A351.
+    double offset_degc = 34.987;
+};
+
+/// A kind of sensor that does not fit the profile A351.
+struct WrongSensor {
+    const char* name;
+    double within_s;    ///< Time in which the watch must name it.
+    const char* words;  ///< Words of its trouble.
+    /// Returns the counts that are sent instead of those of the profile.
+    /// @param first  the first sample that is wrong
+    signal::SensorSample (*send)(const signal::SensorSample& now,
+                                 const signal::SensorSample& first);
+    TemperatureFormat assumed = {};  ///< Format of the profile with which they are read.
+};
+
+[[nodiscard]] std::span<const WrongSensor> wrong_sensors();
+
+/// A simulated record and the sensor in it.
+struct WatchedRecord {
+    scenario::Scenario scenario;
+    std::uint64_t seed = 1;
+    double length_s = 0.0;  ///< Length that is played; 0: all.
+    /// Set point of the oven from the start of the record on; absent: that of the scenario.
+    std::optional<DegC> switched_on_to = {};
+    const WrongSensor* wrong = nullptr;  ///< Null: the sensor fits.
+    double wrong_from_s = 0.0;           ///< Time since the start from which it is wrong.
+};
+
+struct FirstTroubles {
+    double at_s = 0.0;  ///< Time since the sensor is wrong, or since the start.
+    std::vector<std::string> texts;
+};
+
+/// Plays a record to the watch, with the answers of the oven's controller once a second.
+/// @return the first troubles; std::nullopt if there are none
+[[nodiscard]] std::optional<FirstTroubles> first_troubles(const WatchedRecord& record);
+
+/// Returns the time after which the rate of a sensor is named, in ten minutes behind an adapter that
+/// delivers every 16 ms, with a stall of up to 0.4 s every two seconds; std::nullopt if it is not.
+/// @param error  relative error of the rate
+[[nodiscard]] std::optional<double> rate_named_after_s(double error, std::uint64_t seed);
+
+}  // namespace a351::sim

@@ -1,0 +1,52 @@
+#include "tests/support/catch.hpp"
+
+#include "tests/support/wrong_sensor.hpp"
+
+namespace a351::sim {
+namespace {
+
+using scenario::load_scenario;
+
+std::string found(const WatchedRecord& record) {
+    const auto troubles = first_troubles(record);
+    return troubles ? troubles->texts.front() : "";
+}
+
+TEST_CASE("knocks, lifts and drives of a survey day are no trouble", "[believable]") {
+    CHECK(found({load_scenario("tsukuba"), 11}) == "");
+    CHECK(found({load_scenario("roadside"), 12, 4 * kSecondsPerHour}) == "");
+}
+
+TEST_CASE("an oven in a hot car is no trouble", "[believable]") {
+    scenario::Scenario hot = load_scenario("hot-afternoon");
+    for (auto& ambient : hot.ambient) ambient.degc += 25.0;
+    CHECK(found({hot, 13}) == "");
+}
+
+TEST_CASE("a box that is switched on in the cold is no trouble", "[believable]") {
+    scenario::Scenario cold = load_scenario("warm-up");
+    const DegC set_point(cold.oven.set_point_degc);
+    cold.oven.set_point_degc = -10.0;
+    CHECK(found({cold, 14, 4 * kSecondsPerHour, set_point}) == "");
+}
+
+TEST_CASE("a box that is turned over is no trouble", "[believable]") {
+    CHECK(found({load_scenario("tumble"), 15}) == "");
+}
+
+TEST_CASE("every kind of wrong sensor is named within its time, in the middle of a stay",
+          "[believable]") {
+    for (const WrongSensor& wrong : wrong_sensors()) {
+        INFO(wrong.name);
+        const auto troubles =
+            first_troubles({load_scenario("indoor"), 16, 1800.0, std::nullopt, &wrong, 300.5});
+        REQUIRE(troubles);
+        CHECK(troubles->at_s <= wrong.within_s);
+        REQUIRE(troubles->texts.size() == 1);
+        CHECK(troubles->texts.front().find(wrong.words) != std::string::npos);
+        CHECK(troubles->texts.front().find("a351d --identify") != std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace a351::sim
