@@ -14,6 +14,7 @@ namespace a351::corrector::judgement {
 ///
 /// - base_not_revisited: the base has one stay, of five or more.
 /// - doubtful_site: text::doubtful_site().
+/// - not_visited: not in a survey with the finding other_unit, which is a part of the day.
 /// @param rows  all readings of the survey, also those that could not be corrected.
 [[nodiscard]] std::vector<reading::Finding> survey_remarks(
     const model::SurveyCorrection& result, const std::vector<reading::SurveyRow>& rows,

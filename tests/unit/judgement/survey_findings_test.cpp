@@ -150,6 +150,17 @@ TEST_CASE("two bad readings of one day are both named", "[mistake]") {
     CHECK(sites == std::set<std::string>{"S2", "S7"});
 }
 
+TEST_CASE("nothing is said of benchmarks that another sensor of the day may have visited",
+          "[mistake]") {
+    const Day day;
+    model::SurveyOptions options;
+    options.model = "t-rate-drift";
+    model::SurveyCorrection result = model::correct_survey(day.rows, options);
+    result.findings.push_back({.kind = FindingKind::other_unit, .code = "other_unit"});
+    CHECK(kinds(judgement::find_mistakes(result, {day.rows, day.sites, nullptr})) ==
+          Kinds{"other_unit"});
+}
+
 TEST_CASE("a base with one stay is named", "[mistake]") {
     Day day;
     for (const std::size_t i : {std::size_t{4}, std::size_t{11}}) {
