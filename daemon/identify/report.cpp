@@ -56,6 +56,12 @@ private:
 
     void judge_identity() {
         const wire::DeviceIdentity& device = seen_.device;
+        constexpr unsigned kFailed = wire::kDiagHardError | wire::kDiagFlashError;
+        compare((device.diag_stat & kFailed) == 0, "start-up test",
+                fmt::format("DIAG_STAT 0x{:04X}; any bit of 0x{:04X} is a fault", device.diag_stat,
+                            kFailed));
+        if (device.product_id.empty())
+            return add(Verdict::unseen, "product and serial number", "not read");
         compare(device.product_id.starts_with(profile_.product_id_prefix), "product",
                 fmt::format("{}; profile {} is for products that begin with {}",
                             text::echoed(device.product_id), profile_.name,
@@ -67,19 +73,18 @@ private:
         else
             compare(device.serial_number == expected_.serial_number, "serial number",
                     serial_number + ", expected " + expected_.serial_number);
-        constexpr unsigned kFailed = wire::kDiagHardError | wire::kDiagFlashError;
-        compare((device.diag_stat & kFailed) == 0, "start-up test",
-                fmt::format("DIAG_STAT 0x{:04X}; any bit of 0x{:04X} is a fault", device.diag_stat,
-                            kFailed));
     }
 
     void judge_registers() {
         std::string silent;
         for (const auto& [reg, value] : seen_.registers)
             if (!value) silent += fmt::format("{}{}", silent.empty() ? "" : ", ", reg->name);
-        compare(silent.empty(), "registers",
-                silent.empty() ? fmt::format("{} answered", seen_.registers.size())
-                               : "no answer from " + silent);
+        if (seen_.registers.empty())
+            add(Verdict::unseen, "registers", "not read");
+        else
+            compare(silent.empty(), "registers",
+                    silent.empty() ? fmt::format("{} answered", seen_.registers.size())
+                                   : "no answer from " + silent);
         compare(seen_.trouble.empty(), "settings",
                 seen_.trouble.empty() ? "the sensor took all of them" : seen_.trouble);
         compare(seen_.baud == expected_.baud, "baud rate",
@@ -90,7 +95,10 @@ private:
         const std::size_t size = expected_.settings.layout.frame_size();
         // The first bytes may be the rest of a frame, and the last ones its begin.
         const bool is_understood = !received_.frames.empty() && received_.skipped < size;
-        if (seen_.bytes.empty()) return add(Verdict::unseen, "frames", "none arrived");
+        if (seen_.bytes.empty()) {
+            return add(seen_.trouble.empty() ? Verdict::differs : Verdict::unseen, "frames",
+                       "no byte arrived");
+        }
         compare(is_understood, "frames",
                 fmt::format("{} of {} bytes each; {} bytes are not understood",
                             received_.frames.size(), size, received_.skipped));
@@ -178,6 +186,7 @@ private:
     /// Chooses the profile that fits.
     void fit() {
         const std::string& product = seen_.device.product_id;
+        if (product.empty() || received_.frames.empty()) return;
         const wire::DeviceProfile* base = &profile_;
         if (!product.starts_with(profile_.product_id_prefix)) {
             const auto* const shipped = shipped_profile_of(product);
@@ -234,7 +243,7 @@ std::string advice(const Report& report, const std::string& profile, const std::
     if (report.toml)
         text = fmt::format("set sensor.profile = \"{0}.toml\": this new file fits\n", stem);
     else if (report.profile.empty())
-        text = "no profile fits\n";
+        text = "no profile is known that fits\n";
     else if (report.profile == profile)
         text = fmt::format("profile {} fits\n", profile);
     else

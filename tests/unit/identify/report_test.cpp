@@ -106,7 +106,7 @@ TEST_CASE("a bias of 40 mg is no other scale, and a box that moves has no norm",
     CHECK(line_of(report_on(sensor.observe(), expected_a351()), "norm").verdict == Verdict::unseen);
 }
 
-TEST_CASE("each format of the temperature is named from 0 to 60 degC, whatever the profile says",
+TEST_CASE("each format of the temperature is named from 7.5 to 60 degC by the profile A351",
           "[identify]") {
     struct Format {
         double slope_degc, offset_degc;
@@ -234,6 +234,22 @@ TEST_CASE("without frames the reason is shown, and what needs frames cannot be s
     CHECK(only_difference(report, "settings") == seen.trouble);
     CHECK(line_of(report, "frames").verdict == Verdict::unseen);
     CHECK(line_of(report, "temperature").verdict == Verdict::unseen);
+
+    seen.trouble.clear();
+    CHECK(only_difference(report_on(seen, expected_a351()), "frames") == "no byte arrived");
+}
+
+TEST_CASE("a sensor that is refused before it is asked for its name has no profile", "[identify]") {
+    Observation seen;
+    seen.port = "/dev/ttyUSB0";
+    seen.baud = 460800;
+    seen.has_answered = true;
+    seen.trouble = "GLOB_CMD: not ready after 3000 ms";
+    const Report report = report_on(seen, expected_a351());
+    CHECK(only_difference(report, "settings") == seen.trouble);
+    CHECK(report.profile.empty());
+    CHECK_FALSE(report.toml);
+    CHECK_THAT(advice(report, "A351", "stem"), Contains("no profile is known that fits\n"));
 }
 
 TEST_CASE("silence, text and other bytes have different explanations", "[identify]") {
