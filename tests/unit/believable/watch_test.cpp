@@ -50,6 +50,8 @@ TEST_CASE("the norm is judged at rest only, and its trouble lasts until rest con
     CHECK(player.watch.troubles()[0].english().starts_with("the acceleration reads 0.50 g"));
     player.play(10, kOne_g / 2, 100, kOne_g / 8);
     CHECK(player.troubles() == 1);
+    player.play(10, kOne_g, 100, kOne_g / 8);
+    CHECK(player.troubles() == 1);
     player.play(10, kOne_g, 100);
     CHECK(player.troubles() == 0);
 }
