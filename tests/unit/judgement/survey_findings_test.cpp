@@ -33,6 +33,8 @@ struct Day {
                     {rows[i].site, Degrees(140.0), Degrees(36.0), Metres(0.0), rows[i].reference});
         }
         sites.push_back({"S9", Degrees(140.0), Degrees(36.0), Metres(0.0), MilliGal(979900.0)});
+        // The references are not those of a place, so they are not compared with normal gravity.
+        for (text::Site& site : sites) site.has_altitude = false;
     }
 
     [[nodiscard]] std::vector<Finding> findings(const std::string& model = "t-rate-drift") const {
@@ -159,6 +161,15 @@ TEST_CASE("nothing is said of benchmarks that another sensor of the day may have
     result.findings.push_back({.kind = FindingKind::other_unit, .code = "other_unit"});
     CHECK(kinds(judgement::find_mistakes(result, {day.rows, day.sites, nullptr})) ==
           Kinds{"other_unit"});
+}
+
+TEST_CASE("a site that does not fit the others is a remark", "[mistake]") {
+    Day day;
+    day.sites[2].longitude = Degrees(-140.0);
+    const auto found = day.findings();
+    REQUIRE(kinds(found) == Kinds{"doubtful_site", "not_visited"});
+    CHECK_THAT(found[0].text.english(), StartsWith(day.sites[2].name + " is "));
+    CHECK_FALSE(found[0].is_headline);
 }
 
 TEST_CASE("a base with one stay is named", "[mistake]") {
