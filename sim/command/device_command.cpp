@@ -90,6 +90,11 @@ void run(const DeviceCommand& command, const std::function<bool()>& should_stop)
                                           ? device::FlashMemory()
                                           : device::read_flash_file(command.state, profile);
     const ClockScale clock = clock_of(command.clock, command.speed, scenario.start());
+    if (clock.simulated(line::host_now()) >= scenario.end())
+        throw InputError(fmt::format(
+            "--clock {}: after the end of the scenario {}; allowed: a time from {} to {}",
+            command.clock, scenario.name, to_rfc3339(scenario.start()),
+            to_rfc3339(scenario.end())));
     line::FaultRules rules{profile, clock.factor};
     if (!command.oven_link.empty()) rules.oven_kinds = oven::Port::fault_kinds();
     line::FaultScript script;

@@ -97,6 +97,8 @@ with Scratch() as scratch:
     refuse("link in place of a foreign link", scratch, ["foreign", "/nonexistent"], *device, "foreign")
     refuse("control socket in place of a file", scratch, ["taken", "no socket"], *device, "sensor",
            "--control", "taken")
+    refuse("clock after the scenario", scratch, ["after the end of the scenario tsukuba", "allowed"], *device, "sensor",
+           "--clock", "scaled:1@2030-01-01T00:00:00Z")
     (scratch / "loop").symlink_to("loop")
     long = "x" * 300
     refuse("empty link", scratch, ["empty path", "allowed"], *device, "")
