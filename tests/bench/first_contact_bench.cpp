@@ -1,0 +1,114 @@
+/// Measures how soon a sensor that does not fit its profile is named, and how often one that fits is
+/// named falsely.  Exits with 1 if a kind is not named in its time, or at the first false alarm.
+///
+///     first_contact_bench [HOURS [NOISE_DEGC]]   hours of ordinary days, default 10000
+///
+/// NOISE_DEGC replaces the noise of the simulated temperature, to find how little a unit may have.
+/// Seeds 1 to 5 are those of the wrong sensors, 101 and more those of the ordinary days.
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "tests/support/wrong_sensor.hpp"
+
+namespace {
+
+using namespace a351;
+using namespace a351::sim;
+using scenario::load_scenario;
+
+constexpr std::uint64_t kSeeds = 5, kFirstOrdinarySeed = 101;
+constexpr double kMostRateTime_s = 60.0;
+
+/// Prints a line for each kind, of all seeds: wrong from the first sample on, and from the middle of a
+/// minute on.
+bool measure_kinds() {
+    bool all = true;
+    std::printf("%-28s %8s %8s %8s\n", "kind", "named", "last s", "limit s");
+    for (const WrongSensor& wrong : wrong_sensors()) {
+        std::uint64_t named = 0, wanted = 0;
+        double last_s = 0.0;
+        for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+            for (const double from_s : {0.0, 300.0 + 7.3 * static_cast<double>(seed)}) {
+                ++wanted;
+                const auto troubles = first_troubles(
+                    {load_scenario("indoor"), seed, 2000.0, std::nullopt, &wrong, from_s});
+                if (!troubles || troubles->texts.front().find(wrong.words) == std::string::npos)
+                    continue;
+                ++named;
+                last_s = std::max(last_s, troubles->at_s);
+            }
+        }
+        std::printf("%-28s %4zu/%-3zu %8.1f %8.0f\n", wrong.name, named, wanted, last_s,
+                    wrong.within_s);
+        all = all && named == wanted && last_s <= wrong.within_s;
+    }
+    for (const double error : {0.02, -0.02, 0.0075, -0.0075}) {
+        std::uint64_t named = 0;
+        double last_s = 0.0;
+        for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+            const auto named_s = rate_named_after_s(error, seed);
+            if (!named_s) continue;
+            ++named;
+            last_s = std::max(last_s, *named_s);
+        }
+        std::printf("rate %+.2f %%                 %4zu/%-3zu %8.1f %8.0f\n", 100.0 * error, named,
+                    kSeeds, last_s, kMostRateTime_s);
+        all = all && named == kSeeds && last_s <= kMostRateTime_s;
+    }
+    return all;
+}
+
+/// Returns an ordinary record: days of several kinds, a cold start, a hot car.
+WatchedRecord ordinary(std::uint64_t seed) {
+    constexpr std::array kNames{"tsukuba",     "indoor", "warm-up", "roadside", "hot-afternoon",
+                                "double-oven", "tumble", "tilted",  "quiet",    "three-links"};
+    const auto turn = static_cast<std::size_t>(seed);
+    WatchedRecord record{load_scenario(kNames.at(turn % kNames.size())), seed};
+    const std::string& name = record.scenario.name;
+    if (name == "warm-up") {
+        record.switched_on_to = DegC(record.scenario.oven.set_point_degc);
+        record.scenario.oven.set_point_degc = -20.0 + static_cast<double>(turn / 10 % 50);
+    }
+    if (name == "hot-afternoon")
+        for (auto& ambient : record.scenario.ambient) ambient.degc += 20.0;
+    return record;
+}
+
+bool measure_ordinary_days(double hours, double noise_degc) {
+    bool all = true;
+    double played_h = 0.0;
+    int days = 0;
+    for (std::uint64_t seed = kFirstOrdinarySeed; played_h < hours; ++seed, ++days) {
+        WatchedRecord record = ordinary(seed);
+        if (noise_degc >= 0.0) {
+            record.scenario.sensor.temperature_white_degc = noise_degc;
+            record.scenario.slow_noise.temperature_degc = 0.0;
+        }
+        played_h +=
+            seconds_between(record.scenario.start(), record.scenario.end()) / kSecondsPerHour;
+        const auto troubles = first_troubles(record);
+        if (!troubles) continue;
+        all = false;
+        std::printf("  false: %s, seed %llu, after %.0f s: %s\n", record.scenario.name.c_str(),
+                    static_cast<unsigned long long>(seed), troubles->at_s,
+                    troubles->texts.front().c_str());
+    }
+    std::printf("ordinary days: %d, %.0f h, %s\n", days, played_h,
+                all ? "no false alarm" : "false alarms as above");
+    return all;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    const double hours = count > 1 ? std::atof(arguments[1]) : 10'000.0;
+    const double noise_degc = count > 2 ? std::atof(arguments[2]) : -1.0;
+    bool all = noise_degc >= 0.0 || measure_kinds();
+    all = measure_ordinary_days(hours, noise_degc) && all;
+    std::puts(all ? "PASS" : "FAIL");
+    return all ? 0 : 1;
+}
