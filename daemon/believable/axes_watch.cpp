@@ -50,7 +50,7 @@ void AxesWatch::judge_scale(const Second& second) {
     const bool is_at_rest =
         restlessness_g <= kMostRestlessness * std::max(norm, kLeastScale).value();
     const bool is_beyond_range = largest_g > most_g_;
-    const bool is_believable = !is_beyond_range && norm >= kLeastNorm && norm <= kMostNorm;
+    const bool is_believable = !is_beyond_range && is_norm_believable(norm);
     if (is_at_rest && is_believable) wrong_norm_.reset();
     const bool is_wrong = is_beyond_range || (is_at_rest && !is_believable);
     if (wrong_.take(is_wrong) && !wrong_norm_) wrong_norm_ = norm;

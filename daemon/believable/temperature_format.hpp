@@ -4,9 +4,7 @@
 /// that of the M-A351, so the right one is found by exclusion.
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "protocol/core/units.hpp"
@@ -19,11 +17,7 @@ struct TemperatureFormat {
     const char* name;
     double slope_degc;
     double offset_degc;
-    int width_bits;
-    const char* source;
 
-    /// Returns the section of a profile file: three keys, one a line.
-    [[nodiscard]] std::string toml() const;
     /// Returns true if the profile converts with this format; the width of the counter is ignored.
     [[nodiscard]] bool is_that_of(const wire::DeviceProfile& profile) const noexcept;
 };
@@ -34,28 +28,21 @@ struct TemperatureFormat {
 /// The temperature that counts mean in a format.
 struct TemperatureCandidate {
     const TemperatureFormat* format;
-    DegC temperature;           ///< Mean.
-    double scatter_degc = 0.0;  ///< Largest minus smallest value.
+    DegC temperature;  ///< Mean.
     bool is_possible = false;
 };
 
 /// Converts counts of at least some seconds in each format.  A format is possible if
 ///
-///   - the mean is believable (limits.hpp), and not farther from the oven's temperature than
-///     kMostFromOven_degc if this is known;
+///   - the mean is believable (limits.hpp);
 ///   - not all counts are smaller than its step.  The format with counts of 1/65536 changes in steps
 ///     of 65536: smaller counts are those of another format, and would read as its offset.
 ///
 /// Counts that are all 0 or all -1 are those of a register without a value: no format is possible.
 ///
 /// @param counts  > 0 counts as received, in any order.
-/// @param oven    temperature of the controller, only if the sensor has had time to take it.
 /// @return        one candidate per format, in the order of temperature_formats().
 [[nodiscard]] std::vector<TemperatureCandidate> temperature_candidates(
-    std::span<const std::int32_t> counts, std::optional<DegC> oven = std::nullopt);
-
-/// Returns the only possible format; null if none or several are possible.
-[[nodiscard]] const TemperatureFormat* only_possible(
-    std::span<const TemperatureCandidate> candidates) noexcept;
+    std::span<const std::int32_t> counts);
 
 }  // namespace a351::daemon::believable

@@ -27,7 +27,7 @@ void TemperatureWatch::take_oven(UtcTime time, std::optional<DegC> oven, DegC se
 }
 
 void TemperatureWatch::judge_range(DegC temperature) {
-    const bool is_outside = temperature < kColdest || temperature > kHottest;
+    const bool is_outside = !is_temperature_believable(temperature);
     if (!is_outside) outside_degc_.reset();
     if (outside_.take(is_outside) && !outside_degc_) outside_degc_ = temperature;
 }
