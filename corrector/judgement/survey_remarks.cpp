@@ -64,10 +64,10 @@ std::vector<Finding> survey_remarks(const model::SurveyCorrection& result,
                                     const std::vector<text::Site>& sites) {
     std::vector<Finding> remarks;
     if (auto finding = base_not_revisited(result)) remarks.push_back(std::move(*finding));
-    if (auto finding = doubt_about(sites)) remarks.push_back(std::move(*finding));
     const bool is_part_of_day =
         std::ranges::count(result.findings, FindingKind::other_unit, &Finding::kind) > 0;
     if (is_part_of_day) return remarks;  // The other sensor may have been there.
+    if (auto finding = doubt_about(sites)) remarks.push_back(std::move(*finding));
     if (auto finding = not_visited(rows, sites)) remarks.push_back(std::move(*finding));
     return remarks;
 }

@@ -67,10 +67,13 @@ void stop_sampling(source::Port& port) {
 void ask(const source::LinkOptions& link, source::Port& port, const source::HostClock& clock,
          Observation& seen) {
     const std::atomic<bool> stop{false};
-    wire::Handshake handshake(*link.profile, link.settings);
+    // An unknown result makes the handshake reset the sensor, which repeats its start-up test: an
+    // earlier question may have cleared a failed one.
+    wire::Handshake handshake(*link.profile, link.settings, {}, wire::StartUpTest::unknown);
     handshake.read_all_registers();
     const source::HandshakeRun run = source::run_handshake(handshake, port, clock, stop);
     seen.device = handshake.identity();
+    seen.start_up_test = handshake.start_up_test();
     seen.registers = handshake.registers();
     seen.has_answered = !seen.registers.empty();
     seen.trouble.clear();

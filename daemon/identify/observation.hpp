@@ -21,6 +21,8 @@ struct Observation {
     std::string trouble;
     bool has_answered = false;  ///< True if a question got a valid answer.
     wire::DeviceIdentity device;
+    /// Result of the test that the reset of this question made.
+    wire::StartUpTest start_up_test = wire::StartUpTest::unknown;
     std::vector<wire::RegisterValue> registers;  ///< As they were before a setting was written.
     std::vector<std::byte> bytes;                ///< Received while sampling.
     std::vector<journal::ReadStamp> reads;       ///< Arrivals of `bytes`.

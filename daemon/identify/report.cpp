@@ -13,7 +13,6 @@
 namespace a351::daemon::identify {
 namespace {
 
-constexpr double kRateTolerance = 0.005;
 // Standard deviation of an axis at rest, as a part of the norm.  A walk beside the box is a tenth.
 constexpr double kRestTolerance = 0.005;
 // Largest angle between the vertical and an axis that is called vertical.
@@ -54,12 +53,19 @@ private:
         add(agrees ? Verdict::confirmed : Verdict::differs, std::move(topic), std::move(finding));
     }
 
+    /// Adds a line after which no profile can be said to fit.
+    void leave_open(std::string topic, Verdict verdict, std::string finding) {
+        is_fit_open_ = true;
+        add(verdict, std::move(topic), std::move(finding));
+    }
+
     void judge_identity() {
         const wire::DeviceIdentity& device = seen_.device;
-        constexpr unsigned kFailed = wire::kDiagHardError | wire::kDiagFlashError;
-        compare((device.diag_stat & kFailed) == 0, "start-up test",
-                fmt::format("DIAG_STAT 0x{:04X}; any bit of 0x{:04X} is a fault", device.diag_stat,
-                            kFailed));
+        if (seen_.start_up_test == wire::StartUpTest::unknown)
+            add(Verdict::unseen, "start-up test", "its result was not received");
+        else
+            compare(seen_.start_up_test == wire::StartUpTest::passed, "start-up test",
+                    std::string(wire::to_text(seen_.start_up_test)));
         if (device.product_id.empty())
             return add(Verdict::unseen, "product and serial number", "not read");
         compare(device.product_id.starts_with(profile_.product_id_prefix), "product",
@@ -104,11 +110,11 @@ private:
                             received_.frames.size(), size, received_.skipped));
         if (received_.rate_hz <= 0.0) return add(Verdict::unseen, "rate", "too few frames");
         const int rate_hz = expected_.settings.output_rate_hz;
-        compare(is_near(received_.rate_hz, rate_hz, kRateTolerance), "rate",
+        compare(is_near(received_.rate_hz, rate_hz, believable::kMostRateError), "rate",
                 fmt::format("{:.3f} frames a second, expected {} within 0.5 %", received_.rate_hz,
                             rate_hz));
         const double tick_hz = received_.rate_hz * received_.count_step;
-        compare(is_near(tick_hz, profile_.internal_rate_hz, kRateTolerance), "tick",
+        compare(is_near(tick_hz, profile_.internal_rate_hz, believable::kMostRateError), "tick",
                 fmt::format("COUNT rises by {} a frame, {:.1f} a second, expected {} within 0.5 %",
                             received_.count_step, tick_hz, profile_.internal_rate_hz));
     }
@@ -126,7 +132,7 @@ private:
         }
         const double norm_g = std::sqrt(square);
         if (scatter > kRestTolerance * norm_g)
-            add(Verdict::unseen, "norm", "the box moved; leave it at rest and repeat");
+            leave_open("norm", Verdict::unseen, "the box moved; leave it at rest and repeat");
         else
             judge_norm(norm_g);
         judge_vertical(mean_g, norm_g);
@@ -151,7 +157,7 @@ private:
         if (is_scale(0)) return add(Verdict::confirmed, "norm", found);
         const int excess = norm_g > 0.0 ? static_cast<int>(std::lround(std::log2(norm_g))) : 0;
         if (!is_scale(excess))
-            return add(Verdict::differs, "norm", found + "; no scale of the family fits");
+            return leave_open("norm", Verdict::differs, found + "; no scale of the family fits");
         *changes_.acceleration_fraction_bits += excess;
         add(Verdict::differs, "norm",
             fmt::format("{}; acceleration.fraction_bits = {} fits", found,
@@ -163,7 +169,7 @@ private:
             std::ranges::max_element(mean_g, {}, [](double g) { return std::abs(g); });
         const auto axis = static_cast<std::size_t>(longest - mean_g.begin());
         const double tilt_deg = std::acos(std::min(1.0, std::abs(*longest) / norm_g)) * kDegPerRad;
-        if (!(tilt_deg <= kMostTilt_deg))
+        if (norm_g <= 0.0 || !(tilt_deg <= kMostTilt_deg))
             return add(Verdict::unseen, "vertical axis", "no axis is within 30 degrees");
         const auto called = std::ranges::find(expected_.axes, "Z");
         const std::string found = fmt::format("{}{}, {:.1f} degrees from the vertical",
@@ -179,6 +185,7 @@ private:
         if (received_.frames.empty() || !expected_.settings.layout.has_temperature())
             return add(Verdict::unseen, "temperature", "no frames with it");
         const TemperatureFinding finding = temperature_of(received_.frames, profile_);
+        if (!finding.fits) return leave_open("temperature", finding.verdict, finding.text);
         add(finding.verdict, "temperature", finding.text);
         changes_.temperature = finding.fits;
     }
@@ -186,7 +193,7 @@ private:
     /// Chooses the profile that fits.
     void fit() {
         const std::string& product = seen_.device.product_id;
-        if (product.empty() || received_.frames.empty()) return;
+        if (product.empty() || received_.frames.empty() || is_fit_open_) return;
         const wire::DeviceProfile* base = &profile_;
         if (!product.starts_with(profile_.product_id_prefix)) {
             const auto* const shipped = shipped_profile_of(product);
@@ -212,6 +219,7 @@ private:
     const wire::DeviceProfile& profile_;
     Received received_;
     Changes changes_;
+    bool is_fit_open_ = false;
     Report report_;
 };
 
@@ -260,7 +268,7 @@ std::string explain_silence(const Observation& seen) {
         const std::string line = seen.heard.substr(0, seen.heard.find_first_of("\r\n", 1));
         return fmt::format(
             "{}: text arrives (\"{}\"): this is another instrument, for example a GPS receiver; "
-            "nothing was sent to it; find the sensor's port with a351d --list-ports",
+            "find the sensor's port with a351d --list-ports",
             seen.port, text::echoed(line));
     }
     if (!seen.heard.empty()) {

@@ -219,10 +219,11 @@ void SensorLink::handle_failure(const wire::HandshakeFailure& failure, std::size
     const bool may_be_baud = failure.is_unanswered && (bytes_skipped > 0 || failures_in_a_row_ > 0);
     if (may_be_baud && try_next_baud()) return;
     bauds_tried_ = 0;
-    strange_bytes_ = failure.is_unanswered ? strange_bytes_ + bytes_skipped : 0;
+    const bool is_talk = strange_bytes_ + bytes_skipped >= kLeastTalk;
+    strange_bytes_ = 0;  // Noise of hours is no talk.
     if (!failure.is_unanswered)
         back_off(text::marked_message(failure.reason));
-    else if (strange_bytes_ >= kLeastTalk)
+    else if (is_talk)
         back_off(
             text::message("bytes arrive, but none can be understood at any baud rate: another "
                           "device, such as a GPS receiver; check sensor.port"));

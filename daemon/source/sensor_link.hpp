@@ -119,7 +119,7 @@ private:
     std::vector<int> bauds_;     ///< Rates to try; the first is in use.
     std::size_t bauds_tried_ = 0;
     std::size_t failures_in_a_row_ = 0;
-    std::size_t strange_bytes_ = 0;  ///< Bytes since the last frame or answer that are neither.
+    std::size_t strange_bytes_ = 0;  ///< Bytes since the last try that are no answer.
     bool has_frames_ = false;        ///< Frames were received since sampling began.
     Nanoseconds slept_{0};           ///< HostClock::slept() when the last bytes were received.
     /// A session whose sampling was started; it begins with its first byte.

@@ -85,7 +85,7 @@ void assess_unit(Status& status) {
     const auto& change = status.unit_change;
     if (!change || status.now - change->since >= kChangeShown) return;
     status.warn(text::message(
-        "another sensor records since {}: {} after {}; a running stay was ended; the correction "
+        "another sensor records since {}: {} after {}; a stay that was running has ended; the correction "
         "gives each sensor its own constant; if nobody exchanged it, check which box is connected",
         to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
 }

@@ -104,8 +104,10 @@ void Decoder::watch_clock(const journal::Chunk& chunk) {
 }
 
 void Decoder::watch_rate(const journal::Chunk& chunk) {
-    if (const auto* const header = std::get_if<journal::Header>(&chunk))
+    if (const auto* const header = std::get_if<journal::Header>(&chunk)) {
         rate_watch_.emplace(header->output_rate_hz);
+        status_.wrong_rate.reset();
+    }
     const auto* const received = std::get_if<journal::RxChunk>(&chunk);
     const auto index = archiver_->last_index();
     if (!rate_watch_ || !index || received == nullptr || received->reads.empty()) return;

@@ -91,7 +91,8 @@ void OccupationReplay::apply(const Event& event) {
         if (stay) add_note(stay->note, event);
     }
     if (!running_) return;
-    if (event.type == "other_unit") {
+    // A stay that began after the last sample of the sensor before is one of the new sensor.
+    if (event.type == "other_unit" && event.utc > running_->start) {
         add_text(running_->note, "another sensor: " + detail(event, "serial_number") + " after " +
                                      detail(event, "before"));
         return end_running(std::max(event.utc, running_->set_ups.back()), true);

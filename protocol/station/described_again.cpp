@@ -48,6 +48,7 @@ Description description_of(const journal::Header& header, const wire::DeviceProf
     description.is_profile_verified = profile.is_verified;
     description.product_id = header.product_id;
     description.serial_number = header.serial_number;
+    description.start_up_test = header.start_up_test;
     description.firmware = header.firmware;
     description.output_rate_hz = header.output_rate_hz;
     description.filter = header.filter;

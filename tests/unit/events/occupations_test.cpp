@@ -149,6 +149,8 @@ TEST_CASE("another sensor ends the running occupation at the last sample of the 
     // The set-up began after the last sample.
     CHECK(shown({start("09:00", "A"), event_of("setup", "09:06"), change("09:05")}) ==
           Lines{"A#1 09:00-09:06"});
+    // The stay was started between the unplugging of one sensor and the first sample of the other.
+    CHECK(shown({start("10:00", "A"), change("09:50"), stop("10:10")}) == Lines{"A#1 10:00-10:10"});
 }
 
 TEST_CASE("events of other kinds change no occupation", "[record][occupations]") {

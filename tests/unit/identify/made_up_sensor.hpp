@@ -26,6 +26,7 @@ struct MadeUpSensor {
         seen.port = "/dev/ttyUSB0";
         seen.baud = 460800;
         seen.has_answered = true;
+        seen.start_up_test = wire::StartUpTest::passed;
         seen.device = {product, "00000042", 7, 0, true};
         seen.time = *parse_rfc3339("2026-03-01T12:00:00Z");
         for (const wire::Register& reg : wire::kRegisters)

@@ -106,6 +106,30 @@ TEST_CASE("a bias of 40 mg is no other scale, and a box that moves has no norm",
     CHECK(line_of(report_on(sensor.observe(), expected_a351()), "norm").verdict == Verdict::unseen);
 }
 
+TEST_CASE("no profile fits where no scale does, or where the box moved", "[identify]") {
+    MadeUpSensor sensor;
+    sensor.change = [](int, wire::BurstValues& values) {
+        for (std::int32_t& axis : values.axes) axis = axis / 10 * 7;
+    };
+    const Report report = report_on(sensor.observe(), expected_a351());
+    CHECK(line_of(report, "norm").verdict == Verdict::differs);
+    CHECK(report.profile.empty());
+    CHECK_FALSE(report.toml);
+
+    sensor.change = [](int i, wire::BurstValues& values) {
+        values.axes[0] += i % 100 < 50 ? 1 << 20 : 0;
+    };
+    const Report moved = report_on(sensor.observe(), expected_a351());
+    CHECK(line_of(moved, "norm").verdict == Verdict::unseen);
+    CHECK(moved.profile.empty());
+}
+
+TEST_CASE("a start-up test whose result is not known is not confirmed", "[identify]") {
+    Observation seen = MadeUpSensor().observe();
+    seen.start_up_test = wire::StartUpTest::unknown;
+    CHECK(line_of(report_on(seen, expected_a351()), "start-up test").verdict == Verdict::unseen);
+}
+
 TEST_CASE("each format of the temperature is named from 7.5 to 60 degC by the profile A351",
           "[identify]") {
     struct Format {
@@ -209,9 +233,9 @@ TEST_CASE("baud rate, serial number, start-up test and silent registers are comp
     CHECK(only_difference(report_on(seen, expected_a351()), "baud rate") ==
           "230400, expected 460800");
     seen = MadeUpSensor{}.observe();
-    seen.device.diag_stat = wire::kDiagHardError;
+    seen.start_up_test = wire::StartUpTest::hard_error;
     CHECK_THAT(only_difference(report_on(seen, expected_a351()), "start-up test"),
-               Contains("0x00E0"));
+               Contains("HARD_ERR"));
     seen = MadeUpSensor{}.observe();
     seen.registers[3].value.reset();
     CHECK(only_difference(report_on(seen, expected_a351()), "registers") == "no answer from FLAG");

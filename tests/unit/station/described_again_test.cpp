@@ -49,6 +49,7 @@ void record(const archive::DataRoot& root, const DeviceProfile& profile) {
         header.profile = profile.name;
         header.filter = profile.filter_coded(6)->name;
         header.declared_rate_hz = 50.0005;
+        header.start_up_test = wire::StartUpTest::hard_error;
         stream.chunks.front() = header;
         const std::int64_t first = begin / 20ms;
         stream.frames(first, first + 15'000);
@@ -59,6 +60,7 @@ void record(const archive::DataRoot& root, const DeviceProfile& profile) {
         description.profile = profile.name;
         description.product_id = header.product_id;
         description.serial_number = header.serial_number;
+        description.start_up_test = header.start_up_test;
         description.firmware = header.firmware;
         description.filter = header.filter;
         description.declared_rate_hz = header.declared_rate_hz;
