@@ -35,7 +35,7 @@ private:
     std::array<bool, kAxisCount> is_dead_{};
     std::array<std::int32_t, kAxisCount> last_{};
     Lasting wrong_{kConfirm_s};
-    std::optional<StandardGravity> wrong_norm_;  ///< As it was when the trouble began.
+    std::optional<StandardGravity> wrong_norm_;  ///< Norm at the begin of the trouble.
 };
 
 }  // namespace a351::daemon::believable

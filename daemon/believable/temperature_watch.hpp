@@ -40,12 +40,12 @@ private:
 
     double slope_degc_, offset_degc_;  ///< degC = slope x counts + offset.
     Lasting outside_{kConfirm_s};
-    std::optional<DegC> outside_degc_;  ///< As it was when the trouble began.
+    std::optional<DegC> outside_degc_;  ///< Temperature at the begin of the trouble.
 
     std::optional<OvenAnswer> answer_;
     DegC still_at_;  ///< Temperature at the begin of the time in which it has hardly moved.
     Lasting off_{kFrozen_s};
-    std::optional<DegC> off_degc_;  ///< As it was when the trouble began.
+    std::optional<DegC> off_degc_;  ///< Temperature at the begin of the trouble.
 
     int frozen_after_s_;
     std::int32_t last_ = 0;

@@ -23,7 +23,7 @@ struct Observation {
     wire::DeviceIdentity device;
     /// Result of the test that the reset of this question made.
     wire::StartUpTest start_up_test = wire::StartUpTest::unknown;
-    std::vector<wire::RegisterValue> registers;  ///< As they were before a setting was written.
+    std::vector<wire::RegisterValue> registers;  ///< Read before a setting was written.
     std::vector<std::byte> bytes;                ///< Received while sampling.
     std::vector<journal::ReadStamp> reads;       ///< Arrivals of `bytes`.
     UtcTime time;                                ///< Time of the end.

@@ -46,7 +46,7 @@ function difference_text(gravity) {
 export class OccupationPanel {
     constructor() {
         this.sites = [];
-        this.doubt = ""; // What is doubtful in their list.
+        this.doubt = ""; // Sentence about the site that fits least; empty if all fit.
         this.shown_sites = null; // The list of sites that is shown, as JSON.
         this.list = [];
         this.discarded = [];

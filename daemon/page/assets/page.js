@@ -32,7 +32,7 @@ let connected_at_ms = 0;
 let newest_ms = null; // Instrument time of the newest sample.
 let advanced_at_ms = performance.now(); // Time at which it became known, by this page's clock.
 
-let clocks_ms = []; // By how much this page's clock was ahead of the recorder's, at the last statuses.
+let clocks_ms = []; // Time of this page minus that of the recorder, for each of the last statuses.
 
 /** Says if the clocks of page and recorder differ.  A status that comes late looks like a fast clock, so several must say so. */
 function compare_clocks(host_now) {
