@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "corrector/archive_series/samples.hpp"
 #include "corrector/archive_series/utc_grid.hpp"
 #include "protocol/archive/miniseed.hpp"
 #include "protocol/core/input_error.hpp"
@@ -175,10 +176,16 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
         note(report, data.damage);
         begin = end;
     }
+    std::vector<std::string> channels;
+    for (const station::ChannelScale& channel : metadata.channels) channels.push_back(channel.code);
+    for (const auto& [channel, day] : archive::absent_day_files(
+             options.root / "archive", metadata.codes, channels, options.from, options.to))
+        if (channel == options.channel) report.absent.push_back(absent_file(channel, day));
     if (report.values == 0) {
-        throw InputError(fmt::format("{}: no samples of {} from {} to {}", options.root.string(),
-                                     options.channel, to_rfc3339(options.from),
-                                     to_rfc3339(options.to)));
+        throw InputError(
+            fmt::format("{}: no samples of {} from {} to {}{}", options.root.string(),
+                        options.channel, to_rfc3339(options.from), to_rfc3339(options.to),
+                        report.absent.empty() ? "" : ": " + report.absent.front().english()));
     }
     writer.end_run();
     return report;

@@ -10,6 +10,14 @@
 
 namespace a351::corrector::archive_series {
 
+text::Message absent_file(const std::string& channel, UtcTime day) {
+    return text::message(
+        "{} has no day file of {}, but another channel has one: copy the archive again, or write "
+        "it "
+        "again with retime",
+        channel, to_rfc3339(day).substr(0, 10));
+}
+
 std::vector<archive::ChannelData> read_samples(const std::filesystem::path& root,
                                                const Epoch& epoch, const Span& span) {
     std::vector<archive::ChannelData> samples(epoch.channels.size());
@@ -60,6 +68,17 @@ std::optional<UtcTime> add_journaled(std::vector<archive::ChannelData>& samples,
     for (std::size_t k = 0; k < samples.size(); ++k)
         tail.append_to(samples[k], epoch.channels[k].code, span.from(k), span.to);
     return tail.end();
+}
+
+std::vector<text::Message> absent_files(const std::filesystem::path& root, const Epoch& epoch,
+                                        const Span& span) {
+    std::vector<std::string> channels;
+    for (std::size_t k = 0; k < kOuter; ++k) channels.push_back(epoch.channels[k].code);
+    std::vector<text::Message> warnings;
+    for (const auto& [channel, day] : archive::absent_day_files(root / "archive", epoch.codes,
+                                                                channels, span.axes_from, span.to))
+        warnings.push_back(absent_file(channel, day));
+    return warnings;
 }
 
 void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData& channel) {

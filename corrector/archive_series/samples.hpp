@@ -58,6 +58,14 @@ std::optional<UtcTime> add_journaled(std::vector<archive::ChannelData>& samples,
                                      const std::filesystem::path& root, const Epoch& epoch,
                                      const Span& span);
 
+/// Returns the warning that a channel has no day file, though another one has.
+[[nodiscard]] text::Message absent_file(const std::string& channel, UtcTime day);
+
+/// Returns a warning for each day file that is absent in the span although another channel of the
+/// epoch has one; see archive::absent_day_files().  An outer oven may be installed later.
+[[nodiscard]] std::vector<text::Message> absent_files(const std::filesystem::path& root,
+                                                      const Epoch& epoch, const Span& span);
+
 /// Adds a warning for each piece of the channel's files that could not be read.  The English text is
 /// that of archive::to_text(); earlier warnings are kept.
 void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData& channel);

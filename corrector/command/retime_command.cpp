@@ -35,6 +35,13 @@ void run(const RetimeOptions& options) {
                                  damage.file.string(), damage.offset, damage.byte_count,
                                  damage.reason);
     }
+    for (const auto& absent : journal::absent_segments(options.root / "journal")) {
+        std::cerr << fmt::format(
+            "a351-correct: {}: no segment {}{} between {} and {}: copy the journal again\n",
+            (options.root / "journal").string(), absent.first,
+            absent.last > absent.first ? fmt::format(" to {}", absent.last) : "",
+            absent.before.filename().string(), absent.after.filename().string());
+    }
     std::cout << fmt::format(
         "{}: {} records of {} runs from {} journal segments; {} frames, {} gaps, {} samples "
         "missing\n",

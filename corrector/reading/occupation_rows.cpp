@@ -199,6 +199,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     if (!mounting.empty()) result.warnings.push_back(mounting);
     result.amendments = amendments;
     result.sites = sites;
+    std::vector<text::Message> absent = archive_series::absent_files(source.root, epoch, span);
+    result.warnings.insert(result.warnings.end(), absent.begin(), absent.end());
     for (const archive::ChannelData& channel : samples)
         archive_series::add_damage(result.warnings, channel);
     std::vector<OccupationWindow> averaged;
@@ -219,11 +221,13 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         averaged.push_back(std::move(set_up.window));
     }
     if (result.rows.empty()) {
-        throw Refused("no_reading", fmt::format("{}: root = {}: no occupation has samples; last: "
-                                                "{}; allowed: an archive that covers "
-                                                "these hours",
-                                                source.path.string(), source.root.string(),
-                                                result.warnings.back()));
+        const text::Message& cause = absent.empty() ? result.warnings.back() : absent.front();
+        const std::string root = source.root.string();
+        throw Refused(
+            "no_reading",
+            fmt::format(
+                "{}: no occupation has samples: {}; allowed: an archive that covers these hours",
+                source.path.empty() ? root : source.path.string() + ": root = " + root, cause));
     }
     for (Finding& remark : stay_remarks(averaged, samples[kVertical]))
         result.findings.push_back(std::move(remark));

@@ -18,8 +18,8 @@ namespace http = page::http;
 using page::error_code;
 using page::into;
 
-// Time limit of a request.  It exceeds the daemon's own, whose message then arrives first.
-constexpr std::chrono::seconds kPatience{15};
+// Time limit of a request, with its answer: an operator does not wait for a daemon that hangs.
+constexpr std::chrono::seconds kPatience{2};
 constexpr std::uint64_t kLargestAnswer = std::uint64_t{64} * 1024 * 1024;
 
 asio::awaitable<void> exchange(const Url& url, const http::request<http::string_body>& request,
@@ -41,6 +41,21 @@ asio::awaitable<void> exchange(const Url& url, const http::request<http::string_
     co_await http::async_read(stream, buffer, answer, into(error));
 }
 
+/// Returns why there is no answer.
+std::string reason(const Url& url, const error_code& error, bool is_order) {
+    const std::string place = url.authority();
+    if (error != beast::error::timeout)
+        return text::tr("no daemon answers at http://{}: {}; check that a351d is running", place,
+                        error.message());
+    if (is_order)
+        return text::tr(
+            "the daemon at http://{} gave no answer within {} s; it may still carry this out: look "
+            "at a351ctl list before you repeat it",
+            place, kPatience.count());
+    return text::tr("the daemon at http://{} gave no answer within {} s; try again", place,
+                    kPatience.count());
+}
+
 Reply ask(const Url& url, http::request<http::string_body> request) {
     request.set(http::field::host, url.authority());
     request.set(http::field::user_agent, "a351ctl/" A351_VERSION);
@@ -53,10 +68,7 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
     asio::io_context io(1);
     asio::co_spawn(io, exchange(url, request, answer, error), asio::detached);
     io.run();
-    if (error) {
-        throw NoDaemon(text::tr("no daemon answers at http://{}: {}; check that a351d is running",
-                                url.authority(), error.message()));
-    }
+    if (error) throw NoDaemon(reason(url, error, request.method() == http::verb::post));
     return {static_cast<int>(answer.get().result_int()), std::move(answer.get().body())};
 }
 

@@ -28,7 +28,7 @@ struct Reply {
     std::string body;
 };
 
-/// Sends requests to the daemon and waits for each answer, at most 15 s.
+/// Sends requests to the daemon and waits for each answer, at most 2 s.
 class Client {
 public:
     explicit Client(Url url) : url_(std::move(url)) {}

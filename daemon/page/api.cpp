@@ -13,7 +13,6 @@
 #include "daemon/page/status_json.hpp"
 #include "daemon/page/status_rows.hpp"
 #include "protocol/core/input_error.hpp"
-#include "protocol/text/doubtful_site.hpp"
 
 namespace a351::daemon::page {
 namespace {
@@ -209,7 +208,7 @@ Response Api::sites_around() const {
     json sites = json::array();
     for (const auto& one : survey::nearest_first(sources_.occupations.sites(), latitude, longitude))
         sites.push_back(to_json(one));
-    const text::Message doubt = text::doubtful_site(sources_.occupations.sites());
+    const text::Message& doubt = sources_.occupations.doubtful_site();
     return ok({{"sites", sites}, {"doubt", doubt.english()}, {"doubt_parts", doubt.to_json()}});
 }
 

@@ -39,7 +39,8 @@ std::optional<MilliGal> target_of(const events::Event& event) {
 
 Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
                          const std::vector<events::Event>& events, const OccupationOptions& options)
-    : recorder_(recorder), options_(options), sites_(std::move(sites)), replay_(events) {
+    : recorder_(recorder), options_(options), replay_(events) {
+    take(std::move(sites));
     for (const events::Event& event : events) note_aside(event);
 }
 
@@ -196,7 +197,7 @@ Outcome Occupations::add_site(const text::Site& site) {
     const text::Message remark =
         similar ? text::message("; a similar name is {}", similar->name) : text::Message();
     try {
-        sites_ = append_site(files::posix_files(), file, site);
+        take(append_site(files::posix_files(), file, site));
     } catch (const InputError& error) {
         return refused(text::Message(error.what()));
     } catch (const std::system_error& error) {
@@ -209,14 +210,19 @@ Outcome Occupations::add_site(const text::Site& site) {
     ++changes_;
     text::Message answer = text::message("added {}: {} sites in {}{}", site.name, sites_.size(),
                                          file.string(), remark);
-    if (const auto doubt = text::doubtful_site(sites_); !doubt.empty()) answer += "; " + doubt;
+    if (!doubtful_site_.empty()) answer += "; " + doubtful_site_;
     return {Outcome::Kind::done, answer};
 }
 
 void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& options) {
-    sites_ = std::move(sites);
+    take(std::move(sites));
     options_ = options;
     ++changes_;
+}
+
+void Occupations::take(std::vector<text::Site> sites) {
+    sites_ = std::move(sites);
+    doubtful_site_ = text::doubtful_site(sites_);
 }
 
 void Occupations::observe(const events::Event& event) {

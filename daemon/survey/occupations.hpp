@@ -121,6 +121,8 @@ public:
     /// one.
     void use(std::vector<text::Site> sites, const OccupationOptions& options);
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
+    /// See text::doubtful_site().
+    [[nodiscard]] const text::Message& doubtful_site() const noexcept { return doubtful_site_; }
 
     /// Returns the number of changes of stays, notes, target and sites since the start.
     [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
@@ -159,12 +161,14 @@ private:
     [[nodiscard]] std::optional<text::Message> trouble_with_site(std::string_view site) const;
     [[nodiscard]] events::Event about_now(std::string type);
     Outcome commit(events::Event event, text::Message message);
+    void take(std::vector<text::Site> sites);
     void note_aside(const events::Event& event);
 
     Recorder& recorder_;
     OccupationOptions options_;
     std::optional<MilliGal> target_;  ///< Target set by the operator.
     std::vector<text::Site> sites_;
+    text::Message doubtful_site_;
     events::OccupationReplay replay_;
     UtcTime last_event_;
     std::uint64_t changes_ = 0;

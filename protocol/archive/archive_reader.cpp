@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <map>
+#include <set>
 
 #include "protocol/archive/record_joiner.hpp"
 #include "protocol/archive/sds.hpp"
@@ -89,6 +91,31 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
     std::ranges::stable_sort(data.segments, {},
                              [](const Segment& one) { return one.anchors.front().time; });
     return data;
+}
+
+std::vector<AbsentFile> absent_day_files(const fs::path& archive,
+                                         const journal::StationCodes& codes,
+                                         const std::vector<std::string>& channels, UtcTime from,
+                                         UtcTime to) {
+    std::map<UtcTime, std::set<std::string>> present;
+    for (const std::string& channel : channels)
+        for (const auto& file : day_files(archive, codes, channel, from, to))
+            present[day_of(file)].insert(channel);
+    std::vector<AbsentFile> absent;
+    for (const auto& [day, there] : present) {
+        const auto is_long = [&](const std::string& channel) {
+            const auto data =
+                read_channel(archive, codes, channel, day, day + std::chrono::days(1));
+            if (data.segments.empty()) return false;
+            const Segment& last = data.segments.back();
+            return last.time_of(last.counts.size()) - data.segments.front().time_of(0) >=
+                   2 * journal::kLongestRecordAge;
+        };
+        if (there.size() == channels.size() || std::ranges::none_of(there, is_long)) continue;
+        for (const std::string& channel : channels)
+            if (!there.contains(channel)) absent.push_back({channel, day});
+    }
+    return absent;
 }
 
 }  // namespace a351::archive

@@ -61,6 +61,12 @@ struct Damage {
 /// FILE without its folder.
 [[nodiscard]] std::string to_text(const Damage& damage);
 
+/// A day file that a channel lacks.
+struct AbsentFile {
+    std::string channel;
+    UtcTime day;  ///< Begin of the day.
+};
+
 /// Result of read_channel().
 struct ChannelData {
     std::vector<Segment> segments;  ///< In time order.
@@ -86,5 +92,16 @@ struct ChannelData {
 [[nodiscard]] ChannelData read_channel(const std::filesystem::path& archive,
                                        const journal::StationCodes& codes,
                                        const std::string& channel, UtcTime from, UtcTime to);
+
+/// Returns the day files in [from, to) that some of these channels have and others lack, in order of
+/// time: they were lost, as by a copy that is not complete.
+///
+/// On a running day one channel has its first record before another.  So a day counts when a channel
+/// has twice journal::kLongestRecordAge of it.
+/// @throws std::system_error  a file cannot be read.
+[[nodiscard]] std::vector<AbsentFile> absent_day_files(const std::filesystem::path& archive,
+                                                       const journal::StationCodes& codes,
+                                                       const std::vector<std::string>& channels,
+                                                       UtcTime from, UtcTime to);
 
 }  // namespace a351::archive

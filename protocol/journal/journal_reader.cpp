@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <charconv>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -259,6 +261,19 @@ std::vector<std::filesystem::path> segment_files(const std::filesystem::path& di
     for (auto& [number, path] : numbered)
         if (std::exchange(last, number) != number) segments.push_back(std::move(path));
     return segments;
+}
+
+std::vector<AbsentSegments> absent_segments(const std::filesystem::path& directory) {
+    std::map<std::uint64_t, std::filesystem::path> there;
+    for (const auto& entry : std::filesystem::directory_iterator(directory))
+        if (const auto number = segment_number(entry.path())) there[*number] = entry.path();
+    std::vector<AbsentSegments> absent;
+    for (auto before = there.begin(); before != there.end(); ++before) {
+        const auto after = std::next(before);
+        if (after != there.end() && after->first > before->first + 1)
+            absent.push_back({before->first + 1, after->first - 1, before->second, after->second});
+    }
+    return absent;
 }
 
 std::optional<Damage> repair_newest_segment(files::FileLayer& files,

@@ -218,6 +218,18 @@ private:
 [[nodiscard]] std::vector<std::filesystem::path> segment_files(
     const std::filesystem::path& directory);
 
+/// Numbers of segments that a journal lacks between two others.
+struct AbsentSegments {
+    std::uint64_t first = 0, last = 0;
+    std::filesystem::path before, after;  ///< The files beside them.
+};
+
+/// Returns the segments that are not there, not even as a torn one: they were removed or not copied,
+/// or the disk failed when they began.  The daemon removes old segments from the first on, so none
+/// is missing before the oldest.
+/// @throws std::system_error  the directory cannot be listed.
+[[nodiscard]] std::vector<AbsentSegments> absent_segments(const std::filesystem::path& directory);
+
 /// Moves a damaged tail of the newest segment to a file `*.torn` beside it and syncs the rest.  A
 /// segment without a good header is renamed to `*.torn` as a whole.
 ///

@@ -48,16 +48,21 @@ Message doubtful_site(const std::vector<Site>& sites) {
         return distance(site, other.latitude, other.longitude).value();
     };
 
-    const Doubt far = worst(placed, kNear_m, [&](const Site& site) {
-        double nearest_m = std::numeric_limits<double>::infinity();
+    const auto nearest = [&](const Site& site) {
+        Doubt found{nullptr, std::numeric_limits<double>::infinity()};
         for (const Site* const other : placed)
-            if (other != &site) nearest_m = std::min(nearest_m, from(site, *other));
-        return std::isinf(nearest_m) ? kUnknown : nearest_m;
+            if (other != &site && from(site, *other) < found.size)
+                found = {other, from(site, *other)};
+        return found;
+    };
+    const Doubt far = worst(placed, kNear_m, [&](const Site& site) {
+        const Doubt other = nearest(site);
+        return other.site ? other.size : kUnknown;
     });
     if (far.site)
         return message(
-            "{} is {:.0f} km from the nearest other site: check its longitude and latitude",
-            far.site->name, far.size / 1000.0);
+            "{} is {:.0f} km from {}, the nearest other site: check longitude and latitude of both",
+            far.site->name, far.size / 1000.0, nearest(*far.site).site->name);
 
     const Doubt high = worst(placed, kMostAltitude_m, [&](const Site& site) {
         std::vector<double> near_m;

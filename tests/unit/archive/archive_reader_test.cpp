@@ -43,6 +43,8 @@ public:
         return read_channel(directory_.path(), StationCodes{}, "BNZ", from, to);
     }
 
+    [[nodiscard]] const std::filesystem::path& path() const { return directory_.path(); }
+
     [[nodiscard]] std::filesystem::path day_file(UtcTime time = kBegin) const {
         return sds_file(directory_.path(), StationCodes{}, "BNZ", time);
     }
@@ -68,6 +70,25 @@ TEST_CASE("records of another station in a day file are damage, and are named as
     CHECK(data.damage[0].offset == kRecordSize);
     CHECK(
         to_text(data.damage[0]).ends_with("offset 512: 512 bytes are a record of another station"));
+}
+
+TEST_CASE("a day file that one channel lacks is named, once the day is longer than a record",
+          "[record][archive_reader]") {
+    Archive archive;
+    const auto absent = [&] {
+        std::string text;
+        for (const auto& [channel, day] : absent_day_files(
+                 archive.path(), StationCodes{}, {"BN1", "BN2", "BNZ"}, kBegin - 48h, kBegin + 48h))
+            text += channel + " " + to_rfc3339(day).substr(0, 10) + "; ";
+        return text;
+    };
+    CHECK(absent() == "");
+    archive.add(kBegin - 24h, 0, "BN1");  // one record, as on a running day
+    for (const UtcTime at : {kBegin, kBegin + 118s}) archive.add(at, 0, "BN1");
+    archive.add(kBegin, 0, "BNZ");
+    CHECK(absent() == "BN2 2026-03-01; ");
+    for (const UtcTime at : {kBegin - 3s, kBegin + 130s}) archive.add(at - 24h, 0, "BN2");
+    CHECK(absent() == "BNZ 2026-02-28; BN2 2026-03-01; ");
 }
 
 TEST_CASE("records without a gap between them form one segment", "[record][archive_reader]") {

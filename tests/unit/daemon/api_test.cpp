@@ -201,10 +201,11 @@ TEST_CASE("a site is added by POST with numbers, and a malformed one is refused"
 
     const auto answer =
         page.ask(post("/api/sites", R"({"site":"C","latitude_deg":-36.1,"longitude_deg":140})"));
-    CHECK(is(answer, "/message",
-             json("added C: 3 sites in " + file.string() +
-                  "; C is 8017 km from the nearest other site: check its longitude and latitude")
-                 .dump()));
+    CHECK(is(
+        answer, "/message",
+        json("added C: 3 sites in " + file.string() +
+             "; C is 8017 km from A, the nearest other site: check longitude and latitude of both")
+            .dump()));
     CHECK_THAT(page.ask(get("/api/sites"))["doubt"].get<std::string>(),
                StartsWith("C is 8017 km from"));
 }

@@ -1,4 +1,7 @@
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -152,6 +155,30 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
     CHECK(run("--help").exit == 0);
     CHECK(has(run("--version"), A351_VERSION));
     CHECK(daemon.ctl("--clock scaled:60@2026-03-14T08:00:00Z sites").exit == 0);
+}
+
+TEST_CASE("a daemon that hangs is named, and an order that it may still carry out",
+          "[daemon][ctl]") {
+    // The kernel accepts the connections, and nobody reads them.
+    const int listener = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* any = reinterpret_cast<sockaddr*>(&address);
+    REQUIRE(::bind(listener, any, size) == 0);
+    REQUIRE(::listen(listener, 2) == 0);
+    REQUIRE(::getsockname(listener, any, &size) == 0);
+    const std::string url = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+    auto asked = std::async([&] { return run("--url " + url + " status"); });
+    const auto ordered = run("--url " + url + " --token 0123456789abcdef stop");
+    const std::string hangs = "a351ctl: the daemon at " + url + " gave no answer within 2 s; ";
+    CHECK(ordered.exit == 3);
+    CHECK(has(ordered, hangs + "it may still carry this out"));
+    const auto status = asked.get();
+    CHECK(status.exit == 3);
+    CHECK(has(status, hangs + "try again"));
+    ::close(listener);
 }
 
 TEST_CASE("several daemons start, set up and stop at one common instant", "[daemon][ctl]") {

@@ -256,6 +256,24 @@ TEST_CASE("segments are listed in the order of their counter, whatever the host 
     CHECK(segment_files(directory.path() / "absent").empty());
 }
 
+TEST_CASE("segments that a journal lacks are named, but for torn ones and those before the oldest",
+          "[record][journal]") {
+    const test::TemporaryDirectory directory;
+    for (const char* name :
+         {"00000003_20260301T120000Z.a351j.zst", "00000004_20260301T130000Z.a351j.torn",
+          "00000007_20260301T160000Z.a351j", "00000008_20260301T170000Z.a351j",
+          "00000010_20260301T190000Z.a351j", "lost+found"})
+        directory.write(name, "");
+    const auto absent = absent_segments(directory.path());
+    REQUIRE(absent.size() == 2);
+    CHECK(absent[0].first == 5U);
+    CHECK(absent[0].last == 6U);
+    CHECK(absent[0].before.filename() == "00000004_20260301T130000Z.a351j.torn");
+    CHECK(absent[0].after.filename() == "00000007_20260301T160000Z.a351j");
+    CHECK(absent[1].first == 9U);
+    CHECK(absent[1].last == 9U);
+}
+
 TEST_CASE_METHOD(Fixture,
                  "repair moves a torn tail to a side file, and then has nothing left to do",
                  "[record][journal]") {

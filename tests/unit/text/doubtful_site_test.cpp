@@ -36,7 +36,7 @@ TEST_CASE("a site far from every other one is named", "[text][sites]") {
     list[2].longitude = Degrees(-140.1);  // the sign
     list[1].latitude = Degrees(35.1);     // less far
     CHECK(doubtful_site(list) ==
-          "S2 is 6930 km from the nearest other site: check its longitude and latitude");
+          "S2 is 6930 km from S3, the nearest other site: check longitude and latitude of both");
     list[2].is_placed = false;
     CHECK_THAT(doubtful_site(list).english(), StartsWith("S1 is 122 km from"));
 }
