@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 
 #include "daemon/believable/remedy.hpp"
@@ -14,10 +15,12 @@ AxesWatch::AxesWatch(const wire::DeviceProfile& profile)
 
 void AxesWatch::take(const Second& second) {
     judge_life(second);
-    // A constant axis explains the norm.
     const auto axes = std::span(second.channels).first<kAxisCount>();
-    const auto constant = std::ranges::count_if(axes, &Second::Range::is_constant);
-    if (constant == 0 || constant == kAxisCount) {
+    is_exchanged_ |= exchanged_.take(std::ranges::any_of(axes, [](const Second::Range& axis) {
+        return std::ranges::max(axis.byte_changes) > axis.byte_changes[0] + kMostByteExcess;
+    }));
+    // A constant axis, or another order of the bytes, explains the norm.
+    if (!is_exchanged_ && std::ranges::none_of(axes, &Second::Range::is_constant)) {
         judge_scale(second);
     } else {
         wrong_.take(false);
@@ -26,14 +29,8 @@ void AxesWatch::take(const Second& second) {
 }
 
 void AxesWatch::judge_life(const Second& second) {
-    const auto axes = std::span(second.channels).first<kAxisCount>();
-    const bool does_one_move =
-        std::ranges::any_of(axes, [](const Second::Range& axis) { return !axis.is_constant(); });
-    for (std::size_t i = 0; i < kAxisCount; ++i) {
-        const bool is_same = axes[i].is_constant() && axes[i].least == last_[i];
-        is_dead_[i] = constant_[i].take(does_one_move && is_same);
-        last_[i] = axes[i].most;
-    }
+    for (std::size_t i = 0; i < kAxisCount; ++i)
+        is_dead_[i] = constant_[i].take(second.channels[i].is_constant());
 }
 
 void AxesWatch::judge_scale(const Second& second) {
@@ -57,13 +54,27 @@ void AxesWatch::judge_scale(const Second& second) {
 }
 
 void AxesWatch::append_troubles(std::vector<text::Message>& troubles) const {
-    for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const bool are_all_dead = std::ranges::all_of(is_dead_, std::identity());
+    if (are_all_dead) {
+        troubles.push_back(
+            text::message("no axis changes any more: the sensor repeats its values, and gravity "
+                          "cannot be computed; switch the sensor off and on") +
+            or_identify());
+    }
+    for (std::size_t i = 0; i < kAxisCount && !are_all_dead; ++i) {
         if (!is_dead_[i]) continue;
         troubles.push_back(
             text::message("axis {} does not change while others do: it is dead, and gravity cannot "
                           "be computed; switch the sensor off and on",
                           "xyz"[i]) +
             or_identify());
+    }
+    if (is_exchanged_) {
+        troubles.push_back(
+            text::message("the lowest byte of an axis changes less often than a higher one: "
+                          "the sensor sends its bytes in another order, and the acceleration is "
+                          "wrong") +
+            identify());
     }
     if (wrong_norm_) {
         troubles.push_back(text::message("the acceleration reads {:.2f} g, but a box at rest has 1 "

@@ -17,6 +17,9 @@ struct Second {
     struct Range {
         std::int32_t least = 0, most = 0;
         double mean = 0.0;  ///< Counts.
+        /// Share of the samples in which a byte differs from that of the sample before, the lowest
+        /// byte first.
+        std::array<double, 4> byte_changes{};
 
         [[nodiscard]] bool is_constant() const noexcept { return least == most; }
     };

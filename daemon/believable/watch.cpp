@@ -1,6 +1,7 @@
 #include "daemon/believable/watch.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace a351::daemon::believable {
@@ -14,6 +15,7 @@ void Watch::restart() {
 
 void Watch::take(UtcTime time, const Counts& counts) {
     if (last_ && std::abs(seconds_between(*last_, time)) > kLongGap_s) restart();
+    if (!last_) before_ = counts;
     last_ = time;
     if (count_ == 0) second_ = {};
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -21,9 +23,16 @@ void Watch::take(UtcTime time, const Counts& counts) {
         range.least = count_ == 0 ? counts[i] : std::min(range.least, counts[i]);
         range.most = count_ == 0 ? counts[i] : std::max(range.most, counts[i]);
         range.mean += counts[i];
+        const auto differences = std::bit_cast<std::uint32_t>(before_[i] ^ counts[i]);
+        for (std::size_t byte = 0; byte < range.byte_changes.size(); ++byte)
+            range.byte_changes[byte] += (differences >> (8 * byte) & 0xFF) != 0 ? 1.0 : 0.0;
     }
+    before_ = counts;
     if (++count_ < rate_hz_) return;
-    for (Second::Range& range : second_.channels) range.mean /= rate_hz_;
+    for (Second::Range& range : second_.channels) {
+        range.mean /= rate_hz_;
+        for (double& changes : range.byte_changes) changes /= rate_hz_;
+    }
     second_.end = time;
     count_ = 0;
     axes_.take(second_);

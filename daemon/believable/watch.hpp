@@ -42,8 +42,9 @@ private:
     AxesWatch axes_;
     TemperatureWatch temperature_;
     std::optional<UtcTime> last_;
-    Second second_;  ///< The means are sums until it is complete.
+    Second second_;  ///< Means and shares are sums until it is complete.
     int count_ = 0;
+    Counts before_{};  ///< Counts of the sample before.
 };
 
 }  // namespace a351::daemon::believable

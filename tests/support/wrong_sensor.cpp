@@ -36,6 +36,23 @@ SensorSample words_exchanged(const SensorSample& now, const SensorSample&) {
     return sent;
 }
 
+SensorSample bytes_exchanged(const SensorSample& now, const SensorSample&) {
+    SensorSample sent = now;
+    for (std::int32_t& counts : sent.axes_counts) {
+        const auto bits = std::bit_cast<std::uint32_t>(counts);
+        counts = std::bit_cast<std::int32_t>((bits & 0x00FF'00FF) << 8 | (bits >> 8 & 0x00FF'00FF));
+    }
+    return sent;
+}
+
+SensorSample bytes_reversed(const SensorSample& now, const SensorSample& first) {
+    return words_exchanged(bytes_exchanged(now, first), first);
+}
+
+SensorSample axes_held(const SensorSample& now, const SensorSample& first) {
+    return {first.axes_counts, now.temperature_counts};
+}
+
 template <std::size_t axis>
 SensorSample axis_zero(const SensorSample& now, const SensorSample&) {
     SensorSample sent = now;
@@ -72,7 +89,8 @@ SensorSample q10(const SensorSample& now, const SensorSample&) {
 
 constexpr const char *kScale = "the scale does not fit", *kDead = "it is dead",
                      *kConversion = "its conversion does not fit", *kOven = "follow the oven",
-                     *kUnknown = "cannot be corrected for";
+                     *kUnknown = "cannot be corrected for", *kOrder = "its bytes in another order",
+                     *kRepeats = "the sensor repeats its values";
 
 constexpr std::array kKinds{
     WrongSensor{"axes x 1/2", kAtOnce_s, kScale, scaled<1, 2>},
@@ -81,13 +99,16 @@ constexpr std::array kKinds{
     WrongSensor{"axes x 4", kAtOnce_s, kScale, scaled<4, 1>},
     WrongSensor{"axes x 1/256", kAtOnce_s, kScale, scaled<1, 256>},
     WrongSensor{"axes in m/s2 / 10", kAtOnce_s, kScale, scaled<87, 100>},
-    WrongSensor{"words of axes exchanged", kAtOnce_s, kScale, words_exchanged},
+    WrongSensor{"words of axes exchanged", kAtOnce_s, kOrder, words_exchanged},
+    WrongSensor{"bytes of words exchanged", kAtOnce_s, kOrder, bytes_exchanged},
+    WrongSensor{"bytes of axes reversed", kAtOnce_s, kOrder, bytes_reversed},
     WrongSensor{"x is zero", kAtOnce_s, kDead, axis_zero<0>},
     WrongSensor{"y is zero", kAtOnce_s, kDead, axis_zero<1>},
     WrongSensor{"z is zero", kAtOnce_s, kDead, axis_zero<2>},
     WrongSensor{"x keeps its value", kAtOnce_s, kDead, axis_held<0>},
     WrongSensor{"y keeps its value", kAtOnce_s, kDead, axis_held<1>},
     WrongSensor{"z keeps its value", kAtOnce_s, kDead, axis_held<2>},
+    WrongSensor{"all axes keep their values", kAtOnce_s, kRepeats, axes_held},
     WrongSensor{"temperature keeps its value", kFrozen_s, kUnknown, temperature_held},
     WrongSensor{"temperature register 0", kFrozen_s, kUnknown, temperature_register<0>},
     WrongSensor{"temperature register -1", kFrozen_s, kUnknown, temperature_register<-1>},

@@ -154,11 +154,30 @@ TEST_CASE("a dead axis is named and explains the norm", "[believable]") {
     CHECK(troubles[0].english().starts_with("axis z does not change"));
 }
 
-TEST_CASE("axes that all keep their values are not judged", "[believable]") {
+TEST_CASE("axes that all keep their values are one trouble", "[believable]") {
     Player player;
-    for (int k = 0; k < 60 * kRateHz; ++k, ++player.index)
+    player.play(10, kOne_g, 100);
+    for (int k = 0; k < 10 * kRateHz; ++k, ++player.index)
         player.watch.take(player.now(), {100, 200, kOne_g, 100});
+    const auto troubles = player.watch.troubles();
+    REQUIRE(troubles.size() == 1);
+    CHECK(troubles[0].english().starts_with("no axis changes any more"));
+    player.play(2, kOne_g, 100);
     CHECK(player.troubles() == 0);
+}
+
+TEST_CASE("a lowest byte that changes less often than a higher one is another order of bytes",
+          "[believable]") {
+    const auto play = [](int step) {  // counts of z from one sample to the next
+        Player player;
+        for (int k = 0; k < 20 * kRateHz; ++k, ++player.index)
+            player.watch.take(player.now(), {k % 5, k % 7, kOne_g + k * step % 30'000, 100});
+        return player.watch.troubles();
+    };
+    CHECK(play(1).empty());
+    CHECK(play(257).empty());
+    REQUIRE(play(256).size() == 1);
+    CHECK(play(256)[0].english().starts_with("the lowest byte of an axis changes less often"));
 }
 
 TEST_CASE("an axis beyond the rated range is a trouble in motion, too", "[believable]") {
