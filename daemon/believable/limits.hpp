@@ -44,13 +44,29 @@ inline constexpr DegC kColdest(-40.0), kHottest(90.0);
 /// sensor and the errors of both thermometers, with a margin.  The published unit in its oven was
 /// within 1 degC.
 inline constexpr double kMostFromOven_degc = 5.0;
+
+/// Returns true if a sensor in this oven can have this temperature.
+[[nodiscard]] constexpr bool is_near_oven(DegC temperature, DegC oven) noexcept {
+    const double difference_degc = (temperature - oven).value();
+    return difference_degc <= kMostFromOven_degc && -difference_degc <= kMostFromOven_degc;
+}
+
+/// Temperatures of a room, a box or an oven.  At 7.17 degC the format of the M-A352AD10 and counts of
+/// 1/1024 degC give the same; where one of them gives more, the other one gives less.
+inline constexpr DegC kLeastUsual(7.2), kMostUsual(60.0);
+
+[[nodiscard]] constexpr bool is_temperature_usual(DegC temperature) noexcept {
+    return temperature >= kLeastUsual && temperature <= kMostUsual;
+}
+
 /// Largest difference between an oven and its set point that counts as reached.  The published oven
 /// was within 0.5 degC.
 inline constexpr double kAtSetPoint_degc = 1.0;
 /// Largest change in 10 min of a sensor that does not follow its oven.  A box that approaches its
-/// oven from 5 degC away changes by more if its time constant is below 95 min; that of the published
-/// box is 17 min.
+/// oven from 5 degC away changes by more if its time constant is below kSlowestBox_s.
 inline constexpr double kMostStill_degc = 0.5;
+/// Time constant with which a box approaches its oven, at most, s.  That of the published box is 17 min.
+inline constexpr double kSlowestBox_s = 95.0 * 60.0;
 
 /// Age of the oven's last answer above which its temperature is not known, s.
 inline constexpr double kOldAnswer_s = 120.0;

@@ -3,48 +3,40 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "daemon/believable/temperature_format.hpp"
 
 namespace a351::daemon::identify {
 namespace {
 
-// Temperature that a room, a box and an oven are around.  Of several possible formats the one nearest
-// to it fits: two formats are as near only at 7 degC.
-constexpr double kUsual_degc = 30.0;
-
-double distance_degc(const believable::TemperatureCandidate& candidate) {
-    return std::abs(candidate.temperature.value() - kUsual_degc);
+believable::TemperatureCounts counts_of(std::span<const wire::BurstValues> frames) {
+    const auto [least, most] =
+        std::ranges::minmax_element(frames, {}, &wire::BurstValues::temperature);
+    double sum = 0.0;
+    for (const wire::BurstValues& frame : frames) sum += frame.temperature;
+    return {least->temperature, most->temperature, sum / static_cast<double>(frames.size())};
 }
 
 }  // namespace
 
 TemperatureFinding temperature_of(std::span<const wire::BurstValues> frames,
                                   const wire::DeviceProfile& profile) {
-    std::vector<std::int32_t> counts;
-    for (const wire::BurstValues& frame : frames) counts.push_back(frame.temperature);
-    const auto candidates = believable::temperature_candidates(counts);
-    std::string text = "in each format of the family:";
-    const believable::TemperatureCandidate* fits = nullptr;
-    for (const auto& candidate : candidates) {
-        text += fmt::format("{} {:.2f} degC ({})", &candidate == &candidates.front() ? "" : ",",
-                            candidate.temperature.value(), candidate.format->name);
-        if (candidate.is_possible &&
-            (fits == nullptr || distance_degc(candidate) < distance_degc(*fits)))
-            fits = &candidate;
+    const believable::TemperatureCounts counts = counts_of(frames);
+    const believable::TemperatureFormat own = believable::format_of(profile);
+    std::string text =
+        fmt::format("profile {}: {:.2f} degC; for the counts N the formats of the family give",
+                    profile.name, own.temperature(counts).value());
+    for (const believable::TemperatureFormat& format : believable::temperature_formats()) {
+        text += fmt::format("{} {:.2f} ({})", text.ends_with(')') ? "," : "",
+                            format.temperature(counts).value(), format.formula);
     }
-    if (fits == nullptr) return {Verdict::differs, text + "; none of them is possible", {}};
-    const believable::TemperatureFormat& format = *fits->format;
-    if (format.is_that_of(profile)) {
-        return {
-            Verdict::confirmed, fmt::format("profile {}: {}", profile.name, text),
-            Changes::Temperature{profile.temperature_slope_degc, profile.temperature_offset_degc}};
-    }
-    return {Verdict::differs, fmt::format("{}; the format that fits is: {}", text, format.name),
-            Changes::Temperature{format.slope_degc, format.offset_degc}};
+    const auto fits = believable::fitting_formats(counts, own);
+    if (fits.empty()) return {Verdict::differs, text + "; none of them is possible", {}};
+    const believable::TemperatureFormat& format = fits[0].format;
+    const Changes::Temperature change{format.slope_degc, format.offset_degc};
+    if (fits[0].is_of_profile) return {Verdict::confirmed, text, change};
+    return {Verdict::differs,
+            fmt::format("{}; the format that fits is {} degC", text, format.formula), change};
 }
 
 }  // namespace a351::daemon::identify

@@ -4,14 +4,17 @@
 ///     first_contact_bench [HOURS [NOISE_DEGC]]   hours of ordinary days, default 10000
 ///
 /// NOISE_DEGC replaces the noise of the simulated temperature, to find how little a unit may have.
-/// Seeds 1 to 5 are those of the wrong sensors, 101 and more those of the ordinary days.
+/// Seeds 1 to 5 are those of the wrong sensors, 101 and more those of the ordinary days, and 1001 to 1200
+/// those of the units whose format of the temperature is to be found.
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
+#include "sim/noise/random.hpp"
 #include "tests/support/wrong_sensor.hpp"
 
 namespace {
@@ -20,7 +23,9 @@ using namespace a351;
 using namespace a351::sim;
 using scenario::load_scenario;
 
-constexpr std::uint64_t kSeeds = 5, kFirstOrdinarySeed = 101;
+constexpr std::uint64_t kSeeds = 5, kFirstOrdinarySeed = 101, kFirstUnitSeed = 1001;
+constexpr int kUnits = 200;
+constexpr double kMostNamed_s = 10.0;
 constexpr double kMostRateTime_s = 60.0;
 
 /// Prints a line for each kind, of all seeds: wrong from the first sample on, and from the middle of a
@@ -60,6 +65,54 @@ bool measure_kinds() {
         all = all && named == kSeeds && last_s <= kMostRateTime_s;
     }
     return all;
+}
+
+/// Returns a box in its oven at 25 to 60 degC whose controller is heard, or one that is not heated, in a
+/// room of 10 to 30 degC or, in the cold, at -15 to +5 degC.
+enum class Place { oven, room, cold };
+WatchedRecord record_at(Place place, std::uint64_t seed) {
+    WatchedRecord record{load_scenario("indoor"), seed, kMostNamed_s};
+    noise::RandomStream random(seed, "place");
+    record.is_oven_heard = place == Place::oven;
+    if (record.is_oven_heard) {
+        record.scenario.oven.set_point_degc = random.uniform(25.0, 60.0);
+        return record;
+    }
+    record.scenario.oven.self_heating_w = 0.0;
+    const double degc =
+        place == Place::room ? random.uniform(10.0, 30.0) : random.uniform(-15.0, 5.0);
+    record.scenario.oven.set_point_degc = degc;
+    for (auto& ambient : record.scenario.ambient) ambient.degc = degc;
+    return record;
+}
+
+/// Prints how many of 200 units of six kinds, three formats of the temperature each read in the other
+/// two, are named with the right format within 10 s.
+/// @return false if a unit is named wrongly, or one in an oven is not named.
+bool measure_formats(Place place, const char* name) {
+    std::vector<const WrongSensor*> kinds;
+    for (const WrongSensor& wrong : wrong_sensors())
+        if (wrong.sent) kinds.push_back(&wrong);
+    int right = 0, of_two = 0, wrongly = 0, silent = 0;
+    double last_s = 0.0;
+    for (std::size_t unit = 0; unit < kUnits; ++unit) {
+        WatchedRecord record = record_at(place, kFirstUnitSeed + unit);
+        record.wrong = kinds[unit % kinds.size()];
+        const auto troubles = first_troubles(record);
+        const std::string text = troubles ? troubles->texts.front() : "";
+        if (text.find("its counts N fit") == std::string::npos) {
+            ++silent;
+            continue;
+        }
+        const std::string words = std::string(" ") + record.wrong->sent->formula + " degC, which";
+        const bool is_right = text.find(words) != std::string::npos;
+        const bool are_two = text.find(" or N") != std::string::npos;
+        ++(!is_right ? wrongly : are_two ? of_two : right);
+        last_s = std::max(last_s, troubles->at_s);
+    }
+    std::printf("200 formats %s right %d, one of two %d, wrong %d, not named %d; last %.1f s\n",
+                name, right, of_two, wrongly, silent, last_s);
+    return wrongly == 0 && (right == kUnits || place != Place::oven);
 }
 
 /// Returns an ordinary record: days of several kinds, a cold start, a hot car.
@@ -107,7 +160,13 @@ bool measure_ordinary_days(double hours, double noise_degc) {
 int main(int count, char** arguments) {
     const double hours = count > 1 ? std::atof(arguments[1]) : 10'000.0;
     const double noise_degc = count > 2 ? std::atof(arguments[2]) : -1.0;
-    bool all = noise_degc >= 0.0 || measure_kinds();
+    bool all = true;
+    if (noise_degc < 0.0) {
+        all = measure_kinds();
+        all = measure_formats(Place::oven, "in ovens:") && all;
+        all = measure_formats(Place::room, "in rooms:") && all;
+        all = measure_formats(Place::cold, "in the cold:") && all;
+    }
     all = measure_ordinary_days(hours, noise_degc) && all;
     std::puts(all ? "PASS" : "FAIL");
     return all ? 0 : 1;

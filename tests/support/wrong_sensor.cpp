@@ -14,11 +14,12 @@
 namespace a351::sim {
 namespace {
 
+using daemon::believable::temperature_formats;
 using signal::SensorSample;
 
-constexpr TemperatureFormat kSlope{};
-constexpr TemperatureFormat kShifted{kSlope.slope_degc / 65536.0, kSlope.offset_degc};
-constexpr TemperatureFormat kQ10{1.0 / 1024.0, 0.0};
+const TemperatureFormat& kSlope = temperature_formats()[0];
+const TemperatureFormat& kShifted = temperature_formats()[1];
+const TemperatureFormat& kQ10 = temperature_formats()[2];
 constexpr double kAtOnce_s = 10.0, kFrozen_s = 620.0;
 
 template <int numerator, int denominator>
@@ -88,11 +89,11 @@ SensorSample q10(const SensorSample& now, const SensorSample&) {
 }
 
 constexpr const char *kScale = "the scale does not fit", *kDead = "it is dead",
-                     *kConversion = "its conversion does not fit", *kOven = "follow the oven",
+                     *kConversion = "its conversion does not fit",
                      *kUnknown = "cannot be corrected for", *kOrder = "its bytes in another order",
                      *kRepeats = "the sensor repeats its values";
 
-constexpr std::array kKinds{
+const std::array kKinds{
     WrongSensor{"axes x 1/2", kAtOnce_s, kScale, scaled<1, 2>},
     WrongSensor{"axes x 2", kAtOnce_s, kScale, scaled<2, 1>},
     WrongSensor{"axes x 1/4", kAtOnce_s, kScale, scaled<1, 4>},
@@ -112,12 +113,13 @@ constexpr std::array kKinds{
     WrongSensor{"temperature keeps its value", kFrozen_s, kUnknown, temperature_held},
     WrongSensor{"temperature register 0", kFrozen_s, kUnknown, temperature_register<0>},
     WrongSensor{"temperature register -1", kFrozen_s, kUnknown, temperature_register<-1>},
-    WrongSensor{"slope read as slope / 65536", kFrozen_s, kOven, as_sent, kShifted},
-    WrongSensor{"slope read as Q10", kFrozen_s, kOven, as_sent, kQ10},
-    WrongSensor{"counts x 65536 read as slope", kAtOnce_s, kConversion, shifted, kSlope},
-    WrongSensor{"counts x 65536 read as Q10", kAtOnce_s, kConversion, shifted, kQ10},
-    WrongSensor{"Q10 read as slope", kAtOnce_s, kConversion, q10, kSlope},
-    WrongSensor{"Q10 read as slope / 65536", kFrozen_s, kOven, q10, kShifted},
+    WrongSensor{"slope read as slope / 65536", kAtOnce_s, kConversion, as_sent, &kShifted, &kSlope},
+    WrongSensor{"slope read as Q10", kAtOnce_s, kConversion, as_sent, &kQ10, &kSlope},
+    WrongSensor{"counts x 65536 read as slope", kAtOnce_s, kConversion, shifted, &kSlope,
+                &kShifted},
+    WrongSensor{"counts x 65536 read as Q10", kAtOnce_s, kConversion, shifted, &kQ10, &kShifted},
+    WrongSensor{"Q10 read as slope", kAtOnce_s, kConversion, q10, &kSlope, &kQ10},
+    WrongSensor{"Q10 read as slope / 65536", kAtOnce_s, kConversion, q10, &kShifted, &kQ10},
 };
 
 }  // namespace
@@ -127,9 +129,9 @@ std::span<const WrongSensor> wrong_sensors() { return kKinds; }
 std::optional<FirstTroubles> first_troubles(const WatchedRecord& record) {
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
     wire::DeviceProfile assumed = profile;
-    if (record.wrong) {
-        assumed.temperature_slope_degc = record.wrong->assumed.slope_degc;
-        assumed.temperature_offset_degc = record.wrong->assumed.offset_degc;
+    if (record.wrong && record.wrong->assumed) {
+        assumed.temperature_slope_degc = record.wrong->assumed->slope_degc;
+        assumed.temperature_offset_degc = record.wrong->assumed->offset_degc;
     }
     signal::Source source(record.scenario, profile, record.seed);
     if (record.switched_on_to) source.oven().set_set_point(*record.switched_on_to);
@@ -147,7 +149,9 @@ std::optional<FirstTroubles> first_troubles(const WatchedRecord& record) {
         watch.take(*instant, {sent.axes_counts[0], sent.axes_counts[1], sent.axes_counts[2],
                               sent.temperature_counts});
         if (sample.index % signal::Source::kRateHz != 0) continue;
-        watch.take_oven(*instant, source.oven().controller_reading(), source.oven().set_point());
+        if (record.is_oven_heard)
+            watch.take_oven(*instant, source.oven().controller_reading(),
+                            source.oven().set_point());
         const auto troubles = watch.troubles();
         if (!troubles.empty())
             return FirstTroubles{at_s - record.wrong_from_s, text::in_english(troubles)};

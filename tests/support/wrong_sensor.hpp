@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/believable/temperature_format.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "sim/scenario/scenario.hpp"
@@ -15,11 +16,7 @@
 
 namespace a351::sim {
 
-/// Conversion of the counts of a temperature: degC = slope x counts + offset.
-struct TemperatureFormat {
-    double slope_degc = -0.0037918;  ///< That of the profile A351.
-    double offset_degc = 34.987;
-};
+using daemon::believable::TemperatureFormat;
 
 /// A kind of sensor that does not fit the profile A351.
 struct WrongSensor {
@@ -30,7 +27,10 @@ struct WrongSensor {
     /// @param first  the first sample that is wrong
     signal::SensorSample (*send)(const signal::SensorSample& now,
                                  const signal::SensorSample& first);
-    TemperatureFormat assumed = {};  ///< Format of the profile with which they are read.
+    /// Format of the temperature with which they are read; null: that of the profile A351.
+    const TemperatureFormat* assumed = nullptr;
+    /// Format of the temperature in which they are sent; null: that of `assumed`.
+    const TemperatureFormat* sent = nullptr;
 };
 
 [[nodiscard]] std::span<const WrongSensor> wrong_sensors();
@@ -44,6 +44,7 @@ struct WatchedRecord {
     std::optional<DegC> switched_on_to = {};
     const WrongSensor* wrong = nullptr;  ///< Null: the sensor fits.
     double wrong_from_s = 0.0;           ///< Time since the start from which it is wrong.
+    bool is_oven_heard = true;           ///< The oven's controller answers, once a second.
 };
 
 struct FirstTroubles {
@@ -51,7 +52,7 @@ struct FirstTroubles {
     std::vector<std::string> texts;
 };
 
-/// Plays a record to the watch, with the answers of the oven's controller once a second.
+/// Plays a record to the watch.
 /// @return the first troubles; std::nullopt if there are none
 [[nodiscard]] std::optional<FirstTroubles> first_troubles(const WatchedRecord& record);
 

@@ -137,6 +137,47 @@ TEST_CASE("a sensor that does not follow its oven is named, one that approaches 
     CHECK(play(0.01, DegC(36.5), DegC(36.0)) == 0);
 }
 
+TEST_CASE("another format that gives the temperature of the oven is named within 10 s",
+          "[believable]") {
+    // The format of the M-A352AD10, which the profile reads as counts / 1024: -1.9 degC.
+    wire::DeviceProfile profile = with_step(1.0 / 1024.0);
+    profile.temperature_offset_degc = 0.0;
+    const auto play = [&](double counts_per_s, double oven_degc) {
+        Player player(profile);
+        for (int second = 0; second < 10; ++second) {
+            player.watch.take_oven(player.now(), DegC(oven_degc), DegC(42.5));
+            player.play(1, kOne_g, -1981 + static_cast<std::int32_t>(counts_per_s * second));
+        }
+        return player;
+    };
+    Player player = play(0.0, 42.0);
+    const auto troubles = player.watch.troubles();
+    REQUIRE(troubles.size() == 1);
+    CHECK(troubles[0].english().starts_with(
+        "the temperature reads -1.9 degC in an oven of 42.0 degC: its conversion does not fit this "
+        "sensor; its counts N fit N x -0.0037918 + 34.987 degC, which gives 42.5 degC"));
+    CHECK(play(0.0, 20.0).troubles() == 0);   // In no format is it near this oven.
+    CHECK(play(30.0, 42.0).troubles() == 0);  // It warms up: 0.03 degC/s.
+
+    player.play(200, kOne_g, -1981);  // The controller is silent: the trouble remains.
+    CHECK(player.watch.troubles() == troubles);
+    player.watch.take_oven(player.now(), DegC(-2.0), DegC(42.5));
+    player.play(1, kOne_g, -1981);
+    CHECK(player.troubles() == 0);
+}
+
+TEST_CASE("counts below a step of the thermometer are named without an oven", "[believable]") {
+    wire::DeviceProfile profile = with_step(-0.0037918 / 65536.0);
+    profile.temperature_offset_degc = 34.987;
+    Player player(profile);
+    player.play(10, kOne_g, 43'520);
+    const auto troubles = player.watch.troubles();
+    REQUIRE(troubles.size() == 1);
+    CHECK(troubles[0].english().starts_with(
+        "the temperature reads 34.98 degC whatever the sensor sends: its conversion does not fit "
+        "this sensor; its counts N fit N / 1024 degC, which gives 42.5 degC"));
+}
+
 TEST_CASE("an oven that is no longer heard says nothing about the sensor", "[believable]") {
     Player player;
     player.watch.take_oven(kZero, DegC(42.5), DegC(42.5));
