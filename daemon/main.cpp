@@ -27,6 +27,7 @@
 #include "daemon/page/server.hpp"
 #include "daemon/service/process_setup.hpp"
 #include "daemon/service/service_notice.hpp"
+#include "daemon/source/battery.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/oven_link.hpp"
 #include "daemon/source/port.hpp"
@@ -130,6 +131,7 @@ status::Status snapshot(const config::Config& config, const source::HostClock& c
     status::fill(status, link.status());
     if (ovens.inner) status.oven = ovens.inner->status();
     if (ovens.outer) status.outer_oven = ovens.outer->status();
+    status.battery = source::read_battery();
     store.fill(status);
     status::assess(status);
     return status;

@@ -95,7 +95,8 @@ json counters_of(const Moment& now) {
 }
 
 Fields store_fields() {
-    const auto disk = marked("disk");
+    const auto disk = marked("disk"), battery = marked("battery");
+    const auto has_battery = [](const Moment& now) { return now.status.battery.has_value(); };
     return {
         {.path = "/counters",
          .value = counters_of,
@@ -131,6 +132,21 @@ Fields store_fields() {
          .unit = "ms",
          .shown = {disk, marked("longest sync")},
          .metric = {.name = "a351_longest_sync_seconds", .scale = 1e-3}},
+        {.path = "/battery",
+         .value = null_without(has_battery),
+         .meaning = "The battery of the computer; null if it has none."},
+        {.path = "/battery/percent",
+         .value =
+             only_if(has_battery, [](const Moment& now) { return now.status.battery->percent; }),
+         .meaning = "Its charge.",
+         .unit = "%",
+         .shown = {battery, {}, 0},
+         .metric = {.name = "a351_battery_charge_ratio", .scale = 0.01}},
+        {.path = "/battery/is_discharging",
+         .value = only_if(has_battery,
+                          [](const Moment& now) { return now.status.battery->is_discharging; }),
+         .meaning = "True if it is not connected to a power supply.",
+         .shown = {battery, marked("discharging")}},
         {.path = "/version",
          .value = of(&Status::version),
          .meaning = "Version of a351d.",

@@ -155,6 +155,18 @@ void assess_start_up_test(Status& status, wire::StartUpTest result) {
     }
 }
 
+/// Adds the reason if the battery is nearly empty.  It does not contain the charge, which varies.
+void assess_battery(Status& status) {
+    constexpr double kNearlyEmpty_percent = 15.0;
+    if (!status.battery || !status.battery->is_discharging ||
+        status.battery->percent > kNearlyEmpty_percent)
+        return;
+    status.warn(
+        text::message("the laptop's battery has {:.0f} % or less: connect its power supply; "
+                      "recording ends when the battery is empty",
+                      kNearlyEmpty_percent));
+}
+
 }  // namespace
 
 std::string brief(const Status& status) {
@@ -230,6 +242,7 @@ void assess(Status& status) {
                           "synchronise the clock, then run a351-correct retime",
                           status.counters.records_withheld));
     }
+    assess_battery(status);
 }
 
 }  // namespace a351::daemon::status

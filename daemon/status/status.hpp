@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/source/battery.hpp"
 #include "daemon/source/oven_link.hpp"
 #include "daemon/source/sensor_link.hpp"
 #include "daemon/verdict/verdict.hpp"
@@ -94,6 +95,7 @@ struct Status {
     std::string disk_reserve;                      ///< present, given_up, unavailable.
     std::string disk_reserve_trouble;              ///< Reason why it is unavailable.
     std::chrono::milliseconds longest_sync{0};     ///< Longest sync or write of the journal.
+    std::optional<source::Battery> battery;        ///< Absent if the computer has none.
 };
 
 /// Returns the state in one short line, for the service manager: the link's and the first reason.
@@ -103,7 +105,7 @@ struct Status {
 void fill(Status& status, const source::LinkStatus& link);
 
 /// Adds the level and reasons of a completely filled status: values of the sensor, sample rate, oven,
-/// calibration and sample times.
+/// calibration, sample times and battery.
 void assess(Status& status);
 
 }  // namespace a351::daemon::status

@@ -51,6 +51,7 @@ void fill(status::Status& status) {
     status.more_counters["archive_records_waiting"] = 1;
     status.disk_free_bytes = 5'500'000'000;
     status.disk_reserve = "given_up";
+    status.battery = {.percent = 79.6, .is_discharging = true};
     status.version = "1.2";
 }
 
@@ -147,6 +148,7 @@ TEST_CASE("a row shows the values that are known, and a dash without any", "[dae
     CHECK(row_of(page, "axes") == "(no row)");
     CHECK(row_of(page, "journal") == "-");
     CHECK(row_of(page, "outer oven") == "(no row)");
+    CHECK(row_of(page, "battery") == "(no row)");
     CHECK(row_of(page, "verdict") == "no data: no sample has been received yet");
     CHECK(row_of(page, "troubles") == "none");
     CHECK(row_of(page, "occupation") == "none running");
@@ -163,6 +165,7 @@ TEST_CASE("a row shows the values that are known, and a dash without any", "[dae
     CHECK(row_of(page, "troubles") == "checksum errors 2");
     CHECK(has(page, "timing", "unlocked, uncertainty 1.50 ms, of it the laptop's clock 0.40 ms"));
     CHECK(has(page, "disk", "free 5.5 GB, reserve given up, longest sync 0 ms"));
+    CHECK(row_of(page, "battery") == "80 %, discharging");
     CHECK(has(page, "sampling", "not verified"));
     page.status.is_profile_verified = true;
     page.status.temperature = DegC(std::numeric_limits<double>::quiet_NaN());
