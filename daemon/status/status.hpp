@@ -17,6 +17,7 @@
 #include "protocol/archive/archiver.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/files/file_layer.hpp"
 #include "protocol/text/message.hpp"
 #include "protocol/timing/sample_clock.hpp"
 
@@ -91,11 +92,13 @@ struct Status {
     archive::Counters counters;
     std::map<std::string, std::uint64_t> more_counters;  ///< Counters of link and store, by name.
 
-    std::optional<std::uint64_t> disk_free_bytes;  ///< Absent if it cannot be determined.
-    std::string disk_reserve;                      ///< present, given_up, unavailable.
-    std::string disk_reserve_trouble;              ///< Reason why it is unavailable.
-    std::chrono::milliseconds longest_sync{0};     ///< Longest sync or write of the journal.
-    std::optional<source::Battery> battery;        ///< Absent if the computer has none.
+    std::optional<std::uint64_t> disk_free_bytes;     ///< Absent if it cannot be determined.
+    std::string disk_reserve;                         ///< present, given_up, unavailable.
+    std::string disk_reserve_trouble;                 ///< Reason why it is unavailable.
+    std::chrono::milliseconds longest_sync{0};        ///< Longest sync or write of the journal.
+    files::DiskWork disk_work;                        ///< Since the start.
+    std::optional<files::DiskWork> hourly_disk_work;  ///< An hour; absent in the first minute.
+    std::optional<source::Battery> battery;           ///< Absent if the computer has none.
 };
 
 /// Returns the state in one short line, for the service manager: the link's and the first reason.

@@ -1,13 +1,30 @@
 #include "daemon/store/store.hpp"
 
+#include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace a351::daemon::store {
+namespace {
+
+/// Returns the work for each hour of a span; std::nullopt if the span is too short for it.
+std::optional<files::DiskWork> hourly(const files::DiskWork& work, Nanoseconds span) {
+    if (span < std::chrono::minutes(1)) return std::nullopt;
+    const double spans =
+        Nanoseconds(std::chrono::hours(1)) / std::chrono::duration<double, std::nano>(span);
+    const auto in_an_hour = [spans](std::uint64_t count) {
+        return static_cast<std::uint64_t>(std::llround(spans * static_cast<double>(count)));
+    };
+    return files::DiskWork{in_an_hour(work.bytes), in_an_hour(work.syncs)};
+}
+
+}  // namespace
 
 Store::Store(files::FileLayer& files, Options options, const source::HostClock& clock,
              source::ReadQueue& reads)
     : files_(files),
       options_(std::move(options)),
+      began_(options_.time.now()),
       lock_(files, options_.root),
       keeper_(files, options_.root / "journal", options_.keeper),
       reserve_(files, options_.root / "state" / "reserve", options_.reserve_bytes),
@@ -99,6 +116,8 @@ void Store::fill(status::Status& status) {
                                  {"journal_keeper_faults", keeper.faults},
                                  {"reserve_given_up", reserve.times_given_up}});
     status.longest_sync = journal.longest_sync;
+    status.disk_work = files_.work();
+    status.hourly_disk_work = hourly(status.disk_work, options_.time.now() - began_);
     status.disk_free_bytes = files_.free_bytes(options_.root);
     status.disk_reserve = to_text(reserve.state);
     status.disk_reserve_trouble = reserve.trouble;

@@ -74,6 +74,7 @@ public:
 private:
     files::FileLayer& files_;
     Options options_;
+    SteadyTime began_;
     DataRootLock lock_;
     JournalKeeper keeper_;
     SpaceReserve reserve_;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,13 +62,27 @@ private:
     int fd_ = -1;
 };
 
+/// The work of a layer, which its files count too.
+struct Work {
+    static constexpr std::uint64_t kBlock = 4096;
+
+    std::atomic<std::uint64_t> bytes{0}, syncs{0};
+
+    /// Counts a sync.
+    /// @param from, to  bytes of the file that were not synced before.
+    void note(std::uint64_t from, std::uint64_t to) {
+        ++syncs;
+        if (to > from) bytes += ((to + kBlock - 1) / kBlock - from / kBlock) * kBlock;
+    }
+};
+
 class PosixAppendFile : public AppendFile {
 public:
-    PosixAppendFile(const std::filesystem::path& path, Descriptor file)
-        : path_(path), file_(std::move(file)) {
+    PosixAppendFile(const std::filesystem::path& path, Descriptor file, std::shared_ptr<Work> work)
+        : path_(path), file_(std::move(file)), work_(std::move(work)) {
         struct stat status {};
         if (::fstat(file_.get(), &status) != 0) fail("stat", path_, errno);
-        size_ = static_cast<std::uint64_t>(status.st_size);
+        size_ = synced_size_ = static_cast<std::uint64_t>(status.st_size);
     }
 
     void append(std::span<const std::byte> bytes) override {
@@ -89,6 +104,8 @@ public:
 
     void sync() override {
         if (::fdatasync(file_.get()) != 0) fail("sync", path_, errno);
+        work_->note(synced_size_, size_);
+        synced_size_ = size_;
     }
 
     [[nodiscard]] std::uint64_t size() const override { return size_; }
@@ -96,7 +113,8 @@ public:
 private:
     std::filesystem::path path_;
     Descriptor file_;
-    std::uint64_t size_ = 0;
+    std::shared_ptr<Work> work_;
+    std::uint64_t size_ = 0, synced_size_ = 0;
 };
 
 class PosixFiles : public FileLayer {
@@ -105,13 +123,13 @@ public:
         : root_(std::move(root)), normal_root_(root_.empty() ? root_ : normal(root_)) {}
 
     std::unique_ptr<AppendFile> open_append(const std::filesystem::path& file) override {
-        return std::make_unique<PosixAppendFile>(file,
-                                                 open_file(file, O_WRONLY | O_CREAT | O_APPEND));
+        return std::make_unique<PosixAppendFile>(
+            file, open_file(file, O_WRONLY | O_CREAT | O_APPEND), work_);
     }
 
     std::unique_ptr<AppendFile> create(const std::filesystem::path& file) override {
         return std::make_unique<PosixAppendFile>(
-            file, open_file(file, O_WRONLY | O_CREAT | O_EXCL | O_APPEND));
+            file, open_file(file, O_WRONLY | O_CREAT | O_EXCL | O_APPEND), work_);
     }
 
     void create_directories(const std::filesystem::path& directory) override {
@@ -132,12 +150,14 @@ public:
         const Descriptor folder = open_folder(directory, kSync, directory);
         const Descriptor opened(folder.get(), ".", O_RDONLY | O_DIRECTORY, kSync, directory);
         if (::fsync(opened.get()) != 0) fail("sync directory", directory, errno);
+        work_->note(0, 1);
     }
 
     void truncate(const std::filesystem::path& file, std::uint64_t size) override {
         const Descriptor opened = open_file(file, O_WRONLY, "truncate");
         if (::ftruncate(opened.get(), static_cast<off_t>(size)) != 0) fail("truncate", file, errno);
         if (::fsync(opened.get()) != 0) fail("sync", file, errno);
+        work_->note(0, 0);
     }
 
     void rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
@@ -158,6 +178,7 @@ public:
         const int error = ::posix_fallocate(opened.get(), 0, static_cast<off_t>(size));
         if (error != 0) fail("allocate", file, error);
         if (::fsync(opened.get()) != 0) fail("sync", file, errno);
+        work_->note(0, 0);
         struct stat status {};
         if (::fstat(opened.get(), &status) != 0) fail("stat", file, errno);
         // A file system that compresses zeros away has reserved nothing.
@@ -172,6 +193,8 @@ public:
         const auto space = std::filesystem::space(directory, error);
         return error ? std::nullopt : std::optional<std::uint64_t>(space.available);
     }
+
+    [[nodiscard]] DiskWork work() const override { return {work_->bytes, work_->syncs}; }
 
 private:
     /// Returns an absolute path without dots and without a slash at its end.
@@ -205,6 +228,7 @@ private:
     }
 
     std::filesystem::path root_, normal_root_;
+    std::shared_ptr<Work> work_ = std::make_shared<Work>();
 };
 
 }  // namespace

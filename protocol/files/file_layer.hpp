@@ -45,9 +45,18 @@ public:
     [[nodiscard]] virtual std::uint64_t size() const = 0;
 };
 
+/// What a disk was given to do.
+struct DiskWork {
+    /// Bytes of the blocks of 4096 bytes that syncs wrote.  A block that is synced when it is
+    /// partly filled, and again later, counts each time, as it does on the disk.  What the file
+    /// system writes for itself does not count.
+    std::uint64_t bytes = 0;
+    std::uint64_t syncs = 0;  ///< Syncs of files and directories.
+};
+
 /// File operations of a recorder.
 ///
-/// All members except free_bytes() throw std::system_error.  Its code is that of the operating
+/// All members except free_bytes() and work() throw std::system_error.  Its code is that of the operating
 /// system; is_disk_full() separates a full disk from other faults.
 class FileLayer {
 public:
@@ -81,10 +90,12 @@ public:
     /// Space that only root may use does not count.  Throws nothing.
     [[nodiscard]] virtual std::optional<std::uint64_t> free_bytes(
         const std::filesystem::path& directory) const = 0;
+    /// Returns the work since the layer was made.  A layer for tests need not count.
+    [[nodiscard]] virtual DiskWork work() const { return {}; }
 };
 
-/// Returns the files of the operating system.  The object lives as long as the program and has no
-/// state: any number of threads may use it.  New files have mode 0644 and new directories 0755,
+/// Returns the files of the operating system.  The object lives as long as the program.  Any number
+/// of threads may use it.  New files have mode 0644 and new directories 0755,
 /// less the umask.
 [[nodiscard]] FileLayer& posix_files();
 

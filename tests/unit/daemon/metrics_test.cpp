@@ -56,6 +56,7 @@ Status busy() {
     status.more_counters["archive_records_waiting"] = 5;
     status.disk_free_bytes = 123456789;
     status.longest_sync = std::chrono::milliseconds(250);
+    status.disk_work = {8192, 3};
     status.oven =
         OvenLinkStatus{.state = OvenLinkStatus::State::answering,
                        .trouble = "",
@@ -94,6 +95,8 @@ TEST_CASE("metrics carry the status in base units", "[daemon][metrics]") {
                              R"(a351_oven_polls_total{outcome="answered"} 7)",
                              "a351_disk_free_bytes 123456789",
                              "a351_longest_sync_seconds 0.25",
+                             "a351_disk_written_bytes_total 8192",
+                             "a351_disk_syncs_total 3",
                              "a351_page_connections 9",
                              "a351_page_streams 4",
                              "a351_page_messages_dropped_total 17",

@@ -51,6 +51,8 @@ void fill(status::Status& status) {
     status.more_counters["archive_records_waiting"] = 1;
     status.disk_free_bytes = 5'500'000'000;
     status.disk_reserve = "given_up";
+    status.disk_work = {5'000'000, 900};
+    status.hourly_disk_work = {27'340'000, 4980};
     status.battery = {.percent = 79.6, .is_discharging = true};
     status.version = "1.2";
 }
@@ -164,7 +166,9 @@ TEST_CASE("a row shows the values that are known, and a dash without any", "[dae
     CHECK(row_of(page, "journal") == "990, 10 behind (0.2 s)");
     CHECK(row_of(page, "troubles") == "checksum errors 2");
     CHECK(has(page, "timing", "unlocked, uncertainty 1.50 ms, of it the laptop's clock 0.40 ms"));
-    CHECK(has(page, "disk", "free 5.5 GB, reserve given up, longest sync 0 ms"));
+    CHECK(has(page, "disk",
+              "free 5.5 GB, reserve given up, longest sync 0 ms, written in an hour 27.3 MB, syncs "
+              "in an hour 4980"));
     CHECK(row_of(page, "battery") == "80 %, discharging");
     CHECK(has(page, "sampling", "not verified"));
     page.status.is_profile_verified = true;

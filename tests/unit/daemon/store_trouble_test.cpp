@@ -52,6 +52,25 @@ TEST_CASE_METHOD(Rig, "a sync that hangs for 10 s loses nothing, and the status 
     CHECK(archived_counts(root, "BNZ") == expected_counts(fed));
 }
 
+TEST_CASE_METHOD(Rig, "the work of the disk is given for an hour after the first minute",
+                 "[daemon][store]") {
+    struct CountedFiles : TroubledFiles {
+        [[nodiscard]] files::DiskWork work() const override { return {900'000, 120}; }
+    } counted;
+    SteadyTime now;
+    store::Options timed = options();
+    timed.time.now = [&] { return now; };
+    Store store(counted, timed, clock, reads);
+    now += std::chrono::seconds(59);
+    CHECK(status_of(store).disk_work.syncs == 120);
+    CHECK_FALSE(status_of(store).hourly_disk_work);
+    now += std::chrono::seconds(61);
+    const auto hourly = status_of(store).hourly_disk_work;
+    REQUIRE(hourly);
+    CHECK(hourly->bytes == 27'000'000);
+    CHECK(hourly->syncs == 3600);
+}
+
 TEST_CASE_METHOD(Rig,
                  "a journal thread that stops is noticed, but one that waits for the disk is not",
                  "[daemon][store]") {

@@ -1,6 +1,7 @@
 #include "protocol/files/file_layer.hpp"
 
 #include <system_error>
+#include <vector>
 #include "tests/support/catch.hpp"
 
 #include "tests/support/file_bytes.hpp"
@@ -37,6 +38,35 @@ TEST_CASE("directories are made together with all missing parents", "[record][fi
     posix_files().create_directories(path);
     CHECK(std::filesystem::is_directory(path));
     CHECK_NOTHROW(posix_files().create_directories(path / ""));
+}
+
+TEST_CASE("the work of a disk is counted in whole blocks at each sync", "[record][file_layer]") {
+    const test::TemporaryDirectory directory;
+    const auto files = files_below(directory.path());
+    const auto has_done = [&](std::uint64_t bytes, std::uint64_t syncs) {
+        const DiskWork work = files->work();
+        UNSCOPED_INFO(work.bytes << " bytes, " << work.syncs << " syncs");
+        return work.bytes == bytes && work.syncs == syncs;
+    };
+    const auto path = directory.path() / "log";
+    {
+        const auto file = files->open_append(path);
+        file->append(std::vector<std::byte>(5000));
+        CHECK(has_done(0, 0));
+        file->sync();
+        CHECK(has_done(8192, 1));
+        file->append(std::vector<std::byte>(10));  // The second block again.
+        file->sync();
+        CHECK(has_done(12288, 2));
+        file->sync();
+        CHECK(has_done(12288, 3));
+    }
+    files->sync_directory(directory.path());
+    CHECK(has_done(16384, 4));
+    const auto again = files->open_append(path);  // What it holds was written before.
+    again->append(std::vector<std::byte>(4096));
+    again->sync();
+    CHECK(has_done(24576, 5));
 }
 
 TEST_CASE("a failure names operation and path", "[record][file_layer]") {
