@@ -143,6 +143,11 @@ std::optional<survey::Instant> ArchiveThread::at(UtcTime utc) const {
     return recovery_.is_done() ? decoder_.at(utc) : std::nullopt;
 }
 
+Nanoseconds ArchiveThread::signal_since(const journal::SessionId& session,
+                                        std::int64_t index) const {
+    return recovery_.is_done() ? decoder_.signal_since(session, index) : Nanoseconds(0);
+}
+
 ArchiveStatus ArchiveThread::status() const {
     return {health_.status(),     decoder_.status(), writer_.status(),
             !recovery_.is_done(), records_.count(),  metadata_.trouble()};

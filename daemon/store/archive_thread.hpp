@@ -56,6 +56,8 @@ public:
 
     [[nodiscard]] std::optional<survey::Instant> latest() const;
     [[nodiscard]] std::optional<survey::Instant> at(UtcTime utc) const;
+    [[nodiscard]] Nanoseconds signal_since(const journal::SessionId& session,
+                                           std::int64_t index) const;
     [[nodiscard]] ArchiveStatus status() const;
 
 private:

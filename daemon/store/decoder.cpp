@@ -90,7 +90,8 @@ bool Decoder::begin_session(const journal::Chunk& chunk) {
     start_up_test_ = header->start_up_test;
     const auto ended = std::exchange(session_, header->session);
     if (const auto last_index = archiver_->last_index(); ended && last_index)
-        ended_.push_back({*ended, *archiver_->clock(), *last_index});
+        ended_.push_back({*ended, *archiver_->clock(), *last_index, rate_});
+    rate_ = Hertz(header->output_rate_hz);
     if (ended_.size() > kSessionsRemembered) ended_.pop_front();
     return true;
 }
@@ -229,6 +230,22 @@ std::optional<survey::Instant> Decoder::at(UtcTime utc) const {
     const timing::SampleClock* const clock = archiver_->clock();
     if (clock == nullptr || !session_) return std::nullopt;
     return instant_of(*session_, *clock, clock->index_at(utc));
+}
+
+Nanoseconds Decoder::signal_since(const journal::SessionId& session, std::int64_t index) const {
+    const std::lock_guard lock(mutex_);
+    Nanoseconds signal{0};
+    const auto add = [&](const journal::SessionId& of, std::int64_t last_index, Hertz rate) {
+        const bool is_first = of == session;
+        if (is_first) signal = Nanoseconds(0);
+        // A smaller last index means that the sensor's counter began again at 0.
+        const bool is_counted_from_it = is_first && index <= last_index;
+        signal += timing::SamplePeriod(rate).of(last_index - (is_counted_from_it ? index : -1));
+    };
+    for (const Ended& one : ended_) add(one.session, one.last_index, one.rate);
+    if (const auto last_index = archiver_->last_index(); last_index && session_)
+        add(*session_, *last_index, rate_);
+    return signal;
 }
 
 Decoder::Status Decoder::status() const {

@@ -67,6 +67,9 @@ public:
 
     [[nodiscard]] std::optional<survey::Instant> latest() const;
     [[nodiscard]] std::optional<survey::Instant> at(UtcTime utc) const;
+    /// See survey::Recorder::signal_since().
+    [[nodiscard]] Nanoseconds signal_since(const journal::SessionId& session,
+                                           std::int64_t index) const;
     [[nodiscard]] Status status() const;
 
 private:
@@ -75,6 +78,7 @@ private:
         journal::SessionId session;
         timing::SampleClock clock;
         std::int64_t last_index = 0;
+        Hertz rate;
     };
 
     void record(const std::string& channel, const archive::PackedRecord& record,
@@ -103,6 +107,7 @@ private:
     const archive::Writer* archive_ = nullptr;  ///< Not null during a replay only.
     archive::Writer::Held held_;
     std::optional<journal::SessionId> session_;  ///< Session of archiver_.
+    Hertz rate_{1.0};                            ///< Nominal rate of that session.
     /// Sensor and result of the start-up test in the last header.
     std::string serial_number_;
     wire::StartUpTest start_up_test_ = wire::StartUpTest::passed;

@@ -53,6 +53,10 @@ public:
     [[nodiscard]] std::optional<survey::Instant> at(UtcTime utc) override {
         return archive_.at(utc);
     }
+    [[nodiscard]] Nanoseconds signal_since(const journal::SessionId& session,
+                                           std::int64_t index) override {
+        return archive_.signal_since(session, index);
+    }
     void commit(const events::Event& event) override {
         journal_.commit(event, options_.commit_patience);
     }

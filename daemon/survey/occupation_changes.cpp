@@ -21,7 +21,7 @@ text::Message with_times(const events::Occupation& one) {
 std::optional<Occupations::Found> Occupations::found(const Named& stay, text::Message& trouble) {
     std::optional<Found> found;
     if (running() && running()->key == stay.key) {
-        const auto latest = recorder_.latest();
+        const auto latest = newest();
         found = {Found::State::running, running()->site,
                  text::message("{}, running since {}", named(*running()), shown(running()->start)),
                  running()->start, latest ? latest->utc : running()->set_ups.back()};

@@ -44,10 +44,33 @@ Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
     for (const events::Event& event : events) note_aside(event);
 }
 
+/// Returns the last sample.  By a clock that was set back behind the last set-up of the running stay,
+/// its time continues that of the start of the stay.
+std::optional<Instant> Occupations::newest() {
+    auto latest = recorder_.latest();
+    if (!latest || !running() || latest->utc > running()->set_ups.back()) return latest;
+    std::optional<Instant> first;
+    if (running()->session && running()->index)
+        first = {*running()->session, *running()->index, running()->start};
+    else
+        first = recorder_.at(running()->start);
+    if (first)
+        latest->utc = running()->start + recorder_.signal_since(first->session, first->index);
+    return latest;
+}
+
+/// Returns what is to be said if this time of the running stay is not that of the clock.
+text::Message Occupations::remark_on_clock(UtcTime utc) {
+    if (const auto latest = recorder_.latest(); !latest || latest->utc >= utc) return {};
+    return text::message(
+        "; the clock was set back during this stay, so the time is counted from its start: set the "
+        "clock, and correct the times later with a351-correct retime");
+}
+
 Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
     const auto latest = recorder_.latest();
     if (!latest) return {std::nullopt, no_sample()};
-    if (!at) return {latest, ""};
+    if (!at) return {newest(), ""};
     if (*at > latest->utc) {
         return {std::nullopt, text::message("{} is later than the last sample, {}", shown(*at),
                                             shown(latest->utc))};
@@ -86,7 +109,7 @@ std::optional<text::Message> Occupations::trouble_with_site(std::string_view sit
 
 /// Makes an event that needs no sample, because it must be possible with the sensor unplugged.
 events::Event Occupations::about_now(std::string type) {
-    if (const auto latest = recorder_.latest()) return event_at(std::move(type), *latest);
+    if (const auto latest = newest()) return event_at(std::move(type), *latest);
     return {std::move(type), last_event_, {}, {}, {}};
 }
 
@@ -164,6 +187,7 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
         message += text::message("; shorter than planned: {:.1f} of {:.0f} min",
                                  Minutes(stay).count(), Minutes(planned()).count());
     }
+    message += remark_on_clock(utc);
     return commit(std::move(event), std::move(message));
 }
 
@@ -175,8 +199,10 @@ Outcome Occupations::setup(std::optional<UtcTime> at) {
     if (!placed.instant) return refused(placed.trouble);
     auto event = event_at("setup", *placed.instant);
     add(event, "site", running()->site);
-    return commit(std::move(event), text::message("further set-up at {} from {}", named(*running()),
-                                                  shown(placed.instant->utc)));
+    auto message = text::message("further set-up at {} from {}", named(*running()),
+                                 shown(placed.instant->utc));
+    message += remark_on_clock(placed.instant->utc);
+    return commit(std::move(event), std::move(message));
 }
 
 Outcome Occupations::set_target(MilliGal target) {

@@ -59,11 +59,14 @@ struct OccupationOptions {
 /// answer is given.  The state depends on the events only, so a restarted daemon that replays them
 /// has the same state.  Not thread-safe: one thread (that of the page) owns it.
 ///
-/// `at` is a time in the recorded past, by default that of the last sample.  Refused are:
+/// `at` is a time in the recorded past, by default that of the last sample.  If the clock was set back
+/// behind a set-up of the running stay, the stay keeps its own time: the last sample is then as long
+/// after the start of the stay as the signal in between.  The event names this sample, so that
+/// a351-correct retime gives it the true time.  Refused are:
 /// - a time after the last sample, and for start, stop and set-up one before the data that the
 ///   recorder keeps in memory;
 /// - a start while an occupation is running;
-/// - a stop or set-up without a running occupation, or not after its start;
+/// - a stop or set-up without a running occupation, or not after its last set-up;
 /// - an overlap with a finished occupation, if `at` is given: what begins or ends now is after all that
 ///   is finished, also by a clock that is behind the recorded data;
 /// - a site that is not in the list (any name is allowed if the list is empty);
@@ -155,6 +158,8 @@ private:
                                                      UtcTime end) const;
     [[nodiscard]] events::Event change_of(std::string type, const Named& stay,
                                           const Remark& remark);
+    [[nodiscard]] std::optional<Instant> newest();
+    [[nodiscard]] text::Message remark_on_clock(UtcTime utc);
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
     [[nodiscard]] bool is_at(std::optional<UtcTime> at, UtcTime utc);
     [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);

@@ -29,6 +29,12 @@ public:
     /// memory or after the last sample.
     [[nodiscard]] virtual std::optional<Instant> at(UtcTime utc) = 0;
 
+    /// Returns the length of the signal from this sample to the last one, at the nominal rate.  A
+    /// clock that was set meanwhile does not count, nor does the pause between two sessions.  If the
+    /// session is no longer remembered, it is the length of all signal that is.
+    [[nodiscard]] virtual Nanoseconds signal_since(const journal::SessionId& session,
+                                                   std::int64_t index) = 0;
+
     /// Writes the event to journal and event log and syncs both before it returns.
     /// @throws std::system_error  the event is not on disk.
     virtual void commit(const events::Event& event) = 0;

@@ -68,6 +68,9 @@ private:
     // The daemon::survey::Recorder of the operator, which notes what was accepted.
     std::optional<daemon::survey::Instant> latest() override { return store_->latest(); }
     std::optional<daemon::survey::Instant> at(UtcTime utc) override { return store_->at(utc); }
+    Nanoseconds signal_since(const journal::SessionId& session, std::int64_t index) override {
+        return store_->signal_since(session, index);
+    }
     void commit(const events::Event& event) override;
 
     void take(const archive::Sample& sample, UtcTime time);

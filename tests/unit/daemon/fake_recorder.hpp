@@ -15,17 +15,23 @@ inline const UtcTime kMorning = *parse_rfc3339("2026-03-14T08:00:00Z");
 
 inline UtcTime minute(int minutes) { return kMorning + std::chrono::minutes(minutes); }
 
-/// A recorder with one sample per second, from minute 0 to `last`.
+/// A recorder with one sample per second, from minute 0 to `last`.  Its last sample has a time by a
+/// clock that was set back by `set_back`.
 class FakeRecorder : public survey::Recorder {
 public:
     std::optional<survey::Instant> latest() override {
         if (!last) return std::nullopt;
-        return at(*last);
+        auto latest = at(*last);
+        if (latest) latest->utc -= set_back;
+        return latest;
     }
     std::optional<survey::Instant> at(UtcTime utc) override {
         if (!last || utc < kMorning || utc > *last) return std::nullopt;
         const auto seconds = std::chrono::ceil<std::chrono::seconds>(utc - kMorning);
         return survey::Instant{session, seconds.count(), kMorning + seconds};
+    }
+    Nanoseconds signal_since(const journal::SessionId&, std::int64_t index) override {
+        return std::chrono::seconds(at(*last)->index - index);
     }
     void commit(const events::Event& event) override {
         if (is_disk_full) throw std::system_error(ENOSPC, std::generic_category(), "events");
@@ -34,6 +40,7 @@ public:
 
     journal::SessionId session{{1, 2, 3}};
     std::optional<UtcTime> last = minute(60);
+    Nanoseconds set_back{0};
     bool is_disk_full = false;
     std::vector<events::Event> log;
 };

@@ -334,6 +334,35 @@ TEST_CASE("a stay by a clock that was set back starts and stops, whatever stays 
     CHECK(occupations.list().size() == 3);
 }
 
+TEST_CASE("a stay keeps its own time when the clock is set back beyond its start",
+          "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    recorder.last = minute(40);
+    REQUIRE(occupations.start("No.1", {}, {}).kind == Kind::done);
+    recorder.set_back = std::chrono::hours(1);
+    CHECK(occupations.stop({}, {}).kind == Kind::refused);  // no signal since
+    recorder.last = minute(45);
+    CHECK(mentions(occupations.setup({}), "the clock was set back during this stay"));
+    CHECK(occupations.not_moved(of(40), {}).kind == Kind::done);
+    CHECK(occupations.running()->not_moved_until == minute(45));
+    recorder.last = minute(50);
+    CHECK(mentions(occupations.stop({}, {}), "08:50:00"));
+    REQUIRE(occupations.list().size() == 1);
+    const auto& set_ups = occupations.list().front().set_ups;
+    REQUIRE(set_ups.size() == 2);
+    CHECK(set_ups.back().start == minute(45));
+    CHECK(set_ups.back().end == minute(50));
+    CHECK(recorder.log.back().index == 3000);  // of the last sample, for a351-correct retime
+
+    recorder.last = minute(55);
+    CHECK(occupations.start("No.0", {}, {}).kind == Kind::done);
+    CHECK(occupations.running()->start == minute(-5));
+    recorder.last = minute(58);
+    CHECK_FALSE(mentions(occupations.stop({}, {}), "the clock was set back"));
+    CHECK(occupations.list().size() == 2);
+}
+
 TEST_CASE("stop and setup need a running occupation and a time after its last set-up",
           "[daemon][occupations]") {
     FakeRecorder recorder;

@@ -211,6 +211,14 @@ TEST_CASE_METHOD(Rig, "the store finds the sample that belongs to a time", "[dae
     CHECK(std::abs(earlier->index - (kFrames - 1 - 500)) <= 1);
     CHECK_FALSE(store.at(latest->utc + kPeriod));
     CHECK_FALSE(store.at(latest->utc - (kFrames + 10) * kPeriod));
+    CHECK(store.signal_since(latest->session, latest->index - 500) == 500 * kPeriod);
+
+    begin_session(101);
+    feed(100);
+    REQUIRE(eventually([&] { return status_of(store).received == 99; }));
+    CHECK(store.signal_since(latest->session, latest->index - 500) == 600 * kPeriod);
+    CHECK(store.signal_since({}, 0) == (kFrames + 100) * kPeriod);  // a session that is forgotten
+    CHECK(store.signal_since(store.latest()->session, 0) == 99 * kPeriod);
 }
 
 TEST_CASE_METHOD(Rig, "a data root accepts one daemon at a time", "[daemon][store]") {
