@@ -239,7 +239,11 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                                 is_recovered = true;
                             },
                         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
-                        .other_unit = [&](const events::Event& event) { end_stay(event); },
+                        .other_unit =
+                            [&](const events::Event& event) {
+                                live.begin_unit();
+                                end_stay(event);
+                            },
                         .sample =
                             [&](const archive::Sample& sample, UtcTime time) {
                                 const auto changes = live.take(placed(sample, time));

@@ -1,10 +1,10 @@
 #include "daemon/believable/axes_watch.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <span>
 
+#include "daemon/believable/at_rest.hpp"
 #include "daemon/believable/remedy.hpp"
 
 namespace a351::daemon::believable {
@@ -34,23 +34,12 @@ void AxesWatch::judge_life(const Second& second) {
 }
 
 void AxesWatch::judge_scale(const Second& second) {
-    double square = 0.0, restlessness_g = 0.0, largest_g = 0.0;
-    for (std::size_t i = 0; i < kAxisCount; ++i) {
-        const Second::Range& axis = second.channels[i];
-        const double mean_g = g_per_count_ * axis.mean;
-        square += mean_g * mean_g;
-        largest_g = std::max(largest_g, std::abs(mean_g));
-        restlessness_g = std::max(
-            restlessness_g, 0.5 * g_per_count_ * (static_cast<double>(axis.most) - axis.least));
-    }
-    const StandardGravity norm(std::sqrt(square));
-    const bool is_at_rest =
-        restlessness_g <= kMostRestlessness * std::max(norm, kLeastScale).value();
-    const bool is_beyond_range = largest_g > most_g_;
-    const bool is_believable = !is_beyond_range && is_norm_believable(norm);
-    if (is_at_rest && is_believable) wrong_norm_.reset();
-    const bool is_wrong = is_beyond_range || (is_at_rest && !is_believable);
-    if (wrong_.take(is_wrong) && !wrong_norm_) wrong_norm_ = norm;
+    const Motion motion = motion_of(second, g_per_count_);
+    const bool is_beyond_range = motion.largest_g > most_g_;
+    const bool is_believable = !is_beyond_range && is_norm_believable(motion.norm);
+    if (motion.is_at_rest && is_believable) wrong_norm_.reset();
+    const bool is_wrong = is_beyond_range || (motion.is_at_rest && !is_believable);
+    if (wrong_.take(is_wrong) && !wrong_norm_) wrong_norm_ = motion.norm;
 }
 
 void AxesWatch::append_troubles(std::vector<text::Message>& troubles) const {

@@ -23,6 +23,21 @@ inline constexpr double kMostRestlessness = 0.02;
 /// Smallest norm that this share is taken of: that of a box whose vertical axis is dead.
 inline constexpr StandardGravity kLeastScale(0.1);
 
+/// Least share of the norm on an axis that is called vertical: it is within 10 degrees of the vertical.
+/// A bias of 7 mg of another axis changes the norm by less than 1.2 mg there.
+inline constexpr double kLeastVertical = 0.985;
+/// Time at rest after which the stance of a box is known, s.  Nobody carries a box so still, and for so
+/// long.
+inline constexpr int kStance_s = 10;
+/// Time at rest of which a norm is the mean, and in which a stance becomes one of the past, s.
+inline constexpr int kMinute_s = 60;
+/// Largest change of the norm at rest: half of 1 %.  The bias changes by 2 mg at most over temperature,
+/// and by 1.2 mg within kLeastVertical (see is_norm_believable()); gravity by less than 1 mg between the
+/// sites of a day, which are within 3 km in height (0.3 mGal/m).
+inline constexpr StandardGravity kMostNormChange(0.005);
+/// Minutes at rest for which a change of the norm must last.
+inline constexpr int kNormMinutes = 5;
+
 /// Share of the rated range beyond which no axis can be: the sensor limits its output to the range.
 inline constexpr double kMostOfRange = 1.1;
 

@@ -6,7 +6,18 @@
 
 namespace a351::daemon::believable {
 
+void Watch::end_of_history() {
+    restart();
+    rest_.end_of_history();
+}
+
+void Watch::forget() {
+    restart();
+    rest_ = RestWatch(profile_);
+}
+
 void Watch::restart() {
+    rest_.interrupt();
     axes_ = AxesWatch(profile_);
     temperature_ = TemperatureWatch(profile_);
     last_.reset();
@@ -36,12 +47,14 @@ void Watch::take(UtcTime time, const Counts& counts) {
     second_.end = time;
     count_ = 0;
     axes_.take(second_);
+    rest_.take(second_);
     temperature_.take(second_);
 }
 
 std::vector<text::Message> Watch::troubles() const {
     std::vector<text::Message> troubles;
     axes_.append_troubles(troubles);
+    rest_.append_troubles(troubles);
     temperature_.append_troubles(troubles);
     return troubles;
 }

@@ -93,7 +93,12 @@ void Record::end_of_history() {
     const std::lock_guard lock(mutex_);
     history_end_ = last_;
     if (last_) lasting_ = verdict::LastingVerdict(*last_);
-    watch_.restart();
+    watch_.end_of_history();
+}
+
+void Record::begin_unit() {
+    const std::lock_guard lock(mutex_);
+    watch_.forget();
 }
 
 /// Removes the series from `time` on, and judges the rest again.

@@ -78,6 +78,9 @@ public:
     /// counts as new.
     void end_of_history();
 
+    /// Declares that the samples that follow are those of another sensor.
+    void begin_unit();
+
     /// @name See RecentSamples and History.
     /// @{
     [[nodiscard]] std::uint64_t end() const;
@@ -96,7 +99,8 @@ public:
     /// caller to judge.
     [[nodiscard]] verdict::Verdict verdict() const;
 
-    /// Returns what is not believable of the samples since the end of the history.
+    /// Returns what is not believable of the samples since the end of the history, also in comparison
+    /// with it.
     [[nodiscard]] std::vector<text::Message> troubles() const;
 
     /// Returns the reading of these set-ups together, as far as they are in memory.

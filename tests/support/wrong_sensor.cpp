@@ -20,24 +20,24 @@ using signal::SensorSample;
 const TemperatureFormat& kSlope = temperature_formats()[0];
 const TemperatureFormat& kShifted = temperature_formats()[1];
 const TemperatureFormat& kQ10 = temperature_formats()[2];
-constexpr double kAtOnce_s = 10.0, kFrozen_s = 620.0;
+constexpr double kAtOnce_s = 10.0, kFrozen_s = 620.0, kNextStart_s = 60.0, kDay_s = 86'400.0;
 
 template <int numerator, int denominator>
-SensorSample scaled(const SensorSample& now, const SensorSample&) {
+SensorSample scaled(const SensorSample& now, const SensorSample&, double) {
     SensorSample sent = now;
     for (std::int32_t& counts : sent.axes_counts)
         counts = signal::to_counts(static_cast<double>(counts) * numerator / denominator);
     return sent;
 }
 
-SensorSample words_exchanged(const SensorSample& now, const SensorSample&) {
+SensorSample words_exchanged(const SensorSample& now, const SensorSample&, double) {
     SensorSample sent = now;
     for (std::int32_t& counts : sent.axes_counts)
         counts = std::bit_cast<std::int32_t>(std::rotl(std::bit_cast<std::uint32_t>(counts), 16));
     return sent;
 }
 
-SensorSample bytes_exchanged(const SensorSample& now, const SensorSample&) {
+SensorSample bytes_exchanged(const SensorSample& now, const SensorSample&, double) {
     SensorSample sent = now;
     for (std::int32_t& counts : sent.axes_counts) {
         const auto bits = std::bit_cast<std::uint32_t>(counts);
@@ -46,44 +46,60 @@ SensorSample bytes_exchanged(const SensorSample& now, const SensorSample&) {
     return sent;
 }
 
-SensorSample bytes_reversed(const SensorSample& now, const SensorSample& first) {
-    return words_exchanged(bytes_exchanged(now, first), first);
+SensorSample bytes_reversed(const SensorSample& now, const SensorSample& first, double) {
+    return words_exchanged(bytes_exchanged(now, first, 0.0), first, 0.0);
 }
 
-SensorSample axes_held(const SensorSample& now, const SensorSample& first) {
+SensorSample axes_held(const SensorSample& now, const SensorSample& first, double) {
     return {first.axes_counts, now.temperature_counts};
 }
 
 template <std::size_t axis>
-SensorSample axis_zero(const SensorSample& now, const SensorSample&) {
+SensorSample axis_zero(const SensorSample& now, const SensorSample&, double) {
     SensorSample sent = now;
     sent.axes_counts[axis] = 0;
     return sent;
 }
 
 template <std::size_t axis>
-SensorSample axis_held(const SensorSample& now, const SensorSample& first) {
+SensorSample axis_held(const SensorSample& now, const SensorSample& first, double) {
     SensorSample sent = now;
     sent.axes_counts[axis] = first.axes_counts[axis];
     return sent;
 }
 
 template <std::int32_t counts>
-SensorSample temperature_register(const SensorSample& now, const SensorSample&) {
+SensorSample temperature_register(const SensorSample& now, const SensorSample&, double) {
     return {now.axes_counts, counts};
 }
 
-SensorSample temperature_held(const SensorSample& now, const SensorSample& first) {
+SensorSample temperature_held(const SensorSample& now, const SensorSample& first, double) {
     return {now.axes_counts, first.temperature_counts};
 }
 
-SensorSample as_sent(const SensorSample& now, const SensorSample&) { return now; }
+SensorSample x_and_z_exchanged(const SensorSample& now, const SensorSample&, double) {
+    return {{now.axes_counts[2], now.axes_counts[1], now.axes_counts[0]}, now.temperature_counts};
+}
 
-SensorSample shifted(const SensorSample& now, const SensorSample&) {
+SensorSample z_turned_over(const SensorSample& now, const SensorSample&, double) {
+    return {{now.axes_counts[0], now.axes_counts[1], -now.axes_counts[2]}, now.temperature_counts};
+}
+
+template <int sign>
+SensorSample drifting(const SensorSample& now, const SensorSample&, double since_s) {
+    SensorSample sent = now;
+    for (std::int32_t& counts : sent.axes_counts)
+        counts = signal::to_counts(counts * (1.0 + sign * 0.01 * since_s / kDay_s));
+    return sent;
+}
+
+SensorSample as_sent(const SensorSample& now, const SensorSample&, double) { return now; }
+
+SensorSample shifted(const SensorSample& now, const SensorSample&, double) {
     return {now.axes_counts, signal::to_counts(65536.0 * now.temperature_counts)};
 }
 
-SensorSample q10(const SensorSample& now, const SensorSample&) {
+SensorSample q10(const SensorSample& now, const SensorSample&, double) {
     const double degc = kSlope.slope_degc * now.temperature_counts + kSlope.offset_degc;
     return {now.axes_counts, signal::to_counts(std::floor(1024.0 * degc))};
 }
@@ -91,7 +107,8 @@ SensorSample q10(const SensorSample& now, const SensorSample&) {
 constexpr const char *kScale = "the scale does not fit", *kDead = "it is dead",
                      *kConversion = "its conversion does not fit",
                      *kUnknown = "cannot be corrected for", *kOrder = "its bytes in another order",
-                     *kRepeats = "the sensor repeats its values";
+                     *kRepeats = "the sensor repeats its values",
+                     *kVertical = "the vertical axis is", *kUnstable = "is not stable";
 
 const std::array kKinds{
     WrongSensor{"axes x 1/2", kAtOnce_s, kScale, scaled<1, 2>},
@@ -110,6 +127,11 @@ const std::array kKinds{
     WrongSensor{"y keeps its value", kAtOnce_s, kDead, axis_held<1>},
     WrongSensor{"z keeps its value", kAtOnce_s, kDead, axis_held<2>},
     WrongSensor{"all axes keep their values", kAtOnce_s, kRepeats, axes_held},
+    WrongSensor{"x and z exchanged", kNextStart_s, kVertical, x_and_z_exchanged, nullptr, nullptr,
+                true},
+    WrongSensor{"z turned over", kNextStart_s, kVertical, z_turned_over, nullptr, nullptr, true},
+    WrongSensor{"scale + 1 % a day", kDay_s, kUnstable, drifting<1>},
+    WrongSensor{"scale - 1 % a day", kDay_s, kUnstable, drifting<-1>},
     WrongSensor{"temperature keeps its value", kFrozen_s, kUnknown, temperature_held},
     WrongSensor{"temperature register 0", kFrozen_s, kUnknown, temperature_register<0>},
     WrongSensor{"temperature register -1", kFrozen_s, kUnknown, temperature_register<-1>},
@@ -137,6 +159,7 @@ std::optional<FirstTroubles> first_troubles(const WatchedRecord& record) {
     if (record.switched_on_to) source.oven().set_set_point(*record.switched_on_to);
     daemon::believable::Watch watch(assumed, signal::Source::kRateHz);
     std::optional<SensorSample> first;
+    bool is_history_over = false;
     while (const auto instant = source.next_instant()) {
         const double at_s = seconds_between(record.scenario.start(), *instant);
         if (record.length_s > 0.0 && at_s > record.length_s) break;
@@ -144,7 +167,11 @@ std::optional<FirstTroubles> first_troubles(const WatchedRecord& record) {
         SensorSample sent = sample.values;
         if (record.wrong && at_s >= record.wrong_from_s) {
             if (!first) first = sent;
-            sent = record.wrong->send(sent, *first);
+            sent = record.wrong->send(sent, *first, at_s - record.wrong_from_s);
+        }
+        if (!is_history_over && at_s >= record.history_s) {
+            watch.end_of_history();
+            is_history_over = true;
         }
         watch.take(*instant, {sent.axes_counts[0], sent.axes_counts[1], sent.axes_counts[2],
                               sent.temperature_counts});
@@ -153,7 +180,7 @@ std::optional<FirstTroubles> first_troubles(const WatchedRecord& record) {
             watch.take_oven(*instant, source.oven().controller_reading(),
                             source.oven().set_point());
         const auto troubles = watch.troubles();
-        if (!troubles.empty())
+        if (is_history_over && !troubles.empty())
             return FirstTroubles{at_s - record.wrong_from_s, text::in_english(troubles)};
     }
     return std::nullopt;

@@ -24,13 +24,15 @@ struct WrongSensor {
     double within_s;    ///< Time in which the watch must name it.
     const char* words;  ///< Words of its trouble.
     /// Returns the counts that are sent instead of those of the profile.
-    /// @param first  the first sample that is wrong
-    signal::SensorSample (*send)(const signal::SensorSample& now,
-                                 const signal::SensorSample& first);
+    /// @param first    the first sample that is wrong
+    /// @param since_s  time since then
+    signal::SensorSample (*send)(const signal::SensorSample& now, const signal::SensorSample& first,
+                                 double since_s);
     /// Format of the temperature with which they are read; null: that of the profile A351.
     const TemperatureFormat* assumed = nullptr;
     /// Format of the temperature in which they are sent; null: that of `assumed`.
     const TemperatureFormat* sent = nullptr;
+    bool is_at_next_start = false;  ///< It is found by comparison with the time before the start.
 };
 
 [[nodiscard]] std::span<const WrongSensor> wrong_sensors();
@@ -44,6 +46,7 @@ struct WatchedRecord {
     std::optional<DegC> switched_on_to = {};
     const WrongSensor* wrong = nullptr;  ///< Null: the sensor fits.
     double wrong_from_s = 0.0;           ///< Time since the start from which it is wrong.
+    double history_s = 0.0;              ///< Time since the start that is before the run.
     bool is_oven_heard = true;           ///< The oven's controller answers, once a second.
 };
 

@@ -37,14 +37,17 @@ TEST_CASE("a box that is turned over is no trouble", "[believable]") {
 TEST_CASE("every kind of wrong sensor is named within its time, in the middle of a stay",
           "[believable]") {
     for (const WrongSensor& wrong : wrong_sensors()) {
+        if (wrong.within_s > 1000.0) continue;  // The bench has a day for it.
         INFO(wrong.name);
-        const auto troubles =
-            first_troubles({load_scenario("indoor"), 16, 1800.0, std::nullopt, &wrong, 300.5});
+        const double history_s = wrong.is_at_next_start ? 300.5 : 0.0;
+        const auto troubles = first_troubles(
+            {load_scenario("indoor"), 16, 1800.0, std::nullopt, &wrong, 300.5, history_s});
         REQUIRE(troubles);
         CHECK(troubles->at_s <= wrong.within_s);
         REQUIRE(troubles->texts.size() == 1);
         CHECK(troubles->texts.front().find(wrong.words) != std::string::npos);
-        CHECK(troubles->texts.front().find("a351d --identify") != std::string::npos);
+        if (!wrong.is_at_next_start)
+            CHECK(troubles->texts.front().find("a351d --identify") != std::string::npos);
     }
 }
 

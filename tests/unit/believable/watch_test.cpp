@@ -227,7 +227,8 @@ TEST_CASE("an axis beyond the rated range is a trouble in motion, too", "[believ
     CHECK(player.troubles() == 1);
 }
 
-TEST_CASE("after a long gap, or a restart, the watch begins again", "[believable]") {
+TEST_CASE("after a long gap, and at the end of the history, the watch begins again",
+          "[believable]") {
     for (const bool is_gap : {true, false}) {
         Player player;
         player.play(10, kOne_g / 2, 100);
@@ -235,11 +236,80 @@ TEST_CASE("after a long gap, or a restart, the watch begins again", "[believable
         if (is_gap) {
             player.index += 11 * kRateHz;
         } else {
-            player.watch.restart();
+            player.watch.end_of_history();
         }
         player.play(1, kOne_g / 2, 100);
         CHECK(player.troubles() == 0);
     }
+}
+
+TEST_CASE("another vertical axis than before the start is a trouble until it is the same again",
+          "[believable]") {
+    Player player;
+    player.play(100, kOne_g, 100);
+    player.watch.end_of_history();
+    player.play(9, -kOne_g, 100);
+    CHECK(player.troubles() == 0);
+    player.play(2, -kOne_g, 100);
+    REQUIRE(player.troubles() == 1);
+    CHECK(player.watch.troubles()[0].english().starts_with(
+        "the vertical axis is -z, but before the start it was +z"));
+    player.play(11, kOne_g, 100);
+    CHECK(player.troubles() == 0);
+    player.play(60, -kOne_g, 100);  // A box is turned over to calibrate it.
+    CHECK(player.troubles() == 0);
+
+    player.watch.end_of_history();
+    player.play(100, -kOne_g, 100);
+    CHECK(player.troubles() == 0);
+}
+
+TEST_CASE(
+    "a start that accepts the new vertical axis, a short rest and another unit are no trouble",
+    "[believable]") {
+    Player turned;
+    turned.play(100, kOne_g, 100);
+    turned.watch.end_of_history();
+    turned.play(100, -kOne_g, 100);
+    CHECK(turned.troubles() == 1);
+    turned.watch.end_of_history();
+    turned.play(100, -kOne_g, 100);
+    CHECK(turned.troubles() == 0);
+
+    Player carried;
+    carried.play(100, kOne_g, 100);
+    carried.watch.end_of_history();
+    carried.play(100, -kOne_g, 100, kOne_g / 20);  // on its side, in a hand
+    carried.play(20, kOne_g, 100);
+    CHECK(carried.troubles() == 0);
+
+    Player other;
+    other.play(100, kOne_g, 100);
+    other.watch.end_of_history();
+    other.watch.forget();
+    other.play(100, -kOne_g, 100);
+    CHECK(other.troubles() == 0);
+}
+
+TEST_CASE("a norm that changes by more than 5 mg within a stance is a trouble", "[believable]") {
+    const auto mg = [](double change_mg) {
+        return static_cast<std::int32_t>(kOne_g * (1.0 + 1e-3 * change_mg));
+    };
+    Player player;
+    player.play(100, kOne_g, 100);
+    player.watch.end_of_history();
+    for (const int minute : {0, 1, 2, 3, 4, 5, 6}) player.play(60, mg(4.9), 100 + minute);
+    CHECK(player.troubles() == 0);
+    player.play(250, mg(-5.1), 100);
+    CHECK(player.troubles() == 0);
+    player.play(60, mg(-5.1), 101);
+    REQUIRE(player.troubles() == 1);
+    CHECK(player.watch.troubles()[0].english().starts_with(
+        "the acceleration at rest has changed by -5.1 mg within a day (limit 5 mg)"));
+    player.play(60, mg(-4.0), 100);
+    CHECK(player.troubles() == 0);
+    for (const int minute : {0, 1, 2, 3, 4, 5, 6}) player.play(60, -mg(6.0), 100 + minute);
+    CHECK(player.troubles() == 0);  // Another stance has another bias.
 }
 
 }  // namespace

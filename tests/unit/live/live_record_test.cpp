@@ -35,13 +35,30 @@ TEST_CASE("until the filters are full the verdict is no data, since the first sa
 TEST_CASE("troubles of the sensor are those of this run, not of the history", "[live]") {
     Record record(kProfile, 50, {});
     const auto play = [&](std::int64_t from) {
-        for (std::int64_t i = from; i < from + 500; ++i) record.take(placed(i, 0.0, 0.0, 490000.0));
+        for (std::int64_t i = from; i < from + 500; ++i)
+            record.take(placed(i, wave(i), wave(i), 490000.0 + wave(i)));
         return record.troubles().size();
     };
     CHECK(play(0) == 1);
     record.end_of_history();
     CHECK(record.troubles().empty());
     CHECK(play(500) == 1);
+}
+
+TEST_CASE("the vertical axis is compared with the history, but not that of another sensor",
+          "[live]") {
+    for (const bool is_other : {false, true}) {
+        Record record(kProfile, 50, {});
+        const auto play = [&](std::int64_t from, double x, double z) {
+            for (std::int64_t i = from; i < from + 5000; ++i)
+                record.take(placed(i, x + wave(i), wave(i), z + wave(i)));
+        };
+        play(0, 0.0, 980000.0);
+        record.end_of_history();
+        if (is_other) record.begin_unit();
+        play(5000, 980000.0, 0.0);
+        CHECK(record.troubles().size() == (is_other ? 0 : 1));
+    }
 }
 
 TEST_CASE("the oven inside, not the outer one, is compared with the sensor", "[live]") {
