@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/strict_toml.hpp"
 #include "protocol/wire/profile_reader.hpp"
 #include "protocol/wire/shipped_profiles.hpp"
 
@@ -66,6 +67,16 @@ const wire::DeviceProfile* shipped_profile_of(const std::string& product_id) {
         if (product_id.starts_with(profile->product_id_prefix)) return profile;
     }
     return nullptr;
+}
+
+std::vector<std::string> sources_of(const wire::DeviceProfile& profile) {
+    text::TomlTable document = text::parse_toml(text_of(profile), profile.name);
+    std::vector<std::string> sources{"device: " + document.string_or("source", "")};
+    for (const char* name :
+         {"acceleration", "tilt", "temperature", "timing", "output_rate", "baud", "filter"})
+        sources.push_back(
+            fmt::format("{}: {}", name, document.table(name).string_or("source", "")));
+    return sources;
 }
 
 std::optional<std::string> fitting_profile(const wire::DeviceProfile& base,

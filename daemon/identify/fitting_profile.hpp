@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "protocol/wire/device_profile.hpp"
 
@@ -23,6 +24,10 @@ struct Changes {
 
 /// Returns the shipped profile of a product, or null.
 [[nodiscard]] const wire::DeviceProfile* shipped_profile_of(const std::string& product_id);
+
+/// Returns where the values of a profile are from, as its file says: "acceleration: ...", one for each
+/// table, after that of the device.
+[[nodiscard]] std::vector<std::string> sources_of(const wire::DeviceProfile& profile);
 
 /// Returns the text of a profile file: that of `base` with changes, which are marked as assumed.
 /// @return std::nullopt if the file of `base` is written so that the lines to change are not found.

@@ -41,6 +41,7 @@ public:
         judge_frames();
         judge_axes();
         judge_temperature();
+        add_sources();
         fit();
         return std::move(report_);
     }
@@ -190,6 +191,14 @@ private:
         changes_.temperature = finding.fits;
     }
 
+    void add_sources() {
+        report_.sources = fmt::format(
+            "the values of profile {}, {}, are from\n", profile_.name,
+            profile_.is_verified ? "which says that it is verified" : "which is not verified");
+        for (const std::string& source : sources_of(profile_))
+            report_.sources += "  " + source + "\n";
+    }
+
     /// Chooses the profile that fits.
     void fit() {
         const std::string& product = seen_.device.product_id;
@@ -243,7 +252,7 @@ std::string to_text(const Report& report) {
     std::string text = report.sensor + "\n";
     for (const Line& line : report.lines)
         text += fmt::format("{:<14} {}: {}\n", to_text(line.verdict), line.topic, line.finding);
-    return text;
+    return text + report.sources;
 }
 
 std::string advice(const Report& report, const std::string& profile, const std::string& stem) {

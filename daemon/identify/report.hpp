@@ -39,6 +39,7 @@ struct Line {
 struct Report {
     std::string sensor;  ///< Product, serial number, firmware and port, in one line.
     std::vector<Line> lines;
+    std::string sources;  ///< Lines that say where each value of the configured profile is from.
     /// Shipped profile that fits; empty if none does, or if nothing is known.
     std::string profile;
     /// Text of a profile file that fits if no shipped profile does.
@@ -54,7 +55,7 @@ struct Report {
 /// @param seen  an observation with `has_answered`.
 [[nodiscard]] Report report_on(const Observation& seen, const Expected& expected);
 
-/// Returns the report as text: one line for each statement.
+/// Returns the report as text: one line for each statement, then the sources.
 [[nodiscard]] std::string to_text(const Report& report);
 
 /// Returns what to do after a report: which profile to use, and which file to send.

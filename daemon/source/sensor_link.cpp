@@ -17,7 +17,9 @@ using std::chrono::seconds;
 constexpr milliseconds kShortestRealWait{50};  // a fast emulator is not asked without a pause
 // Waiting times in instrument time, which real_wait() converts.
 constexpr seconds kPortRetry{1};
-constexpr std::size_t kLeastTalk = 16;  // bytes; a plug that is put in makes a few
+// Bytes of another device.  The shortest line of a GPS receiver, which sends lines each second, has
+// 20: "$GPGLL,,,,,,V,N*64" and its end (NMEA 0183).  A plug that is put in makes a few.
+constexpr std::size_t kLeastTalk = 16;
 constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
                                        seconds(30)};
 

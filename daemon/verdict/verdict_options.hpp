@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/believable/limits.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
 namespace a351::daemon::verdict {
@@ -52,8 +53,9 @@ struct Options {
     double target_mgal = 1.0;  ///< Standard error that is good enough: below 1.2 of one placement.
 
     // Data.
-    double gap_s = 10.0;    ///< Time since the last sample: ten times the delay of a slow adapter.
-    double stuck_s = 60.0;  ///< Time without any change of temperature: 30 noisy values.
+    double gap_s = 10.0;  ///< Time since the last sample: ten times the delay of a slow adapter.
+    /// Time without any change of the temperature, after which it is frozen.
+    double stuck_s = believable::kFrozen_s;
 
     bool operator==(const Options&) const = default;
 };

@@ -45,6 +45,10 @@ TEST_CASE("a sensor that agrees with its configuration is confirmed in each poin
     CHECK_THAT(to_text(report),
                Contains("confirmed      rate: 50.000 frames a second, expected 50"));
     CHECK_THAT(advice(report, "A351", "stem"), Contains("profile A351 fits\n"));
+    CHECK_THAT(to_text(report),
+               Contains("the values of profile A351, which is not verified, are from\n") &&
+                   Contains("\n  temperature: assumed: as the M-A352AD10; its data sheet") &&
+                   Contains("\n  filter: assumed: as the M-A352AD10"));
 }
 
 TEST_CASE("another product of the family gets the profile that is shipped for it", "[identify]") {

@@ -52,7 +52,9 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
 TEST_CASE("another sensor is a warning for an hour", "[daemon][assess]") {
     Status status = healthy();
     const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
-    status.unit_change = UnitChange{noon, "00000001", "0000\x01" "777"};
+    status.unit_change = UnitChange{noon, "00000001",
+                                    "0000\x01"
+                                    "777"};
     status.now = noon + std::chrono::minutes(59);
     assess(status);
     REQUIRE(status.reasons.size() == 1);
@@ -302,7 +304,9 @@ TEST_CASE("a rate that is 2 % off is a fault in real time", "[daemon][assess]") 
         status.is_in_real_time = is_in_real_time;
         status.output_rate_hz = 50;
         status.wrong_rate = Hertz(51.0);
+        status.measured_rate = {Hertz(50.0055), 10.0, std::chrono::hours(1)};
         assess(status);
         CHECK((status.level == Status::Level::fault) == is_in_real_time);
+        CHECK(status.measured_rate.has_value() != is_in_real_time);
     }
 }
