@@ -20,12 +20,10 @@ struct RetimeOptions {
 
 archive::RetimeReport retimed(const RetimeOptions& options) {
     files::FileLayer& files = files::posix_files();
-    if (options.profile.empty()) return archive::retime(files, options.root, options.out);
-    const auto& profile = wire::profile_option("--profile", options.profile);
-    return archive::retime(files, options.root, options.out, &profile,
-                           [&](const auto& from, const auto& to) {
-                               station::describe_again(files, from, to, profile);
-                           });
+    const wire::DeviceProfile* const profile =
+        options.profile.empty() ? nullptr : &wire::profile_option("--profile", options.profile);
+    return archive::retime(files, options.root, options.out, profile,
+                           [&](const auto&... args) { station::describe_again(files, args...); });
 }
 
 void run(const RetimeOptions& options) {

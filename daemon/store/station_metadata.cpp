@@ -8,6 +8,7 @@
 
 #include "protocol/archive/time_gate.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/station/session_description.hpp"
 
 namespace a351::daemon::store {
 
@@ -61,16 +62,8 @@ std::string StationMetadata::describe(const journal::Header& header) const {
     // Without a host clock the start of the epoch is not known.
     if (header.clock.realtime < archive::TimeGate::kEarliest) return {};
     station::Description description = station_;
-    // The times of the first samples precede their header by the filter's delay.
-    description.start = header.clock.realtime - description.group_delay;
-    description.product_id = header.product_id;
-    description.serial_number = header.serial_number;
-    description.firmware = header.firmware;
-    description.start_up_test = header.start_up_test;
-    description.declared_rate_hz = header.declared_rate_hz;
-    description.oven_interval = header.oven_interval;
-    description.outer_oven_interval = header.outer_oven_interval;
     try {
+        station::describe_session(description, header);
         return describe_station(files_, root_, description).value_or("");
     } catch (const std::exception& error) {
         return error.what();

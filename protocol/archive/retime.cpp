@@ -101,18 +101,26 @@ void gather(const Recording& recording, Retiming& retiming) {
                     segments.front().parent_path().string(), segments.size(), reason));
 }
 
-void write(const Recording& recording, Retiming& retiming, Archives& archives,
-           RetimeReport& report) {
+std::vector<RetimedSegment> write(const Recording& recording, Retiming& retiming,
+                                  Archives& archives, RetimeReport& report) {
+    std::vector<RetimedSegment> segments;
+    std::vector<std::int64_t> firsts;  // Indices of their first samples.
     retiming.begin_second_pass();
     Archiver archiver(archives, &retiming);
     std::optional<journal::StationCodes> codes;
     Chunks chunks(recording);
     while (const auto chunk = chunks.next()) {
-        if (const auto* header = std::get_if<journal::Header>(&*chunk);
-            header && header->codes != codes) {
+        const auto* const header = std::get_if<journal::Header>(&*chunk);
+        if (header && header->codes != codes) {
             archiver.close_records();  // under their own codes
             archives.begin(header->codes);
             codes = header->codes;
+        }
+        if (header) {
+            const bool continues =
+                !segments.empty() && segments.back().header.session == header->session;
+            firsts.push_back(continues ? archiver.last_index().value_or(-1) + 1 : 0);
+            segments.push_back({*header, {}});
         }
         archiver.take(*chunk);
     }
@@ -121,6 +129,11 @@ void write(const Recording& recording, Retiming& retiming, Archives& archives,
     archives.finish();
     report.records = archives.records();
     report.counters = archiver.counters();
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+        const journal::Header& header = segments[k].header;
+        segments[k].start = retiming.time_of(header.session, firsts[k], header.clock.realtime);
+    }
+    return segments;
 }
 
 void write_events(files::FileLayer& files, const fs::path& root, const fs::path& out,
@@ -231,9 +244,9 @@ RetimeReport retime(files::FileLayer& files, const fs::path& root, const fs::pat
         Retiming retiming;
         gather(recording, retiming);
         Archives archives(files, partial / "archive");
-        write(recording, retiming, archives, report);
+        const auto segments = write(recording, retiming, archives, report);
         write_events(files, root, partial, retiming);
-        metadata(root, partial);
+        metadata(root, partial, segments);
         files.rename(partial, out);
         files.sync_directory(fs::absolute(out).parent_path());
     } catch (...) {

@@ -81,9 +81,16 @@ private:
 [[nodiscard]] journal::Header recorded_with(const wire::DeviceProfile& profile,
                                             journal::Header header);
 
+/// A segment of the journal, and the new time of its first sample.
+struct RetimedSegment {
+    journal::Header header;        ///< As the segment was read: recorded_with() the given profile.
+    std::optional<UtcTime> start;  ///< Absent if it has no time.
+};
+
 /// Writes the folder `metadata` of a data root; `to` is the new root.
 using MetadataWriter =
-    std::function<void(const std::filesystem::path& from, const std::filesystem::path& to)>;
+    std::function<void(const std::filesystem::path& from, const std::filesystem::path& to,
+                       const std::vector<RetimedSegment>& segments)>;
 
 /// Copies the folder `metadata`, if there is one.
 void copy_metadata(const std::filesystem::path& from, const std::filesystem::path& to);
@@ -112,13 +119,16 @@ struct RetimeReport {
 ///              absent.  No daemon may write to it meanwhile.
 /// @param out   new directory; `out` + ".partial" beside it must not exist either.
 /// @param profile   if given, everything is as if it had been recorded with it: recorded_with().
-/// @param metadata  writes the metadata; with a profile, station::describe_again() does.
+/// @param metadata  writes the metadata; station::describe_again() gives their epochs the new times.
 /// @throws InputError         no journal in `root`, or `out` exists, or a header of the journal
 ///                            names unknown settings, or settings that `profile` lacks.
 /// @throws std::runtime_error no frame of the sensor can be read; nothing is written.
 /// @throws std::system_error  a file cannot be read or written.
-RetimeReport retime(files::FileLayer& files, const std::filesystem::path& root,
-                    const std::filesystem::path& out, const wire::DeviceProfile* profile = nullptr,
-                    const MetadataWriter& metadata = copy_metadata);
+RetimeReport retime(
+    files::FileLayer& files, const std::filesystem::path& root, const std::filesystem::path& out,
+    const wire::DeviceProfile* profile = nullptr,
+    const MetadataWriter& metadata = [](const auto& from, const auto& to, const auto&) {
+        copy_metadata(from, to);
+    });
 
 }  // namespace a351::archive

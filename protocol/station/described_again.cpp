@@ -1,12 +1,13 @@
 #include "protocol/station/described_again.hpp"
 
+#include <algorithm>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "protocol/archive/channel_code.hpp"
-#include "protocol/archive/retime.hpp"
 #include "protocol/archive/time_gate.hpp"
-#include "protocol/journal/journal_reader.hpp"
+#include "protocol/station/session_description.hpp"
 #include "protocol/station/station_document.hpp"
 
 namespace a351::station {
@@ -17,13 +18,20 @@ namespace fs = std::filesystem;
 /// Content of a file of metadata that a journal lacks.
 class Place {
 public:
-    explicit Place(const fs::path& file) : file_(file), document_(load_station_document(file)) {}
+    explicit Place(const fs::path& file)
+        : file_(file),
+          document_(load_station_document(file)),
+          channels_(document_.select_nodes("/FDSNStationXML/Network/Station/Channel")) {
+        for (const auto& channel : channels_)
+            begin_ = std::min(begin_, date_of(file_, channel.node(), "startDate").value_or(begin_));
+    }
 
-    /// Completes a description with position and ovens at an instant.
+    /// Completes a description with position and ovens at an instant by the clock of the host.  Before
+    /// the first epoch they are those of the first one, because the clock was not set.
     void complete(Description& description, UtcTime at) const {
+        at = std::max(at, begin_);
         pugi::xml_node place;  // without an epoch at this instant, the first one
-        for (const auto& found :
-             document_.select_nodes("/FDSNStationXML/Network/Station/Channel")) {
+        for (const auto& found : channels_) {
             const auto channel = found.node();
             const bool is_now = is_in_force(file_, channel, at);
             if (is_now || !place) place = channel;
@@ -39,46 +47,27 @@ public:
 private:
     fs::path file_;
     pugi::xml_document document_;
+    pugi::xpath_node_set channels_;
+    UtcTime begin_ = UtcTime::max();  ///< Begin of the first epoch.
 };
-
-Description description_of(const journal::Header& header, const wire::DeviceProfile& profile) {
-    Description description;
-    description.codes = header.codes;
-    description.profile = profile.name;
-    description.is_profile_verified = profile.is_verified;
-    description.product_id = header.product_id;
-    description.serial_number = header.serial_number;
-    description.start_up_test = header.start_up_test;
-    description.firmware = header.firmware;
-    description.output_rate_hz = header.output_rate_hz;
-    description.filter = header.filter;
-    if (const auto* const filter = profile.filter_named(header.filter))
-        description.group_delay = profile.group_delay(*filter);
-    description.declared_rate_hz = header.declared_rate_hz;
-    description.oven_interval = header.oven_interval;
-    description.outer_oven_interval = header.outer_oven_interval;
-    // The times of the first samples precede their header by the filter's delay.
-    description.start = header.clock.realtime - description.group_delay;
-    return description;
-}
 
 }  // namespace
 
 void describe_again(files::FileLayer& files, const fs::path& from, const fs::path& to,
-                    const wire::DeviceProfile& profile) {
+                    const std::vector<archive::RetimedSegment>& segments) {
     archive::copy_metadata(from, to);
     const fs::path file = to / "metadata" / "station.xml";
     if (!fs::exists(file)) return;
     const Place place(file);
-    fs::remove(file);
-    for (const auto& segment : journal::segment_files(from / "journal")) {
-        const auto header = journal::segment_header(segment);
-        // Without a host clock the start of an epoch is not known.
-        if (!header || header->clock.realtime < archive::TimeGate::kEarliest) continue;
-        Description description = description_of(archive::recorded_with(profile, *header), profile);
-        place.complete(description, header->clock.realtime);
-        const auto xml =
-            fs::exists(file) ? extend_station_xml(file, description) : to_station_xml(description);
+    bool is_first = true;
+    for (const auto& [header, start] : segments) {
+        if (!start || *start < archive::TimeGate::kEarliest) continue;  // It has no records.
+        Description description;
+        describe_session(description, header);
+        place.complete(description, header.clock.realtime);
+        description.start = *start;
+        const auto xml = std::exchange(is_first, false) ? to_station_xml(description)
+                                                        : extend_station_xml(file, description);
         if (xml) files::replace_file(files, file, std::as_bytes(std::span(*xml)));
     }
 }

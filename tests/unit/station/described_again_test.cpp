@@ -8,9 +8,11 @@
 #include <span>
 
 #include "protocol/archive/archive_writer.hpp"
+#include "protocol/archive/channel_code.hpp"
 #include "protocol/archive/retime.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/events/event_log.hpp"
+#include "protocol/station/session_description.hpp"
 #include "protocol/wire/shipped_profiles.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/unit/archive/data_root.hpp"
@@ -57,16 +59,7 @@ void record(const archive::DataRoot& root, const DeviceProfile& profile) {
         chunks.insert(chunks.end(), stream.chunks.begin(), stream.chunks.end());
 
         Description description = station::description();
-        description.profile = profile.name;
-        description.product_id = header.product_id;
-        description.serial_number = header.serial_number;
-        description.start_up_test = header.start_up_test;
-        description.firmware = header.firmware;
-        description.filter = header.filter;
-        description.declared_rate_hz = header.declared_rate_hz;
-        description.is_profile_verified = profile.is_verified;
-        description.group_delay = profile.group_delay(*profile.filter_coded(6));
-        description.start = header.clock.realtime - description.group_delay;
+        describe_session(description, header);
         if (session == 2) {
             description.elevation = Metres(800.0);
             description.has_oven = true;
@@ -113,10 +106,13 @@ TEST_CASE(
     record(recorded_right, right);
     const test::TemporaryDirectory out;
     auto& files = files::posix_files();
-    archive::retime(files, recorded_right.path(), out.path() / "right");
-    archive::retime(
-        files, recorded_wrong.path(), out.path() / "repaired", &right,
-        [&](const auto& from, const auto& to) { describe_again(files, from, to, right); });
+    const auto retime = [&](const archive::DataRoot& root, const char* to,
+                            const DeviceProfile* profile = nullptr) {
+        archive::retime(files, root.path(), out.path() / to, profile,
+                        [&](const auto&... args) { describe_again(files, args...); });
+    };
+    retime(recorded_right, "right");
+    retime(recorded_wrong, "repaired", &right);
     const auto expected = files_below(out.path() / "right");
     const auto repaired = files_below(out.path() / "repaired");
     CHECK(expected.size() > 6);
@@ -126,8 +122,66 @@ TEST_CASE(
         CHECK((repaired.at(name) == bytes));
     }
     CHECK(repaired.size() == expected.size());
-    archive::retime(files, recorded_wrong.path(), out.path() / "wrong");
+    retime(recorded_wrong, "wrong");
     CHECK((files_below(out.path() / "wrong") != expected));
+}
+
+TEST_CASE(
+    "epochs of a re-timed record begin with their first samples, also if the clock was wrong at an "
+    "exchange of the sensor, or not set",
+    "[record][retime]") {
+    struct Case {
+        Nanoseconds off{0};  ///< Of the clock in the first session.
+        bool is_set_later = true;
+    };
+    const Nanoseconds never_set = -journal::kStart.time_since_epoch();
+    for (const auto& [off, is_set_later] :
+         {Case{3h}, Case{-3h}, Case{never_set}, Case{never_set, false}}) {
+        CAPTURE(off.count(), is_set_later);
+        const archive::DataRoot root;
+        std::vector<journal::Chunk> chunks;
+        for (const std::uint8_t session : {1, 2}) {
+            const Nanoseconds begin = session == 1 ? 0min : 30min;
+            journal::JournalStream stream(session, begin);
+            stream.frames(begin / 20ms, begin / 20ms + 6'000);
+            auto& header = std::get<journal::Header>(stream.chunks.front());
+            header.serial_number = session == 1 ? "T0000001" : "T0000002";
+            for (journal::Chunk& chunk : stream.chunks) {
+                auto* reading = std::get_if<timing::ClockReading>(&chunk);
+                if (std::get_if<journal::Header>(&chunk)) reading = &header.clock;
+                if (reading == nullptr || (session == 2 && is_set_later)) continue;
+                reading->realtime += off;
+                reading->is_synchronised = false;
+            }
+            chunks.insert(chunks.end(), stream.chunks.begin(), stream.chunks.end());
+            if (header.clock.realtime < journal::kStart - 24h && session == 1) continue;
+            Description description = station::description();
+            describe_session(description, header);
+            description.has_oven = true;
+            const auto file = root.path() / "metadata" / "station.xml";
+            std::filesystem::create_directories(file.parent_path());
+            const auto text = std::filesystem::exists(file)
+                                  ? extend_station_xml(file, description).value()
+                                  : to_station_xml(description);
+            files::replace_file(files::posix_files(), file, std::as_bytes(std::span(text)));
+        }
+        root.write_journal(chunks);
+        const test::TemporaryDirectory parent;
+        archive::retime(files::posix_files(), root.path(), parent.path() / "out", nullptr,
+                        [](const auto&... args) { describe_again(files::posix_files(), args...); });
+        const auto epochs = read_station_epochs(parent.path() / "out" / "metadata" / "station.xml");
+        if (!is_set_later) {  // No sample has a time, so the file is as it was.
+            CHECK(epochs.begin()->second.serial_number == "T0000002");
+            continue;
+        }
+        REQUIRE(epochs.size() == 2);
+        CHECK(epochs.begin()->second.serial_number == "T0000001");
+        CHECK(std::ranges::count(epochs.begin()->second.channels, archive::kOvenTemperature,
+                                 &ChannelScale::code) == 1);
+        CHECK(std::chrono::abs(epochs.begin()->first - journal::kStart) < 200ms);
+        CHECK(epochs.rbegin()->second.serial_number == "T0000002");
+        CHECK(std::chrono::abs(epochs.rbegin()->first - journal::kStart - 30min) < 200ms);
+    }
 }
 
 TEST_CASE("a profile without the filter of a journal is refused, and nothing is written",
