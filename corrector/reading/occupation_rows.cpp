@@ -239,7 +239,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
                                                                    epoch.channels[kTemperature]);
     const auto events = events::read_events(source.root / "events").events;
     result.verdicts = verdict_course(events, result.temperature_course);
-    for (Finding& finding : start_up_findings(events, windows.front().start, windows.back().end))
+    for (Finding& finding :
+         start_up_findings(events, epoch.serial_number, windows.front().start, windows.back().end))
         result.findings.push_back(std::move(finding));
     if (!source.is_so_far) result.inputs = inputs_of(source, stays);
     result.running_key = list.running_key;

@@ -4,10 +4,21 @@
 
 namespace a351::corrector::reading {
 
-std::vector<Finding> start_up_findings(std::vector<events::Event> events, UtcTime from,
-                                       UtcTime to) {
-    std::erase_if(events, [](const events::Event& event) {
-        return event.type != "start_up_test" || !event.details.contains("result");
+namespace {
+
+std::string serial_number_of(const events::Event& event) {
+    const auto found = event.details.find("serial_number");
+    return found == event.details.end() ? std::string() : found->second;
+}
+
+}  // namespace
+
+std::vector<Finding> start_up_findings(std::vector<events::Event> events,
+                                       const std::string& serial_number, UtcTime from, UtcTime to) {
+    std::erase_if(events, [&](const events::Event& event) {
+        const std::string tested = serial_number_of(event);
+        const bool is_other = !serial_number.empty() && !tested.empty() && tested != serial_number;
+        return event.type != "start_up_test" || !event.details.contains("result") || is_other;
     });
     std::ranges::stable_sort(events, {}, &events::Event::utc);
     std::vector<Finding> findings;
@@ -18,18 +29,19 @@ std::vector<Finding> start_up_findings(std::vector<events::Event> events, UtcTim
         Finding& finding = findings.emplace_back(
             Finding{.kind = FindingKind::start_up_test, .time = events[k].utc});
         const std::string at = to_rfc3339(events[k].utc);
+        const std::string tested = serial_number_of(events[k]);
+        const std::string unit = tested.empty() ? "?" : tested;
         if (result == "unknown") {
             finding.code = "start_up_test_unknown";
             finding.text = text::message(
-                "it is not known whether the sensor passed its start-up test at {}: the answer was "
+                "it is not known whether sensor {} passed its start-up test at {}: the answer was "
                 "lost",
-                at);
+                unit, at);
         } else {
             finding.code = "start_up_test_failed";
             finding.text = text::message(
-                "the sensor failed its start-up test at {} ({}): do not trust the readings after "
-                "it",
-                at, result);
+                "sensor {} failed its start-up test at {} ({}): do not trust the readings after it",
+                unit, at, result);
         }
     }
     return findings;

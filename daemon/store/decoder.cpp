@@ -152,8 +152,10 @@ void Decoder::note_other_unit(const journal::Header& header) {
 }
 
 void Decoder::watch_sensor(const journal::Header& header) {
-    if (!serial_number_.empty() && header.serial_number != serial_number_) note_other_unit(header);
-    if (header.start_up_test == start_up_test_) return;
+    const bool is_other = !serial_number_.empty() && header.serial_number != serial_number_;
+    if (is_other) note_other_unit(header);
+    const bool is_passed = header.start_up_test == wire::StartUpTest::passed;
+    if (header.start_up_test == start_up_test_ && (!is_other || is_passed)) return;
     events::Event event;
     event.type = "start_up_test";
     event.utc = header.clock.realtime;

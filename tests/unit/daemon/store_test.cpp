@@ -120,9 +120,19 @@ TEST_CASE_METHOD(Rig, "another result of the start-up test is in the event log, 
     begin_session(102);
     start_up_test = wire::StartUpTest::passed;
     begin_session(103);
+    serial_number = "00000777";
+    begin_session(104);
+    start_up_test = wire::StartUpTest::hard_error;
+    begin_session(105);
+    serial_number = "00000042";
+    begin_session(106);  // It failed, as the one before.
     CHECK(store.stop());
-    const std::vector<events::Event> events = events::read_events(root / "events").events;
-    REQUIRE(events.size() == 2);
+    std::vector<events::Event> events = events::read_events(root / "events").events;
+    std::erase_if(events, [](const auto& event) { return event.type != "start_up_test"; });
+    REQUIRE(events.size() == 4);
+    CHECK(events[2].session->bytes[0] == 105);
+    CHECK(events[3].session->bytes[0] == 106);
+    CHECK(events[3].details.at("serial_number") == "00000042");
     CHECK(events[0].type == "start_up_test");
     CHECK(events[0].details.at("result") == "HARD_ERR");
     CHECK(events[0].session->bytes[0] == 101);
