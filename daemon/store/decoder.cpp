@@ -57,7 +57,8 @@ std::optional<journal::SessionId> Decoder::end_replay(archive::Writer::Held held
     held_ = std::move(held);
     record_session_ = session_;
     status_.counters = archiver_->counters();
-    note_if_back(clock_.read().realtime);  // Samples may be an hour away.
+    const UtcTime now = clock_.read().realtime;  // Samples may be an hour away.
+    if (is_back(now)) expect_step({*newest_, now});
     return session_;
 }
 
@@ -101,7 +102,7 @@ void Decoder::watch_clock(const journal::Chunk& chunk) {
     const auto* const reading =
         header != nullptr ? &header->clock : std::get_if<timing::ClockReading>(&chunk);
     const auto step = reading != nullptr ? clock_watch_.observe(*reading) : std::nullopt;
-    if (step) note_step(*step);
+    if (step) expect_step(*step);
 }
 
 void Decoder::watch_rate(const journal::Chunk& chunk) {
@@ -116,14 +117,30 @@ void Decoder::watch_rate(const journal::Chunk& chunk) {
     status_.wrong_rate = rate_watch_->wrong_rate();
 }
 
-/// Notes a step if this time is before that of the newest sample: the clock was set back while
-/// nothing was recorded, or while the host slept.
-void Decoder::note_if_back(UtcTime utc) {
-    if (newest_ && utc + kLeastBack < *newest_) note_step({*newest_, utc});
+/// Returns true if this time is before that of the newest sample.
+bool Decoder::is_back(UtcTime utc) const { return newest_ && utc + kLeastBack < *newest_; }
+
+/// Notes a step before a sample shows it.
+void Decoder::expect_step(const status::ClockStep& step) {
+    note_step(step);
+    if (const Nanoseconds by = step.after - step.before; by < -kLeastBack) expected_ = by;
+}
+
+/// Takes the time of the next sample.  If it is before that of the newest one, and no step was noted
+/// that explains it, the clock was set back while nothing was recorded, or while the host slept.
+void Decoder::watch_time(UtcTime utc) {
+    if (is_back(utc)) {
+        const Nanoseconds by = utc - *newest_;
+        if (const auto expected = std::exchange(expected_, std::nullopt);
+            !expected || by < *expected - kLeastBack) {
+            note_step({*newest_, utc});
+            clock_watch_ = {};  // It would report the same step a minute later.
+        }
+    }
+    newest_ = utc;
 }
 
 void Decoder::note_step(const status::ClockStep& step) {
-    newest_.reset();
     status_.clock_step = step;
     events::Event event;
     event.type = "clock_step";
@@ -198,8 +215,10 @@ void Decoder::sample(const archive::Sample& sample) {
     const auto placed = archiver_->clock()->time_of(sample.index);
     if (!placed) return;
     options_.sample(sample, placed->utc);
-    if (archive_ == nullptr) note_if_back(placed->utc);  // The last run has noted its own steps.
-    newest_ = placed->utc;
+    if (archive_ == nullptr)
+        watch_time(placed->utc);
+    else
+        newest_ = placed->utc;  // The last run has noted its own steps.
 }
 
 std::optional<std::size_t> Decoder::samples_in_archive(const std::string& channel,

@@ -89,7 +89,9 @@ private:
     bool begin_session(const journal::Chunk& chunk);
     void watch_clock(const journal::Chunk& chunk);
     void watch_rate(const journal::Chunk& chunk);
-    void note_if_back(UtcTime utc);
+    [[nodiscard]] bool is_back(UtcTime utc) const;
+    void expect_step(const status::ClockStep& step);
+    void watch_time(UtcTime utc);
     void note_step(const status::ClockStep& step);
     void watch_sensor(const journal::Header& header);
     void note_other_unit(const journal::Header& header);
@@ -116,7 +118,9 @@ private:
     std::optional<journal::SessionId> record_session_;  ///< Session of the records being made.
     std::optional<archive::Sample> last_sample_;
     std::optional<UtcTime> newest_;  ///< Time of the newest sample, also of the last run.
-    bool has_recorded_ = false;      ///< This run recorded a session or a part of one.
+    /// Step back that was noted and that no sample has shown yet.
+    std::optional<Nanoseconds> expected_;
+    bool has_recorded_ = false;  ///< This run recorded a session or a part of one.
     ClockWatch clock_watch_;
     std::optional<believable::RateWatch> rate_watch_;  ///< Absent before a session.
     SteadyTime last_model_real_;

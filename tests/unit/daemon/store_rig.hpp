@@ -139,7 +139,7 @@ struct Rig {
     wire::StartUpTest start_up_test = wire::StartUpTest::passed;  ///< Of the next sessions.
 
     void begin_session(std::uint8_t id = 42, const char* profile = "A351",
-                       std::chrono::days ago = std::chrono::days(0)) {
+                       Nanoseconds ago = Nanoseconds(0)) {
         journal::Header header;
         header.session.bytes[0] = id;
         header.boot_id = clock.boot_id();

@@ -381,9 +381,37 @@ TEST_CASE_METHOD(SteppedRig,
     CHECK(clock_steps_s(root) == std::vector<double>{-40.0});
 }
 
+TEST_CASE_METHOD(Rig,
+                 "a clock that is set back while data arrive is named once, by its step or by the "
+                 "first sample of a session that follows it at once",
+                 "[daemon][store]") {
+    constexpr std::chrono::seconds kSecond{1}, kBack{80};
+    Store store(files, options(), clock, reads);
+    record_first(store);
+    feed(25);  // Times are fixed for a second of data, half of it after a reading.
+    timing::ClockReading reading = clock.read();
+    reading.is_synchronised = true;
+    const auto record = [&](int seconds) {
+        for (int i = 0; i < seconds; ++i) {
+            reading.raw += kSecond;
+            reading.boottime += kSecond;
+            reading.realtime += kSecond;
+            REQUIRE(reads.push_woken(reading));
+            feed(50);
+        }
+    };
+    record(120);
+    reading.realtime -= kBack;
+    SECTION("in a session, which follows it after a minute") {}
+    SECTION("before a session") { begin_session(101, "A351", kBack); }
+    record(200);
+    CHECK(store.stop());
+    CHECK(clock_steps_s(root) == std::vector<double>{-80.0});
+}
+
 TEST_CASE_METHOD(SteppedRig,
                  "a clock that is behind the recorded data is named once: at the start or after a "
-                 "sleep, and a running one by its step alone",
+                 "sleep",
                  "[daemon][store]") {
     std::optional<Store> store(std::in_place, files, options(), clock, reads);
     begin_session(1);
