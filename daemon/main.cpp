@@ -266,7 +266,10 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     survey::Occupations occupations(store, config.survey.sites, events::read_events(events).events,
                                     occupation_options(config));
     gravity::GravitySoFar gravity(gravity_options(config, log));
-    const auto note_change = [&] { gravity.note_change(occupations.running().has_value()); };
+    const auto note_change = [&] {
+        gravity.note_change(occupations.running().has_value());
+        store.set_day_end(occupations.day_end());
+    };
     if (occupations.running() || !occupations.list().empty()) note_change();
     page::Server page({.listen = config.page.listen,
                        .hosts = config.page.hosts,
@@ -289,7 +292,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
 
     end_stay = [&](const events::Event& event) {
         page.post([&occupations, &note_change, event] {
-            occupations.observe(event);
+            occupations.end_at_exchange(event);
             note_change();
         });
     };

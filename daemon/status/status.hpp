@@ -78,7 +78,7 @@ struct Status {
     int output_rate_hz = 0;
     bool is_profile_verified = false;
     std::string calibrated_serial_number;   ///< Unit of the calibration in use; empty if none.
-    std::optional<UnitChange> unit_change;  ///< Newest one of this run.
+    std::optional<UnitChange> unit_change;  ///< Newest one within a survey day.
     std::string start_up_test;  ///< Result of the sensor's last start-up test, as in the journal.
     bool is_device_assumed = false;  ///< The stream was adopted; the device was not asked.
 

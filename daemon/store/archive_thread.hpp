@@ -56,6 +56,7 @@ public:
 
     [[nodiscard]] std::optional<survey::Instant> latest() const;
     [[nodiscard]] std::optional<survey::Instant> at(UtcTime utc) const;
+    void set_day_end(UtcTime end) { decoder_.set_day_end(end); }
     [[nodiscard]] Nanoseconds signal_since(const journal::SessionId& session,
                                            std::int64_t index) const;
     [[nodiscard]] ArchiveStatus status() const;

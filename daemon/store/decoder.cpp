@@ -151,9 +151,10 @@ void Decoder::note_step(const status::ClockStep& step) {
     journal_.note(event);
 }
 
-/// Notes that another sensor records: the last sample of the one before ends its stay.
-void Decoder::note_other_unit(const journal::Header& header) {
-    status_.unit_change = {header.clock.realtime, serial_number_, header.serial_number};
+/// Reports that another sensor records: the last sample of the one before ends its stay.
+void Decoder::report_other_unit(const journal::Header& header) {
+    if (header.clock.realtime < day_end_.load())
+        status_.unit_change = {header.clock.realtime, serial_number_, header.serial_number};
     events::Event event;
     event.type = "other_unit";
     event.utc = header.clock.realtime;
@@ -164,13 +165,12 @@ void Decoder::note_other_unit(const journal::Header& header) {
     }
     event.details["before"] = serial_number_;
     event.details["serial_number"] = header.serial_number;
-    journal_.note(event);
     options_.other_unit(event);
 }
 
 void Decoder::watch_sensor(const journal::Header& header) {
     const bool is_other = !serial_number_.empty() && header.serial_number != serial_number_;
-    if (is_other) note_other_unit(header);
+    if (is_other) report_other_unit(header);
     const bool is_passed = header.start_up_test == wire::StartUpTest::passed;
     if (header.start_up_test == start_up_test_ && (!is_other || is_passed)) return;
     events::Event event;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -21,8 +22,8 @@
 namespace a351::daemon::store {
 
 /// Makes samples, their times and records of the chunks, and answers which sample belongs to a time.
-/// The journal gets the time of the newest sample (MODEL), the event log each step of the clock,
-/// and each session of another sensor or with another result of the start-up test than the one before.
+/// The journal gets the time of the newest sample (MODEL), the event log each step of the clock and
+/// each session with another result of the start-up test than the one before.
 ///
 /// One thread decodes, any thread may ask.  The lock is held while a chunk is decoded.  This reads the
 /// archive during a replay, and never waits for the disk afterwards.
@@ -36,7 +37,7 @@ public:
         std::optional<Nanoseconds> host_uncertainty;    ///< Its part that is the host's clock.
         bool is_host_synchronised = false;
         std::optional<status::ClockStep> clock_step;    ///< Newest one of this run.
-        std::optional<status::UnitChange> unit_change;  ///< Newest one of this run.
+        std::optional<status::UnitChange> unit_change;  ///< Newest one within a survey day.
         std::optional<timing::MeasuredRate> measured_rate;
         std::optional<Hertz> wrong_rate;  ///< See believable::RateWatch.
     };
@@ -70,6 +71,8 @@ public:
     /// See survey::Recorder::signal_since().
     [[nodiscard]] Nanoseconds signal_since(const journal::SessionId& session,
                                            std::int64_t index) const;
+    /// See Store::set_day_end().
+    void set_day_end(UtcTime end) { day_end_ = end; }
     [[nodiscard]] Status status() const;
 
 private:
@@ -94,7 +97,7 @@ private:
     void watch_time(UtcTime utc);
     void note_step(const status::ClockStep& step);
     void watch_sensor(const journal::Header& header);
-    void note_other_unit(const journal::Header& header);
+    void report_other_unit(const journal::Header& header);
     [[nodiscard]] std::optional<survey::Instant> last_instant() const;
     void note_model();
 
@@ -103,6 +106,7 @@ private:
     WaitingRecords& records_;
     Progress& progress_;
     JournalThread& journal_;
+    std::atomic<UtcTime> day_end_{UtcTime::min()};
 
     mutable std::mutex mutex_;  ///< Mutex of all that follows.
     std::unique_ptr<archive::Archiver> archiver_;

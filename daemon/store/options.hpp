@@ -31,8 +31,8 @@ struct Options {
     std::function<void(const archive::RecoveryReport&)> recovered = [](const auto&) {};
     /// Called by another thread, once, before anything is recorded or recovered.  Must not throw.
     std::function<void()> begin = [] {};
-    /// Called by another thread when another sensor begins to record, with the event that the log
-    /// gets.  Must not wait.
+    /// Called by another thread when another sensor begins to record, before its first sample, with the
+    /// event that is to be noted: Occupations::end_at_exchange().  Must not wait.
     std::function<void(const events::Event&)> other_unit = [](const auto&) {};
     /// Called by another thread for each sample that received its index and time, also those of the
     /// last run's journal.

@@ -61,8 +61,11 @@ public:
         journal_.commit(event, options_.commit_patience);
     }
 
-    /// Writes an event soon, without waiting for it.  It is lost if the disk refuses it.
-    void note(const events::Event& event) { journal_.note(event); }
+    void note(const events::Event& event) override { journal_.note(event); }
+
+    /// Sets the end of the survey day: another sensor that begins to record before is reported in the
+    /// status.
+    void set_day_end(UtcTime end) { archive_.set_day_end(end); }
 
     /// Passes a poll to journal and archive.  It is dropped before the sensor's first session, which
     /// opens the journal.

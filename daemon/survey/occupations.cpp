@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -44,6 +45,12 @@ Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
     for (const events::Event& event : events) note_aside(event);
 }
 
+/// Returns the time of the last sample that continues the time of the running stay.
+/// @param first  first sample of the stay.
+UtcTime Occupations::own_time(const Instant& first) {
+    return running()->start + recorder_.signal_since(first.session, first.index);
+}
+
 /// Returns the last sample.  By a clock that was set back behind the last set-up of the running stay,
 /// its time continues that of the start of the stay.
 std::optional<Instant> Occupations::newest() {
@@ -54,8 +61,7 @@ std::optional<Instant> Occupations::newest() {
         first = {*running()->session, *running()->index, running()->start};
     else
         first = recorder_.at(running()->start);
-    if (first)
-        latest->utc = running()->start + recorder_.signal_since(first->session, first->index);
+    if (first) latest->utc = own_time(*first);
     return latest;
 }
 
@@ -249,6 +255,25 @@ void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& op
 void Occupations::take(std::vector<text::Site> sites) {
     sites_ = std::move(sites);
     doubtful_site_ = text::doubtful_site(sites_);
+}
+
+void Occupations::end_at_exchange(events::Event event) {
+    const auto& stay = running();
+    const bool is_of_stay = stay && stay->session && stay->index &&
+                            event.session == stay->session && event.index > stay->index;
+    // By a clock that was set back, the last sample seems to be before the stay.
+    if (is_of_stay && event.utc <= stay->set_ups.back())
+        event.utc = own_time({*stay->session, *stay->index, stay->start});
+    recorder_.note(event);
+    observe(event);
+}
+
+UtcTime Occupations::day_end() const {
+    if (running()) return UtcTime::max();
+    UtcTime end = UtcTime::min();
+    for (const auto& one : list())
+        end = std::max(end, one.set_ups.back().start + events::kSurveyNight);
+    return end;
 }
 
 void Occupations::observe(const events::Event& event) {

@@ -114,8 +114,13 @@ public:
     /// Returns the planned number of set-ups of the same stay.
     [[nodiscard]] int planned_set_ups() const noexcept;
 
-    /// Takes an event that the recorder has logged by itself: another sensor ends the running stay.
-    void observe(const events::Event& event);
+    /// Logs that another sensor records, and ends the running stay.
+    /// @param event  `other_unit`, with the last sample of the sensor before.
+    void end_at_exchange(events::Event event);
+
+    /// Returns the end of the survey day: events::kSurveyNight after the newest begin of a set-up.
+    /// UtcTime::max() while a stay is running, UtcTime::min() if there is none.
+    [[nodiscard]] UtcTime day_end() const;
 
     /// Appends a site to the list, see append_site(), and uses it from now on.
     Outcome add_site(const text::Site& site);
@@ -159,6 +164,7 @@ private:
     [[nodiscard]] events::Event change_of(std::string type, const Named& stay,
                                           const Remark& remark);
     [[nodiscard]] std::optional<Instant> newest();
+    [[nodiscard]] UtcTime own_time(const Instant& first);
     [[nodiscard]] text::Message remark_on_clock(UtcTime utc);
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
     [[nodiscard]] bool is_at(std::optional<UtcTime> at, UtcTime utc);
@@ -167,6 +173,7 @@ private:
     [[nodiscard]] events::Event about_now(std::string type);
     Outcome commit(events::Event event, text::Message message);
     void take(std::vector<text::Site> sites);
+    void observe(const events::Event& event);
     void note_aside(const events::Event& event);
 
     Recorder& recorder_;

@@ -38,6 +38,10 @@ public:
     /// Writes the event to journal and event log and syncs both before it returns.
     /// @throws std::system_error  the event is not on disk.
     virtual void commit(const events::Event& event) = 0;
+
+    /// Writes the event like commit(), after the events before it, and does not wait.  It is lost if
+    /// the disk refuses it.
+    virtual void note(const events::Event& event) = 0;
 };
 
 }  // namespace a351::daemon::survey

@@ -72,6 +72,7 @@ private:
         return store_->signal_since(session, index);
     }
     void commit(const events::Event& event) override;
+    void note(const events::Event& event) override { store_->note(event); }
 
     void take(const archive::Sample& sample, UtcTime time);
     void watch();

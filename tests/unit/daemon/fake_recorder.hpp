@@ -37,6 +37,7 @@ public:
         if (is_disk_full) throw std::system_error(ENOSPC, std::generic_category(), "events");
         log.push_back(event);
     }
+    void note(const events::Event& event) override { log.push_back(event); }
 
     journal::SessionId session{{1, 2, 3}};
     std::optional<UtcTime> last = minute(60);

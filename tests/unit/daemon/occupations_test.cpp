@@ -44,22 +44,45 @@ TEST_CASE("a change is committed with its sample before it is answered", "[daemo
     CHECK(recorder.log.back().utc == *recorder.last);
 }
 
-TEST_CASE("another sensor, which the recorder logs by itself, ends the running stay",
+TEST_CASE("another sensor is logged once, in order, and ends the running stay",
           "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
     REQUIRE(occupations.start("No.1", {}, minute(10)).kind == Kind::done);
     const auto changes = occupations.changes();
-    occupations.observe({"other_unit",
-                         minute(12),
-                         {},
-                         {},
-                         {{"before", "00000001"}, {"serial_number", "00000777"}}});
-    CHECK(recorder.log.size() == 1);
+    events::Event exchange{"other_unit", minute(12), recorder.session, 720, {}};
+    exchange.details = {{"before", "00000001"}, {"serial_number", "00000777"}};
+    occupations.end_at_exchange(exchange);
+    REQUIRE(recorder.log.size() == 2);
+    CHECK(recorder.log.back().type == "other_unit");
     CHECK(occupations.changes() > changes);
     CHECK_FALSE(occupations.running());
     REQUIRE(occupations.list().size() == 1);
     CHECK(occupations.list()[0].set_ups.back().end == minute(12));
+
+    SECTION("also if the clock was set back beyond the start of the stay") {
+        recorder.last = minute(40);
+        REQUIRE(occupations.start("No.0", {}, {}).kind == Kind::done);
+        recorder.last = minute(50);
+        exchange.utc = minute(-10);  // by the clock
+        exchange.index = 3000;
+        occupations.end_at_exchange(exchange);
+        CHECK(recorder.log.back().utc == minute(50));
+        CHECK_FALSE(occupations.running());
+        const Occupations again(recorder, two_sites(), recorder.log);
+        CHECK(again.list().back().set_ups.back().end == minute(50));
+    }
+}
+
+TEST_CASE("a survey day ends six hours after the last begin of a set-up", "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    CHECK(occupations.day_end() == UtcTime::min());
+    occupations.start("No.1", {}, minute(10));
+    CHECK(occupations.day_end() == UtcTime::max());
+    occupations.setup(minute(15));
+    occupations.stop({}, minute(50));
+    CHECK(occupations.day_end() == minute(15) + std::chrono::hours(6));
 }
 
 TEST_CASE("an order that was carried out already changes nothing", "[daemon][occupations]") {

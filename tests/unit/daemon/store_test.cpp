@@ -141,39 +141,47 @@ TEST_CASE_METHOD(Rig, "another result of the start-up test is in the event log, 
 }
 
 TEST_CASE_METHOD(
-    Rig, "another sensor is in event log and status, from the last sample of the one before",
+    Rig,
+    "another sensor is reported from the last sample of the one before, and warned of within a "
+    "survey day only",
     "[daemon][store]") {
-    std::vector<events::Event> called;
-    const auto run = [&](bool is_first) {
+    std::vector<events::Event> reported;
+    std::uint8_t session = 0;
+    const auto run = [&](const char* serial, UtcTime day_end) {
         Options with_call = options();
-        with_call.other_unit = [&](const events::Event& event) { called.push_back(event); };
+        with_call.other_unit = [&](const events::Event& event) { reported.push_back(event); };
         Store store(files, with_call, clock, reads);
-        if (is_first) {
-            record_first(store);
-            begin_session(101);  // the same sensor
-        } else {
-            store.start();
-            serial_number = "00000777";
-            begin_session(102);
-            CHECK(eventually([&] { return status_of(store).unit_change.has_value(); }));
-        }
+        store.set_day_end(day_end);
+        store.start();
+        serial_number = serial;
+        begin_session(++session);
+        feed(100);
+        CHECK(eventually([&] { return status_of(store).received == 99; }));
+        begin_session(++session);
+        feed(100);
+        CHECK(eventually([&] {
+            const Status status = status_of(store);
+            return status.session == journal::SessionId{{session}}.to_hex() &&
+                   status.received == 99;
+        }));
         CHECK(store.stop());
         return status_of(store).unit_change;
     };
-    CHECK_FALSE(run(true));
-    const auto change = run(false);  // exchanged while the daemon did not run
+    CHECK_FALSE(run("00000042", UtcTime::max()));
+    CHECK(reported.empty());
+    const auto change = run("00000777", UtcTime::max());  // exchanged while the daemon did not run
     REQUIRE(change);
     CHECK(change->before == "00000042");
     CHECK(change->after == "00000777");
-    const std::vector<events::Event> events = events::read_events(root / "events").events;
-    REQUIRE(events.size() == 1);
-    CHECK(events[0].type == "other_unit");
-    CHECK(events[0].details.at("before") == "00000042");
-    CHECK(events[0].details.at("serial_number") == "00000777");
-    CHECK(events[0].session->bytes[0] == 42);
-    CHECK(events[0].index == 99);
-    REQUIRE(called.size() == 1);
-    CHECK(called[0].utc == events[0].utc);
+    REQUIRE(reported.size() == 1);
+    CHECK(reported[0].type == "other_unit");
+    CHECK(reported[0].details.at("before") == "00000042");
+    CHECK(reported[0].details.at("serial_number") == "00000777");
+    CHECK(reported[0].session->bytes[0] == 2);
+    CHECK(reported[0].index == 99);
+    CHECK_FALSE(run("00000042", clock.now() - std::chrono::hours(1)));  // on the next morning
+    CHECK(reported.size() == 2);
+    CHECK(events::read_events(root / "events").events.empty());  // Occupations notes it
 }
 
 TEST_CASE("after the journal is drained only chunks posted by the archive are written to it",
