@@ -29,7 +29,7 @@ inline constexpr double kLeastVertical = 0.985;
 /// Time at rest after which the stance of a box is known, s.  Nobody carries a box so still, and for so
 /// long.
 inline constexpr int kStance_s = 10;
-/// Time at rest of which a norm is the mean, and in which a stance becomes one of the past, s.
+/// Time at rest of which a norm is the mean, s.
 inline constexpr int kMinute_s = 60;
 /// Largest change of the norm at rest: half of 1 %.  The bias changes by 2 mg at most over temperature,
 /// and by 1.2 mg within kLeastVertical (see is_norm_believable()); gravity by less than 1 mg between the

@@ -57,7 +57,7 @@ void RestWatch::end_of_history() {
 }
 
 void RestWatch::judge_stance() {
-    const auto is_known = [](const Past& past) { return past.before_s >= kMinute_s; };
+    const auto is_known = [](const Past& past) { return past.before_s >= kStance_s; };
     if (is_known(pasts_[*stance_])) strange_stance_.reset();
     if (is_compared_) return;
     is_compared_ = true;

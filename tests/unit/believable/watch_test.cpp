@@ -270,7 +270,7 @@ TEST_CASE(
     Player turned;
     turned.play(100, kOne_g, 100);
     turned.watch.end_of_history();
-    turned.play(100, -kOne_g, 100);
+    turned.play(11, -kOne_g, 100);
     CHECK(turned.troubles() == 1);
     turned.watch.end_of_history();
     turned.play(100, -kOne_g, 100);
