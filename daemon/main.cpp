@@ -244,6 +244,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                                 live.begin_unit();
                                 end_stay(event);
                             },
+                        .switched_on_again = [&](UtcTime time) { live.switched_on_again(time); },
                         .sample =
                             [&](const archive::Sample& sample, UtcTime time) {
                                 const auto changes = live.take(placed(sample, time));

@@ -101,6 +101,12 @@ void Record::begin_unit() {
     watch_.forget();
 }
 
+void Record::switched_on_again(UtcTime time) {
+    const std::lock_guard lock(mutex_);
+    switched_on_ = time;
+    judge_.switched_on_again(time);
+}
+
 /// Removes the series from `time` on, and judges the rest again.
 void Record::forget_from(UtcTime time) {
     while (!gaps_.empty() && gaps_.back().time >= time) gaps_.pop_back();
@@ -113,6 +119,7 @@ void Record::forget_from(UtcTime time) {
 void Record::judge_again(UtcTime from) {
     lasting_ = verdict::LastingVerdict(from);
     judge_ = verdict::Judge(options_);
+    if (switched_on_) judge_.switched_on_again(*switched_on_);
     for (const verdict::LiveSample& sample : thinned_) judge_.take(sample);
 }
 

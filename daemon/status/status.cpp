@@ -94,6 +94,18 @@ void assess_unit(Status& status) {
         to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
 }
 
+/// Adds the reason if the sensor was switched off and on again.
+void assess_power(Status& status) {
+    constexpr std::chrono::hours kShown{1};
+    const auto& time = status.switched_on;
+    if (!time || status.now - *time >= kShown) return;
+    status.warn(
+        text::message("the sensor was switched off, and on again at {}: it warms up again; check "
+                      "its plug and its "
+                      "power supply",
+                      to_rfc3339(*time, 0)));
+}
+
 /// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later
 /// only if more of them come per second than the sensor's rate, or if the clock was set back.
 void assess_clock(Status& status) {
@@ -230,6 +242,7 @@ void assess(Status& status) {
                           printable(calibrated), status.serial_number));
     }
     assess_unit(status);
+    assess_power(status);
     assess_clock(status);
     if (status.timing_state == timing::State::unlocked) {
         status.warn(text::message(

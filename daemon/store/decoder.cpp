@@ -66,9 +66,9 @@ void Decoder::take(const NumberedChunk& numbered) {
     const std::lock_guard lock(mutex_);
     watch_clock(numbered.chunk);
     const bool is_header = std::holds_alternative<journal::Header>(numbered.chunk);
-    has_recorded_ |= is_header;
     if (const auto* const header = std::get_if<journal::Header>(&numbered.chunk))
         watch_sensor(*header);
+    has_recorded_ |= is_header;
     const bool is_next_session = begin_session(numbered.chunk);
     if (is_next_session) last_sample_.reset();
     chunk_ = numbered.number;
@@ -171,6 +171,12 @@ void Decoder::report_other_unit(const journal::Header& header) {
 void Decoder::watch_sensor(const journal::Header& header) {
     const bool is_other = !serial_number_.empty() && header.serial_number != serial_number_;
     if (is_other) report_other_unit(header);
+    // The same sensor does not sample any more, and nobody stopped it: its power was interrupted.
+    const bool is_again = has_recorded_ && header.session != session_ && !is_other;
+    if (is_again && !header.is_device_assumed) {
+        status_.switched_on = header.clock.realtime;
+        options_.switched_on_again(header.clock.realtime);
+    }
     const bool is_passed = header.start_up_test == wire::StartUpTest::passed;
     if (header.start_up_test == start_up_test_ && (!is_other || is_passed)) return;
     events::Event event;

@@ -49,6 +49,19 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     CHECK(status.level == Status::Level::warning);
 }
 
+TEST_CASE("a sensor that was switched off is a warning for an hour", "[daemon][assess]") {
+    for (const auto& [minutes, count] : {std::pair{59, std::size_t{1}}, {61, std::size_t{0}}}) {
+        Status status = healthy();
+        status.switched_on = *parse_rfc3339("2026-03-14T12:00:00Z");
+        status.now = *status.switched_on + std::chrono::minutes(minutes);
+        assess(status);
+        REQUIRE(status.reasons.size() == count);
+        if (count == 0) continue;
+        CHECK(status.level == Status::Level::warning);
+        CHECK_THAT(status.reasons[0].english(), ContainsSubstring("on again at 2026-03-14T12:00"));
+    }
+}
+
 TEST_CASE("another sensor is a warning for an hour", "[daemon][assess]") {
     Status status = healthy();
     const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
