@@ -1,6 +1,7 @@
 #include "daemon/believable/rest_watch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -9,6 +10,8 @@
 
 namespace a351::daemon::believable {
 namespace {
+
+constexpr std::chrono::hours kNormKept{24};
 
 /// Returns the name of a stance: "+z" if the axis z reads +1 g.
 std::string name_of(std::size_t stance) { return {stance % 2 == 0 ? '+' : '-', "xyz"[stance / 2]}; }
@@ -39,7 +42,7 @@ void RestWatch::take(const Second& second) {
     ++pasts_[*stance_].now_s;
     if (rested_s_ >= kStance_s) judge_stance();
     if (rested_s_ % kMinute_s != 0) return;
-    judge_norm(StandardGravity(norms_g_ / kMinute_s));
+    judge_norm(second.end, StandardGravity(norms_g_ / kMinute_s));
     norms_g_ = 0.0;
 }
 
@@ -65,33 +68,33 @@ void RestWatch::judge_stance() {
         strange_stance_ = stance_;
 }
 
-void RestWatch::judge_norm(StandardGravity norm) {
-    auto& first = pasts_[*stance_].first_norm;
-    if (!first) first = norm;
-    const double change_g = (norm - *first).value();
+void RestWatch::judge_norm(UtcTime now, StandardGravity norm) {
+    Past& past = pasts_[*stance_];
+    const double change_g = past.norm ? (norm - *past.norm).value() : 0.0;
     const bool is_changed = std::abs(change_g) > kMostNormChange.value();
-    if (!is_changed) change_g_.reset();
     if (changed_.take(is_changed) && !change_g_) change_g_ = change_g;
+    if (is_changed) return;
+    change_g_.reset();
+    if (past.norm && now < past.norm_time + kNormKept) return;
+    past.norm = norm;
+    past.norm_time = now;
 }
 
 void RestWatch::append_troubles(std::vector<text::Message>& troubles) const {
     if (strange_stance_) {
         const auto usual = std::ranges::max_element(pasts_, {}, &Past::before_s) - pasts_.begin();
         troubles.push_back(text::message(
-            "the vertical axis is {}, but before the start it was {}: axes are exchanged, or the "
-            "box "
-            "lies on its side; check sensor, box and sensor.profile; if the box was turned on "
-            "purpose, start the recorder again",
+            "the vertical axis is {}, but before the start it was {}: axes are exchanged, or "
+            "the box lies on its side; check sensor, box and sensor.profile; if the box was "
+            "turned on purpose, start the recorder again",
             name_of(*strange_stance_), name_of(static_cast<std::size_t>(usual))));
     }
     if (change_g_) {
-        troubles.push_back(
-            text::message("the acceleration at rest has changed by {:+.1f} mg within a day (limit "
-                          "{:.0f} mg): the "
-                          "scale or a bias of the sensor is not stable; read a benchmark of known "
-                          "gravity, and if "
-                          "it differs, use another sensor",
-                          1e3 * *change_g_, 1e3 * kMostNormChange.value()));
+        troubles.push_back(text::message(
+            "the acceleration at rest has changed by {:+.1f} mg within a day (limit {:.0f} "
+            "mg): the scale or a bias of the sensor is not stable; read a benchmark of known "
+            "gravity, and if it differs, use another sensor",
+            1e3 * *change_g_, 1e3 * kMostNormChange.value()));
     }
 }
 

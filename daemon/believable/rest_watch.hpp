@@ -19,8 +19,9 @@ namespace a351::daemon::believable {
 /// is turned to calibrate it.  The trouble ends when the box is in a stance of the past; at the next
 /// start the new stance is one.  x and y exchanged cannot be seen.
 ///
-/// The norm, a mean of kMinute_s at rest, must stay within kMostNormChange of the first one in the same
-/// stance.  Otherwise the scale or a bias changes.
+/// The norm, a mean of kMinute_s at rest, must stay within kMostNormChange of one in the same stance in
+/// the day before: the first one, which is renewed once a day while the norm stays within the limit.
+/// Otherwise the scale or a bias changes.
 class RestWatch {
 public:
     explicit RestWatch(const wire::DeviceProfile& profile);
@@ -39,13 +40,14 @@ private:
     };
     /// Memory of a stance.
     struct Past {
-        int before_s = 0, now_s = 0;  ///< Time at rest before the start, and since then.
-        std::optional<StandardGravity> first_norm;
+        int before_s = 0, now_s = 0;          ///< Time at rest before the start, and since then.
+        std::optional<StandardGravity> norm;  ///< Mean to compare with,
+        UtcTime norm_time;                    ///< and its time.
     };
 
     [[nodiscard]] std::optional<Stance> stance_of(const Second& second) const;
     void judge_stance();
-    void judge_norm(StandardGravity norm);
+    void judge_norm(UtcTime now, StandardGravity norm);
 
     double g_per_count_;
     std::array<Past, 2 * kAxisCount> pasts_{};

@@ -291,6 +291,22 @@ TEST_CASE(
     CHECK(other.troubles() == 0);
 }
 
+TEST_CASE("a norm that drifts by 1 % a day is a trouble, one that drifts by 0.4 % a day is not",
+          "[believable]") {
+    const auto days_until_trouble = [](double mg_per_day) {
+        Player player;
+        for (double day = 0.0; day < 2.0; day += 1.0 / 1440.0) {
+            if (player.troubles() > 0) return day;
+            player.play(60, static_cast<std::int32_t>(kOne_g * (1.0 + 1e-3 * mg_per_day * day)),
+                        100 + static_cast<std::int32_t>(std::lround(1440.0 * day)) % 2);
+        }
+        return 2.0;
+    };
+    CHECK(days_until_trouble(10.0) < 0.51);
+    CHECK(days_until_trouble(-10.0) < 0.51);
+    CHECK(days_until_trouble(4.0) == 2.0);
+}
+
 TEST_CASE("a norm that changes by more than 5 mg within a stance is a trouble", "[believable]") {
     const auto mg = [](double change_mg) {
         return static_cast<std::int32_t>(kOne_g * (1.0 + 1e-3 * change_mg));
