@@ -42,11 +42,8 @@ void assess_oven(Status& status, const char* name, const source::OvenLinkStatus&
 /// over a day, which includes the temperature's daily course.
 void assess_rate(Status& status) {
     // An emulator that is faster than real time may lag behind its clock.
-    if (status.wrong_rate && status.is_in_real_time) {
+    if (status.wrong_rate && status.is_in_real_time)
         status.fail(believable::rate_trouble(*status.wrong_rate, status.output_rate_hz));
-        // The sample clock follows 110 ppm at most: the rate that it measured is not the sensor's.
-        status.measured_rate.reset();
-    }
     constexpr std::chrono::hours kNearlyADay{23};
     // Limit in ppm.  Above it, readers that join records by their rate lose samples in three days.
     constexpr double kTolerable_ppm = 0.2;
@@ -88,8 +85,7 @@ void assess_unit(Status& status) {
     const auto& change = status.unit_change;
     if (!change || status.now - change->since >= kChangeShown) return;
     status.warn(text::message(
-        "another sensor records since {}: {} after {}; a stay that was running has ended; the "
-        "correction "
+        "another sensor records since {}: {} after {}; a stay that was running has ended; the correction "
         "gives each sensor its own constant; if nobody exchanged it, check which box is connected",
         to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
 }

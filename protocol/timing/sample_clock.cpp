@@ -1,6 +1,7 @@
 #include "protocol/timing/sample_clock.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "protocol/core/invariant.hpp"
@@ -14,7 +15,10 @@ using std::chrono::milliseconds;
 
 constexpr Nanoseconds kLargestPull = std::chrono::microseconds(200);  // per second of data
 constexpr Nanoseconds kUnlocked = std::chrono::seconds(60);           // data before any other state
-constexpr double kWorstRate_ppm = 1000.0;                             // ten times a poor crystal
+constexpr double kWorstRate_ppm = 1e6 * RateLimits::kLargest;         // known without a measurement
+// The line follows RateLimits::kLargest at most.  A rate that is nearly as far off is that of a line
+// that cannot follow.
+constexpr double kFarthestRate_ppm = 100.0;
 constexpr Nanoseconds kLocked = milliseconds(3);                // uncertainty of a locked line
 constexpr Nanoseconds kRemembered = std::chrono::hours(24);     // data whose times are kept
 constexpr Nanoseconds kShortestSpan = std::chrono::minutes(1);  // for a measured rate
@@ -192,7 +196,9 @@ std::optional<MeasuredRate> SampleClock::measured_rate() const {
         const double span_s = std::chrono::duration<double>(span).count();
         best = {Hertz(static_cast<double>(*last_ - piece.first) / span_s), ppm, span};
     }
-    return best && best->uncertainty_ppm <= kWorstRate_ppm ? best : std::nullopt;
+    if (!best || best->uncertainty_ppm > kWorstRate_ppm) return std::nullopt;
+    const double departure_ppm = 1e6 * (best->rate.value() / options_.rate.value() - 1.0);
+    return std::abs(departure_ppm) <= kFarthestRate_ppm ? best : std::nullopt;
 }
 
 Nanoseconds SampleClock::uncertainty() const {

@@ -157,7 +157,8 @@ public:
 
     /// Returns the rate of the sensor's oscillator, from the newest sample and that earlier one (of
     /// the remembered 24 h, after the last break) which gives the least uncertainty.  std::nullopt
-    /// while the span is below 1 min or the uncertainty above 1000 ppm, and for times given by use().
+    /// while the span is below 1 min or the uncertainty above 110 ppm, for times given by use(), and
+    /// if the rate is more than 100 ppm from the nominal one: the line cannot follow it.
     ///
     /// Cost: O(n) for n remembered pieces, at most one per second of data.
     ///

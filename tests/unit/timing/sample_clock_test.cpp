@@ -370,6 +370,23 @@ TEST_CASE("the rate of the sensor is measured as well as it says", "[timing][sam
     }
 }
 
+TEST_CASE("a rate beyond the limits of the clock's line is not measured",
+          "[timing][sample_clock]") {
+    for (const double ppm : {-20'000.0, -500.0, -200.0, 200.0, 500.0, 20'000.0}) {
+        World world;
+        world.device_ppm = ppm;
+        for (std::int64_t k = 0; k < 50 * 1800; ++k) {
+            world.frame(k, 0s);
+            if (k % 3000 != 0) continue;
+            const auto measured = world.clock.measured_rate();
+            if (!measured) continue;
+            const double error_ppm = 1e6 * (measured->rate.value() / 50.0 - 1.0) - ppm;
+            CAPTURE(ppm, k, measured->uncertainty_ppm, error_ppm);
+            CHECK(std::abs(error_ppm) <= measured->uncertainty_ppm);
+        }
+    }
+}
+
 TEST_CASE("the uncertainty of the rate includes both ends of its span", "[timing][sample_clock]") {
     World world;
     world.max_error_us = 20'000;
