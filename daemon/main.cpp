@@ -226,7 +226,9 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     source::ReadQueue reads;
     live::Record live(*config.sensor.profile, config.station.output_rate_hz, config.verdict);
     std::atomic<bool> is_recovered{false};
-    std::function<void(const events::Event&)> end_stay;  // Set before the store starts.
+    // These two are set before the store starts.
+    std::optional<UtcTime> exchange;
+    std::function<void(const events::Event&)> end_stay;
     const auto files = files::files_below(config.storage.root);
     store::Store store(*files,
                        {.root = config.storage.root,
@@ -236,12 +238,13 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                             [&](const auto& report) {
                                 status::log_recovery(log, report);
                                 live.end_of_history();
+                                if (exchange) live.begin_unit(*exchange);
                                 is_recovered = true;
                             },
                         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
                         .other_unit =
                             [&](const events::Event& event) {
-                                live.begin_unit();
+                                live.begin_unit(event.utc);
                                 end_stay(event);
                             },
                         .switched_on_again = [&](UtcTime time) { live.switched_on_again(time); },
@@ -264,8 +267,9 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     if (config.oven) ovens.inner.emplace(*config.oven, clock, take_poll);
     if (config.outer_oven) ovens.outer.emplace(*config.outer_oven, clock, take_poll);
     const std::filesystem::path events = config.storage.root / "events";
-    survey::Occupations occupations(store, config.survey.sites, events::read_events(events).events,
-                                    occupation_options(config));
+    const std::vector<events::Event> logged = events::read_events(events).events;
+    exchange = live::last_exchange(logged);
+    survey::Occupations occupations(store, config.survey.sites, logged, occupation_options(config));
     gravity::GravitySoFar gravity(gravity_options(config, log));
     const auto note_change = [&] {
         gravity.note_change(occupations.running().has_value());

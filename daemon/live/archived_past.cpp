@@ -94,6 +94,13 @@ void take_oven(const std::filesystem::path& archive, const journal::StationCodes
 
 }  // namespace
 
+std::optional<UtcTime> last_exchange(const std::vector<events::Event>& log) {
+    const auto exchange = std::find_if(log.rbegin(), log.rend(), [](const events::Event& event) {
+        return event.type == "other_unit";
+    });
+    return exchange == log.rend() ? std::nullopt : std::optional(exchange->utc);
+}
+
 void take_archived_past(const std::filesystem::path& archive, const journal::StationCodes& codes,
                         UtcTime now, Record& record) {
     const Nanoseconds piece =

@@ -96,15 +96,20 @@ void Record::end_of_history() {
     watch_.end_of_history();
 }
 
-void Record::begin_unit() {
-    const std::lock_guard lock(mutex_);
-    watch_.forget();
-}
-
 void Record::switched_on_again(UtcTime time) {
     const std::lock_guard lock(mutex_);
     switched_on_ = time;
     judge_.switched_on_again(time);
+}
+
+void Record::begin_unit(UtcTime last) {
+    const std::lock_guard lock(mutex_);
+    if (!thinned_.empty() && last < thinned_.front().time) return;  // The history begins later.
+    std::erase_if(thinned_, [&](const auto& sample) { return sample.time <= last; });
+    thinning_.begin_run();
+    watch_.forget();
+    switched_on_.reset();
+    judge_again(last_.value_or(last));
 }
 
 /// Removes the series from `time` on, and judges the rest again.

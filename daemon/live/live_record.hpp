@@ -81,8 +81,10 @@ public:
     /// counts as new.
     void end_of_history();
 
-    /// Declares that the samples that follow are those of another sensor.
-    void begin_unit();
+    /// Declares that another sensor records: verdict and readings begin afresh, as after a power-on.
+    /// The charts keep the samples of the sensor before.
+    /// @param last  time of the last sample of the sensor before.
+    void begin_unit(UtcTime last);
 
     /// @name See RecentSamples and History.
     /// @{
@@ -150,6 +152,10 @@ private:
     std::optional<UtcTime> last_;
     std::optional<UtcTime> history_end_;  ///< Set while a replay may deliver old samples again.
 };
+
+/// Returns the last sample of the sensor before the present one; std::nullopt if the log has no
+/// exchange.
+[[nodiscard]] std::optional<UtcTime> last_exchange(const std::vector<events::Event>& log);
 
 /// Loads the 24 h before `now` from the archive into `record` (above 50 Hz the same number of
 /// samples), so that history, verdict and running occupation are the same after a restart.  Damaged

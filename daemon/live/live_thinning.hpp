@@ -26,10 +26,12 @@ public:
     /// Takes a sample, and appends to `output` the values that are complete with it.
     void take(const PlacedSample& sample, std::vector<verdict::LiveSample>& output);
 
+    /// Begins the series again: no earlier sample enters a later value.
+    void begin_run();
+
 private:
     using Values = std::array<double, kLiveChannelCount>;
 
-    void begin_run();
     void add(UtcTime time, const Values& values, std::vector<verdict::LiveSample>& output);
     void push_block(std::vector<verdict::LiveSample>& output);
     [[nodiscard]] MilliGal shake_of_block() const;

@@ -60,6 +60,14 @@ TEST_CASE("archived samples are loaded one by one, and gaps stay gaps", "[live][
     }
 }
 
+TEST_CASE("the last exchange of the sensor in the log is where the present one begins",
+          "[live][past]") {
+    CHECK_FALSE(last_exchange({{"start", kZero, {}, {}, {}}}));
+    CHECK(last_exchange({{"other_unit", kZero, {}, {}, {}},
+                         {"other_unit", after(10.0), {}, {}, {}},
+                         {"stop", after(20.0), {}, {}, {}}}) == after(10.0));
+}
+
 TEST_CASE("only the last day of the archive is loaded, and a missing archive gives no samples",
           "[live][past]") {
     const test::TemporaryDirectory directory;

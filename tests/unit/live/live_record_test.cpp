@@ -323,6 +323,38 @@ TEST_CASE("a restart or other thresholds repeat no change of the past", "[live]"
     CHECK(changes_of(record, 2020, 2040) == Changes{"settling 2019.98"});
 }
 
+TEST_CASE("another sensor is judged afresh, and its reading has no data of the one before",
+          "[live]") {
+    Record record(kProfile, 50, {});
+    const auto play = [&](std::int64_t from, std::int64_t to, double mgal) {
+        for (std::int64_t i = from; i < to; ++i) record.take(placed(i, 0.0, 0.0, mgal));
+    };
+    constexpr std::int64_t kExchange = 50 * 1800, kNext = kExchange + 50 * 5,
+                           kEnd = kNext + 50 * 300;
+    for (std::int64_t i = 0; i < kExchange; ++i) record.take(steady(i));
+    REQUIRE(record.verdict().state == verdict::State::stable);
+    const UtcTime last = placed(kExchange - 1, 0.0, 0.0, 0.0).time;
+    SECTION("while it records") {
+        record.begin_unit(last);
+        CHECK(record.verdict().state == verdict::State::no_data);
+        play(kNext, kEnd, 979000.0);
+    }
+    SECTION("after a restart, when the archive gives the data of both") {
+        play(kNext, kEnd, 979000.0);
+        record.end_of_history();
+        record.begin_unit(last);
+    }
+    Record fresh(kProfile, 50, {});
+    for (std::int64_t i = kNext; i < kEnd; ++i) fresh.take(placed(i, 0.0, 0.0, 979000.0));
+    CHECK(record.verdict().state == fresh.verdict().state);
+    CHECK(record.motion(kZero, last).empty());
+    const auto reading = reading_between(record, kZero, placed(kEnd, 0.0, 0.0, 0.0).time);
+    REQUIRE(reading.value);
+    CHECK(std::abs(reading.value->value() - 979000.0) < 0.5);
+    CHECK_FALSE(record.level_against(kZero, last));
+    CHECK_FALSE(record.history(Channel::z, kZero, last, 100).empty());
+}
+
 TEST_CASE("tilt is given relative to a set-up, with the side to turn", "[live][level]") {
     const auto mgal_of = [](double arcmin) {
         return kMilliGalPerStandardGravity * std::sin(arcmin / 60.0 * std::numbers::pi / 180.0);
