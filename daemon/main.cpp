@@ -29,7 +29,7 @@
 #include "daemon/service/service_notice.hpp"
 #include "daemon/source/battery.hpp"
 #include "daemon/source/host_clock.hpp"
-#include "daemon/source/oven_link.hpp"
+#include "daemon/source/ovens.hpp"
 #include "daemon/source/port.hpp"
 #include "daemon/source/read_queue.hpp"
 #include "daemon/source/sensor_link.hpp"
@@ -42,7 +42,6 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/normal_gravity.hpp"
 #include "protocol/text/doubtful_site.hpp"
-#include "protocol/text/write_together.hpp"
 
 namespace {
 
@@ -67,18 +66,6 @@ struct LogEnd {
     ~LogEnd() { spdlog::shutdown(); }
 };
 
-/// Prints the serial ports, and marks those of FTDI: the sensor's adapter is one of them.
-void print_ports() {
-    constexpr int kFtdi = 0x0403;
-    std::puts("PORT\tBY-ID\tUSB VID:PID:SERIAL\tREMARK");
-    for (const source::SerialPortEntry& port : source::list_serial_ports()) {
-        std::printf("%s\t%s\t%s\t%s\n", port.path.c_str(),
-                    port.by_id.empty() ? "-" : port.by_id.c_str(),
-                    port.usb ? port.usb->to_text().c_str() : "-",
-                    port.usb && port.usb->vendor == kFtdi ? "FTDI: could be the sensor" : "-");
-    }
-}
-
 live::PlacedSample placed(const archive::Sample& sample, UtcTime time) {
     const auto& axes = sample.values.axes;
     return {sample.index, time, {axes[0], axes[1], axes[2], sample.values.temperature}};
@@ -94,23 +81,18 @@ void recall_past(const config::Config& config, UtcTime now, spdlog::logger& log,
     }
 }
 
-/// The ovens' links that are enabled.
-struct Ovens {
-    std::optional<source::OvenLink> inner, outer;
-
-    void start() {
-        if (inner) inner->start();
-        if (outer) outer->start();
-    }
-    void stop() {
-        if (inner) inner->stop();
-        if (outer) outer->stop();
-    }
+/// The parts of the recorder whose state the status shows.
+struct Recorder {
+    const config::Config& config;
+    const source::HostClock& clock;
+    const source::SensorLink& link;
+    const source::Ovens& ovens;
+    store::Store& store;
+    live::Record& live;
 };
 
-status::Status snapshot(const config::Config& config, const source::HostClock& clock,
-                        const source::SensorLink& link, const Ovens& ovens, store::Store& store,
-                        live::Record& live) {
+status::Status snapshot(const Recorder& recorder) {
+    const auto& [config, clock, link, ovens, store, live] = recorder;
     status::Status status;
     status.version = A351_VERSION;
     const timing::ClockReading reading = clock.read();
@@ -195,6 +177,13 @@ void log_verdicts(store::Store& store, const std::vector<verdict::Change>& chang
     }
 }
 
+page::ServerOptions page_options(const config::Config& config) {
+    return {.listen = config.page.listen,
+            .hosts = config.page.hosts,
+            .token = config.page.token,
+            .boxes = config.page.boxes};
+}
+
 void announce(const page::Server& page, const config::Config& config, spdlog::logger& log) {
     for (const std::string& address : page.addresses()) log.info("page at http://{}", address);
     if (page.is_exposed())
@@ -202,6 +191,22 @@ void announce(const page::Server& page, const config::Config& config, spdlog::lo
     if (config::shows_token(config)) {
         log.warn("every user of this computer can read the token in {}; chmod o-r {}",
                  config.file.string(), config.file.string());
+    }
+    log_doubt(config.survey, log);
+}
+
+/// Reports the state of the recorder once a second, until a signal ends the program.
+void report_until_end(const Recorder& recorder, service::ServiceNotice& notice,
+                      status::StatusLog& status_log, const sigset_t& signals,
+                      const std::function<void()>& hang_up) {
+    constexpr timespec kSecond{1, 0};
+    int signal = 0;
+    while (signal != SIGINT && signal != SIGTERM) {
+        signal = sigtimedwait(&signals, nullptr, &kSecond);
+        const status::Status status = snapshot(recorder);
+        status_log.note(status, std::chrono::steady_clock::now());
+        notice.beat(recorder.store.is_alive(), status::brief(status));
+        if (signal == SIGHUP) hang_up();
     }
 }
 
@@ -226,9 +231,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     source::ReadQueue reads;
     live::Record live(*config.sensor.profile, config.station.output_rate_hz, config.verdict);
     std::atomic<bool> is_recovered{false};
-    // These two are set before the store starts.
-    std::optional<UtcTime> exchange;
-    std::function<void(const events::Event&)> end_stay;
+    std::optional<UtcTime> exchange;  // This and the next one are set before the store starts.
+    std::function<void(const events::Event&)> other_unit;
     const auto files = files::files_below(config.storage.root);
     store::Store store(*files,
                        {.root = config.storage.root,
@@ -242,11 +246,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                                 is_recovered = true;
                             },
                         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
-                        .other_unit =
-                            [&](const events::Event& event) {
-                                live.begin_unit(event.utc);
-                                end_stay(event);
-                            },
+                        .other_unit = [&](const auto& event) { other_unit(event); },
                         .switched_on_again = [&](UtcTime time) { live.switched_on_again(time); },
                         .sample =
                             [&](const archive::Sample& sample, UtcTime time) {
@@ -263,9 +263,10 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         if (const auto point = live::oven_point(poll, clock.read().realtime)) live.take(*point);
         store.post(std::move(poll));
     };
-    Ovens ovens;
+    source::Ovens ovens;
     if (config.oven) ovens.inner.emplace(*config.oven, clock, take_poll);
     if (config.outer_oven) ovens.outer.emplace(*config.outer_oven, clock, take_poll);
+    const Recorder recorder{config, clock, link, ovens, store, live};
     const std::filesystem::path events = config.storage.root / "events";
     const std::vector<events::Event> logged = events::read_events(events).events;
     exchange = live::last_exchange(logged);
@@ -276,11 +277,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         store.set_day_end(occupations.day_end());
     };
     if (occupations.running() || !occupations.list().empty()) note_change();
-    page::Server page({.listen = config.page.listen,
-                       .hosts = config.page.hosts,
-                       .token = config.page.token,
-                       .boxes = config.page.boxes},
-                      {.status = [&] { return snapshot(config, clock, link, ovens, store, live); },
+    page::Server page(page_options(config),
+                      {.status = [&] { return snapshot(recorder); },
                        .occupations = occupations,
                        .live = live,
                        .latitude = config.station.latitude,
@@ -292,10 +290,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                        .boxes = config.page.boxes,
                        .stale_after = config::stale_after(clock)});
     announce(page, config, log);
-
-    log_doubt(config.survey, log);
-
-    end_stay = [&](const events::Event& event) {
+    other_unit = [&](const events::Event& event) {
+        live.begin_unit(event.utc);
         page.post([&occupations, &note_change, event] {
             occupations.end_at_exchange(event);
             note_change();
@@ -308,15 +304,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     gravity.start();
     notice.ready();
 
-    constexpr timespec kSecond{1, 0};
-    while (true) {
-        const int signal = sigtimedwait(&signals, nullptr, &kSecond);
-        const status::Status status = snapshot(config, clock, link, ovens, store, live);
-        status_log.note(status, std::chrono::steady_clock::now());
-        notice.beat(store.is_alive(), status::brief(status));
-        if (signal == SIGHUP) reload(config.file, log, live, occupations, page);
-        if (signal == SIGINT || signal == SIGTERM) break;
-    }
+    report_until_end(recorder, notice, status_log, signals,
+                     [&] { reload(config.file, log, live, occupations, page); });
     log.info("stopping");
     notice.stopping();
     page.stop();
@@ -349,10 +338,7 @@ ExitStatus identify_sensor(const config::Config& config, const source::HostClock
                                    .axes = config.station.codes.axes,
                                    .gravity = to_standard_gravity(normal_gravity(
                                        config.station.latitude, config.station.elevation))});
-    const std::string stem = identify::file_stem(seen);
-    std::vector<text::NamedText> files{{stem + ".txt", identify::file_text(seen, report)}};
-    if (report.toml) files.emplace_back(stem + ".toml", *report.toml);
-    text::write_together(".", files);
+    const std::string stem = identify::write_files(".", seen, report);
     std::fputs(identify::to_text(report).c_str(), stdout);
     std::fputs(identify::advice(report, config.sensor.profile->name, stem).c_str(), stdout);
     return report.differs() ? kDiffers : kDone;
@@ -392,7 +378,7 @@ int main(int argc, char** argv) {
 
     try {
         if (is_list) {
-            print_ports();
+            std::fputs(source::port_table(source::list_serial_ports()).c_str(), stdout);
             return kDone;
         }
         if (config_file.empty()) return complain_and_end(kBadUsage, "--config FILE is required");

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <vector>
+
+#include "protocol/text/write_together.hpp"
 
 namespace a351::daemon::identify {
 
@@ -35,6 +38,15 @@ std::string file_text(const Observation& seen, const Report& report) {
         text += '\n';
     }
     return text;
+}
+
+std::string write_files(const std::filesystem::path& folder, const Observation& seen,
+                        const Report& report) {
+    const std::string stem = file_stem(seen);
+    std::vector<text::NamedText> files{{stem + ".txt", file_text(seen, report)}};
+    if (report.toml) files.emplace_back(stem + ".toml", *report.toml);
+    text::write_together(folder, files);
+    return stem;
 }
 
 }  // namespace a351::daemon::identify

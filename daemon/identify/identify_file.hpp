@@ -16,4 +16,10 @@ namespace a351::daemon::identify {
 /// arrivals in seconds after the first.
 [[nodiscard]] std::string file_text(const Observation& seen, const Report& report);
 
+/// Writes this file to the folder and, if the report has one, the profile beside it.
+/// @return their name without ending.
+/// @throws std::system_error  one cannot be written.
+std::string write_files(const std::filesystem::path& folder, const Observation& seen,
+                        const Report& report);
+
 }  // namespace a351::daemon::identify

@@ -62,6 +62,17 @@ std::unique_ptr<Port> open_port(const PortAddress& address, int baud) {
     return std::make_unique<TtyPort>(device, baud);
 }
 
+std::string port_table(const std::vector<SerialPortEntry>& ports) {
+    constexpr int kFtdi = 0x0403;
+    std::string table = "PORT\tBY-ID\tUSB VID:PID:SERIAL\tREMARK\n";
+    for (const SerialPortEntry& port : ports)
+        table += fmt::format(
+            "{}\t{}\t{}\t{}\n", port.path.string(), port.by_id.empty() ? "-" : port.by_id.string(),
+            port.usb ? port.usb->to_text() : "-",
+            port.usb && port.usb->vendor == kFtdi ? "FTDI: could be the sensor" : "-");
+    return table;
+}
+
 std::vector<SerialPortEntry> list_serial_ports() {
     std::vector<SerialPortEntry> entries;
     sp_port** ports = nullptr;

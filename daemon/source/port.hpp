@@ -84,6 +84,9 @@ struct SerialPortEntry {
 /// Lists the ports that the kernel knows now, sorted by path.
 [[nodiscard]] std::vector<SerialPortEntry> list_serial_ports();
 
+/// Returns the ports as lines for people, and marks those of FTDI: the sensor's adapter is one of them.
+[[nodiscard]] std::string port_table(const std::vector<SerialPortEntry>& ports);
+
 /// Sets 8N1 at `baud` without flow control and verifies that the port keeps it.
 /// @param device  a name in /dev, not a link.
 /// @throws PortError

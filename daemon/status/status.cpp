@@ -85,7 +85,8 @@ void assess_unit(Status& status) {
     const auto& change = status.unit_change;
     if (!change || status.now - change->since >= kChangeShown) return;
     status.warn(text::message(
-        "another sensor records since {}: {} after {}; a stay that was running has ended; the correction "
+        "another sensor records since {}: {} after {}; a stay that was running has ended; the "
+        "correction "
         "gives each sensor its own constant; if nobody exchanged it, check which box is connected",
         to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
 }
@@ -141,30 +142,18 @@ void assess_clock(Status& status) {
 /// Adds the reason if the sensor has not passed its last start-up test.  Reading DIAG_STAT clears the
 /// error in the sensor; here it remains until a later test is passed.
 void assess_start_up_test(Status& status, wire::StartUpTest result) {
-    const std::string error(wire::to_text(result));
-    switch (result) {
-        case wire::StartUpTest::passed:
-            break;
-        case wire::StartUpTest::unknown:
-            status.warn(text::message(
-                "it is not known whether the sensor passed its start-up test: the answer was lost; "
-                "check the sensor's cable, then switch the sensor off and on"));
-            break;
-        case wire::StartUpTest::flash_error:
-            status.fail(text::message(
-                "the sensor failed its start-up test ({}): it may lack its calibration; recording "
-                "continues, but do not trust the readings; switch the sensor off and on, and if "
-                "this remains, use another sensor",
-                error));
-            break;
-        case wire::StartUpTest::hard_error:
-            status.fail(text::message(
-                "the sensor failed its start-up test ({}): it is faulty; recording continues, but "
-                "do not trust the readings; switch the sensor off and on, and if this remains, use "
-                "another sensor",
-                error));
-            break;
-    }
+    if (result == wire::StartUpTest::passed) return;
+    if (result == wire::StartUpTest::unknown)
+        return status.warn(text::message(
+            "it is not known whether the sensor passed its start-up test: the answer was lost; "
+            "check the sensor's cable, then switch the sensor off and on"));
+    const text::Message meaning = result == wire::StartUpTest::flash_error
+                                      ? text::message("it may lack its calibration")
+                                      : text::message("it is faulty");
+    status.fail(text::message(
+        "the sensor failed its start-up test ({}): {}; recording continues, but do not trust the "
+        "readings; switch the sensor off and on, and if this remains, use another sensor",
+        std::string(wire::to_text(result)), meaning));
 }
 
 /// Adds the reason if the battery is nearly empty.  It does not contain the charge, which varies.

@@ -116,3 +116,11 @@ TEST_CASE("a port is found through links, and a missing port and a wrong file ar
           PortError::Kind::absent);
     CHECK(kind_of_refusal({"/dev/null", {}}) == PortError::Kind::settings);
 }
+
+TEST_CASE("the table of ports marks those that could be the sensor", "[port]") {
+    CHECK(port_table({{"/dev/ttyS0", {}, {}},
+                      {"/dev/ttyUSB0", "/dev/serial/by-id/x", UsbAddress{0x0403, 0x6001, "A1"}}}) ==
+          "PORT\tBY-ID\tUSB VID:PID:SERIAL\tREMARK\n"
+          "/dev/ttyS0\t-\t-\t-\n"
+          "/dev/ttyUSB0\t/dev/serial/by-id/x\t0403:6001:A1\tFTDI: could be the sensor\n");
+}

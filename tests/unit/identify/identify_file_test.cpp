@@ -1,8 +1,10 @@
 #include "daemon/identify/identify_file.hpp"
 
+#include <filesystem>
 #include <sstream>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/identify/made_up_sensor.hpp"
 
 namespace a351::daemon::identify {
@@ -35,6 +37,18 @@ TEST_CASE("the name of the files has no character that a name of a profile must 
     CHECK(file_stem(seen) == "identify-___1___8-20260301T120000Z");
     seen.device.serial_number.clear();
     CHECK(file_stem(seen) == "identify-unknown-20260301T120000Z");
+}
+
+TEST_CASE("a profile that was made is written beside the file", "[identify]") {
+    const test::TemporaryDirectory folder;
+    const Observation seen = MadeUpSensor{}.observe();
+    Report report = report_on(seen, expected_a351());
+    for (const bool has_profile : {false, true}) {
+        report.toml = has_profile ? std::optional<std::string>("name = \"x\"\n") : std::nullopt;
+        const auto stem = folder.path() / write_files(folder.path(), seen, report);
+        CHECK(std::filesystem::exists(stem.string() + ".txt"));
+        CHECK(std::filesystem::exists(stem.string() + ".toml") == has_profile);
+    }
 }
 
 }  // namespace a351::daemon::identify

@@ -100,6 +100,11 @@ TEST_CASE("a start-up test that was not passed is named with its remedy, by seri
             CHECK_THAT(status.reasons[0].english(),
                        ContainsSubstring("start-up test") &&
                            ContainsSubstring("switch the sensor off and on"));
+        if (result == wire::StartUpTest::flash_error)
+            CHECK_THAT(status.reasons[0].english(),
+                       ContainsSubstring("it may lack its calibration"));
+        if (result == wire::StartUpTest::hard_error)
+            CHECK_THAT(status.reasons[0].english(), ContainsSubstring("it is faulty"));
     }
 }
 
