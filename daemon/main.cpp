@@ -41,7 +41,6 @@
 #include "daemon/verdict/lasting_verdict.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/normal_gravity.hpp"
-#include "protocol/text/doubtful_site.hpp"
 
 namespace {
 
@@ -144,9 +143,10 @@ gravity::GravityOptions gravity_options(const config::Config& config, spdlog::lo
 }
 
 /// Logs what is doubtful in the list of sites, after it was read.
-void log_doubt(const config::SurveyConfig& survey, spdlog::logger& log) {
-    if (const auto doubt = text::doubtful_site(survey.sites); !doubt.empty())
-        log.warn("{}: {}", survey.sites_file.string(), doubt.english());
+void log_doubt(const survey::Occupations& occupations, const std::filesystem::path& list,
+               spdlog::logger& log) {
+    if (const text::Message& doubt = occupations.doubtful_site(); !doubt.empty())
+        log.warn("{}: {}", list.string(), doubt.english());
 }
 
 /// Reads the configuration again after SIGHUP, and takes sites, the plan of a stay and thresholds
@@ -156,12 +156,12 @@ void reload(const std::filesystem::path& config_file, spdlog::logger& log, live:
     try {
         const config::Config fresh = config::read_config(config_file);
         live.judge_by(fresh.verdict);
-        page.post([&occupations, sites = fresh.survey.sites, options = occupation_options(fresh)] {
-            occupations.use(sites, options);
+        page.post([&occupations, &log, survey = fresh.survey, options = occupation_options(fresh)] {
+            occupations.use(survey.sites, options);
+            log_doubt(occupations, survey.sites_file, log);
         });
         log.info(
             "SIGHUP: [verdict], sites, occupation_min and set_ups were read again and are in use");
-        log_doubt(fresh.survey, log);
     } catch (const std::exception& error) {
         log.error("SIGHUP: the configuration was refused and nothing was changed: {}",
                   error.what());
@@ -192,7 +192,6 @@ void announce(const page::Server& page, const config::Config& config, spdlog::lo
         log.warn("every user of this computer can read the token in {}; chmod o-r {}",
                  config.file.string(), config.file.string());
     }
-    log_doubt(config.survey, log);
 }
 
 /// Reports the state of the recorder once a second, until a signal ends the program.
@@ -290,6 +289,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                        .boxes = config.page.boxes,
                        .stale_after = config::stale_after(clock)});
     announce(page, config, log);
+    log_doubt(occupations, config.survey.sites_file, log);
     other_unit = [&](const events::Event& event) {
         live.begin_unit(event.utc);
         page.post([&occupations, &note_change, event] {

@@ -176,11 +176,8 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
         note(report, data.damage);
         begin = end;
     }
-    std::vector<std::string> channels;
-    for (const station::ChannelScale& channel : metadata.channels) channels.push_back(channel.code);
-    for (const auto& [channel, day] : archive::absent_day_files(
-             options.root / "archive", metadata.codes, channels, options.from, options.to))
-        if (channel == options.channel) report.absent.push_back(absent_file(channel, day));
+    for (const auto& one : absent_files(options.root, options.from, options.to))
+        if (one.channel == options.channel) report.absent.push_back(to_message(one));
     if (report.values == 0) {
         throw InputError(
             fmt::format("{}: no samples of {} from {} to {}{}", options.root.string(),

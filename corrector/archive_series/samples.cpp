@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <system_error>
 
 #include "corrector/archive_series/on_all_cores.hpp"
+#include "protocol/archive/channel_code.hpp"
 #include "protocol/archive/journal_tail.hpp"
 #include "protocol/archive/sds.hpp"
+#include "protocol/station/station_xml.hpp"
 
 namespace a351::corrector::archive_series {
-
-text::Message absent_file(const std::string& channel, UtcTime day) {
-    return text::message(
-        "{} has no day file of {}, but another channel has one: copy the archive again, or write "
-        "it "
-        "again with retime",
-        channel, to_rfc3339(day).substr(0, 10));
-}
 
 std::vector<archive::ChannelData> read_samples(const std::filesystem::path& root,
                                                const Epoch& epoch, const Span& span) {
@@ -70,15 +65,32 @@ std::optional<UtcTime> add_journaled(std::vector<archive::ChannelData>& samples,
     return tail.end();
 }
 
-std::vector<text::Message> absent_files(const std::filesystem::path& root, const Epoch& epoch,
-                                        const Span& span) {
-    std::vector<std::string> channels;
-    for (std::size_t k = 0; k < kOuter; ++k) channels.push_back(epoch.channels[k].code);
-    std::vector<text::Message> warnings;
-    for (const auto& [channel, day] : archive::absent_day_files(root / "archive", epoch.codes,
-                                                                channels, span.axes_from, span.to))
-        warnings.push_back(absent_file(channel, day));
-    return warnings;
+std::vector<archive::AbsentFile> absent_files(const std::filesystem::path& root, UtcTime from,
+                                              UtcTime to) {
+    const auto epochs = station::read_station_epochs(root / "metadata" / "station.xml");
+    std::vector<archive::AbsentFile> absent;
+    for (auto epoch = epochs.begin(); epoch != epochs.end(); ++epoch) {
+        const auto& [start, station] = *epoch;
+        const auto next = std::next(epoch);
+        const UtcTime begin = epoch == epochs.begin() ? from : std::max(from, start);
+        const UtcTime end = next == epochs.end() ? to : std::min(to, next->first);
+        if (begin >= end) continue;
+        std::vector<std::string> channels;
+        for (const station::ChannelScale& channel : station.channels)
+            if (!archive::is_derived(channel.code)) channels.push_back(channel.code);
+        for (auto& one :
+             archive::absent_day_files(root / "archive", station.codes, channels, begin, end))
+            if (std::ranges::find(absent, one) == absent.end()) absent.push_back(std::move(one));
+    }
+    return absent;
+}
+
+text::Message to_message(const archive::AbsentFile& absent) {
+    return text::message(
+        "{} has no day file of {}, but another channel has one: copy the archive again, or write "
+        "it "
+        "again with retime",
+        absent.channel, to_rfc3339(absent.day).substr(0, 10));
 }
 
 void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData& channel) {

@@ -58,13 +58,14 @@ std::optional<UtcTime> add_journaled(std::vector<archive::ChannelData>& samples,
                                      const std::filesystem::path& root, const Epoch& epoch,
                                      const Span& span);
 
-/// Returns the warning that a channel has no day file, though another one has.
-[[nodiscard]] text::Message absent_file(const std::string& channel, UtcTime day);
+/// Returns the day files of the sensor's channels in [from, to) that are absent although another of these
+/// channels has one, by day; see archive::absent_day_files().
+/// @throws InputError  as station::read_station_epochs().
+[[nodiscard]] std::vector<archive::AbsentFile> absent_files(const std::filesystem::path& root,
+                                                            UtcTime from, UtcTime to);
 
-/// Returns a warning for each day file that is absent in the span although another channel of the
-/// epoch has one; see archive::absent_day_files().  An outer oven may be installed later.
-[[nodiscard]] std::vector<text::Message> absent_files(const std::filesystem::path& root,
-                                                      const Epoch& epoch, const Span& span);
+/// Returns "BNZ has no day file of 2026-03-01, but ...".
+[[nodiscard]] text::Message to_message(const archive::AbsentFile& absent);
 
 /// Adds a warning for each piece of the channel's files that could not be read.  The English text is
 /// that of archive::to_text(); earlier warnings are kept.

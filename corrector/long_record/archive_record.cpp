@@ -246,11 +246,8 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
             of_days.insert(archive::day_of(file));
 
     LongRecord record;
-    for (const Epoch& epoch : epochs)
-        for (text::Message& warning :
-             archive_series::absent_files(root, epoch, {begin, begin, end}))
-            if (std::ranges::find(record.warnings, warning) == record.warnings.end())
-                record.warnings.push_back(std::move(warning));
+    for (const auto& one : archive_series::absent_files(root, begin, end))
+        record.warnings.push_back(archive_series::to_message(one));
     ArchiveStream stream(record);
     std::vector<archive_series::MinuteTemperature> outer;
     bool has_outer = false;

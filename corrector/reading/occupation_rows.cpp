@@ -199,8 +199,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     if (!mounting.empty()) result.warnings.push_back(mounting);
     result.amendments = amendments;
     result.sites = sites;
-    std::vector<text::Message> absent = archive_series::absent_files(source.root, epoch, span);
-    result.warnings.insert(result.warnings.end(), absent.begin(), absent.end());
+    const auto absent = archive_series::absent_files(source.root, span.axes_from, span.to);
+    for (const auto& one : absent) result.warnings.push_back(archive_series::to_message(one));
     for (const archive::ChannelData& channel : samples)
         archive_series::add_damage(result.warnings, channel);
     std::vector<OccupationWindow> averaged;
@@ -221,7 +221,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         averaged.push_back(std::move(set_up.window));
     }
     if (result.rows.empty()) {
-        const text::Message& cause = absent.empty() ? result.warnings.back() : absent.front();
+        const text::Message cause =
+            absent.empty() ? result.warnings.back() : archive_series::to_message(absent.front());
         const std::string root = source.root.string();
         throw Refused(
             "no_reading",

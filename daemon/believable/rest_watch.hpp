@@ -13,7 +13,7 @@ namespace a351::daemon::believable {
 
 /// Compares a box at rest with its past: the data before the start of the recorder, and this run.
 ///
-/// A stance is an axis that points up or down, within kMostTilt of the vertical.  The first stance of a
+/// A stance is an axis that points up or down, see kLeastVertical.  The first stance of a
 /// run that lasts for kStance_s must be one in which the box was at rest as long before the start:
 /// otherwise two axes are exchanged, or one is turned over.  Later ones are not judged, because a box
 /// is turned to calibrate it.  The trouble ends when the box is in a stance of the past; at the next

@@ -18,13 +18,26 @@ namespace http = page::http;
 using page::error_code;
 using page::into;
 
-// Time limit of a request, with its answer: an operator does not wait for a daemon that hangs.
+// Time after which an operator is told something, and the time limit of a question.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::chrono::seconds kPatience{15};
+#else
 constexpr std::chrono::seconds kPatience{2};
+#endif
+// Time limit of an order.  It exceeds that of the daemon for its disk, 10 s, whose message then
+// arrives first.
+constexpr std::chrono::seconds kOrderPatience = kPatience + std::chrono::seconds(10);
+/// Orders change something; the others only ask.
+bool is_order(const http::request<http::string_body>& request) {
+    return request.method() == http::verb::post;
+}
+
 constexpr std::uint64_t kLargestAnswer = std::uint64_t{64} * 1024 * 1024;
 
+/// @param is_connected  set when the daemon's host has answered.
 asio::awaitable<void> exchange(const Url& url, const http::request<http::string_body>& request,
-                               http::response_parser<http::string_body>& answer,
-                               error_code& error) {
+                               http::response_parser<http::string_body>& answer, error_code& error,
+                               bool& is_connected) {
     const auto executor = co_await asio::this_coro::executor;
     asio::ip::tcp::resolver resolver(executor);
     const auto places = co_await resolver.async_resolve(url.host, url.port, into(error));
@@ -33,6 +46,8 @@ asio::awaitable<void> exchange(const Url& url, const http::request<http::string_
     stream.expires_after(kPatience);
     co_await stream.async_connect(places, into(error));
     if (error) co_return;
+    is_connected = true;
+    if (is_order(request)) stream.expires_after(kOrderPatience);
     stream.socket().set_option(asio::ip::tcp::no_delay(true), error);
     co_await http::async_write(stream, request, into(error));
     // A daemon that refuses the request may close before it has read all of it.  Its answer is
@@ -41,19 +56,29 @@ asio::awaitable<void> exchange(const Url& url, const http::request<http::string_
     co_await http::async_read(stream, buffer, answer, into(error));
 }
 
-/// Returns why there is no answer.
-std::string reason(const Url& url, const error_code& error, bool is_order) {
+/// Returns why a daemon gives no answer.
+std::string reason(const Url& url, const error_code& error, bool is_connected, bool is_sent_order) {
     const std::string place = url.authority();
-    if (error != beast::error::timeout)
+    if (error != beast::error::timeout || !is_connected)
         return text::tr("no daemon answers at http://{}: {}; check that a351d is running", place,
                         error.message());
-    if (is_order)
+    if (is_sent_order)
         return text::tr(
             "the daemon at http://{} gave no answer within {} s; it may still carry this out: look "
             "at a351ctl list before you repeat it",
-            place, kPatience.count());
+            place, kOrderPatience.count());
     return text::tr("the daemon at http://{} gave no answer within {} s; try again", place,
                     kPatience.count());
+}
+
+/// Says that the answer to an order is late: a disk that stalls delays it.
+asio::awaitable<void> say_if_late(const Url& url) {
+    asio::steady_timer late(co_await asio::this_coro::executor, kPatience);
+    error_code ended;
+    co_await late.async_wait(into(ended));
+    fmt::print(
+        stderr, "a351ctl: {}\n",
+        text::tr("no answer from http://{} yet, its disk may be busy: waiting", url.authority()));
 }
 
 Reply ask(const Url& url, http::request<http::string_body> request) {
@@ -65,10 +90,13 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
     http::response_parser<http::string_body> answer;
     answer.body_limit(kLargestAnswer);
     error_code error;
+    bool is_connected = false;
     asio::io_context io(1);
-    asio::co_spawn(io, exchange(url, request, answer, error), asio::detached);
+    if (is_order(request)) asio::co_spawn(io, say_if_late(url), asio::detached);
+    asio::co_spawn(io, exchange(url, request, answer, error, is_connected),
+                   [&](const std::exception_ptr&) { io.stop(); });
     io.run();
-    if (error) throw NoDaemon(reason(url, error, request.method() == http::verb::post));
+    if (error) throw NoDaemon(reason(url, error, is_connected, is_order(request)));
     return {static_cast<int>(answer.get().result_int()), std::move(answer.get().body())};
 }
 

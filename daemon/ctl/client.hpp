@@ -28,7 +28,8 @@ struct Reply {
     std::string body;
 };
 
-/// Sends requests to the daemon and waits for each answer, at most 2 s.
+/// Sends requests to the daemon and waits for each answer: to a question at most 2 s, to an order 12 s,
+/// and says after 2 s that it waits.
 class Client {
 public:
     explicit Client(Url url) : url_(std::move(url)) {}

@@ -21,8 +21,9 @@ std::optional<Battery> read_battery(const std::filesystem::path& supplies) {
     int batteries = 0;
     Battery whole;
     std::error_code none;
-    for (const auto& supply : std::filesystem::directory_iterator(supplies, none)) {
-        const auto& folder = supply.path();
+    for (std::filesystem::directory_iterator supply(supplies, none), end; supply != end;
+         supply.increment(none)) {
+        const std::filesystem::path& folder = supply->path();
         if (line_of(folder / "type") != "Battery" || line_of(folder / "scope") == "Device")
             continue;
         double percent = 0.0;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::chrono::seconds kModelInterval{10};                // Instrument time, and
 constexpr std::chrono::milliseconds kShortestModelInterval{100};  // real time.
-constexpr std::chrono::seconds kLeastBack{5};   // above the uncertainty of a locked clock
 constexpr std::size_t kSessionsRemembered = 8;  // Each has 24 h of times, up to 3.5 MB.
 
 std::optional<survey::Instant> instant_of(const journal::SessionId& session,
@@ -118,24 +117,26 @@ void Decoder::watch_rate(const journal::Chunk& chunk) {
 }
 
 /// Returns true if this time is before that of the newest sample.
-bool Decoder::is_back(UtcTime utc) const { return newest_ && utc + kLeastBack < *newest_; }
+bool Decoder::is_back(UtcTime utc) const { return newest_ && utc + survey::kLeastBack < *newest_; }
 
 /// Notes a step before a sample shows it.
 void Decoder::expect_step(const status::ClockStep& step) {
     note_step(step);
-    if (const Nanoseconds by = step.after - step.before; by < -kLeastBack) expected_ = by;
+    if (const Nanoseconds by = step.after - step.before; by < -survey::kLeastBack) expected_ = by;
 }
 
-/// Takes the time of the next sample.  If it is before that of the newest one, and no step was noted
+/// Takes the time of the next sample, or of the first one of a session.  If it is before that of the newest one, and no step was noted
 /// that explains it, the clock was set back while nothing was recorded, or while the host slept.
-void Decoder::watch_time(UtcTime utc) {
+void Decoder::watch_time(UtcTime utc, bool is_first) {
     if (is_back(utc)) {
         const Nanoseconds by = utc - *newest_;
         if (const auto expected = std::exchange(expected_, std::nullopt);
-            !expected || by < *expected - kLeastBack) {
+            !expected || by < *expected - survey::kLeastBack) {
             note_step({*newest_, utc});
             clock_watch_ = {};  // It would report the same step a minute later.
         }
+    } else if (is_first) {
+        expected_.reset();  // The clock was set right before the sensor began.
     }
     newest_ = utc;
 }
@@ -177,8 +178,7 @@ void Decoder::watch_sensor(const journal::Header& header) {
         status_.switched_on = header.clock.realtime;
         options_.switched_on_again(header.clock.realtime);
     }
-    const bool is_passed = header.start_up_test == wire::StartUpTest::passed;
-    if (header.start_up_test == start_up_test_ && (!is_other || is_passed)) return;
+    if (header.start_up_test == start_up_test_ && !is_other) return;
     events::Event event;
     event.type = "start_up_test";
     event.utc = header.clock.realtime;
@@ -217,12 +217,13 @@ void Decoder::record(const std::string& channel, const archive::PackedRecord& re
 }
 
 void Decoder::sample(const archive::Sample& sample) {
+    const bool is_first = !last_sample_;
     last_sample_ = sample;
     const auto placed = archiver_->clock()->time_of(sample.index);
     if (!placed) return;
     options_.sample(sample, placed->utc);
     if (archive_ == nullptr)
-        watch_time(placed->utc);
+        watch_time(placed->utc, is_first);
     else
         newest_ = placed->utc;  // The last run has noted its own steps.
 }

@@ -95,7 +95,7 @@ private:
     void watch_rate(const journal::Chunk& chunk);
     [[nodiscard]] bool is_back(UtcTime utc) const;
     void expect_step(const status::ClockStep& step);
-    void watch_time(UtcTime utc);
+    void watch_time(UtcTime utc, bool is_first);
     void note_step(const status::ClockStep& step);
     void watch_sensor(const journal::Header& header);
     void report_other_unit(const journal::Header& header);

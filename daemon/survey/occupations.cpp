@@ -45,32 +45,39 @@ Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
     for (const events::Event& event : events) note_aside(event);
 }
 
-/// Returns the time of the last sample that continues the time of the running stay.
-/// @param first  first sample of the stay.
-UtcTime Occupations::own_time(const Instant& first) {
-    return running()->start + recorder_.signal_since(first.session, first.index);
-}
-
-/// Returns the last sample.  By a clock that was set back behind the last set-up of the running stay,
-/// its time continues that of the start of the stay.
-std::optional<Instant> Occupations::newest() {
-    auto latest = recorder_.latest();
-    if (!latest || !running() || latest->utc > running()->set_ups.back()) return latest;
+/// Returns the time of a sample of the running stay that continues the time of its start; that of the
+/// clock if the first sample of the stay is not known.
+UtcTime Occupations::own_time(const Instant& sample) {
     std::optional<Instant> first;
     if (running()->session && running()->index)
         first = {*running()->session, *running()->index, running()->start};
     else
         first = recorder_.at(running()->start);
-    if (first) latest->utc = own_time(*first);
-    return latest;
+    if (!first) return sample.utc;
+    return running()->start + recorder_.signal_since(first->session, first->index) -
+           recorder_.signal_since(sample.session, sample.index);
 }
 
-/// Returns what is to be said if this time of the running stay is not that of the clock.
-text::Message Occupations::remark_on_clock(UtcTime utc) {
-    if (const auto latest = recorder_.latest(); !latest || latest->utc >= utc) return {};
+/// Gives a sample its own time by a clock that was set back behind the last set-up of the running stay.
+Instant Occupations::in_running(Instant sample) {
+    if (running() && sample.utc + kLeastBack < running()->set_ups.back())
+        sample.utc = own_time(sample);
+    return sample;
+}
+
+std::optional<Instant> Occupations::newest() {
+    const auto latest = recorder_.latest();
+    return latest ? std::optional(in_running(*latest)) : std::nullopt;
+}
+
+/// Returns what is to be said if the clock was set back during the running stay: more signal came than
+/// time passed.
+text::Message Occupations::remark_on_clock() {
+    const auto latest = recorder_.latest();
+    if (!latest || own_time(*latest) < latest->utc + kLeastBack) return {};
     return text::message(
-        "; the clock was set back during this stay, so the time is counted from its start: set the "
-        "clock, and correct the times later with a351-correct retime");
+        "; the clock was set back during this stay: set it, and correct the times later with "
+        "a351-correct retime");
 }
 
 Occupations::Placed Occupations::place(std::optional<UtcTime> at) {
@@ -98,6 +105,7 @@ bool Occupations::is_at(std::optional<UtcTime> at, UtcTime utc) {
 Occupations::Placed Occupations::place_in_running(std::optional<UtcTime> at) {
     if (!running()) return {std::nullopt, text::message("no occupation is running")};
     auto placed = place(at);
+    if (placed.instant) placed.instant = in_running(*placed.instant);
     if (!placed.instant || placed.instant->utc > running()->set_ups.back()) return placed;
     return {std::nullopt, text::message("{} is not after the start of the set-up at {}, {}",
                                         shown(placed.instant->utc), running()->site,
@@ -188,13 +196,13 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     if (const auto made = running()->set_ups.size(); static_cast<int>(made) < planned_set_ups()) {
         message += text::message("; {} of {} planned set-ups", made, planned_set_ups());
     }
+    const text::Message clock = remark_on_clock();
     using Minutes = std::chrono::duration<double, std::ratio<60>>;
-    if (const Nanoseconds stay = utc - running()->start; stay < planned()) {
+    if (const Nanoseconds stay = utc - running()->start; clock.empty() && stay < planned()) {
         message += text::message("; shorter than planned: {:.1f} of {:.0f} min",
                                  Minutes(stay).count(), Minutes(planned()).count());
     }
-    message += remark_on_clock(utc);
-    return commit(std::move(event), std::move(message));
+    return commit(std::move(event), message + clock);
 }
 
 Outcome Occupations::setup(std::optional<UtcTime> at) {
@@ -207,7 +215,7 @@ Outcome Occupations::setup(std::optional<UtcTime> at) {
     add(event, "site", running()->site);
     auto message = text::message("further set-up at {} from {}", named(*running()),
                                  shown(placed.instant->utc));
-    message += remark_on_clock(placed.instant->utc);
+    message += remark_on_clock();
     return commit(std::move(event), std::move(message));
 }
 
@@ -262,8 +270,8 @@ void Occupations::end_at_exchange(events::Event event) {
     const bool is_of_stay = stay && stay->session && stay->index &&
                             event.session == stay->session && event.index > stay->index;
     // By a clock that was set back, the last sample seems to be before the stay.
-    if (is_of_stay && event.utc <= stay->set_ups.back())
-        event.utc = own_time({*stay->session, *stay->index, stay->start});
+    if (is_of_stay && event.utc + kLeastBack < stay->set_ups.back())
+        event.utc = own_time({*event.session, *event.index, event.utc});
     recorder_.note(event);
     observe(event);
 }

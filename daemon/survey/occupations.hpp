@@ -164,8 +164,9 @@ private:
     [[nodiscard]] events::Event change_of(std::string type, const Named& stay,
                                           const Remark& remark);
     [[nodiscard]] std::optional<Instant> newest();
-    [[nodiscard]] UtcTime own_time(const Instant& first);
-    [[nodiscard]] text::Message remark_on_clock(UtcTime utc);
+    [[nodiscard]] UtcTime own_time(const Instant& sample);
+    [[nodiscard]] Instant in_running(Instant sample);
+    [[nodiscard]] text::Message remark_on_clock();
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
     [[nodiscard]] bool is_at(std::optional<UtcTime> at, UtcTime utc);
     [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);

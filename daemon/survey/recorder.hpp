@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 
@@ -8,6 +9,10 @@
 #include "protocol/journal/journal.hpp"
 
 namespace a351::daemon::survey {
+
+/// Least time by which a clock is behind recorded data before it counts as set back.  Reason: above the
+/// uncertainty of a locked clock, and of a time counted at the nominal rate.
+inline constexpr Nanoseconds kLeastBack = std::chrono::seconds(5);
 
 /// A sample of the running session and its time.
 struct Instant {

@@ -65,6 +65,8 @@ struct Damage {
 struct AbsentFile {
     std::string channel;
     UtcTime day;  ///< Begin of the day.
+
+    bool operator==(const AbsentFile&) const = default;
 };
 
 /// Result of read_channel().

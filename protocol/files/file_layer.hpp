@@ -45,7 +45,7 @@ public:
     [[nodiscard]] virtual std::uint64_t size() const = 0;
 };
 
-/// What a disk was given to do.
+/// Work of a disk.
 struct DiskWork {
     /// Bytes of the blocks of 4096 bytes that syncs wrote.  A block that is synced when it is
     /// partly filled, and again later, counts each time, as it does on the disk.  What the file

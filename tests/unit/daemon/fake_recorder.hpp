@@ -15,23 +15,21 @@ inline const UtcTime kMorning = *parse_rfc3339("2026-03-14T08:00:00Z");
 
 inline UtcTime minute(int minutes) { return kMorning + std::chrono::minutes(minutes); }
 
-/// A recorder with one sample per second, from minute 0 to `last`.  Its last sample has a time by a
-/// clock that was set back by `set_back`.
+/// A recorder with one sample per second, from minute 0 to `last`, with times by a clock that was set
+/// back by `set_back`.
 class FakeRecorder : public survey::Recorder {
 public:
     std::optional<survey::Instant> latest() override {
-        if (!last) return std::nullopt;
-        auto latest = at(*last);
-        if (latest) latest->utc -= set_back;
-        return latest;
+        return last ? at(*last - set_back) : std::nullopt;
     }
     std::optional<survey::Instant> at(UtcTime utc) override {
+        utc += set_back;
         if (!last || utc < kMorning || utc > *last) return std::nullopt;
         const auto seconds = std::chrono::ceil<std::chrono::seconds>(utc - kMorning);
-        return survey::Instant{session, seconds.count(), kMorning + seconds};
+        return survey::Instant{session, seconds.count(), kMorning + seconds - set_back};
     }
     Nanoseconds signal_since(const journal::SessionId&, std::int64_t index) override {
-        return std::chrono::seconds(at(*last)->index - index);
+        return std::chrono::seconds(latest()->index - index);
     }
     void commit(const events::Event& event) override {
         if (is_disk_full) throw std::system_error(ENOSPC, std::generic_category(), "events");

@@ -365,12 +365,16 @@ TEST_CASE("a stay keeps its own time when the clock is set back beyond its start
     REQUIRE(occupations.start("No.1", {}, {}).kind == Kind::done);
     recorder.set_back = std::chrono::hours(1);
     CHECK(occupations.stop({}, {}).kind == Kind::refused);  // no signal since
+    recorder.last = minute(40) + std::chrono::seconds(1);
+    recorder.set_back = std::chrono::seconds(2);
+    CHECK(occupations.stop({}, {}).kind == Kind::refused);  // times are uncertain by as much
+    recorder.set_back = std::chrono::hours(1);
     recorder.last = minute(45);
     CHECK(mentions(occupations.setup({}), "the clock was set back during this stay"));
     CHECK(occupations.not_moved(of(40), {}).kind == Kind::done);
     CHECK(occupations.running()->not_moved_until == minute(45));
-    recorder.last = minute(50);
-    CHECK(mentions(occupations.stop({}, {}), "08:50:00"));
+    recorder.last = minute(50);  // An order to several boxes has the time by the clock.
+    CHECK(mentions(occupations.stop({}, minute(50 - 60)), "08:50:00"));
     REQUIRE(occupations.list().size() == 1);
     const auto& set_ups = occupations.list().front().set_ups;
     REQUIRE(set_ups.size() == 2);
@@ -384,6 +388,21 @@ TEST_CASE("a stay keeps its own time when the clock is set back beyond its start
     recorder.last = minute(58);
     CHECK_FALSE(mentions(occupations.stop({}, {}), "the clock was set back"));
     CHECK(occupations.list().size() == 2);
+}
+
+TEST_CASE("a clock that was set back and has caught up with a stay is said at its stop",
+          "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {.planned = std::chrono::minutes(20)});
+    recorder.last = minute(10);
+    REQUIRE(occupations.start("No.1", {}, {}).kind == Kind::done);
+    recorder.set_back = std::chrono::minutes(15);
+    recorder.last = minute(35);
+    const Outcome stopped = occupations.stop({}, {});
+    CHECK(mentions(stopped, "at 2026-03-14T08:20:00"));
+    CHECK(mentions(stopped, "the clock was set back during this stay"));
+    CHECK_FALSE(mentions(stopped, "shorter than planned"));
+    CHECK(recorder.log.back().index == 35 * 60);
 }
 
 TEST_CASE("stop and setup need a running occupation and a time after its last set-up",

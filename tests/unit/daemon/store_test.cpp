@@ -1,5 +1,7 @@
 #include "daemon/store/store.hpp"
 
+#include <fmt/core.h>
+
 #include <fstream>
 
 #include "protocol/text/text_file.hpp"
@@ -111,33 +113,39 @@ TEST_CASE_METHOD(Rig, "a step of the host's clock is in the event log and in the
     CHECK(steps[0].details.at("clock_before") == to_rfc3339(step->before, 3));
 }
 
-TEST_CASE_METHOD(Rig, "another result of the start-up test is in the event log, once",
-                 "[daemon][store]") {
+TEST_CASE_METHOD(
+    Rig, "another result of the start-up test is in the event log, and that of another sensor",
+    "[daemon][store]") {
     Store store(files, options(), clock, reads);
     record_first(store);
-    start_up_test = wire::StartUpTest::hard_error;
-    begin_session(101);
-    begin_session(102);
-    start_up_test = wire::StartUpTest::passed;
-    begin_session(103);
-    serial_number = "00000777";
-    begin_session(104);
-    start_up_test = wire::StartUpTest::hard_error;
-    begin_session(105);
-    serial_number = "00000042";
-    begin_session(106);  // It failed, as the one before.
+    using Test = wire::StartUpTest;
+    struct Begun {
+        Test test;
+        const char* unit;
+        bool is_logged;
+    };
+    const Begun sessions[] = {
+        {Test::hard_error, "00000042", true}, {Test::hard_error, "00000042", false},
+        {Test::passed, "00000042", true},     {Test::hard_error, "00000777", true},
+        {Test::hard_error, "00000042", true}, {Test::passed, "00000777", true},
+        {Test::passed, "00000042", true},     {Test::passed, "00000042", false}};
+    std::vector<std::string> expected;
+    std::uint8_t session = 100;
+    for (const auto& [test, unit, is_logged] : sessions) {
+        start_up_test = test;
+        serial_number = unit;
+        begin_session(++session);
+        if (is_logged)
+            expected.push_back(fmt::format("{} {} {}", session, wire::to_text(test), unit));
+    }
     CHECK(store.stop());
-    std::vector<events::Event> events = events::read_events(root / "events").events;
-    std::erase_if(events, [](const auto& event) { return event.type != "start_up_test"; });
-    REQUIRE(events.size() == 4);
-    CHECK(events[2].session->bytes[0] == 105);
-    CHECK(events[3].session->bytes[0] == 106);
-    CHECK(events[3].details.at("serial_number") == "00000042");
-    CHECK(events[0].type == "start_up_test");
-    CHECK(events[0].details.at("result") == "HARD_ERR");
-    CHECK(events[0].session->bytes[0] == 101);
-    CHECK(events[1].details.at("result") == "passed");
-    CHECK(events[1].session->bytes[0] == 103);
+    std::vector<std::string> logged;
+    for (const events::Event& event : events::read_events(root / "events").events)
+        if (event.type == "start_up_test")
+            logged.push_back(fmt::format("{} {} {}", event.session->bytes[0],
+                                         event.details.at("result"),
+                                         event.details.at("serial_number")));
+    CHECK(logged == expected);
 }
 
 TEST_CASE_METHOD(
