@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kSyncLookInterval{50};      // Time between looks whether a sync is due.
-constexpr milliseconds kJournalSyncInterval{800};  // Leaves 0.2 s of the promised 1 s.
+constexpr milliseconds kJournalSyncInterval{800};  // Leaves 0.15 s to read, and 0.05 s to sync.
 
 }  // namespace
 
