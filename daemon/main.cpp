@@ -41,6 +41,7 @@
 #include "daemon/verdict/lasting_verdict.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/normal_gravity.hpp"
+#include "protocol/text/message.hpp"
 
 namespace {
 
