@@ -393,7 +393,7 @@ TEST_CASE("a stay keeps its own time when the clock is set back beyond its start
 TEST_CASE("a clock that was set back and has caught up with a stay is said at its stop",
           "[daemon][occupations]") {
     FakeRecorder recorder;
-    Occupations occupations(recorder, two_sites(), {.planned = std::chrono::minutes(20)});
+    Occupations occupations(recorder, two_sites(), {}, {.planned = std::chrono::minutes(20)});
     recorder.last = minute(10);
     REQUIRE(occupations.start("No.1", {}, {}).kind == Kind::done);
     recorder.set_back = std::chrono::minutes(15);

@@ -55,7 +55,7 @@ TEST_CASE("the vertical axis is compared with the history, but not that of anoth
         };
         play(0, 0.0, 980000.0);
         record.end_of_history();
-        if (is_other) record.begin_unit();
+        if (is_other) record.begin_unit(placed(4999, 0.0, 0.0, 0.0).time);
         play(5000, 980000.0, 0.0);
         CHECK(record.troubles().size() == (is_other ? 0 : 1));
     }

@@ -140,7 +140,7 @@ TEST_CASE(
         CAPTURE(off.count(), is_set_later);
         const archive::DataRoot root;
         std::vector<journal::Chunk> chunks;
-        for (const std::uint8_t session : {1, 2}) {
+        for (const auto session : {std::uint8_t{1}, std::uint8_t{2}}) {
             const Nanoseconds begin = session == 1 ? 0min : 30min;
             journal::JournalStream stream(session, begin);
             stream.frames(begin / 20ms, begin / 20ms + 6'000);
