@@ -269,7 +269,7 @@ void Occupations::end_at_exchange(events::Event event) {
     const auto& stay = running();
     const bool is_of_stay = stay && stay->session && stay->index &&
                             event.session == stay->session && event.index > stay->index;
-    // By a clock that was set back, the last sample seems to be before the stay.
+    // After the clock was set back, the last sample seems to be before the stay.
     if (is_of_stay && event.utc + kLeastBack < stay->set_ups.back())
         event.utc = own_time({*event.session, *event.index, event.utc});
     recorder_.note(event);
