@@ -247,7 +247,6 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                             },
                         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
                         .other_unit = [&](const auto& event) { other_unit(event); },
-                        .switched_on_again = [&](UtcTime time) { live.switched_on_again(time); },
                         .sample =
                             [&](const archive::Sample& sample, UtcTime time) {
                                 const auto changes = live.take(placed(sample, time));

@@ -234,6 +234,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.findings.push_back(std::move(remark));
     result.findings.insert(result.findings.end(), findings.begin(), findings.end());
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
+    if (text::Message wrong = impossible_temperature(result.rows); !wrong.empty())
+        result.warnings.insert(result.warnings.begin(), std::move(wrong));
     for (text::Message& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));
     result.temperature_course = archive_series::temperature_course(samples[kTemperature].segments,

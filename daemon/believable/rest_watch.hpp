@@ -19,8 +19,8 @@ namespace a351::daemon::believable {
 /// is turned to calibrate it.  The trouble ends when the box is in a stance of the past; at the next
 /// start the new stance is one.  x and y exchanged cannot be seen.
 ///
-/// The norm, a mean of kMinute_s at rest, must stay within kMostNormChange of one in the same stance in
-/// the day before: the first one, which is renewed once a day while the norm stays within the limit.
+/// The norm, a mean of kMinute_s at rest, must stay within kMostNormChange of a reference of the
+/// same stance: its first norm, which is replaced by a norm within the limit after a day.
 /// Otherwise the scale or a bias changes.
 class RestWatch {
 public:

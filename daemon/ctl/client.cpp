@@ -72,10 +72,12 @@ std::string reason(const Url& url, const error_code& error, bool is_connected, b
 }
 
 /// Says that the answer to an order is late: a disk that stalls delays it.
-asio::awaitable<void> say_if_late(const Url& url) {
+/// @param is_connected  see exchange(); without a connection no order was sent.
+asio::awaitable<void> say_if_late(const Url& url, const bool& is_connected) {
     asio::steady_timer late(co_await asio::this_coro::executor, kPatience);
     error_code ended;
     co_await late.async_wait(into(ended));
+    if (!is_connected) co_return;
     fmt::print(
         stderr, "a351ctl: {}\n",
         text::tr("no answer from http://{} yet, its disk may be busy: waiting", url.authority()));
@@ -92,7 +94,7 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
     error_code error;
     bool is_connected = false;
     asio::io_context io(1);
-    if (is_order(request)) asio::co_spawn(io, say_if_late(url), asio::detached);
+    if (is_order(request)) asio::co_spawn(io, say_if_late(url, is_connected), asio::detached);
     asio::co_spawn(io, exchange(url, request, answer, error, is_connected),
                    [&](const std::exception_ptr&) { io.stop(); });
     io.run();

@@ -96,19 +96,12 @@ void Record::end_of_history() {
     watch_.end_of_history();
 }
 
-void Record::switched_on_again(UtcTime time) {
-    const std::lock_guard lock(mutex_);
-    switched_on_ = time;
-    judge_.switched_on_again(time);
-}
-
 void Record::begin_unit(UtcTime last) {
     const std::lock_guard lock(mutex_);
     if (!thinned_.empty() && last < thinned_.front().time) return;  // The history begins later.
     std::erase_if(thinned_, [&](const auto& sample) { return sample.time <= last; });
     thinning_.begin_run();
     watch_.forget();
-    switched_on_.reset();
     judge_again(last_.value_or(last));
 }
 
@@ -124,7 +117,6 @@ void Record::forget_from(UtcTime time) {
 void Record::judge_again(UtcTime from) {
     lasting_ = verdict::LastingVerdict(from);
     judge_ = verdict::Judge(options_);
-    if (switched_on_) judge_.switched_on_again(*switched_on_);
     for (const verdict::LiveSample& sample : thinned_) judge_.take(sample);
 }
 

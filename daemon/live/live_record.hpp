@@ -73,9 +73,6 @@ public:
     std::vector<verdict::Change> take(const PlacedSample& sample);
     void take(const OvenPoint& point);
 
-    /// Declares that the sensor was switched off, and on again at this time.
-    void switched_on_again(UtcTime time);
-
     /// Declares that everything taken so far is from the archive or a journal.  Samples that a replay
     /// delivers again are ignored, up to the first new one.  The verdict at the end of the history
     /// counts as new.
@@ -139,7 +136,6 @@ private:
     History history_;
     Thinning thinning_;
     verdict::Judge judge_;
-    std::optional<UtcTime> switched_on_;  ///< Newest switched_on_again().
     verdict::LastingVerdict lasting_;
     believable::Watch watch_;
     std::vector<verdict::LiveSample> fresh_;  ///< Kept for reuse.

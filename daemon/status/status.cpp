@@ -79,11 +79,15 @@ text::Message sentence_of(const ClockStep& step) {
                          change, after, before);
 }
 
+/// Returns true for an hour after this time, unless the clock was set back since then.
+bool is_shown(UtcTime time, UtcTime now) {
+    return time <= now && now < time + std::chrono::hours(1);
+}
+
 /// Adds the reason if another sensor was attached.
 void assess_unit(Status& status) {
-    constexpr std::chrono::hours kChangeShown{1};
     const auto& change = status.unit_change;
-    if (!change || status.now - change->since >= kChangeShown) return;
+    if (!change || !is_shown(change->since, status.now)) return;
     status.warn(text::message(
         "another sensor records since {}: {} after {}; a stay that was running has ended; the "
         "correction "
@@ -91,16 +95,14 @@ void assess_unit(Status& status) {
         to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
 }
 
-/// Adds the reason if the sensor was switched off and on again.
+/// Adds the reason if the sensor had stopped, and was started again.
 void assess_power(Status& status) {
-    constexpr std::chrono::hours kShown{1};
-    const auto& time = status.switched_on;
-    if (!time || status.now - *time >= kShown) return;
-    status.warn(
-        text::message("the sensor was switched off, and on again at {}: it warms up again; check "
-                      "its plug and its "
-                      "power supply",
-                      to_rfc3339(*time, 0)));
+    const auto& time = status.started_again;
+    if (!time || !is_shown(*time, status.now)) return;
+    status.warn(text::message(
+        "the sensor had stopped, and was started again at {}: it was switched off, or its line was "
+        "disturbed; if it was off, it warms up again; check its plug and its power supply",
+        to_rfc3339(*time, 0)));
 }
 
 /// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later

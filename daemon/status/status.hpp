@@ -79,7 +79,8 @@ struct Status {
     bool is_profile_verified = false;
     std::string calibrated_serial_number;   ///< Unit of the calibration in use; empty if none.
     std::optional<UnitChange> unit_change;  ///< Newest one within a survey day.
-    std::optional<UtcTime> switched_on;     ///< When the sensor was found on again, in this run.
+    /// When the sampling of a sensor that had stopped was started again, in this run.
+    std::optional<UtcTime> started_again;
     std::string start_up_test;  ///< Result of the sensor's last start-up test, as in the journal.
     bool is_device_assumed = false;  ///< The stream was adopted; the device was not asked.
 

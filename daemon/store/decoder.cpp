@@ -172,12 +172,9 @@ void Decoder::report_other_unit(const journal::Header& header) {
 void Decoder::watch_sensor(const journal::Header& header) {
     const bool is_other = !serial_number_.empty() && header.serial_number != serial_number_;
     if (is_other) report_other_unit(header);
-    // The same sensor does not sample any more, and nobody stopped it: its power was interrupted.
+    // The same sensor does not sample any more: its power was interrupted, or its line was disturbed.
     const bool is_again = has_recorded_ && header.session != session_ && !is_other;
-    if (is_again && !header.is_device_assumed) {
-        status_.switched_on = header.clock.realtime;
-        options_.switched_on_again(header.clock.realtime);
-    }
+    if (is_again && !header.is_device_assumed) status_.started_again = header.clock.realtime;
     if (header.start_up_test == start_up_test_ && !is_other) return;
     events::Event event;
     event.type = "start_up_test";

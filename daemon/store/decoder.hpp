@@ -38,7 +38,7 @@ public:
         bool is_host_synchronised = false;
         std::optional<status::ClockStep> clock_step;    ///< Newest one of this run.
         std::optional<status::UnitChange> unit_change;  ///< Newest one within a survey day.
-        std::optional<UtcTime> switched_on;             ///< When the sensor was found on again.
+        std::optional<UtcTime> started_again;           ///< See Status::started_again.
         std::optional<timing::MeasuredRate> measured_rate;
         std::optional<Hertz> wrong_rate;  ///< See believable::RateWatch.
     };

@@ -34,8 +34,6 @@ struct Options {
     /// Called by another thread when another sensor begins to record, before its first sample, with the
     /// event that is to be noted: Occupations::end_at_exchange().  Must not wait.
     std::function<void(const events::Event&)> other_unit = [](const auto&) {};
-    /// Called by another thread when the sensor was switched off and on again.  Must not wait.
-    std::function<void(UtcTime)> switched_on_again = [](UtcTime) {};
     /// Called by another thread for each sample that received its index and time, also those of the
     /// last run's journal.
     std::function<void(const archive::Sample&, UtcTime)> sample = [](const auto&, UtcTime) {};

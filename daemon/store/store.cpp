@@ -89,7 +89,7 @@ void Store::fill(status::Status& status) {
     status.wrong_rate = archive.wrong_rate;
     status.clock_step = archive.clock_step;
     status.unit_change = archive.unit_change;
-    status.switched_on = archive.switched_on;
+    status.started_again = archive.started_again;
     status.counters = archive.counters;
     if (archive.last_sample && profile_ != nullptr) {
         const wire::BurstValues& values = archive.last_sample->values;

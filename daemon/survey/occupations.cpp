@@ -73,8 +73,11 @@ std::optional<Instant> Occupations::newest() {
 /// Returns what is to be said if the clock was set back during the running stay: more signal came than
 /// time passed.
 text::Message Occupations::remark_on_clock() {
+    constexpr int kPartOfRate = 9000;  // The sensor's rate is 110 ppm off at most.
     const auto latest = recorder_.latest();
-    if (!latest || own_time(*latest) < latest->utc + kLeastBack) return {};
+    if (!latest) return {};
+    const UtcTime own = own_time(*latest);
+    if (own - latest->utc < kLeastBack + (own - running()->start) / kPartOfRate) return {};
     return text::message(
         "; the clock was set back during this stay: set it, and correct the times later with "
         "a351-correct retime");

@@ -11,7 +11,7 @@
 namespace a351::daemon::survey {
 
 /// Least time by which a clock is behind recorded data before it counts as set back.  Reason: above the
-/// uncertainty of a locked clock, and of a time counted at the nominal rate.
+/// uncertainty of a locked clock.
 inline constexpr Nanoseconds kLeastBack = std::chrono::seconds(5);
 
 /// A sample of the running session and its time.

@@ -71,17 +71,17 @@ const Verdict& Judge::take(const LiveSample& sample) {
     const double norm_mgal = std::hypot(x, y, z);
     if (std::isfinite(norm_mgal) && touches_.is_clean(sample))
         slope_.take(sample.time, MilliGal(norm_mgal));
-    if (std::isfinite(x + y + z + degc)) last_good_ = sample.seen_at;
     if (std::isfinite(degc)) {
+        follow_power(sample.seen_at, degc);
         if (!stuck_since_ || degc != last_degc_) stuck_since_ = sample.seen_at;
         last_degc_ = degc;
-        follow_power(sample.seen_at, degc);
     }
+    if (std::isfinite(x + y + z + degc)) last_good_ = sample.seen_at;
     return at(sample.seen_at);
 }
 
 /// Detects power-on: a box that is cold at the first sample, or warms by itself, has just been
-/// switched on.
+/// switched on.  One that became cold while there were no data was switched off.
 void Judge::follow_power(UtcTime seen_at, double degc) {
     if (!first_seen_) {
         first_seen_ = seen_at;
@@ -92,11 +92,11 @@ void Judge::follow_power(UtcTime seen_at, double degc) {
         degc > first_degc_ + 0.5 * options_.warm_up_degc &&
         seconds_between(*first_seen_, seen_at) < kWatchedHours * kSecondsPerHour;
     if (!switched_on_ && (is_cold || has_warmed)) switched_on_ = first_seen_;
-}
-
-void Judge::switched_on_again(UtcTime time) {
-    switched_on_ = time;
-    was_switched_off_ = true;
+    const bool has_cooled = is_cold && degc < last_degc_ - 0.5 * options_.warm_up_degc;
+    if (has_cooled && last_good_ && seconds_between(*last_good_, seen_at) > options_.gap_s) {
+        switched_on_ = seen_at;
+        was_switched_off_ = true;
+    }
 }
 
 const Verdict& Judge::at(UtcTime now) {
@@ -155,7 +155,7 @@ const Verdict& Judge::at(UtcTime now) {
                              value - sure * error <= limit, error});
     }
     if (!is_settled && on_h < options_.warm_up_h)
-        is_warm = least(was_switched_off_ ? marked("the sensor was switched off, and on again")
+        is_warm = least(was_switched_off_ ? marked("the box was switched off, and on again")
                                           : marked("switched on"),
                         on_h, "h", options_.warm_up_h, marked("ago"));
 

@@ -60,7 +60,8 @@ struct Verdict {
 ///
 /// "Surely" means by `sure` standard errors until the box has settled, then by `sure_stay` until
 /// the box is touched.  The first sample counts as power-on if the box is then more than
-/// warm_up_degc below its set point, or warms by half of that within an hour.
+/// warm_up_degc below its set point, or warms by half of that within an hour.  A first sample after
+/// a gap counts as such if the box is then so cold and was warmer by half of that before.
 class Judge {
 public:
     explicit Judge(const Options& options = {})
@@ -68,9 +69,6 @@ public:
 
     /// Takes the next value of the series.
     const Verdict& take(const LiveSample& sample);
-
-    /// Declares that the sensor was switched off, and on again at this time.
-    void switched_on_again(UtcTime time);
 
     /// Judges at this time of the data.
     const Verdict& at(UtcTime now);
@@ -87,7 +85,7 @@ private:
     TouchWatch touches_;
     ReadingSlope slope_;
     std::optional<UtcTime> switched_on_;
-    bool was_switched_off_ = false;  ///< Before that, while it recorded.
+    bool was_switched_off_ = false;  ///< Before that, while it was watched.
     std::optional<UtcTime> first_seen_;
     double first_degc_ = 0.0;
     std::optional<UtcTime> last_good_;    ///< Last finite sample seen.

@@ -154,12 +154,10 @@ TEST_CASE_METHOD(
     "survey day only",
     "[daemon][store]") {
     std::vector<events::Event> reported;
-    std::optional<UtcTime> switched_on;
     std::uint8_t session = 0;
     const auto run = [&](const char* serial, UtcTime day_end) {
         Options with_call = options();
         with_call.other_unit = [&](const events::Event& event) { reported.push_back(event); };
-        with_call.switched_on_again = [&](UtcTime time) { switched_on = time; };
         Store store(files, with_call, clock, reads);
         store.set_day_end(day_end);
         store.start();
@@ -167,7 +165,7 @@ TEST_CASE_METHOD(
         begin_session(++session);
         feed(100);
         CHECK(eventually([&] { return status_of(store).received == 99; }));
-        CHECK_FALSE(switched_on);
+        CHECK_FALSE(status_of(store).started_again);
         begin_session(++session);
         feed(100);
         CHECK(eventually([&] {
@@ -176,8 +174,7 @@ TEST_CASE_METHOD(
                    status.received == 99;
         }));
         CHECK(store.stop());
-        CHECK(switched_on);
-        CHECK(std::exchange(switched_on, {}) == status_of(store).switched_on);
+        CHECK(status_of(store).started_again);
         return status_of(store).unit_change;
     };
     CHECK_FALSE(run("00000042", UtcTime::max()));

@@ -49,16 +49,17 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     CHECK(status.level == Status::Level::warning);
 }
 
-TEST_CASE("a sensor that was switched off is a warning for an hour", "[daemon][assess]") {
-    for (const auto& [minutes, count] : {std::pair{59, std::size_t{1}}, {61, std::size_t{0}}}) {
+TEST_CASE("a sensor that had stopped is a warning for an hour", "[daemon][assess]") {
+    for (const int minutes : {-1, 0, 59, 60}) {
         Status status = healthy();
-        status.switched_on = *parse_rfc3339("2026-03-14T12:00:00Z");
-        status.now = *status.switched_on + std::chrono::minutes(minutes);
+        status.started_again = *parse_rfc3339("2026-03-14T12:00:00Z");
+        status.now = *status.started_again + std::chrono::minutes(minutes);
         assess(status);
-        REQUIRE(status.reasons.size() == count);
-        if (count == 0) continue;
+        REQUIRE(status.reasons.size() == (minutes == 0 || minutes == 59 ? 1 : 0));
+        if (status.reasons.empty()) continue;
         CHECK(status.level == Status::Level::warning);
-        CHECK_THAT(status.reasons[0].english(), ContainsSubstring("on again at 2026-03-14T12:00"));
+        CHECK_THAT(status.reasons[0].english(),
+                   ContainsSubstring("started again at 2026-03-14T12:00"));
     }
 }
 

@@ -270,16 +270,27 @@ TEST_CASE("a cold box is warming up, also for hours after it is warm", "[verdict
     CHECK(series.run(10000.0).state == State::stable);
 }
 
-TEST_CASE("a sensor that was switched off warms up again", "[verdict]") {
+TEST_CASE("a box that is colder after a gap was switched off", "[verdict]") {
+    constexpr const char* kAgain = "the box was switched off, and on again";
     Series series;
-    CHECK(series.run(14400.0).state == State::stable);
-    series.judge.switched_on_again(series.now());
+    series.run(14400.0);
+    series.skip(3600.0);
+    series.degc = 41.4;
+    series.slope_degc_per_h = 3.0;
     CHECK(series.run(1200.0).state == State::warming_up);
-    const Reason* const again =
-        find(series.judge.verdict(), "the sensor was switched off, and on again");
-    REQUIRE(again != nullptr);
-    CHECK(again->value == Approx(1.0 / 3.0).margin(0.01));
-    CHECK(series.run(10000.0).state == State::stable);
+    REQUIRE(find(series.judge.verdict(), kAgain) != nullptr);
+    CHECK(find(series.judge.verdict(), kAgain)->value == Approx(1.0 / 3.0).margin(0.01));
+
+    // A box that was cold before the gap, or is warm after it, was not.
+    for (const auto& [before_degc, after_degc] : {std::pair{41.2, 40.8}, {43.2, 42.4}}) {
+        Series other;
+        other.degc = before_degc;
+        other.run(1200.0);
+        other.skip(600.0);
+        other.degc = after_degc;
+        other.run(1200.0);
+        CHECK(find(other.judge.verdict(), kAgain) == nullptr);
+    }
 }
 
 TEST_CASE("a gap above its limit is no data, and after a long gap steadiness must be shown again",
