@@ -95,14 +95,15 @@ void assess_unit(Status& status) {
         to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
 }
 
-/// Adds the reason if the sensor had stopped, and was started again.
+/// Adds the reason if the sensor had stopped, and was started again.  It does not contain the time: a
+/// loose plug stops a sensor again and again.
 void assess_power(Status& status) {
-    const auto& time = status.started_again;
-    if (!time || !is_shown(*time, status.now)) return;
+    if (!status.started_again || !is_shown(*status.started_again, status.now)) return;
     status.warn(text::message(
-        "the sensor had stopped, and was started again at {}: it was switched off, or its line was "
-        "disturbed; if it was off, it warms up again; check its plug and its power supply",
-        to_rfc3339(*time, 0)));
+        "the sensor had stopped within the last hour, and was started again: it was switched off, "
+        "or "
+        "its line was disturbed; if it was off, it warms up again; check its plug and its power "
+        "supply"));
 }
 
 /// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later

@@ -58,8 +58,7 @@ TEST_CASE("a sensor that had stopped is a warning for an hour", "[daemon][assess
         REQUIRE(status.reasons.size() == (minutes == 0 || minutes == 59 ? 1 : 0));
         if (status.reasons.empty()) continue;
         CHECK(status.level == Status::Level::warning);
-        CHECK_THAT(status.reasons[0].english(),
-                   ContainsSubstring("started again at 2026-03-14T12:00"));
+        CHECK_THAT(status.reasons[0].english(), StartsWith("the sensor had stopped"));
     }
 }
 
