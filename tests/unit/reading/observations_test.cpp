@@ -32,19 +32,6 @@ private:
 const std::string kTableHeader =
     "site,occupation,outlier,time_utc,earth_tide_mgal,acceleration_mgal,temperature_degc\n";
 
-TEST_CASE("a temperature that no sensor can have is named with its remedy", "[reading]") {
-    std::vector<SurveyRow> rows(3);
-    for (SurveyRow& row : rows) row.temperature = DegC(42.5);
-    rows[1].site = "No.7";
-    CHECK(impossible_temperature(rows).empty());
-    for (const double degc : {-40.1, 90.1, 482059.0}) {
-        rows[1].temperature = DegC(degc);
-        CHECK_THAT(impossible_temperature(rows).english(),
-                   StartsWith("the temperature at No.7 reads ") &&
-                       ContainsSubstring("a351-correct retime --profile"));
-    }
-}
-
 }  // namespace
 
 TEST_CASE("rows are read with all their columns and sorted by time", "[survey][observations]") {
@@ -149,5 +136,18 @@ TEST_CASE(
           "B,1,2020-01-01T01:00:00Z,2700,40,B44,1\n"}) {
         INFO(refused);
         CHECK_THROWS_AS(TableFile(header + refused).read(), InputError);
+    }
+}
+
+TEST_CASE("a temperature that no sensor can have is named with its remedy", "[reading]") {
+    std::vector<SurveyRow> rows(3);
+    for (SurveyRow& row : rows) row.temperature = DegC(42.5);
+    rows[1].site = "No.7";
+    CHECK(impossible_temperature(rows).empty());
+    for (const double degc : {-40.1, 90.1, 482059.0}) {
+        rows[1].temperature = DegC(degc);
+        CHECK_THAT(impossible_temperature(rows).english(),
+                   StartsWith("the temperature at No.7 reads ") &&
+                       ContainsSubstring("a351-correct retime --profile"));
     }
 }
