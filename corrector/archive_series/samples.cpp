@@ -88,8 +88,7 @@ std::vector<archive::AbsentFile> absent_files(const std::filesystem::path& root,
 text::Message to_message(const archive::AbsentFile& absent) {
     return text::message(
         "{} has no day file of {}, but another channel has one: copy the archive again, or write "
-        "it "
-        "again with retime",
+        "it again with retime",
         absent.channel, to_rfc3339(absent.day).substr(0, 10));
 }
 

@@ -160,8 +160,7 @@ text::Message impossible_temperature(const std::vector<SurveyRow>& rows) {
         if (row.temperature < kLeast || row.temperature > kMost)
             return text::message(
                 "the temperature at {} reads {:.1f} degC, but a sensor can have only -40 to +90 "
-                "degC: "
-                "its profile was wrong; find the right one with a351d --identify, and write the "
+                "degC: its profile was wrong; find the right one with a351d --identify, and write the "
                 "archive again with a351-correct retime --profile",
                 row.site, row.temperature.value());
     return {};

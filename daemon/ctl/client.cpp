@@ -18,7 +18,7 @@ namespace http = page::http;
 using page::error_code;
 using page::into;
 
-// Time after which an operator is told something, and the time limit of a question.
+// Time limit of a question.  When an order has waited for so long, the operator is told.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::chrono::seconds kPatience{15};
 #else

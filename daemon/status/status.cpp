@@ -90,8 +90,7 @@ void assess_unit(Status& status) {
     if (!change || !is_shown(change->since, status.now)) return;
     status.warn(text::message(
         "another sensor records since {}: {} after {}; a stay that was running has ended; the "
-        "correction "
-        "gives each sensor its own constant; if nobody exchanged it, check which box is connected",
+        "correction gives each sensor its own constant; if nobody exchanged it, check which box is connected",
         to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
 }
 
@@ -101,9 +100,8 @@ void assess_power(Status& status) {
     if (!status.started_again || !is_shown(*status.started_again, status.now)) return;
     status.warn(text::message(
         "the sensor had stopped within the last hour, and was started again: it was switched off, "
-        "or "
-        "its line was disturbed; if it was off, it warms up again; check its plug and its power "
-        "supply"));
+        "or its line was disturbed; if it was off, it warms up again; check its plug and its "
+        "power supply"));
 }
 
 /// Adds the reasons that concern the host's clock.  The sample times follow it, so samples are later

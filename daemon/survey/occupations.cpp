@@ -58,7 +58,7 @@ UtcTime Occupations::own_time(const Instant& sample) {
            recorder_.signal_since(sample.session, sample.index);
 }
 
-/// Gives a sample its own time by a clock that was set back behind the last set-up of the running stay.
+/// Returns the sample with its own_time() if the clock is behind the last set-up of the running stay.
 Instant Occupations::in_running(Instant sample) {
     if (running() && sample.utc + kLeastBack < running()->set_ups.back())
         sample.utc = own_time(sample);

@@ -83,7 +83,7 @@ private:
 
 /// A segment of the journal, and the new time of its first sample.
 struct RetimedSegment {
-    journal::Header header;        ///< As the segment was read: recorded_with() the given profile.
+    journal::Header header;        ///< That of the segment; with a given profile, as recorded_with() it.
     std::optional<UtcTime> start;  ///< Absent if it has no time.
 };
 

@@ -186,6 +186,7 @@ def go(form):
         session.print_figures()
         held, missing = session.compare()
         losses = session.losses_s(missing)
+        demand(f"the open page got {session.seen} messages", session.seen > 0 or not form.has_viewer)
         print(f"{held} samples in the journal, {len(missing)} sent before cuts or while no daemon ran; lost before each cut, in s: "
               f"{[round(loss, 2) for loss in losses]}")
         demand(f"at most {max(losses):.2f} s are lost, bound {BOUND_S:.2f}", max(losses) <= BOUND_S)
