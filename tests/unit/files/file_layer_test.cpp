@@ -63,7 +63,7 @@ TEST_CASE("the work of a disk is counted in whole blocks at each sync", "[record
     }
     files->sync_directory(directory.path());
     CHECK(has_done(16384, 4));
-    const auto again = files->open_append(path);  // What it holds was written before.
+    const auto again = files->open_append(path);  // Its bytes were written before.
     again->append(std::vector<std::byte>(4096));
     again->sync();
     CHECK(has_done(24576, 5));

@@ -131,7 +131,7 @@ TEST_CASE(
     "exchange of the sensor, or not set",
     "[record][retime]") {
     struct Case {
-        Nanoseconds off{0};  ///< Of the clock in the first session.
+        Nanoseconds off{0};  ///< Error of the clock in the first session.
         bool is_set_later = true;
     };
     const Nanoseconds never_set = -journal::kStart.time_since_epoch();
