@@ -83,7 +83,7 @@ private:
 
 /// A segment of the journal, and the new time of its first sample.
 struct RetimedSegment {
-    journal::Header header;        ///< That of the segment; with a given profile, as recorded_with() it.
+    journal::Header header;        ///< With a given profile, the one of recorded_with().
     std::optional<UtcTime> start;  ///< Absent if it has no time.
 };
 
