@@ -24,6 +24,7 @@
 #include "daemon/identify/identify_file.hpp"
 #include "daemon/identify/report.hpp"
 #include "daemon/live/live_record.hpp"
+#include "daemon/page/operator_signal.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/service/process_setup.hpp"
 #include "daemon/service/service_notice.hpp"
@@ -38,7 +39,6 @@
 #include "daemon/status/status_log.hpp"
 #include "daemon/store/store.hpp"
 #include "daemon/survey/occupations.hpp"
-#include "daemon/verdict/lasting_verdict.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/normal_gravity.hpp"
 #include "protocol/text/message.hpp"
@@ -122,7 +122,6 @@ status::Status snapshot(const Recorder& recorder) {
 survey::OccupationOptions occupation_options(const config::Config& config) {
     return {.planned = config.survey.planned,
             .planned_set_ups = config.survey.set_ups,
-            .target = MilliGal(config.verdict.target_mgal),
             .sites_file = config.survey.sites_file};
 }
 
@@ -169,15 +168,6 @@ void reload(const std::filesystem::path& config_file, spdlog::logger& log, live:
     }
 }
 
-/// Logs new verdicts, for the report of the evening.
-void log_verdicts(store::Store& store, const std::vector<verdict::Change>& changes) {
-    for (const auto& [state, since] : changes) {
-        events::Event event{"verdict", since, {}, {}, {}};
-        event.details["state"] = verdict::to_text(state);
-        store.note(event);
-    }
-}
-
 page::ServerOptions page_options(const config::Config& config) {
     return {.listen = config.page.listen,
             .hosts = config.page.hosts,
@@ -198,6 +188,7 @@ void announce(const page::Server& page, const config::Config& config, spdlog::lo
 /// Reports the state of the recorder once a second, until a signal ends the program.
 void report_until_end(const Recorder& recorder, service::ServiceNotice& notice,
                       status::StatusLog& status_log, const sigset_t& signals,
+                      const std::function<void()>& each_second,
                       const std::function<void()>& hang_up) {
     constexpr timespec kSecond{1, 0};
     int signal = 0;
@@ -206,6 +197,7 @@ void report_until_end(const Recorder& recorder, service::ServiceNotice& notice,
         const status::Status status = snapshot(recorder);
         status_log.note(status, std::chrono::steady_clock::now());
         notice.beat(recorder.store.is_alive(), status::brief(status));
+        each_second();
         if (signal == SIGHUP) hang_up();
     }
 }
@@ -249,9 +241,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                         .other_unit = [&](const auto& event) { other_unit(event); },
                         .sample =
                             [&](const archive::Sample& sample, UtcTime time) {
-                                const auto changes = live.take(placed(sample, time));
-                                // The last run has logged those of the samples that its journal left.
-                                if (is_recovered) log_verdicts(store, changes);
+                                live.take(placed(sample, time));
                             }},
                        clock, reads);
     source::LinkOptions sensor = config.sensor;
@@ -276,6 +266,16 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         store.set_day_end(occupations.day_end());
     };
     if (occupations.running() || !occupations.list().empty()) note_change();
+    page::SignalLog signal_log(occupations, live, [&](const auto& event) { store.note(event); });
+    survey::Word word = survey::Word::no_data;  // Of the page's thread.
+    const auto log_signal = [&] {
+        if (!is_recovered) return;  // The last run has logged the words of what its journal left.
+        const auto now =
+            signal_log.advance(snapshot(recorder), page::read_so_far(gravity.document()));
+        const bool is_complete = now == survey::Word::go && occupations.running();
+        if (is_complete && now != word) gravity.note_change(true);
+        word = now;
+    };
     page::Server page(page_options(config),
                       {.status = [&] { return snapshot(recorder); },
                        .occupations = occupations,
@@ -284,6 +284,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                        .longitude = config.station.longitude,
                        .events = [&] { return events::read_events(events).events; },
                        .gravity_so_far = [&] { return gravity.document(); },
+                       .changing = log_signal,
                        .changed = note_change,
                        .assets = config.page.assets,
                        .boxes = config.page.boxes,
@@ -292,7 +293,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     log_doubt(occupations, config.survey.sites_file, log);
     other_unit = [&](const events::Event& event) {
         live.begin_unit(event.utc);
-        page.post([&occupations, &note_change, event] {
+        page.post([&occupations, &note_change, &log_signal, event] {
+            log_signal();
             occupations.end_at_exchange(event);
             note_change();
         });
@@ -304,7 +306,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     gravity.start();
     notice.ready();
 
-    report_until_end(recorder, notice, status_log, signals,
+    report_until_end(recorder, notice, status_log, signals, [&] { page.post(log_signal); },
                      [&] { reload(config.file, log, live, occupations, page); });
     log.info("stopping");
     notice.stopping();

@@ -138,7 +138,7 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
     const report::Report report = report::make_report(
         result, settings,
         {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
-         std::move(read.verdicts), read.inputs, read.warnings, picture_formats});
+         std::move(read.signal), read.inputs, read.warnings, picture_formats});
     day.files.insert(day.files.end(), report.files.begin(), report.files.end());
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     print_warnings(read.warnings, survey.name + ": ");

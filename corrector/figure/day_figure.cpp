@@ -56,7 +56,7 @@ std::vector<Stay> stays_of(const model::SurveyCorrection& result,
 }
 
 std::string caption_of(const model::SurveyCorrection& result, bool has_records, bool has_course,
-                       bool has_verdicts) {
+                       bool has_signal) {
     const std::string errors =
         result.as<model::WholeDayPart>() != nullptr
             ? tr("The day. Above: reference minus the value of the reading if its station is left "
@@ -72,7 +72,7 @@ std::string caption_of(const model::SurveyCorrection& result, bool has_records, 
                         : "") +
            (has_course ? tr(" Below: temperature of the sensor and of the readings.")
                        : tr(" Below: temperature of the readings.")) +
-           (has_verdicts ? tr(" Band: verdict on the data, from the event log.") : "") +
+           (has_signal ? tr(" Band: signal of the recorder, from the event log.") : "") +
            tr(" Shaded: stays (grey), averaged intervals (blue), stays without a value (red).");
 }
 
@@ -131,22 +131,27 @@ void plot_temperatures(Figure& figure, const model::SurveyCorrection& result,
     figure.plot("readings: time_utc temperature_degc", reading_lines, {Look::small_discs}, 2);
 }
 
-/// Adds the verdicts as a band, with their words as key.
-void plot_verdicts(Figure& figure, const std::vector<reading::VerdictSpan>& verdicts) {
-    constexpr std::array<std::pair<const char*, Colour>, 5> kStates{
-        {{text::marked("stable"), Colour::green},
-         {text::marked("settling"), Colour::orange},
-         {text::marked("disturbed"), Colour::vermilion},
-         {text::marked("warming up"), Colour::sky},
-         {text::marked("no data"), Colour::grey}}};
-    for (const auto& [word, colour] : kStates) {
+/// Adds the signal as a band, with its words as key.
+void plot_signal(Figure& figure, const std::vector<reading::SignalSpan>& signal) {
+    struct Word {
+        const char* code;
+        const char* text;
+        Colour colour;
+    };
+    constexpr std::array<Word, 6> kWords{{{"go", text::marked("YOU CAN GO"), Colour::green},
+                                          {"keep_off", text::marked("KEEP OFF"), Colour::orange},
+                                          {"lift", text::marked("LIFT, SET DOWN"), Colour::blue},
+                                          {"look", text::marked("LOOK"), Colour::vermilion},
+                                          {"warming_up", text::marked("WARMING UP"), Colour::sky},
+                                          {"no_data", text::marked("NO DATA"), Colour::grey}}};
+    for (const auto& [word, name, colour] : kWords) {
         std::string lines;
-        for (const reading::VerdictSpan& span : verdicts)
-            if (span.state == word)
+        for (const reading::SignalSpan& span : signal)
+            if (span.word == word)
                 lines += fmt::format("{} 0.25\n{} 0.25\n\n", to_rfc3339(span.start),
                                      to_rfc3339(span.end));
-        figure.plot(fmt::format("verdict {}: time_utc height", word), lines,
-                    {Look::ribbon, colour, std::string(text::translated(word, text::language()))},
+        figure.plot(fmt::format("signal {}: time_utc height", word), lines,
+                    {Look::ribbon, colour, std::string(text::translated(name, text::language()))},
                     3);
     }
 }
@@ -169,7 +174,7 @@ Axis time_axis(UtcTime first, UtcTime last) {
 
 Figure day_figure(const model::SurveyCorrection& result, const std::vector<ReadingRecord>& records,
                   const std::vector<archive_series::MinuteTemperature>& course,
-                  const std::vector<reading::VerdictSpan>& verdicts) {
+                  const std::vector<reading::SignalSpan>& signal) {
     const std::vector<Stay> stays = stays_of(result, records);
     UtcTime first = stays.front().start, last = first;
     if (!course.empty()) {
@@ -194,7 +199,7 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
     constexpr double kKey_px = 24.0, kLetter_px = 6.0;  // height of the key, width of a tiny letter
     Figure figure{
         "day",
-        caption_of(result, !records.empty(), !course.empty(), !verdicts.empty()),
+        caption_of(result, !records.empty(), !course.empty(), !signal.empty()),
         960,
         0,
         {{.y = {tr("Reference - value (mGal)")}, .key = Key::top_of_figure, .height_px = 210.0},
@@ -204,7 +209,7 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
     plot_errors(figure, result);
     plot_samples(figure.panels.at(1), result, records);
     plot_temperatures(figure, result, course);
-    plot_verdicts(figure, verdicts);
+    plot_signal(figure, signal);
     std::erase_if(figure.panels, [](const Panel& panel) { return panel.series.empty(); });
     for (Panel& panel : figure.panels) {
         panel.x = time_axis(first, last);

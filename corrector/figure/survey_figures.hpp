@@ -20,7 +20,7 @@
 #include "corrector/figure/figure.hpp"
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/representative_value.hpp"
-#include "corrector/reading/verdict_course.hpp"
+#include "corrector/reading/signal_course.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::figure {
@@ -95,16 +95,16 @@ struct ReadingRecord {
                                                 const std::vector<ReadingRecord>& records);
 
 /// Returns the figure of the day: errors of the readings, their samples, the temperature of
-/// the sensor and the verdicts of the recorder on one axis of time, with the stays.
+/// the sensor and the signal of the recorder on one axis of time, with the stays.
 ///
 /// The errors are those of judgement::error_of(), with u_corrected as bars (0 if there is none).  A panel
 /// without data is left out.  The curve of the temperature is interrupted between minutes that are
 /// not neighbours (day_figure_test.cpp).  It plots the data of reading_figures().
 /// @param course    in order of time; may be empty.
-/// @param verdicts  a state that is not known is left out; may be empty.
+/// @param signal    a word that is not known is left out; may be empty.
 [[nodiscard]] Figure day_figure(const model::SurveyCorrection& result,
                                 const std::vector<ReadingRecord>& records,
                                 const std::vector<archive_series::MinuteTemperature>& course,
-                                const std::vector<reading::VerdictSpan>& verdicts);
+                                const std::vector<reading::SignalSpan>& signal);
 
 }  // namespace a351::corrector::figure

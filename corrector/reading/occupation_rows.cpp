@@ -241,7 +241,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     result.temperature_course = archive_series::temperature_course(samples[kTemperature].segments,
                                                                    epoch.channels[kTemperature]);
     const auto events = events::read_events(source.root / "events").events;
-    result.verdicts = verdict_course(events, result.temperature_course);
+    result.signal = signal_course(events, result.temperature_course);
     for (Finding& finding :
          start_up_findings(events, epoch.serial_number, windows.front().start, windows.back().end))
         result.findings.push_back(std::move(finding));

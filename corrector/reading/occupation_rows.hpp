@@ -28,7 +28,7 @@
 #include "corrector/reading/occupation_list.hpp"
 #include "corrector/reading/representative_value.hpp"
 #include "corrector/reading/survey_row.hpp"
-#include "corrector/reading/verdict_course.hpp"
+#include "corrector/reading/signal_course.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
@@ -83,7 +83,7 @@ struct OccupationRows {
     std::vector<RepresentativeValue> records;  ///< Record of each row.
     /// Temperature over the whole survey.
     std::vector<archive_series::MinuteTemperature> temperature_course;
-    std::vector<VerdictSpan> verdicts;    ///< Verdicts of the recorder in this time, if logged.
+    std::vector<SignalSpan> signal;      ///< Words of the recorder in this time, if logged.
     std::optional<DayRecord> day;         ///< Set-ups numbered as the rows; absent: no temperature.
     std::vector<LeftOut> left_out;        ///< Occupations without a value, by start.
     std::vector<text::Message> warnings;  ///< Doubts and omissions, with reasons.

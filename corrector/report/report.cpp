@@ -30,7 +30,7 @@ SurveyFigures figures_of(const model::SurveyCorrection& result, const ReportSour
         figure::find_records(result, sources.records);
     SurveyFigures figures;
     figures.day = {
-        figure::day_figure(result, records, sources.temperature_course, sources.verdicts)};
+        figure::day_figure(result, records, sources.temperature_course, sources.signal)};
     if (const auto map = figure::map_figure(result, sources.sites)) figures.map = {*map};
     if (const auto figure = figure::side_by_side_figure(result)) figures.side_by_side = {*figure};
     for (const auto& figure : {figure::corrected_figure(result), figure::difference_figure(result),

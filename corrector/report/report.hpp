@@ -21,7 +21,7 @@
 #include "corrector/long_record/record_result.hpp"
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/representative_value.hpp"
-#include "corrector/reading/verdict_course.hpp"
+#include "corrector/reading/signal_course.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
@@ -40,7 +40,7 @@ struct ReportSources {
     std::vector<reading::RepresentativeValue> records;  ///< Records of the rows.
     /// Temperature of the sensor.
     std::vector<archive_series::MinuteTemperature> temperature_course;
-    std::vector<reading::VerdictSpan> verdicts;         ///< Verdicts of the recorder.
+    std::vector<reading::SignalSpan> signal;           ///< Words of the recorder.
     std::vector<text::InputFile> inputs;
     /// Entries skipped or left out, with reasons; the report adds the remarks of the result.
     std::vector<text::Message> warnings;

@@ -14,40 +14,13 @@ struct Key {
     double low, high;
 };
 
-constexpr double kMost = 1000.0;  ///< Largest effect, mGal and mGal/degC.
-
 constexpr Key kKeys[] = {
     {"operating_degc", &verdict::Options::operating_degc, -20.0, 80.0},
     {"warm_up_degc", &verdict::Options::warm_up_degc, 0.1, 20.0},
-    {"cycle_s", &verdict::Options::cycle_s, 100.0, 3600.0},
-    {"history_min", &verdict::Options::history_min, 10.0, 120.0},
-    {"static_mgal_per_degc", &verdict::Options::static_mgal_per_degc, -kMost, kMost},
-    {"rate_mgal_h_per_degc", &verdict::Options::rate_mgal_h_per_degc, -kMost, kMost},
-    {"slow_mgal_per_degc", &verdict::Options::slow_mgal_per_degc, -kMost, kMost},
-    {"slow_lag_min", &verdict::Options::slow_lag_min, 1.0, 600.0},
-    {"relax_min", &verdict::Options::relax_min, 1.0, 600.0},
-    {"warm_up_mgal", &verdict::Options::warm_up_mgal, -kMost, kMost},
     {"warm_up_h", &verdict::Options::warm_up_h, 0.1, 48.0},
-    {"change_mgal", &verdict::Options::change_mgal, 0.01, 1000.0},
-    {"slope_degc_per_h", &verdict::Options::slope_degc_per_h, 0.001, 100.0},
-    {"sure", &verdict::Options::sure, 0.0, 10.0},
-    {"sure_stay", &verdict::Options::sure_stay, 0.0, 10.0},
-    {"doubt_mgal_per_degc", &verdict::Options::doubt_mgal_per_degc, 0.0, kMost},
-    {"hold_s", &verdict::Options::hold_s, 0.0, 3600.0},
     {"knock_gal", &verdict::Options::knock_gal, 0.01, 1000.0},
-    {"quiet_s", &verdict::Options::quiet_s, 0.0, 3600.0},
     {"shake_gal", &verdict::Options::shake_gal, 0.01, 1000.0},
-    {"shake_factor", &verdict::Options::shake_factor, 1.0, 1000.0},
-    {"shake_s", &verdict::Options::shake_s, 0.0, 600.0},
-    {"handled_s", &verdict::Options::handled_s, 0.0, 600.0},
-    {"watch_s", &verdict::Options::watch_s, 0.0, 3600.0},
-    {"lid_degc", &verdict::Options::lid_degc, 0.0, 10.0},
-    {"lid_degc_per_h", &verdict::Options::lid_degc_per_h, 0.0, 100.0},
     {"tilt_deg", &verdict::Options::tilt_deg, 0.001, 10.0},
-    {"noise_factor", &verdict::Options::noise_factor, 1.0, 1000.0},
-    {"noise_floor_mgal", &verdict::Options::noise_floor_mgal, 0.01, 1000.0},
-    {"cycle_mgal", &verdict::Options::cycle_mgal, 0.0, 1000.0},
-    {"target_mgal", &verdict::Options::target_mgal, 0.01, 1000.0},
     {"gap_s", &verdict::Options::gap_s, 3.0, 600.0},
     {"stuck_s", &verdict::Options::stuck_s, 10.0, 3600.0},
 };

@@ -27,7 +27,6 @@ struct Arguments {
     std::string reason;
     std::string address;
     std::optional<int> set_ups;
-    double target_mgal = 0.0;
     double latitude_deg = 0.0, longitude_deg = 0.0;
     std::optional<double> height_m, gravity_mgal;
 };

@@ -189,13 +189,6 @@ void add_note(CLI::App& app, Arguments& a) {
         ->type_name("KEY");
 }
 
-void add_target(CLI::App& app, Arguments& a) {
-    app.add_subcommand("target", "Sets the standard error at which a reading is good enough.")
-        ->add_option("MGAL", a.target_mgal, "Standard error, 0.01-1000 mGal")
-        ->type_name("")
-        ->required();
-}
-
 void add_sites(CLI::App& app, Arguments& a) {
     add_json(
         app.add_subcommand("sites", "Lists the benchmarks, nearest to the last occupation first."),
@@ -262,7 +255,7 @@ int main(int argc, char** argv) {
     CLI::App app("Shows the state of the daemon a351d and controls occupations.", "a351ctl");
     add_global_options(app, a);
     for (const auto add : {add_status, add_start, add_stop, add_setup, add_discard, add_restore,
-                           add_not_moved, add_resume, add_rename, add_retime, add_note, add_target,
+                           add_not_moved, add_resume, add_rename, add_retime, add_note,
                            add_sites, add_survey, add_list, add_phone, add_site})
         add(app, a);
     app.allow_extras();  // Not inherited by the commands, because they are there already.

@@ -99,26 +99,15 @@ std::string site_table(const json& answer) {
 }
 
 std::string occupation_table(const json& answer) {
-    std::vector<std::vector<std::string>> rows = {{"site", "stay", "start", "end", "mgal",
-                                                   "error_mgal", "sd_mgal", "key", "operator",
-                                                   "note"}};
-    const auto add = [&](const json& one, const std::string& number, std::string note) {
+    std::vector<std::vector<std::string>> rows = {
+        {"site", "stay", "start", "end", "gravity_mgal", "u_mgal", "key", "operator", "note"}};
+    const auto add = [&](const json& one, const std::string& number, const std::string& note) {
         const json& set_ups = at(one, "set_ups");
-        const auto add_row = [&](const json& first, const json& last, const json& mean) {
-            rows.push_back({text_of(one, "site"), number, text_of(first, "start"),
-                            text_of(last, "end"), number_of(mean, "value_mgal", "{:.2f}"),
-                            number_of(mean, "standard_error_mgal", "{:.2f}"), "-",
-                            text_of(one, "key"), text_of(one, "operator"), note});
-            note = "";
-        };
-        for (const auto& set_up : set_ups) add_row(set_up, set_up, at(set_up, "reading"));
-        // The set-ups combined: the error is that of their own scatter.
-        if (!at(one, "reading/set_up_sd_mgal").is_number()) return;
-        const json& mean = at(one, "reading");
-        add_row(set_ups.front(), set_ups.back(), mean);
-        rows.back()[1] += text::tr(" mean");
-        rows.back()[5] = number_of(mean, "set_up_error_mgal", "{:.2f}");
-        rows.back()[6] = number_of(mean, "set_up_sd_mgal", "{:.2f}");
+        const json& gravity = at(one, "gravity");
+        rows.push_back({text_of(one, "site"), number, text_of(set_ups.front(), "start"),
+                        text_of(set_ups.back(), "end"), number_of(gravity, "gravity_mgal", "{:.1f}"),
+                        number_of(gravity, "u_mgal", "{:.1f}"), text_of(one, "key"),
+                        text_of(one, "operator"), note});
     };
     for (const auto& one : at(answer, "occupations"))
         add(one, text_of(one, "number"), text_of(one, "note"));

@@ -51,11 +51,10 @@ Record::Record(const wire::DeviceProfile& profile, int rate_hz, const verdict::O
       judge_(options),
       watch_(profile, rate_hz) {}
 
-std::vector<verdict::Change> Record::take(const PlacedSample& sample) {
+void Record::take(const PlacedSample& sample) {
     const std::lock_guard lock(mutex_);
-    std::vector<verdict::Change> changes;
     if (history_end_) {
-        if (sample.time < *history_end_ + from_seconds(0.5 / rate_hz_)) return changes;
+        if (sample.time < *history_end_ + from_seconds(0.5 / rate_hz_)) return;
         history_end_.reset();
     }
     if (last_ && sample.time <= *last_) forget_from(sample.time);
@@ -65,11 +64,11 @@ std::vector<verdict::Change> Record::take(const PlacedSample& sample) {
         gaps_.push_back({*last_ + from_seconds(1.0 / rate_hz_), sample.time});
         keep_a_day(gaps_);
     }
-    const auto judged = [&](const verdict::Verdict& verdict, UtcTime time) {
-        if (const auto change = lasting_.take(verdict, time)) changes.push_back(*change);
-    };
     // After a long gap there is "no data" until the filters are full, and at the begin.
-    if (!last_ || is_after_gap) judged(judge_.at(sample.time), sample.time);
+    if (!last_ || is_after_gap) {
+        judge_.at(sample.time);
+        note_state();
+    }
     last_ = sample.time;
     recent_.take(sample);
     watch_.take(sample.time, sample.counts);
@@ -84,15 +83,21 @@ std::vector<verdict::Change> Record::take(const PlacedSample& sample) {
     for (const verdict::LiveSample& one : fresh_) {
         thinned_.push_back(one);
         keep_a_day(thinned_);
-        judged(judge_.take(one), one.seen_at);
+        judge_.take(one);
+        note_state();
     }
-    return changes;
+}
+
+void Record::note_state() {
+    const verdict::Verdict& verdict = judge_.verdict();
+    if (!states_.empty() && states_.back().state == verdict.state) return;
+    states_.push_back({verdict.since, verdict.state});
+    keep_a_day(states_);
 }
 
 void Record::end_of_history() {
     const std::lock_guard lock(mutex_);
     history_end_ = last_;
-    if (last_) lasting_ = verdict::LastingVerdict(*last_);
     watch_.end_of_history();
 }
 
@@ -102,7 +107,7 @@ void Record::begin_unit(UtcTime last) {
     std::erase_if(thinned_, [&](const auto& sample) { return sample.time <= last; });
     thinning_.begin_run();
     watch_.forget();
-    judge_again(last_.value_or(last));
+    judge_again();
 }
 
 /// Removes the series from `time` on, and judges the rest again.
@@ -110,14 +115,16 @@ void Record::forget_from(UtcTime time) {
     while (!gaps_.empty() && gaps_.back().time >= time) gaps_.pop_back();
     if (thinned_.empty() || thinned_.back().time < time) return;
     while (!thinned_.empty() && thinned_.back().time >= time) thinned_.pop_back();
-    judge_again(time);
+    judge_again();
 }
 
-/// @param from  until then other verdicts were shown
-void Record::judge_again(UtcTime from) {
-    lasting_ = verdict::LastingVerdict(from);
+void Record::judge_again() {
     judge_ = verdict::Judge(options_);
-    for (const verdict::LiveSample& sample : thinned_) judge_.take(sample);
+    states_.clear();
+    for (const verdict::LiveSample& sample : thinned_) {
+        judge_.take(sample);
+        note_state();
+    }
 }
 
 void Record::take(const OvenPoint& point) {
@@ -163,7 +170,7 @@ void Record::judge_by(const verdict::Options& options) {
     const std::lock_guard lock(mutex_);
     if (options == options_) return;
     options_ = options;
-    judge_again(last_.value_or(UtcTime{}));
+    judge_again();
 }
 
 verdict::Verdict Record::verdict() const {
@@ -171,13 +178,24 @@ verdict::Verdict Record::verdict() const {
     return judge_.verdict();
 }
 
+verdict::State Record::state_at(UtcTime time) const {
+    const std::lock_guard lock(mutex_);
+    const auto next = std::ranges::upper_bound(states_, time, {}, &Since::time);
+    return next == states_.begin() ? verdict::State::no_data : std::prev(next)->state;
+}
+
+std::optional<UtcTime> Record::last_sample() const {
+    const std::lock_guard lock(mutex_);
+    return last_;
+}
+
 std::vector<text::Message> Record::troubles() const {
     const std::lock_guard lock(mutex_);
     return watch_.troubles();
 }
 
-verdict::RunningReading Record::reading(std::span<const events::Occupation::SetUp> set_ups,
-                                        MilliGal target) const {
+verdict::RunningReading Record::reading(
+    std::span<const events::Occupation::SetUp> set_ups) const {
     const std::lock_guard lock(mutex_);
     verdict::RunningValue value(options_);
     for (const auto& [from, to] : set_ups) {
@@ -187,7 +205,7 @@ verdict::RunningReading Record::reading(std::span<const events::Occupation::SetU
              ++one)
             value.take(*one);
     }
-    return value.reading(target, judge_.verdict().state);
+    return value.reading();
 }
 
 double Record::missing_s(UtcTime from, UtcTime to) const {

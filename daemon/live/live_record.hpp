@@ -17,7 +17,6 @@
 #include "daemon/believable/watch.hpp"
 #include "daemon/live/history.hpp"
 #include "daemon/live/live_thinning.hpp"
-#include "daemon/verdict/lasting_verdict.hpp"
 #include "daemon/verdict/running_value.hpp"
 #include "daemon/verdict/verdict.hpp"
 #include "protocol/events/occupations.hpp"
@@ -68,14 +67,11 @@ public:
 
     /// Takes a sample; samples come in the order of their times.  A sample earlier than the last
     /// one means that the clock was set back; later data are then removed.
-    /// @return the verdicts that have lasted with it, to be logged; the same for the same samples,
-    ///         at any speed
-    std::vector<verdict::Change> take(const PlacedSample& sample);
+    void take(const PlacedSample& sample);
     void take(const OvenPoint& point);
 
     /// Declares that everything taken so far is from the archive or a journal.  Samples that a replay
-    /// delivers again are ignored, up to the first new one.  The verdict at the end of the history
-    /// counts as new.
+    /// delivers again are ignored, up to the first new one.
     void end_of_history();
 
     /// Declares that another sensor records: verdict and readings begin afresh, as after a power-on.
@@ -101,6 +97,13 @@ public:
     /// caller to judge.
     [[nodiscard]] verdict::Verdict verdict() const;
 
+    /// Returns the state of the verdict at an instant of the data; the same for the same samples, at
+    /// any speed.
+    [[nodiscard]] verdict::State state_at(UtcTime time) const;
+
+    /// Returns the time of the last sample; std::nullopt if there is none.
+    [[nodiscard]] std::optional<UtcTime> last_sample() const;
+
     /// Returns what is not believable of the samples since the end of the history, also in comparison
     /// with it.
     [[nodiscard]] std::vector<text::Message> troubles() const;
@@ -108,7 +111,7 @@ public:
     /// Returns the reading of these set-ups together, as far as they are in memory.
     /// Data outside do not affect it.
     [[nodiscard]] verdict::RunningReading reading(
-        std::span<const events::Occupation::SetUp> set_ups, MilliGal target) const;
+        std::span<const events::Occupation::SetUp> set_ups) const;
 
     /// Returns the length of signal that is missing between the samples in [from, to), in s.
     [[nodiscard]] double missing_s(UtcTime from, UtcTime to) const;
@@ -126,7 +129,8 @@ public:
 
 private:
     void forget_from(UtcTime time);
-    void judge_again(UtcTime from);
+    void judge_again();
+    void note_state();
 
     const wire::DeviceProfile& profile_;
     int rate_hz_;
@@ -136,7 +140,11 @@ private:
     History history_;
     Thinning thinning_;
     verdict::Judge judge_;
-    verdict::LastingVerdict lasting_;
+    struct Since {
+        UtcTime time;
+        verdict::State state;
+    };
+    std::deque<Since> states_;  ///< Changes of the state.
     believable::Watch watch_;
     std::vector<verdict::LiveSample> fresh_;  ///< Kept for reuse.
     std::deque<verdict::LiveSample> thinned_;

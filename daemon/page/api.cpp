@@ -8,6 +8,7 @@
 #include <span>
 
 #include "daemon/page/history_json.hpp"
+#include "daemon/page/operator_signal.hpp"
 #include "daemon/page/order.hpp"
 #include "daemon/page/status_fields.hpp"
 #include "daemon/page/status_json.hpp"
@@ -33,9 +34,9 @@ constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/occupation/rename",
                                             "/api/occupation/retime",
                                             "/api/occupation/not_moved",
+                                            "/api/occupation/checked",
                                             "/api/note",
-                                            "/api/sites",
-                                            "/api/target"};
+                                            "/api/sites"};
 
 /// Makes an answer of this body.  Texts from files and devices may be invalid UTF-8; invalid parts
 /// become U+FFFD.
@@ -69,17 +70,6 @@ text::Message other_stay(const Order& order,
         return {};
     return text::message("{} (stay {}) is running, not {}; nothing was changed", running->site,
                          running->number, order.site.empty() ? order.key : order.site);
-}
-
-/// Returns what was not steady when a stay was stopped, as the end of a sentence.
-text::Message unsteadiness_of(const status::Status& status) {
-    text::Message text;
-    for (const verdict::Reason& reason : status.verdict.reasons) {
-        if (reason.is_met) continue;
-        text += text.empty() ? text::message("; not stable: ") : ", ";
-        text += reason.to_message();
-    }
-    return text;
 }
 
 }  // namespace
@@ -129,10 +119,17 @@ std::optional<std::string> Api::urgent_status() noexcept {
 }
 
 json Api::status_now() const {
-    const status::Status status = sources_.status();
+    status::Status status = sources_.status();
     const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
     const Judgement judgement = judged(status, sources_.stale_after);
-    return to_json({status, sources_.occupations, field, sources_.live, judgement});
+    const SoFar so_far = so_far_now();
+    const survey::Signal signal =
+        operator_signal(status, judgement, sources_.occupations, field, so_far);
+    return to_json({status, sources_.occupations, field, sources_.live, judgement, signal, so_far});
+}
+
+SoFar Api::so_far_now() const {
+    return sources_.gravity_so_far ? read_so_far(sources_.gravity_so_far()) : SoFar();
 }
 
 Response Api::route(const Request& request) {
@@ -214,10 +211,13 @@ Response Api::sites_around() const {
 
 Response Api::occupations_so_far() const {
     json list = json::array();
+    const SoFar so_far = so_far_now();
     for (const auto& one : sources_.occupations.list()) {
         list.push_back(to_json(one));
+        const auto gravity = so_far.stays.find(one.key);
+        list.back()["gravity"] = gravity == so_far.stays.end() ? json() : gravity->second;
         const auto reading = [&](std::span<const events::Occupation::SetUp> set_ups) {
-            return mean_of(sources_.live.reading(set_ups, sources_.occupations.target()));
+            return to_json(sources_.live.reading(set_ups));
         };
         list.back()["reading"] = reading(one.set_ups);
         for (std::size_t i = 0; i < one.set_ups.size(); ++i)
@@ -248,6 +248,7 @@ Response Api::events_since(std::string_view query) {
 
 Response Api::change(std::string_view path, const std::string& body) {
     auto& occupations = sources_.occupations;
+    if (sources_.changing) sources_.changing();
     survey::Outcome outcome;
     if (path == "/api/occupation/start") {
         const auto order = parse_order(body, {"site", "operator", "note", "at", "set_ups"});
@@ -258,17 +259,16 @@ Response Api::change(std::string_view path, const std::string& body) {
         if (const auto other = other_stay(order, occupations.running()); !other.empty())
             return refusal(409, other);
         outcome = occupations.stop(order.remark, order.at);
-        if (outcome.kind == survey::Outcome::Kind::done && !order.at)
-            outcome.message += unsteadiness_of(sources_.status());
     } else if (path == "/api/occupation/setup") {
         const auto order = parse_order(body, {"key", "site", "at"});
         if (const auto other = other_stay(order, occupations.running()); !other.empty())
             return refusal(409, other);
         outcome = occupations.setup(order.at);
+    } else if (path == "/api/occupation/checked") {
+        (void)parse_order(body, {});
+        outcome = check();
     } else if (path == "/api/sites") {
         outcome = occupations.add_site(parse_new_site(body));
-    } else if (path == "/api/target") {
-        outcome = occupations.set_target(parse_target(body));
     } else if (path == "/api/note") {
         const auto order = parse_order(body, {"key", "site", "note"});
         outcome = occupations.note({order.key, order.site}, order.remark.note);
@@ -277,6 +277,17 @@ Response Api::change(std::string_view path, const std::string& body) {
     }
     if (outcome.kind == survey::Outcome::Kind::done && sources_.changed) sources_.changed();
     return answer_of(outcome, occupations.running());
+}
+
+/// Says that the operator has looked at the contradiction that the signal shows.
+survey::Outcome Api::check() const {
+    const status::Status status = sources_.status();
+    const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
+    for (const auto& one :
+         open_contradictions(status, sources_.occupations, field.moved, so_far_now()))
+        if (std::ranges::count(one.buttons, survey::kChecked) > 0)
+            return sources_.occupations.check(one);
+    return {survey::Outcome::Kind::refused, text::message("nothing is to be checked")};
 }
 
 /// Carries out discard, restore, resume, rename, retime or not_moved, which name their stay.

@@ -5,7 +5,7 @@
 /// GET  / and the other files of the page
 /// GET  /api/status /api/rows /api/events?since=UTC /api/sites /api/occupations /api/survey /api/token
 /// GET  /api/history?channel=NAME&from=UTC&to=UTC&points=N /metrics
-/// POST /api/occupation/start|stop|setup|discard|restore|resume|rename|retime /api/note /api/target
+/// POST /api/occupation/start|stop|setup|discard|restore|resume|rename|retime /api/note
 ///      /api/sites, with a JSON object as body; a change of a stay names it by its key
 ///
 /// An answer under /api is JSON; a refusal is {"error": one line}: 400 malformed, 403 and 421
@@ -23,6 +23,7 @@
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/assets.hpp"
 #include "daemon/page/message.hpp"
+#include "daemon/page/so_far.hpp"
 #include "daemon/page/metrics.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/survey/occupations.hpp"
@@ -40,7 +41,8 @@ struct ApiSources {
     Degrees latitude = {}, longitude = {};  ///< Position of the base, where a day begins.
     std::function<std::vector<events::Event>()> events;  ///< The whole event log, in file order.
     std::function<std::string()> gravity_so_far = {};    ///< Body of GET /api/survey.
-    std::function<void()> changed = {};  ///< Called after each change that is on disk.
+    std::function<void()> changing = {};  ///< Called before each change,
+    std::function<void()> changed = {};   ///< and after each that is on disk.
     std::filesystem::path assets = {};   ///< The page's files; empty: the compiled ones.
     std::vector<std::string> boxes = {};  ///< Origins of the daemons that /boxes shows.
     bool is_token_configured = false;     ///< The server sets it.
@@ -73,6 +75,8 @@ public:
 
 private:
     [[nodiscard]] nlohmann::json status_now() const;
+    [[nodiscard]] SoFar so_far_now() const;
+    [[nodiscard]] survey::Outcome check() const;
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query, bool is_local);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);

@@ -28,23 +28,54 @@ std::optional<UtcTime> begin_of(const verdict::Verdict& verdict) {
     return verdict.since == UtcTime{} ? std::nullopt : std::optional(verdict.since);
 }
 
-Fields verdict_fields() {
+Fields signal_fields() {
+    return {
+        {.path = "/signal/word",
+         .value = [](const Moment& now) { return json(survey::code_of(now.signal.word)); },
+         .meaning = "What the operator is to do now: no_data, warming_up, keep_off, lift, go or "
+                    "look.",
+         .metric = {.name = "a351_signal",
+                    .key = "word",
+                    .as = Metric::As::states,
+                    .help = "1 for the present word of the signal.",
+                    .states = {"no_data", "warming_up", "keep_off", "lift", "go", "look"}}},
+        {.path = "/signal/text",
+         .value = [](const Moment& now) { return json(survey::to_text(now.signal.word)); },
+         .meaning = "The word as people read it."},
+        {.path = "/signal/sentence",
+         .value = [](const Moment& now) { return json(now.signal.sentence.english()); },
+         .meaning = "The reason and what to do, see SENTENCES."},
+        {.path = "/signal/parts",
+         .value = [](const Moment& now) { return now.signal.sentence.to_json(); },
+         .meaning = "The same with its parts."},
+        {.path = "/signal/buttons",
+         .value = [](const Moment& now) { return json(now.signal.buttons); },
+         .meaning = "At most two orders that fit: start, setup, stop, stop_at, setup_at, begin_at "
+                    "(at the time of the move), not_moved, checked."},
+        {.path = "/signal/look",
+         .value =
+             [](const Moment& now) {
+                 const auto& look = now.signal.look;
+                 return look ? json{{"code", look->code}, {"key", look->key}} : json();
+             },
+         .meaning = "With the word look, what contradicts: code, and key of the stay or an empty "
+                    "text; else null."},
+    };
+}
+
+Fields detail_fields() {
     const auto of_verdict = [](auto get) {
         return [get](const Moment& now) { return json_of(get(now.judgement.verdict)); };
     };
     return {
-        {.path = "/verdict/state",
+        {.path = "/details/state",
          .value = of_verdict([](const auto& verdict) { return verdict::to_text(verdict.state); }),
-         .meaning = "Verdict: no data, warming up, settling, stable or disturbed.",
-         .metric = {.name = "a351_verdict",
-                    .key = "state",
-                    .as = Metric::As::states,
-                    .help = "1 for the present verdict.",
-                    .states = {"no data", "warming up", "settling", "stable", "disturbed"}}},
-        {.path = "/verdict/since",
+         .meaning = "State of the uncorrected reading: no data, warming up, settling, stable or "
+                    "disturbed."},
+        {.path = "/details/since",
          .value = of_verdict(begin_of),
-         .meaning = "Time since which this is the verdict."},
-        {.path = "/verdict/held_s",
+         .meaning = "Time since which this is the state."},
+        {.path = "/details/held_s",
          .value =
              [](const Moment& now) {
                  const auto since = begin_of(now.judgement.verdict);
@@ -52,18 +83,18 @@ Fields verdict_fields() {
              },
          .meaning = "Time for which it has not changed.",
          .unit = "s"},
-        {.path = "/verdict/time_left_s",
+        {.path = "/details/time_left_s",
          .value = of_verdict([](const auto& verdict) { return verdict.time_left_s; }),
          .meaning =
-             "Least time until the verdict can be stable, null if more than waiting is needed.",
+             "Least time until it can be stable, null if more than waiting is needed.",
          .unit = "s"},
-        {.path = "/verdict/reasons",
+        {.path = "/details/reasons",
          .value = [](const Moment& now) { return json(now.judgement.reasons); },
          .meaning = "Why it is not stable, see SENTENCES."},
-        {.path = "/verdict/reason_parts",
+        {.path = "/details/reason_parts",
          .value = [](const Moment& now) { return parts_of(now.judgement.reasons); },
          .meaning = "The same with their parts."},
-        {.path = "/verdict/checks",
+        {.path = "/details/checks",
          .value = [](const Moment& now) { return checks_of(now.judgement.verdict); },
          .meaning =
              "All checks, those not met first, each with quantity, value, error (standard error of "
@@ -75,10 +106,6 @@ Fields verdict_fields() {
 
 Fields stay_fields() {
     return {
-        {.path = "/target_mgal",
-         .value = [](const Moment& now) { return now.occupations.target().value(); },
-         .meaning = "Standard error at which a reading is good enough.",
-         .unit = "mGal"},
         {.path = "/occupation",
          .value =
              [](const Moment& now) {
@@ -98,7 +125,7 @@ Fields stay_fields() {
          .meaning = "Planned length of all set-ups together.",
          .unit = "s"},
         {.path = "/occupation/planned_set_ups",
-         .value = of_stay([](const Moment& now) { return now.field.plan.planned; }),
+         .value = of_stay([](const Moment& now) { return now.field.stay->plan.planned; }),
          .meaning = "Planned number of set-ups."},
         {.path = "/occupation/has_own_plan",
          .value = of_stay([](const Moment& now) {
@@ -106,27 +133,27 @@ Fields stay_fields() {
          }),
          .meaning = "True if the plan was given with the start, not by the configuration."},
         {.path = "/occupation/set_up_left_s",
-         .value = of_stay([](const Moment& now) { return now.field.plan.left_s; }),
+         .value = of_stay([](const Moment& now) { return now.field.stay->plan.left_s; }),
          .meaning = "Time left in the set-up; beyond the plan, in the stay.",
          .unit = "s"},
-        {.path = "/occupation/propose_set_up",
-         .value = of_stay([](const Moment& now) { return now.field.plan.proposes_next; }),
-         .meaning = "True if the box is to be lifted and set down again now."},
-        {.path = "/occupation/may_stop",
-         .value = of_stay([](const Moment& now) { return now.field.plan.may_stop; }),
-         .meaning = "True if no planned set-up and no planned time is left."},
+        {.path = "/occupation/gravity",
+         .value = of_stay([](const Moment& now) {
+             const auto& stays = now.so_far.stays;
+             const auto found = stays.find(now.occupations.running()->key);
+             return found == stays.end() ? json() : found->second;
+         }),
+         .meaning = "Gravity so far of the stay, null before it is computed: gravity_mgal, u_mgal "
+                    "(its standard uncertainty by the evening), and missing_parts, what is needed "
+                    "before they are known."},
         {.path = "/occupation/reading",
          .value = of_stay([](const Moment& now) {
-             return now.field.reading ? to_json(*now.field.reading, now.occupations.target())
-                                      : json();
+             return now.field.reading ? to_json(*now.field.reading) : json();
          }),
          .meaning = "Reading of the running set-up, see A READING."},
         {.path = "/occupation/whole",
          .value = of_stay(
-             [](const Moment& now) { return to_json(now.field.whole, now.occupations.target()); }),
-         .meaning =
-             "Reading of all set-ups together, see A READING; good enough only when the last "
-             "planned one has begun."},
+             [](const Moment& now) { return to_json(now.field.whole); }),
+         .meaning = "Reading of all set-ups together, see A READING."},
         {.path = "/occupation/warnings",
          .value = of_stay([](const Moment& now) { return json(now.field.warnings); }),
          .meaning = "Warnings on the stay, see SENTENCES."},
@@ -157,7 +184,7 @@ Fields tilt_fields() {
         {.path = "/tilt",
          .value = null_without(has_level),
          .meaning = "Tilt of the box compared with the first set-up of the day; null before there "
-                    "is one."},
+                    "is one, and while the box must not be touched."},
         {.path = "/tilt/axes",
          .value = of_level([](const Moment& now) {
              const auto axes = now.field.level.value_or(live::Level{}).axes;
@@ -210,6 +237,8 @@ Judgement judged(const status::Status& status, Nanoseconds stale_after) {
     return {status.verdict, reasons};
 }
 
-Fields operator_fields() { return concatenated({verdict_fields(), stay_fields(), tilt_fields()}); }
+Fields operator_fields() {
+    return concatenated({signal_fields(), stay_fields(), tilt_fields(), detail_fields()});
+}
 
 }  // namespace a351::daemon::page

@@ -17,19 +17,13 @@ std::string number_of(const json& value, const char* format) {
     return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
 }
 
-Row verdict_row(const json& verdict) {
-    const auto state = verdict.at("state").get<std::string>();
-    const json &held_s = verdict.at("held_s"), &left_s = verdict.at("time_left_s");
-    Message text = text::marked_message(state);
-    if (held_s.is_number()) text += text::message(" for {:.0f} s", held_s.get<double>());
-    if (left_s.is_number() && left_s.get<double>() > 0.0)
-        text += text::message(", at least {:.0f} s more", left_s.get<double>());
-    if (const Message why = joined(verdict.at("reason_parts")); !why.empty())
-        text += Message(": ") + why;
-    return {text::marked("verdict"), text,
-            state == "stable"    ? "good"
-            : state == "no data" ? "fault"
-                                 : "warning"};
+Row signal_row(const json& signal) {
+    const auto word = signal.at("word").get<std::string>();
+    const Message text = text::marked_message(signal.at("text").get<std::string>()) +
+                         Message(": ") +
+                         text::parse_message(signal.at("parts"), signal.at("sentence").get<std::string>());
+    const bool is_wrong = word == "no_data" || word == "look";
+    return {text::marked("signal"), text, is_wrong ? "warning" : word == "go" ? "good" : ""};
 }
 
 Message stay_text(const json& stay) {
@@ -41,36 +35,13 @@ Message stay_text(const json& stay) {
     return text;
 }
 
-/// Returns where the stay is in its plan: "2 of 3: 2:10 left", or what to do when no time is left.
-Message set_up_text(const json& stay) {
-    const int running = stay.at("set_up_count").get<int>();
-    const int planned = std::max(stay.at("planned_set_ups").get<int>(), running);
-    const auto left = static_cast<int>(std::ceil(stay.at("set_up_left_s").get<double>()));
-    Message text = text::message("{} of {}: ", running, planned);
-    text += stay.at("may_stop") == true
-                ? text::message("the stay may be stopped")
-                : text::message("{} left", fmt::format("{}:{:02}", left / 60, left % 60));
-    if (stay.at("propose_set_up") == true)
-        text += text::message("; lift the box, set it down again, then run a351ctl setup");
-    return text;
-}
-
-/// Returns the mean of all set-ups with their scatter.
-Message reading_text(const json& reading) {
-    Message text =
-        text::message("{} +- {}, target {}", number_of(reading.at("value_mgal"), "{:.2f}"),
-                      number_of(reading.at("standard_error_mgal"), "{:.2f} mGal"),
-                      number_of(reading.at("target_mgal"), "{:.2f} mGal"));
-    if (reading.at("is_good_enough") == true)
-        text += text::message(": good enough");
-    else if (const json& needed_s = reading.at("needed_s"); needed_s.is_number())
-        text += text::message(": {:.0f} s more", needed_s.get<double>());
-    if (reading.at("set_up_sd_mgal").is_number())
-        text += text::message("; scatter of {} set-ups {}, of their mean {}",
-                              reading.at("set_ups").get<int>(),
-                              number_of(reading.at("set_up_sd_mgal"), "{:.2f} mGal"),
-                              number_of(reading.at("set_up_error_mgal"), "{:.2f} mGal"));
-    return text;
+/// Returns gravity with its uncertainty, or what is missing.
+Message gravity_text(const json& gravity) {
+    if (gravity.is_null()) return text::message("not computed yet");
+    if (gravity.at("gravity_mgal").is_number())
+        return {fmt::format("{} +- {} mGal", number_of(gravity.at("gravity_mgal"), "{:.1f}"),
+                            number_of(gravity.at("u_mgal"), "{:.1f}"))};
+    return text::parse_message(gravity.at("missing_parts"), "-");
 }
 
 Message tilt_text(const json& tilt) {
@@ -86,13 +57,12 @@ Message tilt_text(const json& tilt) {
 }  // namespace
 
 std::vector<Row> operator_rows(const json& status) {
-    std::vector<Row> rows{verdict_row(status.at("verdict"))};
+    std::vector<Row> rows{signal_row(status.at("signal"))};
     const json& stay = status.at("occupation");
     rows.push_back({text::marked("occupation"),
                     stay.is_null() ? text::message("none running") : stay_text(stay)});
     if (!stay.is_null()) {
-        rows.push_back({text::marked("set-up"), set_up_text(stay)});
-        rows.push_back({text::marked("reading"), reading_text(stay.at("whole"))});
+        rows.push_back({text::marked("gravity"), gravity_text(stay.at("gravity"))});
         if (const Message warnings = joined(stay.at("warning_parts")); !warnings.empty())
             rows.push_back({text::marked("warnings"), warnings, "warning"});
     }

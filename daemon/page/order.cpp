@@ -52,15 +52,6 @@ Order parse_order(std::string_view body, const std::vector<std::string>& allowed
     return order;
 }
 
-MilliGal parse_target(std::string_view body) {
-    const auto parsed = json::parse(body, nullptr, false);
-    if (!parsed.is_object() || parsed.size() != 1 || !parsed.contains("target_mgal"))
-        throw InputError("body: allowed: one key, target_mgal");
-    const auto& target = parsed.at("target_mgal");
-    if (!target.is_number()) throw InputError("body: key target_mgal: not a number");
-    return MilliGal(target.get<double>());
-}
-
 text::Site parse_new_site(std::string_view body) {
     const auto parsed = json::parse(body, nullptr, false);
     if (!parsed.is_object()) throw InputError("body: not a JSON object");

@@ -30,10 +30,6 @@ struct Order {
 ///                     a time that is not RFC 3339, or set_ups that is not a whole number.
 [[nodiscard]] Order parse_order(std::string_view body, const std::vector<std::string>& allowed);
 
-/// Reads the body {"target_mgal": number}.
-/// @throws InputError  anything else.
-[[nodiscard]] MilliGal parse_target(std::string_view body);
-
 /// Reads the body {"site": text, "latitude_deg": number, "longitude_deg": number}, optionally with
 /// altitude_m and gravity_mgal, which may be null.  The values are not checked.
 /// @throws InputError  anything else.

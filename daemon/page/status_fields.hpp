@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "daemon/live/live_record.hpp"
+#include "daemon/page/so_far.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/survey/field_status.hpp"
 #include "daemon/survey/occupations.hpp"
@@ -45,6 +46,8 @@ struct Moment {
     const survey::FieldStatus& field;
     const live::Record& live;
     const Judgement& judgement;
+    const survey::Signal& signal;
+    const SoFar& so_far;
 };
 
 /// How people see a field.  A default-constructed one hides it from them.
@@ -96,7 +99,7 @@ struct Field {
 /// Returns all fields, in the order of the rows.
 [[nodiscard]] const std::vector<Field>& status_fields();
 
-/// Return its parts: verdict, stay and tilt; sensor and ovens; timing, counters and disk.
+/// Return its parts: signal, stay, tilt and details; sensor and ovens; timing, counters and disk.
 [[nodiscard]] std::vector<Field> operator_fields();
 [[nodiscard]] std::vector<Field> sensor_fields();
 [[nodiscard]] std::vector<Field> recorder_fields();

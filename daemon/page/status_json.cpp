@@ -93,26 +93,17 @@ json checks_of(const verdict::Verdict& verdict) {
     return checks;
 }
 
-json mean_of(const verdict::RunningReading& reading) {
+json to_json(const verdict::RunningReading& reading) {
     json limits;
     if (const auto& known = reading.set_up_sd_limits)
         limits = {known->front().value(), known->back().value()};
     return {{"value_mgal", or_null(reading.value)},
-            {"standard_error_mgal", or_null(reading.standard_error)},
             {"set_ups", reading.set_ups},
             {"set_up_sd_mgal", or_null(reading.set_up_sd)},
             {"set_up_sd_limits_mgal", limits},
-            {"set_up_error_mgal", or_null(reading.set_up_error)}};
-}
-
-json to_json(const verdict::RunningReading& reading, MilliGal target) {
-    json object = mean_of(reading);
-    object.update({{"used_s", reading.used_s},
-                   {"left_out_s", reading.left_out_s},
-                   {"target_mgal", target.value()},
-                   {"is_good_enough", reading.is_good_enough},
-                   {"needed_s", or_null(reading.needed_s)}});
-    return object;
+            {"set_up_error_mgal", or_null(reading.set_up_error)},
+            {"used_s", reading.used_s},
+            {"left_out_s", reading.left_out_s}};
 }
 
 json channels_of(const live::Record& live) {

@@ -31,9 +31,7 @@ struct Moment;
 
 /// Convert the information for the operator at a benchmark.  A number that is not known is null.
 [[nodiscard]] nlohmann::json checks_of(const verdict::Verdict& verdict);
-[[nodiscard]] nlohmann::json to_json(const verdict::RunningReading& reading, MilliGal target);
-/// Converts the mean alone, for a stay that has ended.
-[[nodiscard]] nlohmann::json mean_of(const verdict::RunningReading& reading);
+[[nodiscard]] nlohmann::json to_json(const verdict::RunningReading& reading);
 
 /// Returns the scale of each channel of the live stream: value = offset + scale x counts.
 [[nodiscard]] nlohmann::json channels_of(const live::Record& live);

@@ -84,15 +84,6 @@ bool is_shown(UtcTime time, UtcTime now) {
     return time <= now && now < time + std::chrono::hours(1);
 }
 
-/// Adds the reason if another sensor was attached.
-void assess_unit(Status& status) {
-    const auto& change = status.unit_change;
-    if (!change || !is_shown(change->since, status.now)) return;
-    status.warn(text::message(
-        "another sensor records since {}: {} after {}; a stay that was running has ended; the "
-        "correction gives each sensor its own constant; if nobody exchanged it, check which box is connected",
-        to_rfc3339(change->since, 0), printable(change->after), printable(change->before)));
-}
 
 /// Adds the reason if the sensor had stopped, and was started again.  It does not contain the time: a
 /// loose plug stops a sensor again and again.
@@ -171,6 +162,15 @@ void assess_battery(Status& status) {
 
 }  // namespace
 
+std::optional<text::Message> unit_warning(const Status& status) {
+    const auto& change = status.unit_change;
+    if (!change || !is_shown(change->since, status.now)) return std::nullopt;
+    return text::message(
+        "another sensor records since {}: {} after {}; a stay that was running has ended; the "
+        "correction gives each sensor its own constant; if nobody exchanged it, check which box is connected",
+        to_rfc3339(change->since, 0), printable(change->after), printable(change->before));
+}
+
 std::string brief(const Status& status) {
     return status.reasons.empty() ? status.link_state
                                   : status.link_state + "; " + status.reasons.front().english();
@@ -227,7 +227,7 @@ void assess(Status& status) {
                           "uses another unit's behaviour; check survey.calibration",
                           printable(calibrated), status.serial_number));
     }
-    assess_unit(status);
+    if (const auto warning = unit_warning(status)) status.warn(*warning);
     assess_power(status);
     assess_clock(status);
     if (status.timing_state == timing::State::unlocked) {

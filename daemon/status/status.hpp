@@ -109,6 +109,9 @@ struct Status {
 /// Copies the state of the sensor's link into the status, and adds its reasons.
 void fill(Status& status, const source::LinkStatus& link);
 
+/// Returns the sentence about another sensor that was attached within the last hour.
+[[nodiscard]] std::optional<text::Message> unit_warning(const Status& status);
+
 /// Adds the level and reasons of a completely filled status: values of the sensor, sample rate, oven,
 /// calibration, sample times and battery.
 void assess(Status& status);

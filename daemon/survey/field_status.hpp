@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Information for the operator at a benchmark besides the verdict: the running value, the level of
-/// the box, and what to do next.  All are functions of occupations and live record only.
+/// Information for the operator at a benchmark besides the signal: the running value, the level of
+/// the box, and what looks wrong.  All are functions of occupations and live record only.
 
 #include <optional>
 #include <string>
@@ -10,37 +10,27 @@
 #include "daemon/live/live_record.hpp"
 #include "daemon/survey/move_prompt.hpp"
 #include "daemon/survey/occupations.hpp"
+#include "daemon/survey/signal.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/occupations.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::daemon::survey {
 
-/// Where the running stay is in its plan.
-struct SetUpPlan {
-    int running = 1;      ///< Number of the set-up that runs, counted from 1.
-    int planned = 1;      ///< Planned set-ups of a stay.
-    double left_s = 0.0;  ///< Seconds left in the set-up, in one beyond the plan in the stay.
-    bool proposes_next = false;  ///< The box is to be lifted and set down again now.
-    bool may_stop = false;       ///< No planned set-up and no planned time is left.
-};
-
-/// Returns the place in the plan: `planned` set-ups of equal length fill `length_s`.  A plan of one
-/// set-up proposes a second one at half time, because two half as long give less error.
-/// @param running    number of the set-up that runs.
-/// @param stay_s     seconds since the start of the stay.
-/// @param set_up_s   seconds since the start of this set-up.
-[[nodiscard]] SetUpPlan set_up_plan(int planned, double length_s, int running, double stay_s,
-                                    double set_up_s);
+/// Returns the running stay as the signal sees it at an instant; std::nullopt before its start, and if
+/// none runs.
+[[nodiscard]] std::optional<PlannedStay> planned_stay(const Occupations& occupations,
+                                                      const live::Record& live, UtcTime at);
 
 struct FieldStatus {
     std::optional<verdict::RunningReading> reading;  ///< Reading of the running set-up.
-    verdict::RunningReading whole;  ///< All set-ups; good enough only if the planned ones began.
-    SetUpPlan plan;
+    verdict::RunningReading whole;                   ///< Reading of all set-ups.
+    std::optional<PlannedStay> stay;
     std::vector<text::Message> warnings;
-    std::optional<MovePrompt> moved;  ///< Question about a move of the box; also in the warnings.
+    std::optional<MovePrompt> moved;  ///< Question about a move of the box.
 
-    std::optional<live::Level> level;  ///< Tilt relative to the day's first set-up.
+    /// Tilt relative to the day's first set-up.  Absent while the box must not be touched.
+    std::optional<live::Level> level;
     std::string level_site;            ///< Site of that set-up; empty if there is none.
     UtcTime level_utc;                 ///< Start of that set-up.
 };

@@ -161,6 +161,14 @@ Outcome Occupations::not_moved(const Named& stay, const Remark& remark) {
     return commit(std::move(event), std::move(said));
 }
 
+Outcome Occupations::check(const Contradiction& contradiction) {
+    events::Event event = change_of("note", {contradiction.key, ""}, {});
+    if (event.utc == UtcTime{}) return refused(no_sample());
+    add(event, kChecked, contradiction.code);
+    add(event, "note", "checked: " + contradiction.text.english());
+    return commit(std::move(event), text::message("checked: {}", contradiction.text));
+}
+
 Outcome Occupations::note(const Named& stay, std::string_view text) {
     if (text.empty()) return refused(text::message("the note is empty"));
     events::Event event = change_of("note", {stay.key, ""}, {});

@@ -26,16 +26,6 @@ std::string detail(const events::Event& event, const std::string& key) {
 
 Outcome unchanged(text::Message message) { return {Outcome::Kind::done, std::move(message)}; }
 
-constexpr const char* kTargetKey = "target_mgal";
-
-bool is_target(MilliGal target) { return target.value() >= 0.01 && target.value() <= 1000.0; }
-
-std::optional<MilliGal> target_of(const events::Event& event) {
-    const auto value = text::parse_number(detail(event, kTargetKey));
-    if (!value || !is_target(MilliGal(*value))) return std::nullopt;
-    return MilliGal(*value);
-}
-
 }  // namespace
 
 Occupations::Occupations(Recorder& recorder, std::vector<text::Site> sites,
@@ -222,16 +212,6 @@ Outcome Occupations::setup(std::optional<UtcTime> at) {
     return commit(std::move(event), std::move(message));
 }
 
-Outcome Occupations::set_target(MilliGal target) {
-    if (!is_target(target)) return refused(text::message("target: allowed: 0.01 to 1000 mGal"));
-    auto event = about_now("target");
-    if (event.utc == UtcTime{}) return refused(no_sample());
-    const std::string digits = text::shortest(target.value());
-    add(event, kTargetKey, digits);
-    return commit(std::move(event),
-                  text::message("target set: good enough at a standard error of {} mGal", digits));
-}
-
 Outcome Occupations::add_site(const text::Site& site) {
     const auto& file = options_.sites_file;
     if (file.empty())
@@ -293,6 +273,13 @@ void Occupations::observe(const events::Event& event) {
     ++changes_;
 }
 
+/// Notes what does not concern occupations.
+void Occupations::note_aside(const events::Event& event) {
+    last_event_ = event.utc;
+    if (const std::string code = detail(event, kChecked); !code.empty())
+        checked_.insert({code, detail(event, "key")});
+}
+
 Outcome Occupations::commit(events::Event event, text::Message message) {
     try {
         recorder_.commit(event);
@@ -301,13 +288,6 @@ Outcome Occupations::commit(events::Event event, text::Message message) {
     }
     observe(event);
     return {Outcome::Kind::done, std::move(message)};
-}
-
-/// Notes what does not concern occupations.
-void Occupations::note_aside(const events::Event& event) {
-    last_event_ = event.utc;
-    if (event.type != "target") return;
-    if (const auto target = target_of(event)) target_ = target;
 }
 
 }  // namespace a351::daemon::survey

@@ -3,11 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "daemon/survey/recorder.hpp"
+#include "daemon/survey/signal.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/occupations.hpp"
@@ -51,7 +54,6 @@ inline constexpr Nanoseconds kTestSetUp = std::chrono::minutes(3);
 struct OccupationOptions {
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay, all set-ups.
     int planned_set_ups = 1;                         ///< Planned set-ups of a stay, equally long.
-    MilliGal target{1.0};                            ///< Target until the operator sets another.
     std::filesystem::path sites_file = {};  ///< List that gets new sites; empty: there is none.
 };
 
@@ -106,9 +108,13 @@ public:
     /// Writes a note to a stay; without a key to the running one, or else to the log alone.
     Outcome note(const Named& stay, std::string_view text);
 
-    /// Sets the standard error at which a reading is good enough, from now on: 0.01 to 1000 mGal.
-    Outcome set_target(MilliGal target);
-    [[nodiscard]] MilliGal target() const noexcept { return target_.value_or(options_.target); }
+    /// Says that the operator has looked at a contradiction: a note, which the signal does not repeat.
+    Outcome check(const Contradiction& contradiction);
+    /// Returns true if he has.
+    [[nodiscard]] bool is_checked(const Contradiction& contradiction) const {
+        return checked_.contains({contradiction.code, contradiction.key});
+    }
+
     /// Returns the planned length of the running stay, or else of the next one.
     [[nodiscard]] Nanoseconds planned() const noexcept;
     /// Returns the planned number of set-ups of the same stay.
@@ -125,14 +131,13 @@ public:
     /// Appends a site to the list, see append_site(), and uses it from now on.
     Outcome add_site(const text::Site& site);
 
-    /// Replaces the list of sites and the plan of a stay, and the target unless the operator has set
-    /// one.
+    /// Replaces the list of sites and the plan of a stay.
     void use(std::vector<text::Site> sites, const OccupationOptions& options);
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
     /// See text::doubtful_site().
     [[nodiscard]] const text::Message& doubtful_site() const noexcept { return doubtful_site_; }
 
-    /// Returns the number of changes of stays, notes, target and sites since the start.
+    /// Returns the number of changes of stays, notes and sites since the start.
     [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
 
     /// Returns the finished occupations, in order of time.
@@ -172,18 +177,18 @@ private:
     [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);
     [[nodiscard]] std::optional<text::Message> trouble_with_site(std::string_view site) const;
     [[nodiscard]] events::Event about_now(std::string type);
+    void note_aside(const events::Event& event);
     Outcome commit(events::Event event, text::Message message);
     void take(std::vector<text::Site> sites);
     void observe(const events::Event& event);
-    void note_aside(const events::Event& event);
 
     Recorder& recorder_;
     OccupationOptions options_;
-    std::optional<MilliGal> target_;  ///< Target set by the operator.
     std::vector<text::Site> sites_;
     text::Message doubtful_site_;
     events::OccupationReplay replay_;
     UtcTime last_event_;
+    std::set<std::pair<std::string, std::string>> checked_;  ///< Code and key of contradictions.
     std::uint64_t changes_ = 0;
 };
 

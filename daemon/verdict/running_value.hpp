@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "daemon/verdict/live_sample.hpp"
-#include "daemon/verdict/verdict.hpp"
+#include "daemon/verdict/verdict_options.hpp"
 
 namespace a351::daemon::verdict {
 
@@ -13,30 +13,18 @@ namespace a351::daemon::verdict {
 struct RunningReading {
     /// Mean of the norm, of several set-ups the mean of their means; absent before the first sample.
     std::optional<MilliGal> value;
-    std::optional<MilliGal> standard_error;  ///< Absent before three whole minutes.
-    int set_ups = 0;                         ///< Number of set-ups in the mean.
-    std::optional<MilliGal> set_up_sd;       ///< Standard deviation of their means, from two on.
+    int set_ups = 0;                    ///< Number of set-ups in the mean.
+    std::optional<MilliGal> set_up_sd;  ///< Standard deviation of their means, from two on.
     /// Limits of their true scatter with 95 % confidence, if it is normal.
     std::optional<std::array<MilliGal, 2>> set_up_sd_limits;
-    std::optional<MilliGal> set_up_error;    ///< This, divided by the root of their number.
-    double used_s = 0.0;                     ///< Length of signal used.
-    double left_out_s = 0.0;                 ///< Length left out: knocks and missing samples.
-    bool is_good_enough = false;  ///< The error has reached the target and the verdict is stable.
-    /// Seconds of signal that the last set-up still needs to reach the target, 0 if reached; absent
-    /// if not known, or if this set-up alone cannot reach it.
-    std::optional<double> needed_s;
+    std::optional<MilliGal> set_up_error;  ///< This, divided by the root of their number.
+    double used_s = 0.0;                   ///< Length of signal used.
+    double left_out_s = 0.0;               ///< Length left out: knocks and missing samples.
 };
 
 /// The running value of the set-ups of a stay: the mean of the norm, without knocks and the values
-/// that they reach through the filters.  Its standard error combines the scatter s of the means of
-/// whole minutes about the mean of their set-up with the error that an incomplete oven cycle leaves
-/// in a mean over u:
-///
-///     e^2 = s^2 60 s / u + (A / (2 sqrt 2) min(1, T / (pi u)))^2,   A = cycle_mgal, T = cycle_s
-///     1 / u = (1 / u_1 + ... + 1 / u_n) / n^2,   u_i = length of signal of set-up i
-///
-/// u is the sum of equal u_i.  A further set-up is in the mean after its first whole minute.
-/// The error does not include the placement of the box, which shows only between set-ups.
+/// that they reach through the filters.  A further set-up is in the mean after its first whole minute.
+/// It is not corrected for anything, so it has no error that means one of gravity.
 class RunningValue {
 public:
     explicit RunningValue(const Options& options) : options_(options) {}
@@ -47,8 +35,8 @@ public:
 
     void take(const LiveSample& sample);
 
-    /// Returns the reading so far.  @param target  > 0
-    [[nodiscard]] RunningReading reading(MilliGal target, State state) const;
+    /// Returns the reading so far.
+    [[nodiscard]] RunningReading reading() const;
 
 private:
     struct SetUp {
@@ -56,10 +44,6 @@ private:
         double zero_mgal = 0.0;  ///< First value; sums are of differences from it.
         double sum_mgal = 0.0;
         int used = 0, left_out = 0;
-        double minute_sum_mgal = 0.0;
-        int in_minute = 0;
-        int minutes = 0;
-        double minutes_sum = 0.0, minutes_square = 0.0;
     };
 
     Options options_;

@@ -48,10 +48,6 @@ struct Options {
     double noise_factor = 5.0;      ///< Ratio of the noise to its usual level in the last hour.
     double noise_floor_mgal = 1.0;  ///< Lowest value taken as usual level: quiet field.
 
-    // An occupation.
-    double cycle_mgal = 6.0;   ///< Change of the reading in the cycle, peak to peak, as published.
-    double target_mgal = 1.0;  ///< Standard error that is good enough: below 1.2 of one placement.
-
     // Data.
     double gap_s = 10.0;  ///< Time since the last sample: ten times the delay of a slow adapter.
     /// Time without any change of the temperature, after which it is frozen.

@@ -235,7 +235,7 @@ daemon::survey::Outcome Recorder::act() {
         case 6:
             return occupations_->rename(last, "No.99", {.reason = "simulated"});
         default:
-            return occupations_->set_target(MilliGal(random_.uniform(0.5, 2.0)));
+            return occupations_->not_moved(last, {.reason = "simulated"});
     }
 }
 

@@ -107,10 +107,6 @@ TEST_CASE("a malformed body is refused with an error that names the key", "[daem
         CHECK(trouble(path, R"({"key":"x","site":"No.0","at":"2026-03-14T08:10:00Z"})")
                   .find("key at") != std::string::npos);
     }
-    for (const char* body : {"", "[]", "{}", R"({"target_mgal":5,"at":null})"})
-        CHECK(trouble("/api/target", body) == "body: allowed: one key, target_mgal");
-    CHECK(trouble("/api/target", R"({"target_mgal":"5"})") ==
-          "body: key target_mgal: not a number");
     CHECK(page.recorder.log.empty());
 }
 
@@ -133,28 +129,26 @@ TEST_CASE("a stop or a set-up that names another stay than the running one is re
     CHECK(page.recorder.log.size() == 3);
 }
 
-TEST_CASE("the answer to a stop says what was not steady at that moment", "[daemon][page]") {
+TEST_CASE("what was looked at is not shown again, also after a restart", "[daemon][page]") {
     Page page;
-    const auto stopped = [&](const std::string& body) {
-        page.ask(post("/api/occupation/start", R"({"site":"No.0"})"));
-        page.recorder.last = *page.recorder.last + std::chrono::minutes(1);
-        const auto answer = page.ask(post("/api/occupation/stop", body));
-        return answer["message"].get<std::string>();
-    };
-    using verdict::Reason;
-    page.status.verdict.reasons = {
-        Reason{"reading will change in 10 min by", -3.1, "mGal", "", 2.0, false, false, 0.5},
-        Reason{"last knock", 12.0, "s", "ago", 72.0, true, false},
-        Reason{"noise", 1.0, "", "x its usual level", 5.0, false, true}};
-    CHECK_THAT(stopped("{}"),
-               ContainsSubstring("; not stable: reading will change in 10 min by -3.1 +- 0.5 mGal "
-                                 "(limit 2 mGal), last knock 12 s ago (needs 72 s)"));
-    const auto later = to_rfc3339(*page.recorder.last + std::chrono::minutes(1));
-    CHECK(stopped(R"({"at":")" + later + "\"}").find("not stable") ==
-          std::string::npos);  // The verdict of that time is not known.
-    page.status.verdict.reasons.erase(page.status.verdict.reasons.begin(),
-                                      page.status.verdict.reasons.begin() + 2);
-    CHECK(stopped("{}").find("not stable") == std::string::npos);
+    page.status.now = page.status.last_sample.emplace(minute(30));
+    page.status.verdict.state = verdict::State::stable;
+    page.gravity_so_far = R"({"stays":[{"key":"K","gravity_mgal":979800.5,"u_mgal":1.5}],
+        "contradictions":[{"code":"reference","key":"K","text":"No.1 is 71.0 mGal off"}]})";
+    const auto signal = [&] { return page.ask(get("/api/status"))["signal"]; };
+    CHECK(is(signal(), "/word", R"("look")"));
+    CHECK(is(signal(), "/sentence", R"("No.1 is 71.0 mGal off")"));
+    CHECK(is(signal(), "/buttons", R"(["checked"])"));
+    CHECK(is(page.ask(get("/api/status")), "/level", R"("warning")"));
+    page.ask(post("/api/occupation/checked", "{}"));
+    CHECK(is(signal(), "/word", R"("go")"));
+    CHECK(is(page.ask(get("/api/status")), "/level", R"("good")"));
+    REQUIRE(page.recorder.log.size() == 1);
+    CHECK(page.recorder.log[0].details.at("note") == "checked: No.1 is 71.0 mGal off");
+    const survey::Occupations again(page.recorder, {}, page.recorder.log);
+    CHECK(again.is_checked({"reference", "K", {}, {}}));
+    CHECK_FALSE(again.is_checked({"reference", "L", {}, {}}));
+    page.ask(post("/api/occupation/checked", "{}"), 409);
 }
 
 TEST_CASE("every change raises the counter in the status, and GET does not", "[daemon][page]") {
@@ -169,9 +163,8 @@ TEST_CASE("every change raises the counter in the status, and GET does not", "[d
     page.ask(post("/api/occupation/start", R"({"site":"No.0"})"), 409);
     CHECK(changes() == 1);
     page.ask(post("/api/note", R"({"note":"windy"})"));
-    page.ask(post("/api/target", R"({"target_mgal":0.5})"));
     page.occupations.use(two_sites(), {});
-    CHECK(changes() == 4);
+    CHECK(changes() == 3);
 }
 
 TEST_CASE("a site is added by POST with numbers, and a malformed one is refused",
@@ -208,16 +201,6 @@ TEST_CASE("a site is added by POST with numbers, and a malformed one is refused"
             .dump()));
     CHECK_THAT(page.ask(get("/api/sites"))["doubt"].get<std::string>(),
                StartsWith("C is 8017 km from"));
-}
-
-TEST_CASE("a target is set by POST and refused outside the allowed range", "[daemon][page]") {
-    Page page;
-    page.ask(post("/api/target", R"({"target_mgal":0.5})"));
-    REQUIRE(page.recorder.log.size() == 1);
-    CHECK(page.recorder.log.back().type == "target");
-    const auto refused = page.ask(post("/api/target", R"({"target_mgal":0.001})"), 409);
-    CHECK_THAT(refused["error"].get<std::string>(), ContainsSubstring("0.01 to 1000 mGal"));
-    CHECK(page.recorder.log.size() == 1);
 }
 
 TEST_CASE("GET changes nothing, POST reads nothing, and unknown paths are answered 404",

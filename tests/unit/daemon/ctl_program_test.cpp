@@ -53,6 +53,7 @@ struct FakeDaemon {
     explicit FakeDaemon(Status::Level level = Status::Level::good, UtcTime last = minute(60)) {
         recorder.last = last;
         status.level = level;
+        status.verdict.state = verdict::State::stable;
         status.now = status.last_sample.emplace(last);
         server.start();
     }

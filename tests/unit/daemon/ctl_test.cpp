@@ -27,26 +27,20 @@ TEST_CASE("the status screen shows the rows of the daemon, coloured by their lev
     CHECK(plugin_status({{"level", 7}}) == 3);
 }
 
-TEST_CASE("a stay of several set-ups has a row for each, and one of their mean", "[daemon][ctl]") {
-    const nlohmann::json mean = {
-        {"value_mgal", 980001.5},   {"standard_error_mgal", 0.9}, {"set_ups", 2},
-        {"set_up_sd_mgal", 2.1213}, {"set_up_error_mgal", 1.5},   {"is_good_enough", true}};
-    const auto set_up = [](const char* start, const char* end, double value) {
-        return nlohmann::json{{"start", start},
-                              {"end", end},
-                              {"reading", {{"value_mgal", value}, {"standard_error_mgal", 1.7}}}};
+TEST_CASE("a stay is one row with its gravity", "[daemon][ctl]") {
+    const auto set_up = [](const char* start, const char* end) {
+        return nlohmann::json{{"start", start}, {"end", end}};
     };
-    const nlohmann::json stay = {
-        {"site", "No.1"},
-        {"number", 1},
-        {"key", "K"},
-        {"set_ups", {set_up("a", "b", 980000.0), set_up("b", "c", 980003.0)}},
-        {"reading", mean}};
+    nlohmann::json stay = {{"site", "No.1"},
+                           {"number", 1},
+                           {"key", "K"},
+                           {"set_ups", {set_up("a", "b"), set_up("b", "c")}},
+                           {"gravity", {{"gravity_mgal", 980001.54}, {"u_mgal", 1.52}}}};
     CHECK(occupation_table({{"occupations", {stay}}}) ==
-          "site  stay    start  end  mgal       error_mgal  sd_mgal  key  operator  note\n"
-          "No.1  1       a      b    980000.00  1.70        -        K    -         -\n"
-          "No.1  1       b      c    980003.00  1.70        -        K    -\n"
-          "No.1  1 mean  a      c    980001.50  1.50        2.12     K    -\n");
+          "site  stay  start  end  gravity_mgal  u_mgal  key  operator  note\n"
+          "No.1  1     a      c    980001.5      1.5     K    -         -\n");
+    stay["gravity"] = nullptr;
+    CHECK(occupation_table({{"occupations", {stay}}}).find("a      c    -") != std::string::npos);
 }
 
 TEST_CASE("control characters in names do not reach the terminal", "[daemon][ctl]") {

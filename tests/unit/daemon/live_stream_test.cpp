@@ -97,9 +97,9 @@ TEST_CASE("a stream begins with the status and past samples, and continues witho
     CHECK(first->kind == RawViewer::text);
     const auto status = json::parse(first->payload);
     CHECK(status.size() == 2);
-    CHECK(status.at("status").at("level") == "good");
+    CHECK(status.at("status").at("level") == "warning");
     CHECK(status.at("rows").at(0).at("label") == "state");
-    CHECK(status.at("rows").at(0).at("text") == "good");
+    CHECK(status.at("rows").at(0).at("text").get<std::string>().starts_with("warning: No values"));
 
     const auto past = next_block(viewer);
     CHECK(past.first_index == 0);

@@ -112,8 +112,8 @@ TEST_CASE("before the first sample the metrics show no data and no invented valu
           "[daemon][metrics]") {
     const auto text = metrics_of({});
     CAPTURE(text);
-    CHECK(has_line(text, R"(a351_verdict{state="no data"} 1)"));
-    CHECK(has_line(text, R"(a351_verdict{state="stable"} 0)"));
+    CHECK(has_line(text, R"(a351_signal{word="no_data"} 1)"));
+    CHECK(has_line(text, R"(a351_signal{word="go"} 0)"));
     CHECK(text.find("null") == std::string::npos);
     for (const char* name :
          {"\na351_sample_age_seconds ", "\na351_index{", "\na351_disk_free_bytes "}) {

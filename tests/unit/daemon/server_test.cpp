@@ -26,7 +26,7 @@ TEST_CASE("an answer of the server has the security headers", "[daemon][server]"
         CHECK(answer.find(header) != std::string::npos);
     }
     CHECK(answer.find("Access-Control") == std::string::npos);
-    CHECK(answer.find("\"level\":\"good\"") != std::string::npos);
+    CHECK(answer.find("\"level\":\"warning\"") != std::string::npos);
 }
 
 TEST_CASE("the server enforces the rules for Host, Origin, token and content type",

@@ -72,7 +72,11 @@ json full_status() {
     field.level.emplace().advice = {"lower the +x side"};
     field.level_site = "No.0";
     const Judgement judgement = judged(page.status, std::chrono::seconds(3));
-    return to_json({page.status, page.occupations, field, page.live, judgement});
+    const SoFar so_far;
+    const survey::Signal signal =
+        survey::signal_of({verdict::State::stable, {}, {}}, {}, field.stay, "",
+                          {{"reference", "K", "No.1 is off", {survey::kChecked}}});
+    return to_json({page.status, page.occupations, field, page.live, judgement, signal, so_far});
 }
 
 /// Returns the meaning of a field and, if it names a section of the manual page, this section.
@@ -151,7 +155,9 @@ TEST_CASE("a row shows the values that are known, and a dash without any", "[dae
     CHECK(row_of(page, "journal") == "-");
     CHECK(row_of(page, "outer oven") == "(no row)");
     CHECK(row_of(page, "battery") == "(no row)");
-    CHECK(row_of(page, "verdict") == "no data: no sample has been received yet");
+    CHECK(row_of(page, "signal") ==
+          "NO DATA: No values arrive: no sample has been received yet. Check the sensor's plug and "
+          "its power supply.");
     CHECK(row_of(page, "troubles") == "none");
     CHECK(row_of(page, "occupation") == "none running");
 
@@ -193,40 +199,21 @@ TEST_CASE("an oven is one row, with its trouble", "[daemon][page]") {
             "silent, no answer, set point 43.0 degC, heating 25.0 %, input error, age 0.4 s, old"));
 }
 
-TEST_CASE("the rows count the set-ups of the plan down", "[daemon][page]") {
-    Page page;
-    page.occupations.start("No.1", {}, minute(50));
-    page.status.now = minute(60);
-    json status = page.ask(get("/api/status"));
-    const auto set_up = [&](const json& changes) {
-        status["occupation"].update(changes);
-        return operator_rows(status).at(2).text.english();
-    };
-    CHECK(set_up({{"planned_set_ups", 3},
-                  {"set_up_count", 2},
-                  {"set_up_left_s", 129.2},
-                  {"may_stop", false},
-                  {"propose_set_up", false}}) == "2 of 3: 2:10 left");
-    CHECK(set_up({{"set_up_left_s", 0.0}, {"propose_set_up", true}}) ==
-          "2 of 3: 0:00 left; lift the box, set it down again, then run a351ctl setup");
-    CHECK(set_up({{"set_up_count", 4}, {"may_stop", true}, {"propose_set_up", false}}) ==
-          "4 of 4: the stay may be stopped");
-}
-
-TEST_CASE("several set-ups are shown with their mean, its error and their scatter",
+TEST_CASE("the row of gravity has one value with one uncertainty, or what is missing",
           "[daemon][page]") {
     Page page;
     page.occupations.start("No.1", {}, minute(50));
     page.status.now = minute(60);
     json status = page.ask(get("/api/status"));
-    status["occupation"]["whole"].update({{"value_mgal", 980001.5},
-                                          {"standard_error_mgal", 0.9},
-                                          {"set_ups", 2},
-                                          {"set_up_sd_mgal", 2.1213},
-                                          {"set_up_error_mgal", 1.5},
-                                          {"is_good_enough", true}});
-    CHECK(
-        operator_rows(status).at(3).text ==
-        "980001.50 +- 0.90 mGal, target 1.00 mGal: good enough; scatter of 2 set-ups 2.12 mGal, of "
-        "their mean 1.50 mGal");
+    const auto gravity = [&](const json& known) {
+        status["occupation"]["gravity"] = known;
+        return operator_rows(status).at(2).text.english();
+    };
+    CHECK(gravity(nullptr) == "not computed yet");
+    CHECK(gravity({{"gravity_mgal", 979800.123}, {"u_mgal", 1.43}, {"missing_parts", nullptr}}) ==
+          "979800.1 +- 1.4 mGal");
+    CHECK(gravity({{"gravity_mgal", nullptr},
+                   {"u_mgal", nullptr},
+                   {"missing_parts", json::array({"read a second benchmark"})}}) ==
+          "read a second benchmark");
 }

@@ -22,38 +22,16 @@ LiveSample sample(double at_s, double mgal) {
 TEST_CASE("the running value is the mean of the norm", "[verdict][running]") {
     RunningValue running({});
     running.begin_set_up(kRunStart);
-    CHECK_FALSE(running.reading(MilliGal(1.0), State::stable).value);
+    CHECK_FALSE(running.reading().value);
     for (int i = 0; i < 405; ++i)
         running.take(sample(2.0 * i, 980000.0 + (i % 2 == 0 ? 1.0 : -1.0)));
-    const RunningReading reading = running.reading(MilliGal(1.0), State::stable);
+    const RunningReading reading = running.reading();
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(1e-6));
     CHECK(reading.used_s == 800.0);  // The filters of the first 10 s reach back before the start.
     CHECK(reading.left_out_s == 0.0);
-    // Without scatter the error of the cycle remains, 6 / sqrt 8 x 900 / (800 pi).
-    CHECK(reading.standard_error->value() == Approx(0.7596).margin(1e-4));
-    CHECK(reading.is_good_enough);
-    CHECK(reading.needed_s == 0.0);
 }
 
-TEST_CASE("the predicted time still needed is the time that it takes", "[verdict][running]") {
-    RunningValue running({});
-    running.begin_set_up(kRunStart);
-    const auto value_at = [](int i) { return 980000.0 + 0.8 * ((i / 30) % 2 == 0 ? 1.0 : -1.0); };
-    int i = 5;
-    for (; i < 155; ++i) running.take(sample(2.0 * i, value_at(i)));
-    const RunningReading early = running.reading(MilliGal(0.9), State::stable);
-    REQUIRE(early.needed_s);
-    CHECK_FALSE(early.is_good_enough);
-    const double promised_s = early.used_s + *early.needed_s;
-    RunningReading reading = early;
-    for (; !reading.is_good_enough; ++i) {
-        running.take(sample(2.0 * i, value_at(i)));
-        reading = running.reading(MilliGal(0.9), State::stable);
-    }
-    CHECK(reading.used_s == Approx(promised_s).margin(20.0));
-}
-
-TEST_CASE("set-ups of half the length give the error of one, and their own scatter",
+TEST_CASE("set-ups of half the length give the mean of one, and their own scatter",
           "[verdict][running]") {
     // The box is put down 3 mGal higher the second time.
     RunningValue whole({}), halves({});
@@ -63,16 +41,16 @@ TEST_CASE("set-ups of half the length give the error of one, and their own scatt
         const double mgal = 980000.0 + 0.3 * ((i / 30) % 2 == 0 ? 1.0 : -1.0);
         whole.take(sample(2.0 * i, mgal));
         if (i == 185) {
-            const RunningReading first = halves.reading(MilliGal(1.0), State::stable);
+            const RunningReading first = halves.reading();
             CHECK(first.set_ups == 1);
             CHECK_FALSE(first.set_up_sd);
             halves.begin_set_up(kRunStart + from_seconds(360.0));
         }
         halves.take(sample(2.0 * i, i < 185 ? mgal : mgal + 3.0));
-        if (i == 190) CHECK(halves.reading(MilliGal(1.0), State::stable).set_ups == 1);
+        if (i == 190) CHECK(halves.reading().set_ups == 1);
     }
-    const RunningReading one = whole.reading(MilliGal(1.0), State::stable),
-                         two = halves.reading(MilliGal(1.0), State::stable);
+    const RunningReading one = whole.reading(),
+                         two = halves.reading();
     CHECK(one.used_s == 720.0);
     CHECK(two.used_s == 720.0);
     CHECK(two.set_ups == 2);
@@ -82,46 +60,6 @@ TEST_CASE("set-ups of half the length give the error of one, and their own scatt
     CHECK(two.set_up_sd_limits->front().value() == Approx(0.94643).epsilon(1e-4));
     CHECK(two.set_up_sd_limits->back().value() == Approx(67.692).epsilon(1e-4));
     CHECK(two.set_up_error->value() == Approx(1.5).margin(1e-6));
-    CHECK(two.standard_error->value() == Approx(one.standard_error->value()).margin(0.01));
-    CHECK(two.is_good_enough);
-}
-
-TEST_CASE("the last of several set-ups needs the time that is predicted", "[verdict][running]") {
-    RunningValue running({});
-    running.begin_set_up(kRunStart);
-    int i = 5;
-    for (; i < 185; ++i) running.take(sample(2.0 * i, 980000.0));
-    CHECK(running.reading(MilliGal(1.0), State::stable).needed_s);
-    running.begin_set_up(kRunStart + from_seconds(360.0));
-    // A lifted box needs no more time where it was.
-    CHECK_FALSE(running.reading(MilliGal(1.0), State::stable).needed_s);
-    for (; i < 230; ++i) running.take(sample(2.0 * i, 980001.0));
-    const RunningReading early = running.reading(MilliGal(1.0), State::stable);
-    REQUIRE(early.needed_s);
-    CHECK(*early.needed_s > 100.0);
-    const double promised_s = early.used_s + *early.needed_s;
-    RunningReading reading = early;
-    for (; !reading.is_good_enough && i < 1000; ++i) {
-        running.take(sample(2.0 * i, 980001.0));
-        reading = running.reading(MilliGal(1.0), State::stable);
-    }
-    CHECK(reading.used_s == Approx(promised_s).margin(2.0));
-    // The error of the first set-up alone is larger than this target.
-    CHECK_FALSE(running.reading(MilliGal(0.1), State::stable).needed_s);
-}
-
-TEST_CASE("good enough requires a stable verdict and three minutes", "[verdict][running]") {
-    RunningValue running({});
-    running.begin_set_up(kRunStart);
-    int i = 5;
-    for (; i < 94; ++i) running.take(sample(2.0 * i, 980000.0));
-    CHECK_FALSE(running.reading(MilliGal(5.0), State::stable).standard_error);
-    for (; i < 700; ++i) running.take(sample(2.0 * i, 980000.0));
-    CHECK(running.reading(MilliGal(1.0), State::stable).is_good_enough);
-    const RunningReading unsettled = running.reading(MilliGal(1.0), State::settling);
-    CHECK_FALSE(unsettled.is_good_enough);
-    CHECK_FALSE(unsettled.needed_s);
-    CHECK(unsettled.standard_error);
 }
 
 TEST_CASE("a knock and the samples it affects are left out of the running value",
@@ -134,7 +72,7 @@ TEST_CASE("a knock and the samples it affects are left out of the running value"
         if (i == 196) one.shake = MilliGal(8000.0);  // Seen at 402 s.
         running.take(one);
     }
-    const RunningReading reading = running.reading(MilliGal(1.0), State::stable);
+    const RunningReading reading = running.reading();
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(1e-6));
     CHECK(reading.left_out_s == 20.0);
 }
@@ -146,7 +84,7 @@ TEST_CASE("a missing sample is left out of the running value", "[verdict][runnin
         running.take(
             sample(2.0 * i, i == 100 ? std::numeric_limits<double>::quiet_NaN() : 980000.0));
     }
-    const RunningReading reading = running.reading(MilliGal(1.0), State::stable);
+    const RunningReading reading = running.reading();
     CHECK(reading.value->value() == Approx(980000.0).epsilon(0.0).margin(1e-6));
     CHECK(reading.left_out_s == 2.0);
 }

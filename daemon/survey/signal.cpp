@@ -1,0 +1,128 @@
+#include "daemon/survey/signal.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace a351::daemon::survey {
+namespace {
+
+using text::marked;
+
+constexpr double kLeastUsed = 0.5;  ///< Least part of a set-up that is undisturbed.
+
+/// Returns a time that is left, as "2:10".
+std::string minutes_of(double seconds) {
+    const auto whole = static_cast<int>(std::ceil(seconds));
+    return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+text::Message of_warm_up(const verdict::Verdict& verdict, const std::vector<text::Message>& why) {
+    text::Message sentence = text::message("The box is not at its operating temperature yet");
+    if (!why.empty()) sentence += ": " + why.front();
+    if (verdict.time_left_s && *verdict.time_left_s > 0.0)
+        sentence += text::message(". At least {} min more",
+                                  static_cast<int>(std::ceil(*verdict.time_left_s / 60.0)));
+    return sentence + ".";
+}
+
+text::Message of_set_up(const PlannedStay& stay, verdict::State state) {
+    const SetUpPlan& plan = stay.plan;
+    text::Message sentence =
+        text::message("{}: set-up {} of {}, {} left", stay.site, plan.running,
+                      std::max(plan.planned, plan.running), minutes_of(plan.left_s));
+    if (plan.is_disturbed)
+        sentence += text::message(", because more than half of it was disturbed");
+    else if (state == verdict::State::disturbed)
+        sentence += text::message(". The box was disturbed: step back two paces");
+    return sentence + ".";
+}
+
+}  // namespace
+
+std::string_view code_of(Word word) noexcept {
+    // In the order of the enumerators.
+    constexpr std::array kCodes{"no_data", "warming_up", "keep_off", "lift", "go", "look"};
+    return kCodes.at(static_cast<std::size_t>(word));
+}
+
+std::string_view to_text(Word word) noexcept {
+    constexpr std::array kTexts{marked("NO DATA"),        marked("WARMING UP"), marked("KEEP OFF"),
+                                marked("LIFT, SET DOWN"), marked("YOU CAN GO"), marked("LOOK")};
+    return kTexts.at(static_cast<std::size_t>(word));
+}
+
+SetUpPlan set_up_plan(int planned, double length_s, int running, double stay_s, double set_up_s,
+                      double used_s) {
+    SetUpPlan plan;
+    plan.running = running;
+    plan.planned = planned;
+    const double planned_s = length_s / planned;
+    const double by_clock_s = running > planned ? length_s - stay_s : planned_s - set_up_s;
+    const double by_signal_s = kLeastUsed * planned_s - used_s;
+    plan.left_s = std::max({0.0, by_clock_s, by_signal_s});
+    plan.is_disturbed = by_signal_s > std::max(0.0, by_clock_s);
+    return plan;
+}
+
+Word word_of(verdict::State state, const std::optional<PlannedStay>& stay,
+             bool has_contradiction) {
+    if (state == verdict::State::no_data) return Word::no_data;
+    if (has_contradiction) return Word::look;
+    if (state == verdict::State::warming_up) return Word::warming_up;
+    if (!stay || stay->plan.is_complete()) return Word::go;
+    return stay->plan.needs_next() ? Word::lift : Word::keep_off;
+}
+
+Signal signal_of(const verdict::Verdict& verdict, const std::vector<text::Message>& why,
+                 const std::optional<PlannedStay>& stay, const std::string& last_site,
+                 const std::vector<Contradiction>& contradictions) {
+    Signal signal;
+    signal.word = word_of(verdict.state, stay, !contradictions.empty());
+    switch (signal.word) {
+        case Word::no_data:
+            signal.sentence = text::message("No values arrive");
+            if (!why.empty()) signal.sentence += ": " + why.front();
+            signal.sentence += text::message(". Check the sensor's plug and its power supply.");
+            break;
+        case Word::warming_up:
+            signal.sentence = of_warm_up(verdict, why);
+            break;
+        case Word::keep_off:
+            signal.sentence = of_set_up(*stay, verdict.state);
+            break;
+        case Word::lift:
+            signal.sentence = text::message(
+                "{}: set-up {} of {} is complete. Lift the box, set it down level, then press Next "
+                "set-up.",
+                stay->site, stay->plan.running, stay->plan.planned);
+            signal.buttons = {"setup", "stop"};
+            break;
+        case Word::go:
+            if (stay) {
+                signal.sentence =
+                    text::message("{}: the reading is complete. Press Stop, then go.", stay->site);
+                signal.buttons = {"stop", "setup"};
+                break;
+            }
+            signal.sentence =
+                last_site.empty()
+                    ? text::message("No stay runs. Set the box down level at a benchmark, then "
+                                    "press Start.")
+                    : text::message("The stay at {} has ended. At the next benchmark set the box "
+                                    "down level, then press Start.",
+                                    last_site);
+            signal.buttons = {"start"};
+            break;
+        case Word::look:
+            signal.look = contradictions.front();
+            signal.sentence = signal.look->text;
+            signal.buttons = signal.look->buttons;
+            break;
+    }
+    return signal;
+}
+
+}  // namespace a351::daemon::survey
