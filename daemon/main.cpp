@@ -267,7 +267,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     };
     if (occupations.running() || !occupations.list().empty()) note_change();
     page::SignalLog signal_log(occupations, live, [&](const auto& event) { store.note(event); });
-    survey::Word word = survey::Word::no_data;  // Of the page's thread.
+    survey::Word word = survey::Word::no_data;  // The page's thread uses it.
     const auto log_signal = [&] {
         if (!is_recovered) return;  // The last run has logged the words of what its journal left.
         const auto now =

@@ -14,7 +14,7 @@ namespace a351::daemon::page {
 
 /// The result of the day so far.
 struct SoFar {
-    /// By the key of the stay: gravity_mgal and u_mgal, null if not known, and missing_parts, what is
+    /// For each key of a stay: gravity_mgal and u_mgal, null if not known, and missing_parts, what is
     /// needed before they are known.
     std::map<std::string, nlohmann::json> stays;
     std::vector<survey::Contradiction> contradictions;
