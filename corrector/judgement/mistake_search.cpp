@@ -89,6 +89,21 @@ void refine(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& 
     }
 }
 
+/// Returns true if the mistakes after the first `sure` ones explain together more than they cost.
+///
+/// Reason: two that cancel each other leave as much as none, and each is clear while the other one is
+/// put right.
+bool explain_together(const std::vector<Mistake>& mistakes, std::size_t sure,
+                      const std::vector<SearchedReading>& readings, adjustment::Trials& trials) {
+    const auto middle = mistakes.begin() + static_cast<std::ptrdiff_t>(sure);
+    const std::vector<Mistake> known(mistakes.begin(), middle), further(middle, mistakes.end());
+    auto before = residuals_of(trials, known, mistakes);
+    auto after = residuals_of(trials, mistakes, mistakes);
+    if (!before || !after) return false;
+    return Trial(std::move(before), readings, known)
+               .gain_of(Trial(std::move(after), readings, mistakes), further) > 0.0;
+}
+
 /// Sets probabilities, sizes and uncertainties again, each from the residuals with the others put right.
 void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
                    adjustment::Trials& trials, double alpha) {
@@ -121,7 +136,9 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
         const bool is_sure = is_clear(*found, alpha);
         mistakes.push_back(std::move(*found));
         if (mistakes.size() > 1) refine(mistakes, readings, trials);
-        if (!is_sure) continue;
+        if (!is_sure || (!is_known_sure &&
+                         !explain_together(mistakes, sure.size(), readings, trials)))
+            continue;
         for (std::size_t k = 0; k < mistakes.size(); ++k)
             mistakes[k].needed_trial = k < sure.size() ? sure[k].needed_trial : !is_known_sure;
         sure = mistakes;

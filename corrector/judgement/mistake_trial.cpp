@@ -273,6 +273,14 @@ bool Trial::is_possible() const { return !suspects_.empty() && dof_ >= kFewestDo
 
 bool Trial::allows_trial() const { return dof_ >= kFewestTrialDof; }
 
+double Trial::gain_of(const Trial& other, std::span<const Mistake> mistakes) const {
+    double cost = 0.0;
+    for (const Mistake& mistake : mistakes)
+        for (const Suspect& suspect : suspects_)
+            if (suspect.mistake.is_same(mistake)) cost += suspect.cost;
+    return 0.5 * dof_ * std::log(residuals_->seen().square / other.residuals_->seen().square) - cost;
+}
+
 std::vector<Scored> Trial::best(std::size_t count) const {
     const Products products = products_of(residuals_->seen());
     std::vector<std::pair<double, const Suspect*>> scores;

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "corrector/adjustment/residuals.hpp"
@@ -73,6 +74,10 @@ public:
     [[nodiscard]] bool is_possible() const;
     /// Returns true if enough readings are left to put a mistake right on trial.
     [[nodiscard]] bool allows_trial() const;
+
+    /// Returns how much less is left with further mistakes put right: dof / 2 ln(square / square of
+    /// the other trial), less Suspect::cost of each.
+    [[nodiscard]] double gain_of(const Trial& other, std::span<const Mistake> mistakes) const;
 
     /// Returns the mistakes with the highest score, the best first, with their sizes.  The score is
     /// -dof / 2 ln(1 - share) less Suspect::cost.

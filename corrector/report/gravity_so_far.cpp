@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "corrector/judgement/contradictions.hpp"
 #include "corrector/judgement/reading_grade.hpp"
 #include "corrector/result/joint_table.hpp"
 #include "protocol/text/or_null.hpp"
@@ -63,34 +64,36 @@ std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
     return stays;
 }
 
-/// Sets the value of a stay with rows.
-void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& result) {
+/// Sets the value of a stay with rows.  That of a known station does not use its own reference.
+void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& result,
+               std::optional<MilliGal> u_evening) {
     if (stay.rows.empty()) return;
     const model::StationValue* const station = result::find_station(result, stay.site);
     const bool is_whole_station = station != nullptr && station->row_count == stay.rows.size();
-    double corrected = 0.0, left_out = 0.0;
-    std::size_t predicted = 0;
+    const auto& reference = result.rows[stay.rows.front()].row.reference;
+    double sum = 0.0;
+    std::size_t known = 0;
     std::optional<double> u;
     for (const std::size_t i : stay.rows) {
         const model::CorrectedRow& row = result.rows[i];
-        corrected += row.corrected.value();
-        if (const auto* const day = row.as<model::WholeDayRow>(); day && day->left_out) {
-            left_out += day->left_out->value();
-            ++predicted;
-        }
+        const auto* const day = row.as<model::WholeDayRow>();
+        const auto value =
+            !reference || day == nullptr ? std::optional(row.corrected) : day->left_out;
+        if (value) ++known;
+        sum += value.value_or(MilliGal(0.0)).value();
         if (row.u_corrected) u = std::max(u.value_or(0.0), row.u_corrected->value());
     }
-    const auto n = static_cast<double>(stay.rows.size());
+    if (known < stay.rows.size()) {
+        json["missing_parts"] =
+            text::message("the only known benchmark so far: read a second one").to_json();
+        return;
+    }
+    const double gravity = sum / static_cast<double>(stay.rows.size());
     if (is_whole_station && stay.rows.size() > 1 && station->u_gravity)
         u = station->u_gravity->value();
-    json["gravity_mgal"] = corrected / n;
-    json["u_mgal"] = text::or_null(u);
-    const auto& reference = result.rows[stay.rows.front()].row.reference;
-    if (!reference) return;
-    if (predicted == stay.rows.size())
-        json["left_out_difference_mgal"] = left_out / n - reference->value();
-    else if (is_whole_station && station->left_out)
-        json["left_out_difference_mgal"] = (*station->left_out - *reference).value();
+    json["gravity_mgal"] = gravity;
+    json["u_mgal"] = text::or_null(u_evening ? std::optional(u_evening->value()) : u);
+    if (reference) json["left_out_difference_mgal"] = gravity - reference->value();
 }
 
 Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& grades,
@@ -152,11 +155,14 @@ Json to_json(const GravitySoFar& so_far) {
         one["occupation"] = stay.occupation;
         one["set_ups"] = stay.rows.size() + stay.left_out.size();
         for (const char* const name :
-             {"gravity_mgal", "u_mgal", "u_evening_mgal", "left_out_difference_mgal"})
+             {"gravity_mgal", "u_mgal", "left_out_difference_mgal", "missing_parts"})
             one[name] = nullptr;
-        if (so_far.result) add_value(one, stay, *so_far.result);
         const bool is_running = !stay.key.empty() && stay.key == so_far.read->running_key;
-        if (is_running && so_far.u_evening) one["u_evening_mgal"] = so_far.u_evening->value();
+        if (so_far.result)
+            add_value(one, stay, *so_far.result,
+                      is_running ? so_far.u_evening : std::optional<MilliGal>());
+        else
+            one["missing_parts"] = json["reason_parts"];
         one["is_running"] = is_running;
         one["remarks"] = remarks_of(stay, grades, left_out);
         json["stays"].push_back(std::move(one));
@@ -167,6 +173,15 @@ Json to_json(const GravitySoFar& so_far) {
         return std::ranges::count(kLeftOut, finding.kind) > 0;
     });
     json["findings"] = reading::findings_json(findings);
+    json["contradictions"] = Json::array();
+    if (so_far.result)
+        for (const judgement::Contradiction& one : judgement::contradictions(*so_far.result))
+            json["contradictions"].push_back({{"code", one.code},
+                                              {"key", one.key},
+                                              {"site", one.site},
+                                              {"occupation", one.occupation},
+                                              {"text", one.text.english()},
+                                              {"text_parts", one.text.to_json()}});
     return json;
 }
 

@@ -28,11 +28,13 @@ struct GravitySoFar {
 
 /// Returns the document.  Each stay has one element, in order of time, those without a value too.
 ///
-/// - gravity_mgal: mean of the corrected values of its set-ups.
-/// - u_mgal: standard uncertainty as if the station were unknown; of a stay with several set-ups at
-///   a station that has more stays, the largest of its set-ups.
-/// - u_evening_mgal: `u_evening` of the running stay.
+/// - gravity_mgal: mean of the corrected values of its set-ups; of a known station without its own
+///   reference.
+/// - u_mgal: standard uncertainty as if the station were unknown; of the running stay `u_evening`; of
+///   a stay with several set-ups at a station that has more stays, the largest of its set-ups.
+/// - missing_parts: what is needed before gravity is known; null if it is.
 /// - left_out_difference_mgal: value without the station's reference, minus the reference.
+/// - contradictions: judgement::contradictions().
 /// - remarks: the reasons of its grade (reading_grade.hpp), or why it has no value.
 [[nodiscard]] nlohmann::ordered_json to_json(const GravitySoFar& so_far);
 

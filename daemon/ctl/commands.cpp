@@ -314,6 +314,8 @@ int run_command(const std::string& command, const Arguments& arguments) {
     if (command == "sites") return show(client, arguments, "/api/sites", site_table);
     if (command == "survey") return show(client, arguments, "/api/survey", survey_text);
     if (command == "list") return show(client, arguments, "/api/occupations", occupation_table);
+    if (command == "checked")
+        return change(client, arguments, "/api/occupation/checked", json::object());
     if (is_for_all) return change(client, arguments, path_of(command), order(client, arguments));
     return change_stay(client, arguments, command == "not-moved" ? "not_moved" : command);
 }

@@ -156,6 +156,11 @@ void add_not_moved(CLI::App& app, Arguments& a) {
                "States that the box was not moved during a stay so far, in answer to the warning.");
 }
 
+void add_checked(CLI::App& app, Arguments&) {
+    app.add_subcommand("checked",
+                       "States that you have looked at what LOOK shows; the notes keep it.");
+}
+
 void add_resume(CLI::App& app, Arguments& a) {
     add_change(app, a, "resume",
                "Continues the last stay, at most 10 min after it was stopped by mistake.");
@@ -255,7 +260,7 @@ int main(int argc, char** argv) {
     CLI::App app("Shows the state of the daemon a351d and controls occupations.", "a351ctl");
     add_global_options(app, a);
     for (const auto add : {add_status, add_start, add_stop, add_setup, add_discard, add_restore,
-                           add_not_moved, add_resume, add_rename, add_retime, add_note,
+                           add_not_moved, add_checked, add_resume, add_rename, add_retime, add_note,
                            add_sites, add_survey, add_list, add_phone, add_site})
         add(app, a);
     app.allow_extras();  // Not inherited by the commands, because they are there already.

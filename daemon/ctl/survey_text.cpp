@@ -61,11 +61,9 @@ std::string survey_text(const json& answer) {
                         std::to_string(stay.value("set_ups", 0))});
         if (stay.value("is_running", false))
             remarks += "  " + stay_name(stay) + ": " + text::tr("running") + "\n";
-        if (stay.at("u_evening_mgal").is_number())
-            remarks +=
-                "  " + stay_name(stay) + ": " +
-                text::tr("+- {} mGal after a return to the base", mgal_of(stay, "u_evening_mgal")) +
-                "\n";
+        if (stay.contains("missing_parts") && !stay.at("missing_parts").is_null())
+            remarks += fmt::format("  {}: {}\n", stay_name(stay),
+                                   printable(text::in_words(text::parse_message(stay.at("missing_parts"), "-"))));
         for (const json& remark : stay.at("remarks"))
             remarks += fmt::format("  {}: {}\n", stay_name(stay),
                                    printable(sentence_of(remark, "text", "text_parts")));

@@ -15,7 +15,9 @@ using survey::Word;
 constexpr auto kMostBehind = std::chrono::hours(1);
 
 Contradiction of_move(const survey::MovePrompt& moved, const std::string& key) {
-    return {"moved", key, survey::text_of(moved),
+    return {"moved",
+            key,
+            survey::text_of(moved),
             {moved.is_at_start ? "begin_at" : "stop_at", "not_moved"}};
 }
 
@@ -61,14 +63,14 @@ Word SignalLog::advance(const status::Status& status, const SoFar& so_far) {
         !open_contradictions(status, occupations_, moved, so_far).empty();
     constexpr Nanoseconds kStep = from_seconds(verdict::kLiveStepSeconds);
     // Also after a clock that was set back.
-    if (!end_ || *last < *end_ || *last - *end_ > kMostBehind) {
+    if (!end_ || *last < *end_ - kStep || *last - *end_ > kMostBehind) {
         end_ = *last;
         lasting_ = survey::LastingWord(*last);
     }
     for (; *end_ <= *last; *end_ += kStep) {
-        word_ = survey::word_of(live_.state_at(*end_),
-                                survey::planned_stay(occupations_, live_, *end_),
-                                has_contradiction);
+        word_ =
+            survey::word_of(live_.state_at(*end_), survey::planned_stay(occupations_, live_, *end_),
+                            has_contradiction);
         const auto change = lasting_.take(word_, *end_);
         if (!change) continue;
         events::Event event{"signal", change->since, {}, {}, {}};

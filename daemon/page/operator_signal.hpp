@@ -25,8 +25,7 @@ namespace a351::daemon::page {
 /// Returns the signal, and adds it to the level and reasons of the status if it is NO DATA or LOOK.
 [[nodiscard]] survey::Signal operator_signal(status::Status& status, const Judgement& judgement,
                                              const survey::Occupations& occupations,
-                                             const survey::FieldStatus& field,
-                                             const SoFar& so_far);
+                                             const survey::FieldStatus& field, const SoFar& so_far);
 
 /// Logs the words of the signal in the time of the data: one is computed for each value of the live
 /// series, however seldom advance() is called.  Not thread-safe: the page's thread owns it.

@@ -24,17 +24,17 @@ SoFar read_so_far(std::string_view document) {
     SoFar so_far;
     const json read = json::parse(document, nullptr, false);
     if (!read.is_object()) return so_far;
-    const json missing = read.value("reason_parts", json());
     for (const json& stay : list_of(read, "stays")) {
         if (!stay.is_object()) continue;
         json& one = so_far.stays[text_of(stay, "key")];
-        for (const char* const name : {"gravity_mgal", "u_mgal"}) one[name] = stay.value(name, json());
-        one["missing_parts"] = one["gravity_mgal"].is_null() ? missing : json();
+        for (const char* const name : {"gravity_mgal", "u_mgal", "missing_parts"})
+            one[name] = stay.value(name, json());
     }
     for (const json& one : list_of(read, "contradictions")) {
         if (!one.is_object()) continue;
         so_far.contradictions.push_back(
-            {text_of(one, "code"), text_of(one, "key"),
+            {text_of(one, "code"),
+             text_of(one, "key"),
              text::parse_message(one.value("text_parts", json()), text_of(one, "text")),
              {survey::kChecked}});
     }

@@ -47,12 +47,11 @@ std::optional<PlannedStay> planned_stay(const Occupations& occupations, const li
     std::erase_if(set_ups, [at](const SetUp& one) { return one.start > at; });
     const SetUp last{set_ups.back().start, at};
     const double planned_s = std::chrono::duration<double>(occupations.planned()).count();
-    return PlannedStay{running->site,
-                       set_up_plan(occupations.planned_set_ups(), planned_s,
-                                   static_cast<int>(set_ups.size()),
-                                   seconds_between(running->start, at),
-                                   seconds_between(last.start, at),
-                                   live.reading({&last, 1}).used_s)};
+    return PlannedStay{
+        running->site,
+        set_up_plan(occupations.planned_set_ups(), planned_s, static_cast<int>(set_ups.size()),
+                    seconds_between(running->start, at), seconds_between(last.start, at),
+                    live.reading({&last, 1}).used_s)};
 }
 
 FieldStatus field_status(const Occupations& occupations, const live::Record& live, UtcTime now) {

@@ -67,8 +67,7 @@ SetUpPlan set_up_plan(int planned, double length_s, int running, double stay_s, 
     return plan;
 }
 
-Word word_of(verdict::State state, const std::optional<PlannedStay>& stay,
-             bool has_contradiction) {
+Word word_of(verdict::State state, const std::optional<PlannedStay>& stay, bool has_contradiction) {
     if (state == verdict::State::no_data) return Word::no_data;
     if (has_contradiction) return Word::look;
     if (state == verdict::State::warming_up) return Word::warming_up;
@@ -109,11 +108,13 @@ Signal signal_of(const verdict::Verdict& verdict, const std::vector<text::Messag
             }
             signal.sentence =
                 last_site.empty()
-                    ? text::message("No stay runs. Set the box down level at a benchmark, then "
-                                    "press Start.")
-                    : text::message("The stay at {} has ended. At the next benchmark set the box "
-                                    "down level, then press Start.",
-                                    last_site);
+                    ? text::message(
+                          "No stay runs. Set the box down level at a benchmark, then "
+                          "press Start.")
+                    : text::message(
+                          "The stay at {} has ended. At the next benchmark set the box "
+                          "down level, then press Start.",
+                          last_site);
             signal.buttons = {"start"};
             break;
         case Word::look:

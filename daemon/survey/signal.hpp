@@ -43,10 +43,10 @@ inline constexpr const char* kChecked = "checked";
 
 /// The plan of a running stay: `planned` set-ups of equal length.
 struct SetUpPlan {
-    int running = 1;           ///< Number of the set-up that runs, from 1.
-    int planned = 1;           ///< Planned set-ups.
-    double left_s = 0.0;       ///< Seconds left in the set-up; in one beyond the plan, in the stay.
-    bool is_disturbed = false; ///< Time was added, because too much signal was disturbed.
+    int running = 1;      ///< Number of the set-up that runs, from 1.
+    int planned = 1;      ///< Planned set-ups.
+    double left_s = 0.0;  ///< Seconds left in the set-up; in one beyond the plan, in the stay.
+    bool is_disturbed = false;  ///< Time was added, because too much signal was disturbed.
 
     [[nodiscard]] bool needs_next() const { return left_s == 0.0 && running < planned; }
     [[nodiscard]] bool is_complete() const { return left_s == 0.0 && running >= planned; }
@@ -86,8 +86,7 @@ struct Signal {
 /// @param contradictions  those that were not answered; the first is shown.
 [[nodiscard]] Signal signal_of(const verdict::Verdict& verdict,
                                const std::vector<text::Message>& why,
-                               const std::optional<PlannedStay>& stay,
-                               const std::string& last_site,
+                               const std::optional<PlannedStay>& stay, const std::string& last_site,
                                const std::vector<Contradiction>& contradictions);
 
 }  // namespace a351::daemon::survey

@@ -99,10 +99,10 @@ TEST_CASE("the gravity so far is a table with findings first and remarks behind"
         "reason": "killed", "reason_text": "signal 9 ended it", "model": "day",
         "stays": [
             {"site": "No.0", "occupation": 1, "set_ups": 1, "gravity_mgal": 979861.324,
-             "u_mgal": 1.266, "u_evening_mgal": null, "left_out_difference_mgal": -0.42,
+             "u_mgal": 1.266, "left_out_difference_mgal": -0.42,
              "is_running": false, "remarks": []},
             {"site": "No.5\u001b", "occupation": 12, "set_ups": 2, "gravity_mgal": null,
-             "u_mgal": null, "u_evening_mgal": 1.514, "left_out_difference_mgal": null,
+             "u_mgal": null, "left_out_difference_mgal": null, "missing_parts": ["read on"],
              "is_running": true,
              "remarks": [{"code": "left_out", "numbers": [], "text": "no samples"}]}],
         "findings": [{"text": "the box moved", "is_headline": true}]})");
@@ -112,7 +112,7 @@ TEST_CASE("the gravity so far is a table with findings first and remarks behind"
           "No.0 (1)       979861.32    1.27                     -0.42        1\n"
           "No.5? (12)             -       -                         -        2\n"
           "  No.5? (12): running\n"
-          "  No.5? (12): +- 1.51 mGal after a return to the base\n"
+          "  No.5? (12): read on\n"
           "  No.5? (12): no samples\n"
           "no new figures: killed: signal 9 ended it\n"
           "as of 2026-03-01T12:03:10.000Z, data up to 2026-03-01T12:03:09.500Z, model day\n");

@@ -138,6 +138,27 @@ TEST_CASE("several mistakes of one day are found together", "[mistake]") {
     CHECK(found[2].readings.front() == 9);
 }
 
+TEST_CASE("mistakes that cancel each other explain nothing together", "[mistake]") {
+    MadeUp real(7), clean(7);
+    real.add(3, 4, 36.0);
+    real.add(11, 12, -36.0);
+    const auto swap = [](std::size_t one, std::size_t other) {
+        Mistake mistake;
+        mistake.kind = MistakeKind::swap;
+        mistake.readings = {one};
+        mistake.others = {other};
+        mistake.size_mgal = 36.0;
+        return mistake;
+    };
+    const auto gain = [](MadeUp& day, const std::vector<Mistake>& further) {
+        const Trial before(day.residuals({}, {}), day.list, {});
+        return before.gain_of(
+            Trial(day.residuals({further.begin(), further.end()}, {}), day.list, further), further);
+    };
+    CHECK(gain(real, {swap(3, 11)}) > 10.0);
+    CHECK(gain(clean, {swap(3, 11), swap(11, 3)}) < 0.0);
+}
+
 TEST_CASE("in surveys without a mistake one is found as seldom as stated", "[mistake]") {
     constexpr int kSurveys = 100;
     int found = 0;

@@ -1,0 +1,115 @@
+#include "corrector/judgement/contradictions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "corrector/judgement/closure.hpp"
+#include "corrector/judgement/reading_name.hpp"
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::judgement {
+namespace {
+
+using reading::Finding;
+using reading::FindingKind;
+
+/// Placement of a box before the day shows its own, and the number of pairs of set-ups that this
+/// counts as.  Source: the prior of whole_day::DayModel.
+constexpr double kUsualPlacement_mgal = 1.2, kUsualWeight = 4.0;
+
+Contradiction about(const reading::SurveyRow& row, std::string code, text::Message text) {
+    return {std::move(code), row.site, row.occupation, row.key, std::move(text)};
+}
+
+bool is_named(const std::vector<Contradiction>& all, const reading::SurveyRow& row) {
+    return std::ranges::any_of(all, [&](const Contradiction& one) {
+        return one.site == row.site && one.occupation == row.occupation;
+    });
+}
+
+void add_findings(std::vector<Contradiction>& all, const std::vector<Finding>& findings) {
+    for (const Finding& finding : findings) {
+        const bool is_of_reading =
+            finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
+            finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading ||
+            finding.kind == FindingKind::scale;
+        if (!is_of_reading) continue;
+        all.push_back({finding.code, finding.site, finding.occupation.value_or(1), finding.key,
+                       finding.text});
+    }
+}
+
+/// Returns the difference from the reference if the station is left out, in its uncertainties.
+std::optional<double> ratio_of(const model::CorrectedRow& row) {
+    if (row.row.is_reference_refused || row.as<model::WholeDayRow>() == nullptr)
+        return std::nullopt;
+    return row.studentised_residual;
+}
+
+void add_references(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
+    std::vector<std::string> known;  // Sites with a reference in the fit.
+    for (const model::CorrectedRow& row : result.rows)
+        if (ratio_of(row) && std::ranges::count(known, row.row.site) == 0)
+            known.push_back(row.row.site);
+    for (const model::CorrectedRow& row : result.rows) {
+        const auto ratio = ratio_of(row);
+        if (!ratio || std::abs(*ratio) <= kContradictionRatio || is_named(all, row.row)) continue;
+        const double off_mgal =
+            (*row.as<model::WholeDayRow>()->left_out - *row.row.reference).value();
+        const std::string size = text::fixed(std::abs(off_mgal), 1);
+        const text::Message what =
+            known.size() == 2 ? text::message("{} and {} contradict each other by {} mGal",
+                                              known[0], known[1], size)
+                              : text::message("{} ({}) differs from its reference by {} mGal",
+                                              row.row.site, row.row.occupation, size);
+        all.push_back(about(row.row, "references",
+                            what + text::message(": check the name and the reference, then read "
+                                                 "one of them again")));
+        if (known.size() == 2) return;  // The other one says the same.
+    }
+}
+
+/// Returns the placement that the other pairs of set-ups show, mGal.
+///
+/// The fit's own placement is no measure: the set-up that is off enlarges it.
+double placement_without(const std::vector<Closure>& pairs, const Closure& judged) {
+    double weight = kUsualWeight, sum = kUsualWeight * kUsualPlacement_mgal * kUsualPlacement_mgal;
+    for (const Closure& pair : pairs) {
+        if (&pair == &judged) continue;
+        sum += 0.5 * pair.after_all.value() * pair.after_all.value();
+        ++weight;
+    }
+    return std::sqrt(sum / weight);
+}
+
+void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
+    std::vector<Closure> pairs = close_stations(result);
+    std::erase_if(pairs, [](const Closure& pair) { return pair.drift_mgal_per_h.has_value(); });
+    for (const Closure& pair : pairs) {
+        const reading::SurveyRow& row = result.rows[pair.later].row;
+        const double difference_mgal = std::abs(pair.after_all.value());
+        const double expected_mgal = std::numbers::sqrt2 * placement_without(pairs, pair);
+        if (difference_mgal <= kContradictionRatio * expected_mgal || is_named(all, row)) continue;
+        all.push_back(about(
+            row, "set_ups",
+            text::message("{} and {} differ by {} mGal, {} times what their placement allows: lift "
+                          "the box, set it down level, and add a set-up",
+                          reading_name(result.rows, pair.earlier),
+                          reading_name(result.rows, pair.later), text::fixed(difference_mgal, 1),
+                          text::fixed(difference_mgal / expected_mgal, 1))));
+    }
+}
+
+}  // namespace
+
+std::vector<Contradiction> contradictions(const model::SurveyCorrection& result) {
+    std::vector<Contradiction> all;
+    add_findings(all, result.findings);
+    add_references(all, result);
+    add_set_ups(all, result);
+    return all;
+}
+
+}  // namespace a351::corrector::judgement

@@ -1,0 +1,39 @@
+#pragma once
+/// @file
+/// What contradicts in a survey that is still being made, while the operator can clear it up.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "corrector/model/corrected_survey.hpp"
+#include "protocol/text/message.hpp"
+
+namespace a351::corrector::judgement {
+
+/// Readings that do not agree.
+struct Contradiction {
+    std::string code;    ///< That of the finding, `references` or `set_ups`.
+    std::string site;    ///< Site of the stay; empty: the whole day.
+    int occupation = 1;  ///< Number of the stay at the site.
+    std::string key;     ///< Key of the stay; may be empty.
+    text::Message text;  ///< Which, how much, and what to do.
+};
+
+/// Least ratio of a difference to its uncertainty.  Reason: 19 readings have one above 4 by chance on
+/// 1 day of 800, if their errors are normal; the signal must be LOOK on few stays without a mistake.
+inline constexpr double kContradictionRatio = 4.0;
+
+/// Returns the contradictions of a survey so far, the newest last:
+///
+/// - each mistake that the search found, but a moved box, which is asked about when it is moved;
+/// - a known station whose value, left out, is off its reference by more than kContradictionRatio
+///   times its uncertainty.  With two known stations neither can be named alone, so both are;
+/// - two set-ups of a stay that differ by more than kContradictionRatio times what the other stays
+///   show for their placement.
+///
+/// Errors and power: corrector/methods.md, "What a stay can tell" (signal_bench.py).
+/// @param result  with its findings.
+[[nodiscard]] std::vector<Contradiction> contradictions(const model::SurveyCorrection& result);
+
+}  // namespace a351::corrector::judgement
