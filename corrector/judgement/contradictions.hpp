@@ -13,7 +13,7 @@ namespace a351::corrector::judgement {
 
 /// Readings that do not agree.
 struct Contradiction {
-    std::string code;    ///< That of the finding, `references` or `set_ups`.
+    std::string code;    ///< Code of the finding, or `references`, or `set_ups`.
     std::string site;    ///< Site of the stay; empty: the whole day.
     int occupation = 1;  ///< Number of the stay at the site.
     std::string key;     ///< Key of the stay; may be empty.

@@ -95,7 +95,7 @@ def sample_age_s(state):
 
 
 def demand_live_view(day, disk, seconds):
-    """Demands that samples and verdict follow the sensor for `seconds`, whatever the disk does.
+    """Demands that samples and signal follow the sensor for `seconds`, whatever the disk does.
 
     strace and the tests that run beside this one delay the daemon by up to 0.8 s.  A view that waits for the disk is as old as
     the stall, 3 s or more.
@@ -104,9 +104,9 @@ def demand_live_view(day, disk, seconds):
     while time.monotonic() < end:
         state = day.status()
         oldest_s = max(oldest_s, sample_age_s(state))
-        states.add(state["verdict"]["state"])
+        states.add(state["details"]["state"])
         time.sleep(0.05)
-    demand(f"{disk}: the last sample was at most {oldest_s:.2f} s old, limit 1.2; verdicts {sorted(states)}",
+    demand(f"{disk}: the last sample was at most {oldest_s:.2f} s old, limit 1.2; states {sorted(states)}",
            oldest_s < 1.2 and states != {"no data"})
 
 
@@ -249,8 +249,8 @@ def read_only(day):
 def failing_syncs():
     with Scratch() as scratch:
         day = Day(scratch)
-        day.wait_for("the verdict settling is logged, which syncs too", lambda state: any(
-            '"settling"' in file.read_text() for file in (scratch / "data" / "events").glob("*.jsonl")))
+        day.wait_for("the first word of the signal is logged, which syncs too", lambda state: any(
+            '"signal"' in file.read_text() for file in (scratch / "data" / "events").glob("*.jsonl")))
         for n in (1, 2, 5):
             failing_sync(day, "journal", n)
         failing_sync(day, "archive", 1)

@@ -21,16 +21,16 @@ def shorter(day, name):
     return day
 
 
-def verdicts_before_stops(written):
+def words_at_stops(written):
     """Returns the words of the list in demo.txt."""
-    part = written.split("The verdict one minute before each stop:\n")[1].split("\n\n")[0]
-    return re.findall(r"\): ([a-z ]+)$", part, re.M)
+    part = written.split("The signal at each stop:\n")[1].split("\n\n")[0]
+    return re.findall(r"\): ([a-z_]+)$", part, re.M)
 
 
-def verdict_lengths_s(folder):
-    """Returns the time from each verdict of the event log to the next."""
+def word_lengths_s(folder):
+    """Returns the time from each word of the signal in the event log to the next."""
     events = [json.loads(line) for file in folder.glob("*.jsonl") for line in file.read_text().splitlines()]
-    times = sorted(datetime.datetime.fromisoformat(event["utc"][:26]) for event in events if event["type"] == "verdict")
+    times = sorted(datetime.datetime.fromisoformat(event["utc"][:26]) for event in events if event["type"] == "signal")
     return [(after - before).total_seconds() for before, after in zip(times, times[1:])]
 
 
@@ -50,10 +50,11 @@ with Scratch() as scratch:
     demand("demo.txt has the RMS of Error_1 of the day", "RMS of Error (1), before the drift step: " in written)
     demand("demo.txt has a table with the simulated truth", "Comparison with the simulated truth" in written)
     demand(f"all {expected} occupations are in the table", len(rows(out / "result" / "occupations.csv")) == expected)
-    demand(f"demo.txt has the verdict before each stop: {verdicts_before_stops(written)}",
-           len(verdicts_before_stops(written)) == expected)
-    lengths = verdict_lengths_s(out / "data" / "events")
-    demand(f"the log has {len(lengths) + 1} verdicts, the shortest for {min(lengths):.0f} s, however fast time runs",
+    words = words_at_stops(written)
+    demand(f"demo.txt has the signal at each stop: {words}", len(words) == expected)
+    demand(f"{words.count('go')} stops were after YOU CAN GO", words.count("go") >= expected - 1)
+    lengths = word_lengths_s(out / "data" / "events")
+    demand(f"the log has {len(lengths) + 1} words, the shortest for {min(lengths):.0f} s, however fast time runs",
            5 <= min(lengths) < 30)
 
     channels = compare_truth(out / "data" / "archive", out / "truth.bin")

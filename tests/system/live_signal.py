@@ -1,4 +1,4 @@
-"""Compares the verdict and the running reading at a benchmark with the truth, also after a crash of the daemon."""
+"""Compares the signal with the plan of a stay and the running reading with the truth, also after a crash of the daemon."""
 
 import atexit
 import datetime
@@ -22,25 +22,8 @@ def ctl(session, *order, check=True):
     return run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", *order, check=check)
 
 
-def state(session):
-    return session.status().get("verdict", {}).get("state")
-
-
-def slope_limit(session):
-    """Waits until the status shows the limit of the temperature slope, and returns it.
-
-    The state alone does not show which threshold is used, because the box at a benchmark is disturbed for seconds repeatedly.
-    While it is disturbed, there is no check of the slope.
-    """
-    limits = []
-
-    def is_shown():
-        limits.extend(check["limit"] for check in session.status().get("verdict", {}).get("checks", [])
-                      if check["quantity"] == "temperature slope")
-        return limits
-
-    wait_for("the limit of the temperature slope is shown", is_shown, 20)
-    return limits[-1]
+def word(session):
+    return session.status().get("signal", {}).get("word")
 
 
 def nanoseconds(utc):
@@ -54,32 +37,20 @@ def mean_norm_mgal(rows):
 
 with Scratch() as scratch:
     session = Session(scratch, speed=60 // SLOWER)
-    wait_for("settling at first, because the temperature is not known for long enough",
-             lambda: state(session) == "settling", 20)
-    first = session.status()["verdict"]
-    demand(f"the verdict settling has its reason: {first['reasons'][0]}",
-           first["reasons"][0].startswith("temperature known for"))
-    wait_for("stable", lambda: state(session) == "stable", 60 * SLOWER)
+    wait_for("the box may go before the first stay", lambda: word(session) == "go", 60)
+    wait_for("the details say why the reading is not stable",
+             lambda: session.status()["details"]["reasons"][0].startswith("temperature known for"), 10)
 
     def logged():
         lines = [line for file in (scratch / "data/events").glob("*.jsonl") for line in file.read_text().splitlines()]
-        return [event["state"] for event in map(json.loads, lines) if event["type"] == "verdict"]
-
-    wait_for("the event log has the verdicts", lambda: logged()[-1:] == ["stable"] or state(session) != "stable", 10)
-    demand(f"a verdict is logged once: {logged()}", "settling" in logged() and all(a != b for a, b in zip(logged(), logged()[1:])))
+        return [event["word"] for event in map(json.loads, lines) if event["type"] == "signal"]
 
     print(ctl(session, "start", "No.0").stdout, end="")
-    wait_for("a standard error", lambda: session.status()["occupation"]["reading"]["standard_error_mgal"],
-             30 * SLOWER)
-    ctl(session, "target", "0.01")
-    demand("the target is not reached", not session.status()["occupation"]["reading"]["is_good_enough"])
-    wait_for("the time needed for the target is estimated",
-             lambda: session.status()["occupation"]["reading"]["needed_s"], 10 * SLOWER)
-    ctl(session, "target", "5")
-    wait_for("a less strict target is reached",
-             lambda: session.status()["occupation"]["reading"]["is_good_enough"], 10 * SLOWER)
-    wait_for("a further set-up is proposed", lambda: session.status()["occupation"]["propose_set_up"],
-             30 * SLOWER)
+    wait_for("keep off while the set-up runs", lambda: word(session) == "keep_off", 20)
+    wait_for("the stay may end when the plan is complete", lambda: word(session) == "go", 60 * SLOWER)
+    demand("at YOU CAN GO the plan has no time left", session.status()["occupation"]["set_up_left_s"] == 0)
+    wait_for("the event log has the words", lambda: logged()[-2:] == ["keep_off", "go"], 10)
+    demand(f"a word is logged once: {logged()}", all(a != b for a, b in zip(logged(), logged()[1:])))
 
     config = scratch / "a351d.toml"
     given = config.read_text()
@@ -91,15 +62,11 @@ with Scratch() as scratch:
         session.daemon.send_signal(signal.SIGHUP)
         wait_for(claim, is_so, 10)
 
-    shipped = slope_limit(session)
-    print(f"shipped threshold: {shipped} degC/h")
-    reload(given + "[verdict]\nslope_degc_per_h = 0.001\n", "the threshold reloaded by SIGHUP is used",
-           lambda: slope_limit(session) == 0.001)
-    wait_for("settling by the new threshold", lambda: state(session) == "settling", 10)
+    reload(given + "[verdict]\noperating_degc = 60.0\n", "the set point reloaded by SIGHUP is used",
+           lambda: word(session) == "warming_up")
     reload("broken", "a broken file is refused at SIGHUP with its name", lambda: "a351d.toml:1: " in log.read_text())
-    demand("the refused file changed no threshold", slope_limit(session) == 0.001)
-    reload(given, "the earlier threshold is used again", lambda: slope_limit(session) == shipped)
-    wait_for("stable by the earlier threshold", lambda: state(session) == "stable", 10)
+    demand("the refused file changed nothing", word(session) == "warming_up")
+    reload(given, "the earlier set point is used again", lambda: word(session) == "go")
 
     for how in (signal.SIGKILL, signal.SIGTERM):
         used_s = session.status()["occupation"]["reading"]["used_s"]
@@ -107,19 +74,20 @@ with Scratch() as scratch:
         session.daemon.wait()
         session.daemon = session.start_daemon()
         begun = time.monotonic()
-        wait_for("stable again", lambda: state(session) == "stable", 60)
+        wait_for("the same word again", lambda: word(session) == "go", 60)
         took_s = time.monotonic() - begun
-        demand(f"after {how.name} the verdict is back after {took_s:.1f} s, limit {MOST_S}", took_s < MOST_S)
+        demand(f"after {how.name} the signal is back after {took_s:.1f} s, limit {MOST_S}", took_s < MOST_S)
         wait_for("the reading continues", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
-        demand("the target is kept", session.status()["target_mgal"] == 5)
 
     print(ctl(session, "stop").stdout, end="")
-    listed = ctl(session, "list").stdout.splitlines()
-    _, _, start, end, reading, *_ = listed[1].split()
+    stay = json.loads(ctl(session, "list", "--json").stdout)["occupations"][0]
+    start, end, reading = stay["set_ups"][0]["start"], stay["set_ups"][-1]["end"], stay["reading"]["value_mgal"]
     session.order("silence seconds=100000")
-    wait_for("no data", lambda: state(session) == "no data", 10)
-    demand(f"the verdict no data has the time of the last sample: {session.status()['verdict']['reasons']}",
-           session.status()["verdict"]["reasons"][0].startswith("last "))
+    wait_for("no data", lambda: word(session) == "no_data", 10)
+    demand(f"NO DATA has the age of the last sample: {session.status()['signal']['sentence']}",
+           "last " in session.status()["signal"]["sentence"])
+    status = ctl(session, "status", check=False)
+    demand("a351ctl status ends with 1 or more, and begins with the state", status.returncode >= 1)
 
     session.sim.send_signal(signal.SIGTERM)
     session.sim.wait(timeout=30)
