@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "protocol/signal/moved_box.hpp"
+#include "protocol/signal/move_meaning.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -44,6 +44,24 @@ std::vector<signal::MotionSample> motion_of(const OccupationRecord& record,
     return samples;
 }
 
+/// Returns how a set-up was entered: *Next set-up* divides those of one stay.
+signal::EnteredSetUp entered(const std::vector<OccupationWindow>& windows, std::size_t i) {
+    const OccupationWindow& window = windows[i];
+    const auto is_of_stay = [&](const OccupationWindow& other) {
+        return other.site == window.site && other.occupation == window.occupation;
+    };
+    signal::EnteredSetUp set_up{window.start, window.end};
+    set_up.not_moved_until = window.not_moved_until;
+    set_up.began_with_next_set_up = i > 0 && is_of_stay(windows[i - 1]);
+    if (i + 1 < windows.size() && is_of_stay(windows[i + 1]))
+        set_up.ended_by = signal::SetUpEnd::next_set_up;
+    else if (std::ranges::count(window.notes, "no-stop") > 0)
+        set_up.ended_by = signal::SetUpEnd::not_stopped;
+    else if (window.is_last)
+        set_up.ended_by = signal::SetUpEnd::running;
+    return set_up;
+}
+
 /// Says that the box was lifted and set down, with an amendment that divides the set-up there.
 Finding missed_set_up(const OccupationWindow& window,
                       const std::vector<signal::MotionSample>& samples,
@@ -70,47 +88,16 @@ Finding missed_set_up(const OccupationWindow& window,
     return finding;
 }
 
-}  // namespace
-
-std::optional<MovedStay> moved_stay(const OccupationWindow& window, const OccupationRecord& record,
-                                    const DecimatedAxes& axes) {
-    for (const char* const seen : {"retimed", "excluded", "included", "divided"})
-        if (std::ranges::count(window.notes, seen) > 0) return std::nullopt;
-    const auto samples = motion_of(record, axes);
-    const auto [part, moves] = signal::answered_stay(samples, window.not_moved_until);
-    if (part == signal::StillPart{0, samples.size()}) return std::nullopt;
-    MovedStay moved{window, {}};
-    OccupationWindow& still = moved.still;
-    if (part.first == part.end) {
-        still.notes.emplace_back("shaken");
-        moved.finding = {
-            .kind = FindingKind::bad_reading,
-            .code = "never_at_rest",
-            .text = text::message("{} ({}): the box was never at rest: repeat the reading",
-                                  window.site, window.occupation),
-            .amendment = amendment_head("exclude", window.listed) + "reason = \"never at rest\"\n",
-            .is_headline = true};
-        set_stay(moved.finding, window, window.start);
-        return moved;
-    }
-    still.notes.emplace_back("moved");
-    if (part.first > 0) still.start = samples[part.first].time;
-    if (part.end < samples.size()) still.end = samples[part.end].time;
-
-    Finding& finding = moved.finding;
-    // Without a stop the stay lasts until the box is at the next benchmark.
-    if (std::ranges::count(window.notes, "no-stop") == 0 &&
-        signal::was_only_lifted(samples, moves)) {
-        finding = missed_set_up(window, samples, moves);
-        return moved;
-    }
-    const bool is_early = still.start != window.start, is_late = still.end != window.end;
+/// Says that the box was carried off before the stop, or set down after the start, with an amendment of
+/// these times.
+Finding other_times(const OccupationWindow& window, const OccupationWindow& still, bool is_early,
+                    bool is_late) {
     const bool is_end = is_late || !is_early;  // an early start alone is a remark
-    finding = {.kind = is_end ? FindingKind::moved_box : FindingKind::early_start,
-               .code = !is_end    ? "early_start"
-                       : is_early ? "moved_at_both_ends"
-                                  : "moved_at_end",
-               .is_headline = is_end};
+    Finding finding{.kind = is_end ? FindingKind::moved_box : FindingKind::early_start,
+                    .code = !is_end    ? "early_start"
+                            : is_early ? "moved_at_both_ends"
+                                       : "moved_at_end",
+                    .is_headline = is_end};
     set_stay(finding, window, is_end ? still.end : still.start);
     text::Message what;
     if (is_early)
@@ -125,6 +112,50 @@ std::optional<MovedStay> moved_stay(const OccupationWindow& window, const Occupa
         amendment_head("retime", window.listed) +
         fmt::format("start_utc = \"{}\"\nend_utc = \"{}\"\nreason = \"box moved\"\n",
                     to_rfc3339(still.start, 3), to_rfc3339(still.end, 3));
+    return finding;
+}
+
+}  // namespace
+
+std::optional<MovedStay> moved_stay(const std::vector<OccupationWindow>& windows, std::size_t i,
+                                    const OccupationRecord& record, const DecimatedAxes& axes) {
+    using signal::MoveMeaning;
+    const OccupationWindow& window = windows[i];
+    for (const char* const seen : {"retimed", "excluded", "included"})
+        if (std::ranges::count(window.notes, seen) > 0) return std::nullopt;
+    const auto samples = motion_of(record, axes);
+    const signal::JudgedSetUp judged = signal::judge_moves(samples, entered(windows, i));
+    const signal::StillPart part = judged.part;
+    if (part == signal::StillPart{0, samples.size()}) return std::nullopt;
+    MovedStay moved{window, {}};
+    OccupationWindow& still = moved.still;
+    // A part of a set-up is only cut where it was divided: no amendment can name it.
+    const bool is_divided = std::ranges::count(window.notes, "divided") > 0;
+    if (part.first == part.end) {
+        if (is_divided) return std::nullopt;
+        still.notes.emplace_back("shaken");
+        moved.finding = Finding{
+            .kind = FindingKind::bad_reading,
+            .code = "never_at_rest",
+            .text = text::message("{} ({}): the box was never at rest: repeat the reading",
+                                  window.site, window.occupation),
+            .amendment = amendment_head("exclude", window.listed) + "reason = \"never at rest\"\n",
+            .is_headline = true};
+        set_stay(*moved.finding, window, window.start);
+        return moved;
+    }
+    if (part.first > 0) still.start = samples[part.first].time;
+    if (part.end < samples.size()) still.end = samples[part.end].time;
+    const bool is_early = judged.at_start == MoveMeaning::early_start;
+    const bool is_forgotten = judged.at_end == MoveMeaning::forgotten_set_up;
+    if (is_forgotten && !is_early)
+        moved.finding = missed_set_up(window, samples, judged.forgotten);
+    else if (is_early || is_forgotten || judged.at_end == MoveMeaning::late_stop)
+        moved.finding = other_times(window, still, is_early,
+                                    is_forgotten || judged.at_end == MoveMeaning::late_stop);
+    if (!moved.finding) return moved;
+    if (is_divided) return std::nullopt;
+    still.notes.emplace_back("moved");
     return moved;
 }
 

@@ -95,15 +95,17 @@ void add_outer(DayRecord& day, const Samples& samples, const Epoch& epoch,
 /// The average of a set-up.
 struct AveragedSetUp {
     OccupationWindow window;  ///< The given window, or the part of it in which the box stood.
-    std::optional<Finding> moved = {};  ///< The finding if the box was moved.
+    std::optional<Finding> moved = {};  ///< What is to be said of a move of the box.
     /// Its value, with a temperature unless there is trouble.
     std::optional<RepresentativeValue> value = {};
     std::vector<DayBin> bins = {};
     std::string trouble = {};  ///< Reason why it has no row; empty if it has one.
 };
 
-AveragedSetUp average(const Samples& samples, const Epoch& epoch, const OccupationWindow& window,
+AveragedSetUp average(const Samples& samples, const Epoch& epoch,
+                      const std::vector<OccupationWindow>& windows, std::size_t i,
                       const RepresentativeOptions& options) {
+    const OccupationWindow& window = windows[i];
     AveragedSetUp set_up{window};
     auto record = cut_occupation(samples, epoch, window.start, window.end);
     if (!record) {
@@ -111,7 +113,7 @@ AveragedSetUp average(const Samples& samples, const Epoch& epoch, const Occupati
         return set_up;
     }
     DecimatedAxes axes = decimate_axes(*record);
-    if (auto moved = moved_stay(window, *record, axes)) {
+    if (auto moved = moved_stay(windows, i, *record, axes)) {
         set_up.window = std::move(moved->still);
         set_up.moved = std::move(moved->finding);
         record = cut_occupation(samples, epoch, set_up.window.start, set_up.window.end).value();
@@ -188,7 +190,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     std::vector<AveragedSetUp> set_ups(windows.size());
     archive_series::on_all_cores(
         windows.size(),
-        [&](std::size_t i) { set_ups[i] = average(samples, epoch, windows[i], source.averaging); },
+        [&](std::size_t i) { set_ups[i] = average(samples, epoch, windows, i, source.averaging); },
         progress);
 
     if (auto temperature = temperature_of_day(samples, epoch, windows))

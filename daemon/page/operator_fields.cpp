@@ -164,10 +164,12 @@ Fields stay_fields() {
          .value = of_stay([](const Moment& now) {
              if (!now.field.moved) return json();
              return json{{"utc", json_of(now.field.moved->time)},
-                         {"is_at_start", now.field.moved->is_at_start}};
+                         {"is_at_start", now.field.moved->is_at_start},
+                         {"is_set_up", now.field.moved->is_set_up}};
          }),
-         .meaning = "Move of the box, null if it was not moved: utc, its time, and is_at_start, "
-                    "true if the stay was started before the box was at rest."},
+         .meaning = "Move of the box, null if nothing is to be asked about one: utc, its time; "
+                    "is_at_start, true if the stay was started before the box was at rest; "
+                    "is_set_up, true if the box was lifted and set down without Next set-up."},
     };
 }
 

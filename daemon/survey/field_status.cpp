@@ -74,7 +74,11 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
         field.warnings.push_back(text::message("{:.0f} s are missing in this set-up", missing_s));
     }
     field.moved = move_prompt(live.motion(std::max(last.start, now - kMoveMemory), now),
-                              running->not_moved_until);
+                              {.start = last.start,
+                               .end = now,
+                               .ended_by = signal::SetUpEnd::running,
+                               .began_with_next_set_up = set_ups.size() > 1,
+                               .not_moved_until = running->not_moved_until});
     // The start of a long set-up is not in the part that is looked at.
     if (field.moved && field.moved->is_at_start && now - last.start > kMoveMemory)
         field.moved.reset();

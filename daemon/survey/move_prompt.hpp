@@ -5,7 +5,7 @@
 #include <string>
 
 #include "protocol/core/utc_time.hpp"
-#include "protocol/signal/moved_box.hpp"
+#include "protocol/signal/move_meaning.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::daemon::survey {
@@ -18,19 +18,19 @@ namespace a351::daemon::survey {
 struct MovePrompt {
     UtcTime time;              ///< When the box was moved; for an early start: when it stood.
     bool is_at_start = false;  ///< The stay was started before the box stood.
+    bool is_set_up = false;    ///< *Next set-up* was forgotten: it is the first answer.
 
     [[nodiscard]] bool operator==(const MovePrompt&) const = default;
 };
 
-/// Returns what is to be asked about the running set-up.
+/// Returns what is to be asked about the running set-up (signal::judge_moves(), as in the evening).
 ///
-/// Moves are those of signal::find_box_moves(), the same as in the evening.  A box that is shaken for
-/// more than two minutes without an end is being carried; a lorry of a minute is not.
-/// @param samples          one in 2 s, from the start of the set-up to now.
-/// @param not_moved_until  the operator says that the box was not moved before.
+/// Nothing is asked while the box may be between two set-ups: until it was driven for two minutes, or
+/// at rest again for three.  A kick is asked about at once.
+/// @param samples  one in 2 s, from the start of the set-up to now.
 /// Accuracy: move_prompt_test.cpp.
 [[nodiscard]] std::optional<MovePrompt> move_prompt(std::span<const signal::MotionSample> samples,
-                                                    std::optional<UtcTime> not_moved_until);
+                                                    const signal::EnteredSetUp& entered);
 
 /// Returns the question in words, with the time.
 [[nodiscard]] text::Message text_of(const MovePrompt& prompt);

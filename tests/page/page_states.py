@@ -149,6 +149,9 @@ def show_occupations(stub, browser):
             browser.wait_for(f"{browser.text(button)}: an order was sent", lambda: len(stub.posts) > sent)
             demand(f"it is {path} {body}", stub.posts[-1] == (f"/api/{path}", body))
         demand("an early start has no further set-up", browser.find("#moved-setup").is_displayed() is not is_at_start)
+    stub.status["occupation"] = occupation(moved={"utc": at, "is_at_start": False, "is_set_up": True})
+    browser.wait_for_text("moved-text", "The box was lifted and set down at 01:43:20 UTC")
+    demand("after a lift the next set-up is the first answer", browser.find("#run-moved button").get_attribute("id") == "moved-setup")
     stub.status["occupation"] = occupation()
     browser.wait_for("the question is gone", lambda: not browser.find("#run-moved").is_displayed())
 

@@ -326,10 +326,13 @@ export class OccupationPanel {
         if (!moved) return;
         const time = time_of_day(moved.utc);
         set_text("moved-text", moved.is_at_start ? tr("The box was moved until {}, after the start.", time_with_utc(moved.utc))
-            : tr("The box was moved at {} while {} runs.", time_with_utc(moved.utc), visible(one.site)));
+            : moved.is_set_up ? tr("The box was lifted and set down at {} while {} runs.", time_with_utc(moved.utc), visible(one.site))
+                : tr("The box was moved at {} while {} runs.", time_with_utc(moved.utc), visible(one.site)));
         set_text("moved-stop", moved.is_at_start ? tr("Move the start to {}", time) : tr("Stop at {}", time));
         set_text("moved-setup", tr("Next set-up at {}", time));
         show("moved-setup", !moved.is_at_start);
+        const likely = by_id(moved.is_set_up ? "moved-setup" : "moved-stop"), answers = likely.parentElement;
+        if (answers.firstElementChild !== likely) answers.prepend(likely);
     }
 
     /** Returns the stays of the last 24 h with the running one, as { from_ms, to_ms, site }. */

@@ -16,6 +16,31 @@ class MadeUpBox {
 public:
     explicit MadeUpBox(unsigned seed) : random_(seed) {}
 
+    /// Returns a box that is moved after moved_s(), and is then at rest.
+    /// @param kind  0: carried to the car, driven, set down at another benchmark; 1: lifted by 10 cm and
+    ///              set down; 2: kicked.
+    static MadeUpBox that_moves(int kind, unsigned seed) {
+        MadeUpBox box(1000 * static_cast<unsigned>(kind) + seed);
+        box.shake(box.between(5.0, 25.0), 10000.0);
+        box.rest(box.between(240.0, 700.0));
+        box.moved_s_ = box.now_s();
+        if (kind == 0) {
+            box.shake(box.between(8.0, 25.0), 20000.0);
+            box.rest(box.between(0.0, 300.0));
+            box.shake(box.between(120.0, 900.0), 20000.0);
+            box.place(box.between(-40.0, 40.0));
+        } else if (kind == 1) {
+            box.shake(box.between(8.0, 25.0), 20000.0);
+            box.place(0.0);
+        } else {
+            box.shake(2.0, 15000.0);
+            box.turn(0.05);
+        }
+        box.rest(box.between(60.0, 400.0));
+        return box;
+    }
+    [[nodiscard]] double moved_s() const { return moved_s_; }
+
     /// Adds time at rest.
     void rest(double seconds) { add(seconds, 60.0, 10.0); }
     /// Adds shaking, as half peak to peak of the raw samples, and what the filter lets through.
@@ -59,6 +84,7 @@ private:
     std::mt19937_64 random_;
     double x_mgal_ = 0.0, y_mgal_ = 0.0, gravity_mgal_ = 979900e0;
     std::vector<MotionSample> samples_;
+    double moved_s_ = 0.0;
 };
 
 }  // namespace a351::signal
