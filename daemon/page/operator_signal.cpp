@@ -18,7 +18,8 @@ Contradiction of_move(const survey::MovePrompt& moved, const std::string& key) {
     return {"moved",
             key,
             survey::text_of(moved),
-            {moved.is_at_start ? "begin_at" : "stop_at", "not_moved"}};
+            {moved.is_at_start ? "begin_at" : moved.is_set_up ? "setup_at" : "stop_at",
+             "not_moved"}};
 }
 
 }  // namespace

@@ -12,9 +12,14 @@ namespace {
 
 /// A fake recorder with 40 min of samples at 50 Hz, from its minute 0 on.
 struct Field {
-    Field() {
+    /// @param is_lifted  from minute 30.5 to 31 the box is lifted and levelled to another 0.1 deg.
+    explicit Field(bool is_lifted = false) {
+        constexpr std::int64_t kLifted = 1830 * 50, kLevelled = 1860 * 50;
         for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) {
-            PlacedSample sample = placed(i, 100.0, 0.0, 980000.0);
+            PlacedSample sample =
+                placed(i, is_lifted && i >= kLifted ? 1800.0 : 100.0, 0.0, 980000.0);
+            if (is_lifted && i >= kLifted && i < kLevelled && i % 8 < 4)
+                sample.counts[2] += counts_of(20000.0);
             sample.counts[3] += static_cast<std::int32_t>(i % 7) - 3;
             live.take(sample);
         }
@@ -46,6 +51,21 @@ TEST_CASE("a stay is complete only with its planned set-ups", "[field]") {
     CHECK(whole.set_ups == 2);
     CHECK(whole.value->value() == Approx(980000.005).epsilon(0.0).margin(0.06));
     CHECK(field.occupations.stop({}, minute(42)).message.english().find("planned") == std::string::npos);
+}
+
+TEST_CASE("a lift is asked about after three minutes at rest, unless Next set-up was pressed",
+          "[field]") {
+    Field field(true), pressed(true);
+    (void)field.occupations.start("No.0", {}, minute(20));
+    CHECK_FALSE(field_status(field.occupations, field.live, minute(33)).moved);
+    const auto now = field_status(field.occupations, field.live, minute(36));
+    REQUIRE(now.moved);
+    CHECK(now.moved->is_set_up);
+    CHECK(std::abs(seconds_between(now.moved->time, minute(30))) < 30.0);
+    (void)pressed.occupations.start("No.0", {}, minute(20));
+    (void)pressed.occupations.setup(minute(30));
+    for (int at = 31; at <= 40; ++at)
+        CHECK_FALSE(field_status(pressed.occupations, pressed.live, minute(at)).moved);
 }
 
 TEST_CASE("the plan at an earlier instant has the set-ups up to it", "[field]") {
