@@ -10,12 +10,12 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_amendments.hpp"
 #include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/job/survey_units.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/progress_bar.hpp"
 
 namespace a351::corrector::command {
 namespace {
@@ -29,7 +29,7 @@ struct AmendOptions {
 std::vector<reading::Finding> findings_of(const job::SurveyFile& survey) {
     std::vector<reading::Finding> findings;
     for (const job::SurveyFile& part : job::by_unit(survey)) {
-        ProgressBar bar(part.name);
+        text::ProgressBar bar(part.name);
         reading::OccupationRows read = job::read_survey(part, std::ref(bar));
         std::ranges::move(job::correct_survey_day(part, read).findings,
                           std::back_inserter(findings));

@@ -12,13 +12,13 @@
 #include "corrector/command/calibrate_records.hpp"
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/series/placement_series.hpp"
 #include "corrector/series/tilt_series.hpp"
 #include "corrector/series/tumble_series.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/progress_bar.hpp"
 #include "protocol/text/write_together.hpp"
 #include "protocol/unit/calibration_origin.hpp"
 
@@ -136,7 +136,7 @@ void read_series(unit::Calibration& calibration, const std::vector<std::string>&
     for (const std::string& file : files) {
         job::SurveyFile survey = series_file(file);
         survey.is_tumbled = is_tumbled;
-        ProgressBar bar(survey.name);
+        text::ProgressBar bar(survey.name);
         const reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
         print_warnings(read.warnings, survey.name + ": ");
         measure(read, survey.name, file);

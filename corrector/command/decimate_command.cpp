@@ -10,11 +10,11 @@
 #include "corrector/command/commands.hpp"
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/command/progress_bar.hpp"
 #include "corrector/command/sample_column.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/signal/decimator.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/progress_bar.hpp"
 
 namespace a351::corrector::command {
 namespace {
@@ -79,7 +79,7 @@ void write_decimated(const DecimateOptions& options) {
     CsvOutput output(options.output);
     DecimatedRows rows(output);
     signal::Decimator decimator(filter, options.stages);
-    ProgressBar bar("decimate, MB");
+    text::ProgressBar bar("decimate, MB");
 
     std::vector<double> samples;
     std::vector<double> decimated;

@@ -8,10 +8,10 @@
 #include "corrector/command/commands.hpp"
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/command/progress_bar.hpp"
 #include "corrector/eemd/eemd.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/progress_bar.hpp"
 
 namespace a351::corrector::command {
 namespace {
@@ -87,7 +87,7 @@ void write_modes(const EmdCommandOptions& options) {
     signal.reserve(table.row_count());
     for (std::size_t row = 0; row < table.row_count(); ++row)
         signal.push_back(table.number(row, options.column, -1e300, 1e300));
-    ProgressBar bar(options.column);
+    text::ProgressBar bar(options.column);
     eemd_options.progress = std::ref(bar);
     const eemd::Result result = eemd::eemd(signal, eemd_options);
     write_or_print(options.output, to_csv(result));

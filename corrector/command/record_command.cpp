@@ -9,7 +9,6 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/command/progress_bar.hpp"
 #include "corrector/command/record_input.hpp"
 #include "corrector/long_record/joined_record.hpp"
 #include "corrector/long_record/record_result.hpp"
@@ -17,6 +16,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
+#include "protocol/text/progress_bar.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::command {
@@ -56,7 +56,7 @@ long_record::RecordResult analysed(const RecordCommandOptions& options) {
     const auto longest =
         std::ranges::max_element(result.parts.segments, {}, &long_record::RecordSegment::size);
     result.analysed = static_cast<std::size_t>(longest - result.parts.segments.begin());
-    ProgressBar bar("decompose");
+    text::ProgressBar bar("decompose");
     result.options.progress = std::ref(bar);
     result.analysis =
         long_record::analyse_record(result.segment(), result.record.step_s, result.options);

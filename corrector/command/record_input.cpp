@@ -7,10 +7,10 @@
 #include <functional>
 
 #include "corrector/command/options.hpp"
-#include "corrector/command/progress_bar.hpp"
 #include "corrector/long_record/csv_record.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/progress_bar.hpp"
 
 namespace a351::corrector::command {
 namespace {
@@ -33,7 +33,7 @@ std::vector<long_record::LongRecord> read_records(const std::vector<std::string>
     std::vector<std::filesystem::path> roots;
     std::vector<long_record::LongRecord> records;
     {
-        ProgressBar bar("read");
+        text::ProgressBar bar("read");
         for (const std::string& file : files) {
             const std::filesystem::path root = root_of(file);
             if (root.empty()) {

@@ -14,7 +14,6 @@
 #include "corrector/command/commands.hpp"
 #include "corrector/command/gravity_so_far.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_day.hpp"
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/job/survey_units.hpp"
@@ -33,6 +32,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/or_null.hpp"
+#include "protocol/text/progress_bar.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::command {
@@ -124,7 +124,7 @@ std::string folder_name(std::string name) {
 }
 
 Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& picture_formats) {
-    ProgressBar bar(survey.name);
+    text::ProgressBar bar(survey.name);
     reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
     Day day{survey.name, job::correct_survey_day(survey, read)};
     model::SurveyCorrection& result = *day.result;

@@ -7,7 +7,6 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
-#include "corrector/command/progress_bar.hpp"
 #include "corrector/job/survey_file.hpp"
 #include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/model.hpp"
@@ -17,6 +16,7 @@
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/progress_bar.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::command {
@@ -65,7 +65,7 @@ void correct_table(TableOptions options) {
     const std::vector<text::Message> reduced = reduction::reduce_rows(
         rows, sites, reduction::read_gradients(survey.sites), survey.reduction);
     model::SurveyCorrection result = [&] {
-        ProgressBar bar("search for mistakes");
+        text::ProgressBar bar("search for mistakes");
         return judgement::correct_and_search({rows, sites, nullptr, std::ref(bar)}, survey.survey);
     }();
     if (const auto density = survey.bouguer_density_kg_per_m3)

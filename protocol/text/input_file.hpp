@@ -7,7 +7,7 @@
 ///
 /// Each function reads the file once more, in blocks of fixed size.  A file that changed since the
 /// program read it gives the checksum of its new content.  Programs that use this header link
-/// a351_input_file, which is a library of its own because it needs OpenSSL.
+/// a351_input_file, which is a library of its own because it needs Nettle.
 
 #include <cstdint>
 #include <filesystem>
@@ -38,11 +38,9 @@ void to_json(nlohmann::ordered_json& json, const InputFile& input);
 /// @throws InputError  it cannot be read.
 [[nodiscard]] InputFile describe_input(std::string role, const std::filesystem::path& file);
 
-/// Returns the SHA-256 (FIPS 180-4) of a file's content: 64 lower-case hexadecimal digits, as the
-/// command sha256sum prints them.
+/// Returns the SHA-256 of a file's content, as Sha256::hex() does.
 /// @param file  a regular file, or a link to one.
 /// @throws InputError  it cannot be read.
-/// @throws std::bad_alloc  the digest has no memory.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace a351::text

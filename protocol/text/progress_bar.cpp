@@ -1,11 +1,11 @@
-#include "corrector/command/progress_bar.hpp"
+#include "protocol/text/progress_bar.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
 
 #include <iostream>
 
-namespace a351::corrector::command {
+namespace a351::text {
 namespace {
 
 constexpr std::chrono::seconds kSilence(2);
@@ -31,4 +31,4 @@ void ProgressBar::operator()(std::size_t done, std::size_t total) {
     std::cerr << '\r' << line << std::flush;
 }
 
-}  // namespace a351::corrector::command
+}  // namespace a351::text

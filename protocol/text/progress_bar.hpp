@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <string>
 
-namespace a351::corrector::command {
+namespace a351::text {
 
 /// A line `label [####    ] 3/19` on standard error that redraws itself, for work of more than two
 /// seconds on a terminal; otherwise silent.  Not for several threads at once.
@@ -40,4 +40,4 @@ private:
     std::size_t width_ = 0;  ///< Width of the line on the screen.
 };
 
-}  // namespace a351::corrector::command
+}  // namespace a351::text
