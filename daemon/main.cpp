@@ -11,12 +11,14 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "daemon/bundle/survey_day.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/config/verdict_config.hpp"
 #include "daemon/gravity/gravity_so_far.hpp"
@@ -140,6 +142,35 @@ gravity::GravityOptions gravity_options(const config::Config& config, spdlog::lo
     options.limits.memory_bytes = 0;  // sanitizers reserve terabytes
 #endif
     return options;
+}
+
+/// Returns the survey day as one file, to be sent to a browser or to a351ctl.
+page::Download bundle_of_day(const Recorder& recorder, const survey::Occupations& occupations,
+                             const gravity::GravitySoFar& gravity, spdlog::logger& log) {
+    const config::Config& config = recorder.config;
+    const auto& running = occupations.running();
+    const bundle::Contents contents = bundle::contents_of(
+        {.root = config.storage.root,
+         .sites = config.survey.sites_file,
+         .calibration = config.survey.calibration_file,
+         .station = config.station.codes.network + '_' + config.station.codes.station,
+         .configuration = config.shown,
+         .gravity_so_far = gravity.document(),
+         .stays = occupations.list(),
+         .running = running ? std::optional(running->start) : std::nullopt,
+         .now = recorder.clock.read().realtime});
+    const auto bundle = std::make_shared<bundle::Bundle>(contents);
+    return {.name = contents.folder + ".tar",
+            .open = [bundle] { return bundle->open(); },
+            .next =
+                [bundle, &log] {
+                    try {
+                        return bundle->next();
+                    } catch (const std::exception& error) {
+                        log.error("the day could not be copied: {}", error.what());
+                        throw;
+                    }
+                }};
 }
 
 /// Logs what is doubtful in the list of sites, after it was read.
@@ -284,6 +315,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                        .longitude = config.station.longitude,
                        .events = [&] { return events::read_events(events).events; },
                        .gravity_so_far = [&] { return gravity.document(); },
+                       .bundle = [&] { return bundle_of_day(recorder, occupations, gravity, log); },
                        .changing = log_signal,
                        .changed = note_change,
                        .assets = config.page.assets,

@@ -54,6 +54,10 @@ struct SurveyCommandOptions {
 };
 
 job::SurveyFile read_survey_of(const std::string& file, const std::string& sites) {
+    // The unpacked folder of `a351ctl bundle` has its survey file.
+    const std::filesystem::path in_folder = std::filesystem::path(file) / "survey.toml";
+    if (sites.empty() && std::filesystem::exists(in_folder))
+        return job::read_survey_file(in_folder);
     if (std::filesystem::is_directory(file)) return job::survey_of_root(file, sites);
     if (!sites.empty())
         throw InputError("--sites " + sites + ": " + file +
@@ -244,8 +248,9 @@ void add_survey_command(CLI::App& program) {
     CLI::App& command =
         *program.add_subcommand("survey", "Corrects survey days from the archive of a data root.");
     const auto options = std::make_shared<SurveyCommandOptions>();
-    add_required(command, "FILE", "", options->files,
-                 "Survey files (TOML), one per day, or data roots");
+    add_required(
+        command, "FILE", "", options->files,
+        "Survey files (TOML), one per day, data roots, or unpacked folders of a351ctl bundle");
     add_option(command, "--sites", "FILE", options->sites,
                "Table of the sites of a data root (default: sites.csv in the folder that contains "
                "the root)");

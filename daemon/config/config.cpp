@@ -9,6 +9,7 @@
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/strict_toml.hpp"
+#include "protocol/text/toml_without.hpp"
 #include "protocol/wire/device_profile.hpp"
 
 namespace a351::daemon::config {
@@ -332,6 +333,7 @@ Config read_config(const std::filesystem::path& file) {
     TomlTable root = text::read_toml(file);
     Config config;
     config.file = file;
+    config.shown = text::toml_without(file, "page", "token");
     config.station = read_station(root.table("station"));
     config.sensor = read_sensor(root.table("sensor"), config.station);
     TomlTable oven = root.table("oven");

@@ -31,8 +31,8 @@ struct PageConfig {
     ListenAddress listen;
     std::vector<std::string> hosts;
     std::vector<std::string> boxes;  ///< Origins of the pages of all daemons of the group.
-    std::string token;             ///< Not empty if other hosts can connect.
-    std::filesystem::path assets;  ///< Directory of the page's files; empty: the compiled ones.
+    std::string token;               ///< Not empty if other hosts can connect.
+    std::filesystem::path assets;    ///< Directory of the page's files; empty: the compiled ones.
 };
 
 struct SurveyConfig {
@@ -47,6 +47,7 @@ struct SurveyConfig {
 
 struct Config {
     std::filesystem::path file;    ///< Path of the file.
+    std::string shown;             ///< The file without comments and without [page] token.
     station::Description station;  ///< Device and times are added for each session.
     source::LinkOptions sensor;    ///< Header and known stream are added at the start.
     std::optional<source::OvenLinkOptions> oven;        ///< Absent if not enabled.

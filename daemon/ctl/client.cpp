@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <vector>
 
 #include "daemon/page/asio.hpp"
 #include "protocol/core/input_error.hpp"
@@ -27,48 +31,67 @@ constexpr std::chrono::seconds kPatience{2};
 // Time limit of an order.  It exceeds that of the daemon for its disk, 10 s, whose message then
 // arrives first.
 constexpr std::chrono::seconds kOrderPatience = kPatience + std::chrono::seconds(10);
+// Time limit of a large file, until it begins and for each piece.  The daemon may first have to wait
+// for its disk; a slow memory stick is no delay of the daemon.
+constexpr std::chrono::seconds kFilePatience{60};
+
 /// Orders change something; the others only ask.
 bool is_order(const http::request<http::string_body>& request) {
     return request.method() == http::verb::post;
 }
 
+std::string megabytes(std::uint64_t bytes) {
+    return fmt::format("{:.1f}", static_cast<double>(bytes) / 1e6);
+}
+
 constexpr std::uint64_t kLargestAnswer = std::uint64_t{64} * 1024 * 1024;
 
+/// Connects to the daemon and sends a request.
+/// @param patience      time for the request and its answer, from now on set in `stream`.
 /// @param is_connected  set when the daemon's host has answered.
-asio::awaitable<void> exchange(const Url& url, const http::request<http::string_body>& request,
-                               http::response_parser<http::string_body>& answer, error_code& error,
-                               bool& is_connected) {
-    const auto executor = co_await asio::this_coro::executor;
-    asio::ip::tcp::resolver resolver(executor);
+asio::awaitable<void> send(const Url& url, const http::request<http::string_body>& request,
+                           std::chrono::seconds patience, beast::tcp_stream& stream,
+                           error_code& error, bool& is_connected) {
+    asio::ip::tcp::resolver resolver(stream.get_executor());
     const auto places = co_await resolver.async_resolve(url.host, url.port, into(error));
     if (error) co_return;
-    beast::tcp_stream stream(executor);
     stream.expires_after(kPatience);
     co_await stream.async_connect(places, into(error));
     if (error) co_return;
     is_connected = true;
-    if (is_order(request)) stream.expires_after(kOrderPatience);
+    stream.expires_after(patience);
     stream.socket().set_option(asio::ip::tcp::no_delay(true), error);
     co_await http::async_write(stream, request, into(error));
     // A daemon that refuses the request may close before it has read all of it.  Its answer is
     // used, not the error of the write.
+    error = {};
+}
+
+asio::awaitable<void> exchange(const Url& url, const http::request<http::string_body>& request,
+                               std::chrono::seconds patience,
+                               http::response_parser<http::string_body>& answer, error_code& error,
+                               bool& is_connected) {
+    beast::tcp_stream stream(co_await asio::this_coro::executor);
+    co_await send(url, request, patience, stream, error, is_connected);
+    if (error) co_return;
     beast::flat_buffer buffer;
     co_await http::async_read(stream, buffer, answer, into(error));
 }
 
 /// Returns why a daemon gives no answer.
-std::string reason(const Url& url, const error_code& error, bool is_connected, bool is_sent_order) {
+std::string reason(const Url& url, const error_code& error, bool is_connected,
+                   std::chrono::seconds patience, bool is_order) {
     const std::string place = url.authority();
     if (error != beast::error::timeout || !is_connected)
         return text::tr("no daemon answers at http://{}: {}; check that a351d is running", place,
                         error.message());
-    if (is_sent_order)
+    if (is_order)
         return text::tr(
             "the daemon at http://{} gave no answer within {} s; it may still carry this out: look "
             "at a351ctl list before you repeat it",
-            place, kOrderPatience.count());
+            place, patience.count());
     return text::tr("the daemon at http://{} gave no answer within {} s; try again", place,
-                    kPatience.count());
+                    patience.count());
 }
 
 /// Says that the answer to an order is late: a disk that stalls delays it.
@@ -83,11 +106,69 @@ asio::awaitable<void> say_if_late(const Url& url, const bool& is_connected) {
         text::tr("no answer from http://{} yet, its disk may be busy: waiting", url.authority()));
 }
 
-Reply ask(const Url& url, http::request<http::string_body> request) {
+void complete(const Url& url, http::request<http::string_body>& request) {
     request.set(http::field::host, url.authority());
     request.set(http::field::user_agent, "a351ctl/" A351_VERSION);
     request.keep_alive(false);
     request.prepare_payload();
+}
+
+/// Returns the name of `attachment; filename="NAME"`, without folders.
+std::string proposed_name(std::string_view disposition) {
+    constexpr std::string_view kBefore = "filename=\"";
+    const auto at = disposition.find(kBefore);
+    if (at == std::string_view::npos) return {};
+    const auto name = disposition.substr(at + kBefore.size());
+    return std::filesystem::path(name.substr(0, name.find('"'))).filename().string();
+}
+
+/// Receives the body of an answer, whose header has been read.
+asio::awaitable<void> receive(beast::tcp_stream& stream, beast::flat_buffer& buffer,
+                              http::response_parser<http::buffer_body>& parser,
+                              const Receiver& receiver, Reply& reply, error_code& error) {
+    auto& answer = parser.get();
+    reply.status = static_cast<int>(answer.result_int());
+    const bool is_good = answer.result() == http::status::ok;
+    const std::uint64_t size = parser.content_length().value_or(0);
+    if (is_good)
+        receiver.begin(size, proposed_name(std::string(answer[http::field::content_disposition])));
+    std::vector<char> piece(std::size_t{64} * 1024);
+    std::uint64_t done = 0;
+    while (!error && !parser.is_done()) {
+        answer.body().data = piece.data();
+        answer.body().size = piece.size();
+        stream.expires_after(kFilePatience);
+        co_await http::async_read(stream, buffer, parser, into(error));
+        if (error == http::error::need_buffer) error = {};
+        const std::string_view bytes(piece.data(), piece.size() - answer.body().size);
+        done += bytes.size();
+        if (is_good)
+            receiver.take(bytes);
+        else
+            reply.body += bytes;
+    }
+    if (error)
+        throw std::runtime_error(
+            text::tr("the daemon ended the transfer after {} of {} MB; see its log, and try again",
+                     megabytes(done), megabytes(size)));
+}
+
+asio::awaitable<void> download(const Url& url, const http::request<http::string_body>& request,
+                               const Receiver& receiver, Reply& reply) {
+    beast::tcp_stream stream(co_await asio::this_coro::executor);
+    error_code error;
+    bool is_connected = false;
+    co_await send(url, request, kFilePatience, stream, error, is_connected);
+    beast::flat_buffer buffer;
+    http::response_parser<http::buffer_body> parser;
+    parser.body_limit(std::numeric_limits<std::uint64_t>::max());
+    if (!error) co_await http::async_read_header(stream, buffer, parser, into(error));
+    if (error) throw NoDaemon(reason(url, error, is_connected, kFilePatience, false));
+    co_await receive(stream, buffer, parser, receiver, reply, error);
+}
+
+Reply ask(const Url& url, http::request<http::string_body> request) {
+    complete(url, request);
 
     http::response_parser<http::string_body> answer;
     answer.body_limit(kLargestAnswer);
@@ -95,10 +176,11 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
     bool is_connected = false;
     asio::io_context io(1);
     if (is_order(request)) asio::co_spawn(io, say_if_late(url, is_connected), asio::detached);
-    asio::co_spawn(io, exchange(url, request, answer, error, is_connected),
+    const auto patience = is_order(request) ? kOrderPatience : kPatience;
+    asio::co_spawn(io, exchange(url, request, patience, answer, error, is_connected),
                    [&](const std::exception_ptr&) { io.stop(); });
     io.run();
-    if (error) throw NoDaemon(reason(url, error, is_connected, is_order(request)));
+    if (error) throw NoDaemon(reason(url, error, is_connected, patience, is_order(request)));
     return {static_cast<int>(answer.get().result_int()), std::move(answer.get().body())};
 }
 
@@ -144,6 +226,19 @@ Url parse_url(std::string_view text) {
 
 Reply Client::get(const std::string& path) const {
     return ask(url_, http::request<http::string_body>(http::verb::get, path, 11));
+}
+
+Reply Client::get_file(const std::string& path, const Receiver& receiver) const {
+    http::request<http::string_body> request(http::verb::get, path, 11);
+    complete(url_, request);
+    Reply reply;
+    std::exception_ptr failure;
+    asio::io_context io(1);
+    asio::co_spawn(io, download(url_, request, receiver, reply),
+                   [&](const std::exception_ptr& thrown) { failure = thrown; });
+    io.run();
+    if (failure) std::rethrow_exception(failure);
+    return reply;
 }
 
 Reply Client::post(const std::string& path, const std::string& json,

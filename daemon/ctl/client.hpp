@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -28,6 +30,13 @@ struct Reply {
     std::string body;
 };
 
+/// Receives a large file piece by piece.  What these functions throw ends the transfer.
+struct Receiver {
+    /// @param name  file name that the daemon proposes; empty: none.
+    std::function<void(std::uint64_t size, const std::string& name)> begin;
+    std::function<void(std::string_view piece)> take;
+};
+
 /// Sends requests to the daemon and waits for each answer: to a question at most 2 s, to an order 12 s,
 /// and says after 2 s that it waits.
 class Client {
@@ -38,6 +47,12 @@ public:
     [[nodiscard]] Reply get(const std::string& path) const;
     [[nodiscard]] Reply post(const std::string& path, const std::string& json,
                              const std::string& token) const;
+
+    /// Asks for a large file.  The daemon may take a minute before it begins, and for each piece.
+    /// @return the refusal, with its status; 200 if all was received.
+    /// @throws NoDaemon            nothing answers.
+    /// @throws std::runtime_error  the connection ended before the file.
+    [[nodiscard]] Reply get_file(const std::string& path, const Receiver& receiver) const;
 
 private:
     Url url_;

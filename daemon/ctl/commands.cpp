@@ -19,6 +19,7 @@
 #include "daemon/ctl/requests.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "daemon/ctl/survey_text.hpp"
+#include "daemon/ctl/take_home.hpp"
 #include "daemon/ctl/when.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -311,6 +312,10 @@ int run_command(const std::string& command, const Arguments& arguments) {
     if (command == "site") return add_site(client, arguments);
     if (command == "status") return show_status(client, arguments);
     if (command == "phone") return show_phone(client, arguments);
+    if (command == "bundle") {
+        print(take_home(client, files::posix_files(), arguments.out) + "\n");
+        return kDone;
+    }
     if (command == "sites") return show(client, arguments, "/api/sites", site_table);
     if (command == "survey") return show(client, arguments, "/api/survey", survey_text);
     if (command == "list") return show(client, arguments, "/api/occupations", occupation_table);

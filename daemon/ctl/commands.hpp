@@ -26,6 +26,7 @@ struct Arguments {
     std::string note;
     std::string reason;
     std::string address;
+    std::string out;
     std::optional<int> set_ups;
     double latitude_deg = 0.0, longitude_deg = 0.0;
     std::optional<double> height_m, gravity_mgal;

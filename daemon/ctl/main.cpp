@@ -221,6 +221,15 @@ void add_phone(CLI::App& app, Arguments& a) {
         ->type_name("");
 }
 
+void add_bundle(CLI::App& app, Arguments& a) {
+    app.add_subcommand(
+           "bundle", "Saves the survey day as one file, to take it home; the recording continues.")
+        ->add_option("--out", a.out,
+                     "File to write (tar), or a folder, in which it gets the name of the day")
+        ->type_name("FILE")
+        ->required();
+}
+
 void add_site(CLI::App& app, Arguments& a) {
     auto* site = app.add_subcommand("site", "Changes the list of benchmarks.");
     site->require_subcommand(1);
@@ -261,7 +270,7 @@ int main(int argc, char** argv) {
     add_global_options(app, a);
     for (const auto add : {add_status, add_start, add_stop, add_setup, add_discard, add_restore,
                            add_not_moved, add_checked, add_resume, add_rename, add_retime, add_note,
-                           add_sites, add_survey, add_list, add_phone, add_site})
+                           add_sites, add_survey, add_list, add_phone, add_bundle, add_site})
         add(app, a);
     app.allow_extras();  // Not inherited by the commands, because they are there already.
 

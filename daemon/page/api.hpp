@@ -4,6 +4,7 @@
 ///
 /// GET  / and the other files of the page
 /// GET  /api/status /api/rows /api/events?since=UTC /api/sites /api/occupations /api/survey /api/token
+/// GET  /api/bundle, which the server sends piece by piece
 /// GET  /api/history?channel=NAME&from=UTC&to=UTC&points=N /metrics
 /// POST /api/occupation/start|stop|setup|discard|restore|resume|rename|retime /api/note
 ///      /api/sites, with a JSON object as body; a change of a stay names it by its key
@@ -41,9 +42,10 @@ struct ApiSources {
     Degrees latitude = {}, longitude = {};  ///< Position of the base, where a day begins.
     std::function<std::vector<events::Event>()> events;  ///< The whole event log, in file order.
     std::function<std::string()> gravity_so_far = {};    ///< Body of GET /api/survey.
-    std::function<void()> changing = {};  ///< Called before each change,
-    std::function<void()> changed = {};   ///< and after each that is on disk.
-    std::filesystem::path assets = {};   ///< The page's files; empty: the compiled ones.
+    std::function<Download()> bundle = {};  ///< File of GET /api/bundle.
+    std::function<void()> changing = {};    ///< Called before each change,
+    std::function<void()> changed = {};     ///< and after each that is on disk.
+    std::filesystem::path assets = {};      ///< The page's files; empty: the compiled ones.
     std::vector<std::string> boxes = {};  ///< Origins of the daemons that /boxes shows.
     bool is_token_configured = false;     ///< The server sets it.
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -29,6 +31,17 @@ struct Response {
     std::string content_type = "application/json";
     std::string body;
     std::vector<std::pair<std::string, std::string>> headers = {};
+};
+
+/// A file that is made while it is sent.
+///
+/// The server calls `open` once and then `next`, in a thread that may wait for the disk and gives way
+/// to all others.  An exception ends the connection, so that the client sees a file that is too
+/// short.
+struct Download {
+    std::string name;                     ///< Name that is proposed for the file.
+    std::function<std::uint64_t()> open;  ///< Returns the size, bytes.
+    std::function<std::string()> next;    ///< Returns the next bytes; empty at the end.
 };
 
 /// Returns `{"error": trouble, "error_parts": its parts}` with this status.

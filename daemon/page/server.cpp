@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "daemon/page/asio.hpp"
+#include "daemon/page/download_stream.hpp"
 #include "daemon/page/guard.hpp"
 #include "daemon/page/live_stream.hpp"
 #include "daemon/page/seats.hpp"
@@ -19,6 +20,7 @@ namespace {
 constexpr std::uint32_t kHeaderLimit = 8 * 1024;
 constexpr std::uint64_t kBodyLimit = std::uint64_t{16} * 1024;
 constexpr std::string_view kLivePath = "/live";
+constexpr std::string_view kBundlePath = "/api/bundle";
 constexpr std::size_t kMostTurnedAway = Seats::kMost;
 // From accepting a connection to the end of its first header: a request of a slow network takes
 // less than a second.
@@ -80,6 +82,7 @@ public:
         guard_.emplace(port_, options.hosts, token, options.boxes);
         const live::Record& live = sources.live;
         sources.is_token_configured = !options.token.empty();
+        bundle_ = sources.bundle;
         api_.emplace(std::move(sources), token,
                      config::to_string({.ip = listen_.ip, .port = port_, .is_v6 = listen_.is_v6}));
         live_.emplace(io_, live, *api_, options.stream_patience);
@@ -221,6 +224,13 @@ private:
                     co_return;
                 }
             }
+            if (!response && request.target == kBundlePath) {
+                response = refusal(503, "too many live streams; try again later");
+                if (seats_.begin_stream(place))
+                    response = co_await downloads_.serve(stream, request, bundle_);
+                if (!response) co_return;
+                place->is_streaming = false;
+            }
             if (!response) response = api_->answer(request);
             guard_->show_box(request, *response);
             const auto reply = packed(*std::move(response), message.version(), message.keep_alive(),
@@ -262,8 +272,11 @@ private:
     // Coroutines end with io_ and then free their seats in these members.
     std::optional<Api> api_;
     std::size_t turned_away_ = 0;
+    std::size_t downloads_running_ = 0;
     Seats seats_;
+    std::function<Download()> bundle_;
     asio::io_context io_{1};
+    DownloadStream downloads_{downloads_running_};
     std::optional<LiveStream> live_;
     std::vector<tcp::acceptor> acceptors_;
     std::thread thread_;

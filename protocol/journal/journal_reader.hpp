@@ -77,6 +77,9 @@ public:
     /// leaves a gap.
     [[nodiscard]] std::uint32_t sequence() const noexcept { return sequence_; }
 
+    /// Returns the position after the last good chunk that next() found; 0 before the header.
+    [[nodiscard]] std::uint64_t end() const noexcept { return offset_; }
+
     /// Returns the damage that next() found so far.  A torn tail is normal: the writer may die at
     /// any byte.  Without a good header the whole file is damage, and `offset` is 0.
     [[nodiscard]] const std::vector<Damage>& damage() const noexcept { return damage_; }

@@ -168,6 +168,13 @@ class Session:
                    counted["missing"] == missing and (steps is None or counted["steps"] == steps))
 
 
+def told_at(session, utc, *order):
+    """Gives an order at an instant; a daemon that lags has not recorded it yet."""
+    def is_done():
+        return run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", *order, "--at", utc, check=False).returncode == 0
+    wait_for(f"{' '.join(order)} at {utc}", is_done, 3600)
+
+
 def require_unread(report, frames, outages):
     """Demands that this many frames, handed over and not received, are those that the emulator took back at outages."""
     unread = report["bytes_unread"]

@@ -16,7 +16,7 @@ import sys
 import time
 import urllib.request
 
-from emulated_session import Session, wait_for
+from emulated_session import Session, told_at, wait_for
 from programs import BIN, IS_SANITIZED, Scratch, demand, rows, run
 from traced_corrector import TracedCorrector
 
@@ -63,13 +63,6 @@ def is_there(document, site, number, is_running):
     if stay is None or stay["is_running"] is not is_running:
         return False
     return stay["gravity_mgal"] is not None or document["reason"] == "too_few_readings"
-
-
-def told_at(session, utc, *order):
-    """Gives an order at an instant; a daemon that lags has not recorded it yet."""
-    def is_done():
-        return run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", *order, "--at", utc, check=False).returncode == 0
-    wait_for(f"{' '.join(order)} at {utc}", is_done, 3600)
 
 
 form = sys.argv[1] if len(sys.argv) > 1 else "short"

@@ -13,7 +13,7 @@ PAGES = {
     "a351d": ("daemon/a351d.1", []),
     "a351ctl": ("daemon/ctl/a351ctl.1",
                 ["status", "start", "stop", "setup", "discard", "restore", "resume", "not-moved", "rename", "retime", "note", "target",
-                 "sites", "site add", "list", "survey"]),
+                 "sites", "site add", "list", "survey", "bundle"]),
     "a351-stream": ("daemon/stream/a351-stream.1", []),
 }
 OPTION = r"(?<![\w-])--[a-z][a-z0-9-]*"

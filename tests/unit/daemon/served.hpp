@@ -33,7 +33,8 @@ struct Served {
                     },
                 .occupations = occupations,
                 .live = live,
-                .events = [] { return std::vector<events::Event>{}; }};
+                .events = [] { return std::vector<events::Event>{}; },
+                .bundle = [this] { return bundle(); }};
     }
 
     [[nodiscard]] std::string host() const {
@@ -61,6 +62,7 @@ struct Served {
         status.level = level;
     }
 
+    std::function<page::Download()> bundle;  ///< Set it before the request.
     std::atomic<bool> is_failing{false};
     std::mutex mutex;
     status::Status status;

@@ -3,6 +3,8 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/toml_without.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::text;
@@ -83,4 +85,17 @@ TEST_CASE("a text written as a TOML string is read back", "[text][toml]") {
         auto root = parse_toml("key = " + toml_string(text) + "\n", "made up");
         CHECK(root.string_or("key", "") == text);
     }
+}
+
+TEST_CASE("a document is shown without a secret, however it is written", "[text][toml]") {
+    const test::TemporaryDirectory folder;
+    for (const char* page : {"[page]\ntoken = \"SECRET\" # was SECRET\nlisten = \"a:1\"\n",
+                             "page.listen = \"a:1\"\npage.token = \"\"\"\nSECRET\"\"\"\n",
+                             "page = { token = 'SECRET', listen = \"a:1\" }\n"}) {
+        const auto file = folder.write("a351d.toml", page);
+        CHECK(toml_without(file, "page", "token").find("SECRET") == std::string::npos);
+        const auto shown = folder.write("shown.toml", toml_without(file, "page", "token"));
+        CHECK(read_toml(shown).table("page").string_or("listen", "") == "a:1");
+    }
+    CHECK(toml_without(folder.write("a351d.toml", "a = 1\n"), "page", "token") == "a = 1\n");
 }

@@ -1,0 +1,141 @@
+"""The day is taken home as one file while the daemon records an emulated day.
+
+Unpacked it must be what the data root has, sha256sum must accept it, and the corrector must give the same from it.  The recording
+must not notice it.  Whatever goes wrong, no half file has the name.
+"""
+
+import json
+import resource
+import signal
+import subprocess
+import time
+
+from emulated_session import Session, told_at, wait_for
+from programs import BIN, IS_SANITIZED, Scratch, demand, rows, run, short_day, together
+
+SPEED = 60 if IS_SANITIZED else 400
+TOKEN = "a-token-that-nobody-else-may-see-0123456789"
+SMALL = 200_000  # Bytes
+
+
+def with_token(scratch):
+    with open(scratch / "a351d.toml", "a") as config:  # It ends with the table [page].
+        config.write(f'# token = "{TOKEN}"\ntoken = "{TOKEN}"\n')
+
+
+def bundle(session, out, check=True):
+    begin = time.monotonic()
+    result = run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", "bundle", "--out", out, check=check)
+    print(f"{result.stdout}{result.stderr}in {time.monotonic() - begin:.1f} s", flush=True)
+    return result
+
+
+def unpacked(file, into):
+    """Unpacks a bundle and returns its folder."""
+    into.mkdir()
+    run("tar", "-xf", file, "-C", into)
+    (folder,) = into.iterdir()
+    run("sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS", cwd=folder)
+    listed = {line.split("  ")[1] for line in (folder / "SHA256SUMS").read_text().splitlines()}
+    there = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
+    demand(f"sha256sum accepts each of the {len(listed)} files of {file.name}", there == listed | {"SHA256SUMS"})
+    return folder
+
+
+def contents(folder):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def leaves_nothing(what, result, folder, words):
+    demand(f"{what}: exit status {result.returncode}, one line: {result.stderr.strip()}",
+           result.returncode == 1 and result.stderr.count("\n") == 1 and words in result.stderr)
+    demand(f"{what}: nothing of it is left, and the file that was there is as before",
+           [path.name for path in folder.iterdir()] == ["day.tar"] and (folder / "day.tar").read_text() == "before")
+
+
+def interrupted(session, folder, interrupt):
+    """Interrupts a copy when its first megabyte is on the disk, and returns how it ended."""
+    copies = []
+
+    def grows():
+        if not copies or copies[-1].poll() is not None:  # On a busy host the daemon may still be at two that have ended.
+            copies.append(subprocess.Popen([BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", "bundle", "--out",
+                                            folder / "day.tar"], stderr=subprocess.PIPE, text=True))
+        return any(part.stat().st_size > 1_000_000 for part in folder.glob(".day.tar.*.part"))
+    wait_for("a copy grows", grows, 60)
+    copy = copies[-1]
+    interrupt(copy)
+    _, stderr = copy.communicate(timeout=60)
+    return subprocess.CompletedProcess(copy.args, copy.returncode, "", stderr)
+
+
+with Scratch() as scratch:
+    (scratch / "day.toml").write_text(short_day())
+    session = Session(scratch, speed=SPEED, scenario=scratch / "day.toml", prepare_port=lambda _: with_token(scratch),
+                      config='[survey]\nsites = "sites.csv"\n')
+    wait_for("the daemon answers", lambda: session.status())
+    stays = rows(scratch / "schedule.csv")
+    for stay in stays:
+        told_at(session, stay["start_utc"], "start", stay["site"])
+        told_at(session, stay["end_utc"], "stop")
+        if stay is stays[3]:
+            (scratch / "stick").mkdir()
+            together(lambda: bundle(session, scratch / "one.tar"), lambda: bundle(session, scratch / "stick"))
+            frames = session.status()["counters"]["frames"]
+            (in_stick,) = (scratch / "stick").iterdir()
+            demand(f"in a folder the copy gets the name of the day: {in_stick.name}",
+                   in_stick.name.startswith("XX_A351_2017071") and in_stick.name.endswith("Z.tar"))
+            for file in (scratch / "one.tar", in_stick):
+                folder = unpacked(file, scratch / f"from-{file.parent.name}-{file.stem}")
+                run(BIN / "a351-correct", "survey", folder)
+                demand("the corrector takes the folder of a day that is not over",
+                       len({row["site"] for row in rows(folder / "result" / "occupations.csv")}) >= 3)
+            demand("meanwhile the daemon has recorded", session.status()["counters"]["frames"] > frames)
+
+    demand("the emulator sends the rest of its day and ends cleanly", session.sim.wait(timeout=1800) == 0)
+    wait_for("the archive has everything", lambda: session.status()["archived"] == session.status()["received"], 60)
+    session.archive_is_true(missing=0)
+    data = scratch / "data"
+
+    bundle(session, scratch / "day.tar")
+    folder = unpacked(scratch / "day.tar", scratch / "home")
+    for part in ("archive", "journal", "events", "metadata"):
+        of_root, of_copy = contents(data / part), contents(folder / part)
+        # Since then the daemon may have compressed a segment, and it has continued the newest one and begun others.
+        of_root = {name: content for name, content in of_root.items() if part != "journal" or name <= max(of_copy)}
+        differing = [name for name in of_root.keys() & of_copy.keys() if not of_root[name].startswith(of_copy[name])
+                     or part != "journal" and len(of_root[name]) != len(of_copy[name])]
+        demand(f"{part}: the copy has the {len(of_root)} files of the data root, bytes that differ: {differing}",
+               differing == [] and {name.removesuffix(".zst") for name in of_root} == {name.removesuffix(".zst") for name in of_copy})
+    demand("the token is nowhere in the copy", TOKEN.encode() not in (scratch / "day.tar").read_bytes())
+    run(BIN / "a351d", "--config", folder / "a351d.toml", "--check-config")
+    demand("the gravity so far is in it", len(json.loads((folder / "gravity-so-far.json").read_text())["stays"]) == len(stays))
+    run(BIN / "a351-correct", "survey", folder)
+    run(BIN / "a351-correct", "survey", data, "--sites", scratch / "sites.csv", "--out", scratch / "result")
+    for name in ("stations.csv", "occupations.csv", "models.csv"):
+        demand(f"the corrector's {name} is the same from folder and data root",
+               (folder / "result" / name).read_bytes() == (scratch / "result" / name).read_bytes())
+
+    target = scratch / "disk"
+    target.mkdir()
+    (target / "day.tar").write_text("before")
+
+    def limited():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (SMALL, SMALL))
+    result = subprocess.run([BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", "bundle", "--out", target / "day.tar"],
+                            capture_output=True, text=True, preexec_fn=limited)
+    leaves_nothing("a limit of the file's size", result, target, "nothing was saved")
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=2m", "none", target], capture_output=True).returncode == 0:
+        try:
+            (target / "day.tar").write_text("before")
+            leaves_nothing("a full disk", bundle(session, target / "day.tar", check=False), target, "is full, the copy needs")
+        finally:
+            run("umount", target)
+    else:
+        print("no full disk: only root can mount one")
+    leaves_nothing("Ctrl-C", interrupted(session, target, lambda copy: copy.send_signal(signal.SIGINT)), target, "interrupted")
+    demand("the daemon still runs and answers", session.daemon.poll() is None and session.status() != {})
+    leaves_nothing("a daemon that is killed", interrupted(session, target, lambda _: session.daemon.kill()), target,
+                   "the daemon ended the transfer after")
+    result = bundle(session, target / "day.tar", check=False)
+    demand("without a daemon the exit status is 3", result.returncode == 3 and "no daemon answers" in result.stderr)
