@@ -41,6 +41,19 @@ bool is_miniseed(std::string_view line) {
             line[kSequence + 1] == ' ');
 }
 
+/// Returns why a header is not that of a table with commas, and what is allowed; empty if it may be.
+std::string trouble_with_header(std::string_view header) {
+    constexpr const char* kHow = "; in a spreadsheet: save as CSV UTF-8, with commas";
+    const auto has = [&](char c) { return header.find(c) != std::string_view::npos; };
+    if (has('\0')) return fmt::format("UTF-16, or no text; allowed: UTF-8{}", kHow);
+    if (!has(',') && has(';'))
+        return fmt::format("the columns are separated by semicolons; allowed: commas{}", kHow);
+    if (!has(',') && has('\t'))
+        return fmt::format("the columns are separated by tabs; allowed: commas{}", kHow);
+    if (has('"')) return "cells are in quotation marks; allowed: without them";
+    return {};
+}
+
 }  // namespace
 
 CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
@@ -52,6 +65,8 @@ CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
             origin_.string() +
             ": a miniSEED file; allowed: a table (CSV), or miniSEED in the archive of a "
             "data root with metadata/station.xml");
+    if (const std::string trouble = trouble_with_header(text_); !trouble.empty())
+        throw InputError(fmt::format("{}:{}: {}", origin_.string(), line_, trouble));
     for (auto cell = cells_.begin(); cell != cells_.end(); ++cell) {
         if (std::find(cells_.begin(), cell, *cell) != cell) {
             throw InputError(fmt::format("{}:{}: column {} appears twice; allowed: once",
@@ -64,8 +79,12 @@ CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
 bool CsvReader::next() {
     if (!next_line()) return false;
     if (cells_.size() != columns_.size()) {
-        throw InputError(fmt::format("{}:{}: {} cells; allowed: {} as in the header",
-                                     origin_.string(), line_, cells_.size(), columns_.size()));
+        const char* const hint = cells_.size() > columns_.size()
+                                     ? "; a comma always separates, and a number has a point"
+                                     : "";
+        throw InputError(fmt::format("{}:{}: {} cells; allowed: {} as in the header{}",
+                                     origin_.string(), line_, cells_.size(), columns_.size(),
+                                     hint));
     }
     return true;
 }

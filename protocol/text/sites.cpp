@@ -55,15 +55,12 @@ Trouble trouble_with_characters(std::string_view name) {
     if (std::string_view("=+-@").find(name.front()) != std::string_view::npos)
         return {"begins with =, +, - or @, which a spreadsheet takes as a formula",
                 "a letter or digit first"};
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(name[i]);
-        const auto next = i + 1 < name.size() ? static_cast<unsigned char>(name[i + 1]) : 0U;
-        // U+0080 to U+009F are control characters too; in UTF-8 they begin with C2.
-        if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && next >= 0x80 && next <= 0x9F))
-            return {"has a control character", "visible characters"};
-        if (byte == ',') return {"has a comma, which separates the columns", "no comma"};
-        if (byte == '"') return {"has a quotation mark, which programs read differently", "no \""};
-    }
+    if (has_hidden_character(name))
+        return {"has a hidden character", "visible characters, and usual blanks between them"};
+    if (name.find(',') != std::string_view::npos)
+        return {"has a comma, which separates the columns", "no comma"};
+    if (name.find('"') != std::string_view::npos)
+        return {"has a quotation mark, which programs read differently", "no \""};
     return {};
 }
 
