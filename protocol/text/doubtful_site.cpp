@@ -4,6 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <string>
+#include <string_view>
 
 #include "protocol/core/normal_gravity.hpp"
 
@@ -28,6 +31,14 @@ Doubt worst(const std::vector<const Site*>& sites, double limit,
         if (const double size = size_of(*site); std::abs(size) > std::abs(found.size))
             found = {site, size};
     return found;
+}
+
+/// Returns a name in lower case and without blanks.
+std::string folded(std::string_view name) {
+    std::string text;
+    for (const char c : name)
+        if (c != ' ') text += c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
+    return text;
 }
 
 double median(std::vector<double> values) {
@@ -85,6 +96,12 @@ Message doubtful_site(const std::vector<Site>& sites) {
             "the reference of {} differs by {:+.0f} mGal from normal gravity at its latitude and "
             "altitude: check all three",
             heavy.site->name, heavy.size);
+
+    std::map<std::string, const Site*> names;
+    for (const Site& site : sites)
+        if (const auto [other, is_new] = names.try_emplace(folded(site.name), &site); !is_new)
+            return message("the names {} and {} differ only in capitals or blanks: use one of them",
+                           other->second->name, site.name);
     return {};
 }
 

@@ -20,6 +20,7 @@ namespace a351::text {
 /// 2. Its altitude is more than 1500 m from the median of those of the sites within 100 km, if there
 ///    are two or more.
 /// 3. Its reference is more than 300 mGal from normal gravity at its latitude and altitude.
+/// 4. Its name differs from another one only in capitals or blanks.
 ///
 /// Reason for the limits: 418 sites in the plains and mountains of North China (tests/golden/igp) are
 /// at most 61 km from the nearest other one and 871 m from the median, so none of them is doubtful

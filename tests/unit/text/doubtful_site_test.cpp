@@ -76,3 +76,12 @@ TEST_CASE("a reference that is not that of its place is named", "[text][sites]")
     list[1].has_altitude = false;
     CHECK(doubtful_site(list).empty());
 }
+
+TEST_CASE("two names that differ only in capitals or blanks are one doubt", "[text][sites]") {
+    auto list = good_list();
+    list[3].name = "s 1";
+    CHECK(doubtful_site(list) ==
+          "the names S1 and s 1 differ only in capitals or blanks: use one of them");
+    list[3].name = "S-1";
+    CHECK(doubtful_site(list).empty());
+}
