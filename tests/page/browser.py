@@ -160,6 +160,9 @@ class Browser:
     def open(self, port):
         self.driver.get(f"http://127.0.0.1:{port}/")
 
+    def open_details(self, is_open=True, identifier="details"):
+        self.run("document.getElementById(arguments[1]).open = arguments[0]", is_open, identifier)
+
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)
 

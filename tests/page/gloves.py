@@ -1,10 +1,11 @@
-"""Demands of the field view: sizes, distances and contrast, at the sizes of a laptop, a tablet and a phone, light and dark."""
+"""Demands on sizes, distances and contrast, at the sizes of a laptop, two tablets and a phone, light and dark."""
 
 from browser import LAPTOP
 from programs import demand
 
-SIZES = [LAPTOP, (800, 480), (400, 800)]
+SIZES = [LAPTOP, (800, 480), (390, 844), (820, 1180)]
 TARGET_PX = 64  # Width and height of a target for a gloved finger.
+MOUSE_PX = 44  # The same for a mouse.
 APART_PX = 24
 VALUE_PX = 60
 
@@ -34,19 +35,27 @@ def prefer(browser, scheme):
 
 
 def demand_for_gloves(browser, name, value=None, above=()):
-    """Demands sizes, distances and contrast of the field view in the present state, at each size, light and dark."""
+    """Demands sizes, distances and contrast in the present state, at each size, light and dark.
+    @param value  the element with the large number
+    @param above  what must be visible without scrolling
+    """
     for scheme in ("light", "dark"):
         prefer(browser, scheme)
         for width, height in SIZES:
             browser.resize((width, height))
-            browser.demand_readable(where := f"{name}, {scheme}, {width} x {height}", TARGET_PX)
-            apart, one, other = browser.run(APART)
-            demand(f"{where}: controls are {apart:.0f} px apart ({one}, {other}), at least {APART_PX}", apart >= APART_PX)
+            where = f"{name}, {scheme}, {width} x {height}"
+            browser.demand_readable(where, MOUSE_PX if (width, height) == LAPTOP else TARGET_PX)
+            if (width, height) != LAPTOP:
+                apart, one, other = browser.run(APART)
+                demand(f"{where}: controls are {apart:.0f} px apart ({one}, {other}), at least {APART_PX}", apart >= APART_PX)
+            height_px = browser.run("return Math.min(...[...document.querySelectorAll('#signal-buttons button:not([hidden]), #start')]"
+                                    ".filter((e) => e.checkVisibility()).map((e) => e.offsetHeight))") or TARGET_PX
+            demand(f"{where}: the buttons of the signal are {height_px} px high, at least {TARGET_PX}", height_px >= TARGET_PX)
             if value:
                 number_px = browser.run(NUMBER_PX, value)
                 demand(f"{where}: the value is {number_px:.0f} px high, at least {VALUE_PX}", number_px >= VALUE_PX)
             hidden = [one for one in above if not browser.is_above_fold(one)]
             demand(f"{where}: the main things are visible without scrolling {hidden}", not hidden)
-            browser.shot(f"field-{name.replace(' ', '-')}-{scheme}-{width}")
+            browser.shot(f"small-{name.replace(' ', '-')}-{scheme}-{width}")
     browser.resize(LAPTOP)
     prefer(browser, "light")

@@ -6,7 +6,7 @@ The page itself must not need more memory or time as it runs.
 import time
 
 from browser import Browser, widest_blank
-from made_up import sites, tilt, verdict
+from made_up import occupation, signal, sites
 from programs import IS_LONG, demand
 from stub_daemon import StubDaemon
 
@@ -34,7 +34,7 @@ def show_gap(stub, browser):
     browser.shot("gap-60s-1366")
 
     stub.history_gap = (time.time() - 1800, time.time() - 1200)
-    browser.click("#signal-span input[value='3600']")
+    browser.click("#trace-span input[value='3600']")
     browser.wait_for("the chart of an hour is drawn", lambda: sum(browser.ink("x")) > 300)
     first, blank = widest_blank(browser.ink("x"))
     columns = len(browser.ink("x"))
@@ -44,30 +44,33 @@ def show_gap(stub, browser):
            abs(blank - expected) <= 8)
     browser.shot("gap-1h-1366")
     stub.history_gap, stub.peak_s = None, time.time() - 1000
-    browser.click("#signal-span input[value='86400']")
-    browser.click("#signal-span input[value='3600']")
+    browser.click("#trace-span input[value='86400']")
+    browser.click("#trace-span input[value='3600']")
     browser.wait_for_text("caption-x", "mGal, peaks cut")
     height = browser.ink_height("x") / browser.run("return document.getElementById('chart-x').clientHeight")
     demand(f"with a rare peak of 2000 mGal an envelope of 24 mGal has {100 * height:.0f} % of the strip, must exceed 20",
            height > 0.2)
     browser.shot("peak-1h-1366")
-    browser.click("#signal-span input[value='60']")
+    browser.click("#trace-span input[value='60']")
 
 
 def show_stale(stub, browser):
-    stub.status["verdict"] = verdict("stable")
-    browser.wait_for_text("verdict-word", "STABLE")
+    stub.status["signal"], stub.status["occupation"] = signal("keep_off"), occupation()
+    browser.wait_for_text("signal-word", "KEEP OFF")
     demand("with fresh data the page has no banner and its normal colours",
            browser.text("banner") == "" and not is_grey(browser))
     stub.is_sampling = False
     took = browser.wait_for_text("banner", "STALE: no new data.", seconds=6.0)
     demand(f"data are called stale after {took:.1f} s, must be 2 to 4", 2.0 < took < 4.0)
-    demand("the verdict stable is no longer shown", browser.text("verdict-word") == "NO FRESH DATA")
+    demand("the old word is no longer shown", browser.text("signal-word") == "NO FRESH DATA")
+    browser.wait_for_text("signal-sentence", "Last signal: KEEP OFF,")
+    demand("the stay can still be stopped", browser.find("#stop").is_displayed())
     demand("the page is shown in grey", is_grey(browser))
     browser.shot("stale-1366")
     stub.is_sampling = True
     browser.wait_for("the banner disappears with new data", lambda: browser.text("banner") == "", seconds=3.0)
-    demand("the verdict is shown again", browser.text("verdict-word") == "STABLE")
+    demand("the word is shown again", browser.text("signal-word") == "KEEP OFF")
+    stub.status["signal"], stub.status["occupation"] = signal("go", buttons=["start"]), None
 
 
 def show_other_clock(stub, browser):
@@ -86,7 +89,9 @@ def show_lost(stub, browser):
     browser.wait_for_text("banner", "CONNECTION LOST", seconds=3.0)
     demand("the page is shown in grey", is_grey(browser))
     browser.shot("lost-1366")
-    browser.click("#target-form button")
+    browser.open_details(identifier="more")
+    browser.find("#note").send_keys("a lorry")
+    browser.click("#note-form button")
     browser.wait_for_text("answer", "Not done: the daemon does not answer")
     time.sleep(3.0)
     stub.sites = [{**stub.sites[0], "site": "elsewhere"}]
@@ -129,11 +134,12 @@ def watch_growth(browser):
 with Browser(allowed_errors=["WebSocket connection to", "ERR_EMPTY_RESPONSE", "Failed to load resource"]) as page:
     daemon = StubDaemon()
     daemon.sites = sites()
-    daemon.status["tilt"] = tilt(0.4, 0.3)
     time.sleep(0.3)
     page.resize((1366, 1200))
     page.open(daemon.port)
     page.wait_for_text("clock", "UTC")
+    page.open_details()
+    page.run("document.getElementById('details').scrollIntoView()")
     watch_growth(page)
     page.resize((1366, 768))
     show_stale(daemon, page)

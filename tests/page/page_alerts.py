@@ -5,8 +5,9 @@ Over plain http and a name other than localhost, as on a telephone, browsers hav
 
 import time
 
-from browser import Browser
-from made_up import occupation, reading, sites, verdict
+from browser import LAPTOP, Browser
+from gloves import SIZES
+from made_up import no_stay, occupation, signal, sites
 from programs import demand
 from stub_daemon import StubDaemon
 
@@ -36,18 +37,22 @@ def heard(browser):
 
 
 def demand_signals(stub, browser):
-    stub.status["verdict"] = verdict("stable")
-    browser.wait_for_text("verdict-word", "STABLE")
+    stub.status["signal"] = signal("lift")
+    browser.wait_for_text("signal-word", "LIFT")
     time.sleep(0.5)
     demand("nothing sounds before the button is pressed", heard(browser) == [])
     browser.click("#sound-switch")
     demand("the button sounds once, and says that it is on", len(heard(browser)) == 1 and browser.text("sound-switch") == "Sound is on")
     time.sleep(1.5)
     demand("a state that was there before is not signalled", heard(browser) == [])
-    for word, change, count in (("SETTLING", lambda: stub.status.update(verdict=verdict("settling")), 0),
-                                ("STABLE", lambda: stub.status.update(verdict=verdict("stable")), 2),
-                                ("GOOD ENOUGH", lambda: stub.status.update(occupation=occupation(whole=reading(0.8, 0.0, True))), 3),
-                                ("lift it", lambda: stub.status.update(occupation=occupation(propose_set_up=True)), 2),
+    for word, change, count in (("KEEP OFF", lambda: stub.status.update(signal=signal("keep_off")), 0),
+                                ("LIFT, SET DOWN", lambda: stub.status.update(signal=signal("lift")), 2),
+                                ("KEEP OFF again", lambda: stub.status.update(signal=signal("keep_off")), 0),
+                                ("YOU CAN GO", lambda: stub.status.update(signal=signal("go")), 2),
+                                ("no stay", lambda: stub.status.update(signal=no_stay(), occupation=None), 0),
+                                ("LOOK", lambda: stub.status.update(signal=signal("look", buttons=["checked"])), 3),
+                                ("NO DATA", lambda: stub.status.update(signal=signal("no_data")), 4),
+                                ("data again", lambda: stub.status.update(signal=signal("keep_off"), occupation=occupation()), 0),
                                 ("FAULT", lambda: stub.status.update(level="fault", reasons=["the disk is full"]), 4),
                                 ("good again", lambda: stub.status.update(level="good", reasons=[]), 0),
                                 ("old data", lambda: setattr(stub, "is_sampling", False), 4)):
@@ -56,26 +61,26 @@ def demand_signals(stub, browser):
         time.sleep(4.5 if word == "old data" else 2.5)
         tones = heard(browser)
         demand(f"{word}: {len(tones)} tones in some seconds, expected {count}: {tones}", len(tones) == count)
-        demand(f"{word}: its tones fall", word != "lift it" or tones == sorted(tones, reverse=True))
+        demand(f"{word}: its tones fall", count != 2 or tones == sorted(tones, reverse=True))
         demand(f"{word}: it vibrates as often as it sounds",
                browser.run("return window.vibrations.length") - vibrations == (1 if count else 0))
     stub.is_sampling = True
     browser.wait_for("new data are shown", lambda: browser.text("banner") == "")
     browser.driver.refresh()
-    browser.wait_for_text("verdict-word", "STABLE")
+    browser.wait_for_text("signal-word", "KEEP OFF")
     time.sleep(1.5)
     demand("after a reload the sound is off", heard(browser) == [] and browser.text("sound-switch") == "Sound is off")
 
 
 def demand_awake(browser):
-    demand("the full page leaves the screen alone", browser.run("return window.locks") == 0)
-    browser.click("#view-switch")
-    browser.wait_for("the field view keeps the screen on", lambda: browser.run("return window.locks") == 1)
+    demand("the page leaves the screen of a laptop alone", browser.run("return window.locks") == 0)
+    browser.resize(SIZES[1])
+    browser.wait_for("it keeps a small screen on", lambda: browser.run("return window.locks") == 1)
     demand("then nothing is to be set by hand", browser.text("awake") == "")
-    browser.click("#view-switch")
-    browser.wait_for("the full page releases the screen", lambda: browser.run("return window.locks") == 0)
+    browser.resize(LAPTOP)
+    browser.wait_for("it releases the screen of a laptop", lambda: browser.run("return window.locks") == 0)
     browser.run("navigator.wakeLock.request = () => Promise.reject(new Error('battery'));")
-    browser.click("#view-switch")
+    browser.resize(SIZES[1])
     browser.wait_for_text("awake", "set the screen timeout to 30 min by hand")
     browser.click("#help-open")
     browser.wait_for_text("help-screen", "perhaps to save the battery. Therefore set the screen timeout of this device")
@@ -83,15 +88,15 @@ def demand_awake(browser):
 
 
 def demand_remote(stub, browser):
-    browser.driver.get(f"http://{REMOTE}:{stub.port}/#field")
-    browser.wait_for_text("clock", "UTC")
+    browser.driver.get(f"http://{REMOTE}:{stub.port}/")
+    browser.wait_for("a stay runs", lambda: browser.text("stop") != "")
     demand("a name of the network is no secure context", not browser.run("return isSecureContext"))
-    browser.wait_for_text("awake", "set the screen timeout to 30 min by hand")
-    for width, height in ((1366, 768), (800, 480), (400, 800)):
+    for width, height in SIZES[1:]:
         browser.resize((width, height))
-        browser.demand_readable(f"the field view of a telephone, {width} x {height}", 64)
+        browser.demand_readable(f"the page of a telephone, {width} x {height}", 64)
+        browser.wait_for_text("awake", "set the screen timeout to 30 min by hand")
         demand("Stop is visible without scrolling", browser.is_above_fold("stop"))
-        browser.shot(f"field-remote-{width}")
+        browser.shot(f"remote-{width}")
         browser.click("#help-open")
         browser.wait_for_text("help-screen", "over plain http from another device browsers do not keep the screen on. Therefore set")
         stub.is_away = True

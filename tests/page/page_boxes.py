@@ -34,6 +34,8 @@ with (Scratch() as scratch,
     page.wait_for_text("order-answer", "3 of 4 boxes did it, at ")
     starts = [session.status()["occupation"]["start"] for session in boxes.sessions[:-1]]
     demand(f"one click started three boxes at the same instant, within {spread_s(starts)} s", spread_s(starts) <= SAMPLE_S)
+    page.wait_for("each box shows the word of its signal", lambda: texts(page, "word") == [*["KEEP OFF"] * (COUNT - 1), "NO DATA"], seconds=40)
+    demand("and its sentence", all("No.1: set-up 1 of" in one for one in texts(page, "sentence")[:-1]))
     for size in (LAPTOP, PHONE):
         page.resize(size)
         page.demand_readable(f"overview at {size[0]} px")

@@ -16,10 +16,10 @@ FIRST_DATA_S = 2.0
 BEHIND_S = 1.0 if IS_SANITIZED else 0.5
 SITES = '[survey]\nsites = "sites.csv"\n'
 
-# Records the time in ms from the request of the page to the first mean of the x axis on it.
+# Records the time in ms from the request of the page to the first sample on it.
 WATCH = """
 new MutationObserver((_, observer) => {
-    if (!document.getElementById("caption-x")?.textContent.includes("mean")) return;
+    if (!document.getElementById("trace-end")?.textContent.includes(":")) return;
     window.first_data_ms = performance.now();
     observer.disconnect();
 }).observe(document, {childList: true, subtree: true, characterData: true});
@@ -38,7 +38,7 @@ def measure_first_data(session, browser):
     browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": WATCH})
     for _ in range(3):
         browser.open(session.port)
-        browser.wait_for_text("caption-x", "mean")
+        browser.wait_for("data are shown", lambda: browser.run("return window.first_data_ms > 0"))
         took_s = browser.run("return window.first_data_ms") / 1000
         demand(f"data are on the page {took_s:.2f} s after the request, limit {FIRST_DATA_S}",
                took_s <= FIRST_DATA_S)
@@ -49,7 +49,7 @@ def measure_lag(session, browser):
     ahead_s = instant(start) - instant(host)
     lags = []
     for _ in range(30):
-        shown, now_ms = browser.run("return [document.getElementById('signal-end').textContent, Date.now()]")
+        shown, now_ms = browser.run("return [document.getElementById('trace-end').textContent, Date.now()]")
         end_s = seconds_of_day(shown.split()[1])
         lags.append((now_ms / 1000 + ahead_s - end_s + 43200) % 86400 - 43200)
         time.sleep(0.1)
@@ -62,6 +62,7 @@ def measure_lag(session, browser):
 def work_an_occupation(session, browser):
     browser.wait_for("the list of sites is filled", lambda: "No.1," in browser.text("start-site"))
     browser.choose("start-site", "No.1")
+    browser.open_details(identifier="more")
     browser.find("#start-operator").send_keys("T. Sato")
     browser.find("#start-note").send_keys("<b>windy</b>")
     browser.click("#start")
@@ -84,25 +85,22 @@ def work_an_occupation(session, browser):
 
     browser.click("#setup")
     browser.wait_for_text("answer", "further set-up at No.1 (stay 1)")
-    browser.wait_for_text("run-plan", "set-up 2 of 2: ")
+    browser.wait_for("the second set-up is planned", lambda: session.status()["occupation"]["set_up_count"] == 2)
+    browser.open_details(identifier="more")
     browser.find("#note").send_keys("a lorry passed")
     browser.click("#note-form button")
     browser.wait_for_text("answer", "noted at")
-    browser.find("#target").clear()
-    browser.find("#target").send_keys("0,5")
-    browser.click("#target-form button")
-    browser.wait_for("the daemon has the new target", lambda: session.status()["target_mgal"] == 0.5)
     time.sleep(1.0)
     browser.click("#stop")
     browser.wait_for_text("confirm-stop-text", "Stop No.1 (stay 1)")
     browser.click("#confirm-stop-yes")
     browser.wait_for_text("answer", "stopped No.1 (stay 1)")
-    browser.wait_for_text("answer", "not stable: ")
     browser.wait_for_text("resume-last", "Undo the stop of No.1")
     browser.click("#resume-last")
     browser.wait_for_text("answer", "resumed No.1 (stay 1)")
     browser.wait_for_text("run-site", "No.1")
     session.ctl("stop")
+    browser.run("document.querySelector('#day-rows tr').click()")
     browser.wait_for_text("day-rows", "2 set-ups")
     browser.shot("real-stopped-1366")
 
@@ -115,6 +113,7 @@ def work_an_occupation(session, browser):
 def add_a_site(session, browser):
     """A site is appended to the list and can be started at once; a refused one keeps its dialog and texts."""
     before = (session.scratch / "sites.csv").read_text()
+    browser.open_details(identifier="more")
     browser.click("#add-site")
     browser.wait_for_text("new-site-text", "Add a site")
     for field, text in (("name", "No.1"), ("latitude", "36,2511"), ("longitude", "140.12")):
@@ -142,9 +141,8 @@ def change_stays(session, browser):
     """Each change hits the stay that its dialog names, also after late entries and changes by others."""
     def press(site, word):
         browser.run("""
-            const select = document.getElementById("day-stay");
-            select.value = Array.from(select.options).find((one) => one.text.startsWith(arguments[0])).value;
-            select.dispatchEvent(new Event("change"));""", site)
+            const row = [...document.querySelectorAll("#day-rows tr[data-key]")].find((one) => one.innerText.includes(arguments[0]));
+            if (row.ariaExpanded !== "true") row.click();""", site)
         browser.click(f"#day-{word.lower()}")
 
     def stays():
@@ -212,7 +210,7 @@ def stop_emulator(session, browser):
     session.sim.send_signal(signal.SIGTERM)
     session.sim.wait()
     browser.wait_for_text("banner", "STALE: no new data.", seconds=6.0)
-    demand("the verdict says that there are no data", browser.text("verdict-word") in ("NO FRESH DATA", "NO DATA"))
+    demand("the signal says that there are no data", browser.text("signal-word") in ("NO FRESH DATA", "NO DATA"))
     browser.shot("real-stale-1366")
 
 

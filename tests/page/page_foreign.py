@@ -119,7 +119,7 @@ def rebind(session, browser):
 def be_at_home(session, browser):
     """Sends the same requests from the daemon's own page; they must succeed, so the origin was the reason of the refusals."""
     browser.open(session.port)
-    browser.wait_for_text("caption-x", "mean")
+    browser.wait_for("samples are shown", lambda: browser.run("return document.getElementById('trace-end').textContent") != "")
     home = f"127.0.0.1:{session.port}"
     demand("the daemon's own page gets the stream", wait_script(browser, SOCKET, f"ws://{home}/live") == "open")
     token = browser.run("return document.querySelector('meta[name=a351-token]').content")

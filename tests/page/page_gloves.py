@@ -1,4 +1,4 @@
-"""A stay in the field view of a real daemon by keyboard alone, and one by touch alone: start, next set-up, stop, undo the stop, stop again."""
+"""A stay of a real daemon by keyboard alone, and one by touch alone: start, next set-up, stop, undo the stop, stop again."""
 
 import json
 import time
@@ -7,7 +7,7 @@ from browser import Browser, Keys
 from emulated_session import Session
 from programs import Scratch, demand
 
-MOST_TABS = 12
+MOST_TABS = 20
 
 
 def tab_to(browser, identifier):
@@ -53,9 +53,9 @@ def run_a_stay(session, browser, act, site):
     act(browser, "start")
     browser.wait_for_text("run-site", site)
     act(browser, "setup")
-    browser.wait_for_text("run-plan", "set-up 2 of")
+    browser.wait_for("the second set-up runs", lambda: session.status()["occupation"]["set_up_count"] == 2)
     confirm_stop(session, browser, act, site)
-    browser.wait_for_text("last-name", f"Last stay: {site}")
+    browser.wait_for_text("day-rows", f"{site} (1)")
     act(browser, "resume-last")
     browser.wait_for_text("run-site", site)
     confirm_stop(session, browser, act, site)
@@ -68,13 +68,13 @@ def run_a_stay(session, browser, act, site):
 with Scratch() as scratch, Browser() as page:
     daemon = Session(scratch, speed=1)
     daemon.wait_for_frames(50)
-    page.driver.get(f"http://127.0.0.1:{daemon.port}/#field")
+    page.driver.get(f"http://127.0.0.1:{daemon.port}/")
     page.wait_for_text("clock", "UTC")
     for size in ((1366, 768), (800, 480)):
         page.resize(size)
         run_a_stay(daemon, page, press_key, f"keys-{size[0]}")
     page.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
-    for size in ((400, 800), (800, 480)):
+    for size in ((390, 844), (800, 480)):
         page.resize(size)
         time.sleep(1.0)  # A tap meets a place, which must not move any more.
         run_a_stay(daemon, page, tap, f"touch-{size[0]}")

@@ -5,13 +5,16 @@ import time
 
 from browser import LAPTOP, Browser
 from gloves import SIZES, demand_for_gloves, prefer
-from made_up import finished, occupation, reading, sites, stay, survey, tilt, verdict
+from made_up import MOVED, SIGNALS, finished, gravity, no_stay, occupation, signal, sites, tilt
 from programs import demand
 from stub_daemon import StubDaemon
 
 # Words that are the same in Japanese: units, names, codes and what the stub says of its device.
 SAME = set("mGal min UTC MB GB Hz ppm API English sync JavaScript a351 a351d stub usb dev serial stable sample day pillar Sato Stop the "
            "ctl".split())
+
+ADVICE = [["lower the +{} side by {:.1f}'", ["x"], ["2.4"]]]
+MAIN = ["signal-word", "signal-sentence", "signal-buttons", "run-value"]
 
 # Returns the visible texts that have English words.
 WORDS = """
@@ -42,29 +45,21 @@ with Browser(language="ja,en") as page:
     daemon = StubDaemon()
     daemon.sites = sites()
     daemon.occupations = [finished(f"No.{i}", hours_ago=4 - i) for i in range(3)]
-    daemon.status["verdict"] = {**verdict("settling"), "time_left_s": 184.0}
+    daemon.status["signal"] = signal("keep_off")
     daemon.status["occupation"] = {**occupation(), "operator": "", "note": ""}
-    daemon.status["tilt"] = tilt(0.4, 0.3)
     time.sleep(0.3)
-    page.driver.get(f"http://127.0.0.1:{daemon.port}/#field")
-    page.wait_for_text("run-judgement", "あと約4分10秒")
+    page.open(daemon.port)
+    page.wait_for_text("signal-word", "触れない")
     demand("the document says its language", page.run("return document.documentElement.lang") == "ja")
     demand("the button offers the other language", page.text("language-switch") == "English")
-    demand_japanese(page, "settling")
-    demand_for_gloves(page, "settling-ja", "run-value", ["verdict-word", "run-time", "run-plan", "run-value", "run-judgement", "stop", "setup", "tools"])
-    daemon.status["verdict"] = verdict("stable", 430)
-    daemon.status["occupation"] = {**occupation(whole=reading(0.82, 0.0, True)), "operator": "", "note": ""}
-    daemon.survey = survey([stay("No.0"), stay("No.5", is_running=True)])
-    page.wait_for_text("run-gravity", "現時点の重力値", seconds=10)
-    demand_for_gloves(page, "good-enough-ja", "run-gravity", ["verdict-word", "run-time", "run-plan", "run-gravity", "run-judgement", "stop", "setup", "tools"])
-    daemon.status["verdict"] = verdict("disturbed", 12)
-    advice = [["lower the +{} side by {:.1f}'", ["x"], ["2.4"]]]
-    daemon.status["occupation"] = {**occupation(moved={"utc": "2026-03-01T01:43:20.000Z", "is_at_start": False}), "operator": "", "note": ""}
-    daemon.status["tilt"] = {**tilt(2.4, -0.6, ["lower the +x side by 2.4'"]), "advice_parts": [advice]}
-    page.wait_for_text("moved-text", "本体が動きました")
-    page.wait_for_text("level-advice", "+x 側を 2.4′ 下げる")
-    demand_japanese(page, "moved")
-    demand_for_gloves(page, "moved-ja", "run-gravity", ["verdict-word", "stop"])
+    for word in SIGNALS:
+        daemon.status["signal"] = signal(word)
+        daemon.status["occupation"] = {**occupation(gravity=gravity(), moved=MOVED if word == "look" else None), "operator": "", "note": ""}
+        daemon.status["tilt"] = {**tilt(2.4, -0.6, ["lower the +x side by 2.4'"]), "advice_parts": [ADVICE]} if word == "lift" else None
+        page.wait_for(f"{word} is shown", lambda: page.find("#signal").get_attribute("data-word") == word)  # noqa: B023
+        demand_japanese(page, word)
+        demand_for_gloves(page, f"{word}-ja", "run-value", MAIN)
+    page.wait_for_text("signal-sentence", "01:43:20")
     page.click("#stop")
     page.wait_for_text("confirm-stop-text", "終了しますか")
     demand_for_gloves(page, "stop-ja", None, ["confirm-stop-yes", "confirm-stop-no"])
@@ -73,27 +68,24 @@ with Browser(language="ja,en") as page:
     demand_japanese(page, "help")
     page.shot("help-ja")
     page.click("#help-close")
-    for state in ("no data", "warming up"):
-        daemon.status["verdict"] = {**verdict(state), "reasons": []}
-        page.wait_for(f"{state} is shown", lambda: page.find("#verdict").get_attribute("data-state") == state)
-        demand_japanese(page, state)
-    page.click("#view-switch")
-    page.wait_for_text("health-rows", "恒温槽")
-    daemon.status["occupation"] = None
+    daemon.status["occupation"], daemon.status["signal"] = None, no_stay()
     page.wait_for("no stay runs", lambda: page.text("start") == "開始")
+    page.open_details()
+    page.open_details(identifier="more")
+    page.click("#day-rows tr")
+    page.wait_for_text("health-rows", "恒温槽")
     time.sleep(1.0)
-    demand_japanese(page, "the full page")
+    demand_japanese(page, "everything unfolded")
     for scheme in ("light", "dark"):
         prefer(page, scheme)
         for size in SIZES:
             page.resize(size)
-            page.demand_readable(f"the full page in Japanese, {scheme}, at {size[0]} px")
-            time.sleep(0.5)
+            page.demand_readable(f"the page in Japanese, {scheme}, at {size[0]} px")
             page.shot(f"page-ja-{scheme}-{size[0]}", is_whole=True)
     page.resize(LAPTOP)
     page.click("#language-switch")
-    page.wait_for_text("verdict-advice", "Wait")
-    demand("the button leads back to English, and is remembered", page.run("return document.documentElement.lang") == "en")
+    page.wait_for_text("signal-word", "YOU CAN GO")
+    demand("the button leads back to English", page.run("return document.documentElement.lang") == "en")
     page.open(daemon.port)
     page.wait_for_text("clock", "UTC")
     demand("the choice is remembered", page.text("language-switch") == "日本語")

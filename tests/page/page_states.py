@@ -1,169 +1,135 @@
 """Each state of the page with made-up data: words, signs, contrast and sizes; saves pictures under screenshots/."""
 
-import time
-
 from browser import LAPTOP, PHONE, Browser
-from made_up import VERDICTS, finding, finished, occupation, reading, sites, stay, survey, tilt, verdict
+from made_up import (MISSING, MOVED, SIGNALS, details, finding, finished, gravity, no_stay, occupation, reading, signal, sites, stay, survey,
+                     tilt)
 from programs import demand
 from stub_daemon import StubDaemon, check, row
 
-ABOVE_FOLD = ["verdict-word", "verdict-checks", "occupation-title", "level-word"]
+STAY = {"key": "20260301T013000Z", "site": "No.5"}  # The running one.
+PROPOSED = "return [...document.querySelectorAll('#signal-buttons .proposed:not([hidden])')].map((one) => one.innerText)"
 
 
-def show_verdicts(stub, browser):
-    pictures = set()
-    for state in VERDICTS:
-        stub.status["verdict"] = verdict(state)
-        browser.wait_for_text("verdict-word", state.upper())
-        sign = browser.run("return document.getElementById('verdict-sign').getAttribute('href')")
-        pictures.add(sign)
-        checks = browser.text("verdict-checks").splitlines()
-        demand(f"{state}: checks that are not met are listed first, with a mark: {checks[0]}",
-               [line[0] for line in checks] == ["✓" if one["is_met"] else "✗" for one in VERDICTS[state]])
+def show_words(stub, browser):
+    stub.status["occupation"] = occupation()
+    looks = set()
+    for word in SIGNALS:
+        stub.status["signal"] = signal(word)
+        stub.status["occupation"] = occupation(moved=MOVED if word == "look" else None)
+        browser.wait_for_text("signal-word", SIGNALS[word][0])
+        sign, colour = browser.run("return [document.getElementById('signal-sign').getAttribute('href'),"
+                                   "getComputedStyle(document.getElementById('signal')).backgroundColor]")
+        looks.add((sign, colour))
+        demand(f"{word}: at most two large buttons", len(browser.run(PROPOSED)) == len(stub.status["signal"]["buttons"]) <= 2)
+        demand(f"{word}: a stay can be stopped", browser.find("#stop").is_displayed())
+        demand(f"{word}: the title of the tab has it: {browser.driver.title}", browser.driver.title.startswith(SIGNALS[word][0]))
         for size in (LAPTOP, PHONE):
             browser.resize(size)
-            browser.demand_readable(f"{state} at {size[0]} px")
-            browser.shot(f"{state.replace(' ', '-')}-{size[0]}")
+            browser.demand_readable(f"{word} at {size[0]} px")
+            browser.shot(f"{word}-{size[0]}")
         browser.resize(LAPTOP)
-    demand(f"each verdict has its own sign: {pictures}", len(pictures) == len(VERDICTS))
-    checks = browser.text("verdict-checks")
-    demand("values have units", "0.05 °C/h (limit 0.25 °C/h)" in checks and "180 s ago (needs 72 s)" in checks)
-    demand("an error is shown with its value", "2.1 ± 1.4 mGal/h" in checks)
-
-
-def show_time_left(stub, browser):
-    stub.status["verdict"] = {**verdict("disturbed", held_s=12), "time_left_s": 110.0}
-    browser.wait_for_text("verdict-held", "Unchanged for 12 s.")
-    browser.wait_for_text("verdict-left", "At least 1 min 50 s more.")
-    known = check("temperature known for", 2.3, "min", 20.0, False, is_least=True)
-    stub.status["verdict"] = {**verdict("settling", held_s=138), "checks": [known], "time_left_s": 1082.0}
-    browser.wait_for_text("verdict-advice", "Wait: the temperature is known for 2.3 of 20 min.")
-    browser.wait_for_text("verdict-left", "At least 18 min 02 s more.")
-    stub.status["verdict"] = {**verdict("stable", held_s=60), "time_left_s": 0.0}
-    browser.wait_for("a stable verdict has no time left", lambda: browser.text("verdict-held") == "Unchanged for 1 min 00 s." and not browser.text("verdict-left"))
-
-
-def show_without_colour(stub, browser):
+    demand(f"each word has its own sign and colour: {looks}", len({one for one, _ in looks}) == len({one for _, one in looks}) == len(SIGNALS))
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedVisionDeficiency", {"type": "achromatopsia"})
-    stub.status["verdict"] = verdict("disturbed")
-    browser.wait_for_text("verdict-word", "DISTURBED")
-    browser.shot("disturbed-without-colour")
+    browser.shot("look-without-colour")
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedVisionDeficiency", {"type": "none"})
 
 
+def press_buttons(stub, browser):
+    at = MOVED["utc"]
+    early = {"utc": at, "is_at_start": True}
+    for word, buttons, presses in (
+            ("lift", ["setup", "stop"], {"setup": ("setup", STAY)}),
+            ("look", ["stop_at", "not_moved"], {"stop_at": ("stop", {**STAY, "at": at}), "not_moved": ("not_moved", STAY)}),
+            ("look", ["setup_at", "not_moved"], {"setup_at": ("setup", {**STAY, "at": at})}),
+            ("look", ["begin_at", "not_moved"], {"begin_at": ("retime", {**STAY, "from": at, "reason": "started too early"})}),
+            ("look", ["checked"], {"checked": ("checked", {})})):
+        stub.status["signal"] = signal(word, buttons=buttons)
+        stub.status["occupation"] = occupation(moved=early if "begin_at" in buttons else MOVED)
+        for code, (path, body) in presses.items():
+            button = f"#signal-buttons [data-code={code}]"
+            browser.wait_for(f"the button {code} is shown", lambda: browser.find(button).is_displayed())  # noqa: B023
+            sent = len(stub.posts)
+            browser.click(button)
+            browser.wait_for(f"{browser.find(button).text}: an order was sent", lambda: len(stub.posts) > sent)  # noqa: B023
+            demand(f"it is {path} {body}", stub.posts[-1] == (f"/api/occupation/{path}", body))
+    demand("the sentence has the operator's time", "01:43:20 UTC" in browser.text("signal-sentence"))
+    stub.status["signal"], stub.status["occupation"] = no_stay(), None
+    start = "#signal-buttons [data-code=start]"
+    browser.wait_for("Start is offered", lambda: browser.find(start).is_displayed())
+    browser.click(start)
+    demand("Start leads to the choice of the site", browser.run("return document.activeElement.id") == "start-site")
+    demand("without a stay there is nothing to stop", not browser.find("#stop").is_displayed())
+
+
 def count_announcements(stub, browser):
-    stub.status["verdict"] = verdict("settling", held_s=10)
-    browser.wait_for_text("verdict-held", "10 s")
+    stub.status["occupation"] = occupation()
+    parts = ["{}: set-up {} of {}, {} left", ["No.5"], ["1"], ["2"]]
+    stub.status["signal"] = signal("keep_off", [[*parts, ["2:10"]], "."])
+    browser.wait_for_text("signal-sentence", "2:10 left")
     browser.run("window.announced = 0; new MutationObserver((all) => { window.announced += all.length; }).observe("
-                "document.getElementById('verdict-word'), {childList: true, characterData: true, subtree: true});")
-    for held_s in (11, 12):
-        stub.status["verdict"] = verdict("settling", held_s=held_s)
-        browser.wait_for_text("verdict-held", f"{held_s} s")
-    demand("an unchanged verdict is not announced again", browser.run("return window.announced") == 0)
-    stub.status["verdict"] = verdict("stable", held_s=0)
-    browser.wait_for_text("verdict-word", "STABLE")
-    demand("a new verdict is announced once", browser.run("return window.announced") == 1)
-    demand("the verdict is announced politely (aria-live)",
-           browser.find("#verdict-word").get_attribute("aria-live") == "polite")
+                "document.getElementById('signal-word'), {childList: true, characterData: true, subtree: true});")
+    for left in ("2:09", "2:08"):
+        stub.status["signal"] = signal("keep_off", [[*parts, [left]], "."])
+        browser.wait_for_text("signal-sentence", f"No.5: set-up 1 of 2, {left} left.")
+    demand("an unchanged word is not announced again", browser.run("return window.announced") == 0)
+    stub.status["signal"] = signal("lift")
+    browser.wait_for_text("signal-word", "LIFT, SET DOWN")
+    demand("a new word is announced once", browser.run("return window.announced") == 1)
+    demand("the word is announced politely (aria-live)", browser.find("#signal-word").get_attribute("aria-live") == "polite")
 
 
-def count_set_ups_down(stub, browser):
-    stay = {"planned_set_ups": 3, "set_up_count": 2}
-    for changes, expected, is_proposed in (
-            ({"set_up_left_s": 130.0}, "set-up 2 of 3: 2:10 left", False),
-            ({"set_up_left_s": 0.2}, "set-up 2 of 3: 0:01 left", False),
-            ({"set_up_left_s": 0.0, "propose_set_up": True}, "set-up 2 of 3: 0:00 left", True),
-            ({"set_up_left_s": 65.0, "set_up_count": 3}, "set-up 3 of 3: 1:05 left", False),
-            ({"set_up_left_s": 0.0, "set_up_count": 3, "may_stop": True}, "set-up 3 of 3: the stay may be stopped", False),
-            ({"set_up_left_s": 9.0, "set_up_count": 4}, "set-up 4 of 4: 0:09 left", False)):
-        stub.status["occupation"] = occupation(**{**stay, **changes})
-        browser.wait_for_text("run-plan", expected)
-        demand(f"{expected}: the next set-up is {'proposed' if is_proposed else 'not proposed'}",
-               browser.find("#run-propose").is_displayed() == is_proposed)
+def show_one_number(stub, browser):
+    for given, number, missing in ((None, "", ""), (MISSING, "", "no benchmark with known gravity was read yet"),
+                                   (gravity(), "979809.9 ± 1.3 mGal", "")):
+        stub.status["occupation"] = occupation(gravity=given)
+        browser.wait_for(f"the stay shows {number or missing or 'nothing'}",
+                         lambda: (browser.text("run-value"), browser.text("run-missing").lower()) == (number, missing))  # noqa: B023
+    large = browser.run("return [...document.querySelectorAll('main *')].filter((e) => e.checkVisibility() && !e.closest('#signal')"
+                        " && e.children.length === 0 && /[0-9]{6}/.test(e.innerText)"
+                        " && parseFloat(getComputedStyle(e).fontSize) >= 24).map((e) => e.innerText)")
+    demand(f"one number is large: {large}", large == ["979809.9"])
+    stub.status["occupation"] = occupation(gravity=gravity(), warnings=["the site was occupied before: this is stay 2"])
+    browser.wait_for_text("run-warnings", "this is stay 2")
+    above = {name: browser.is_above_fold(name) for name in ("signal-word", "signal-buttons", "run-value", "run-warnings")}
+    demand(f"the main items are visible without scrolling at 1366 x 768: {above}", all(above.values()))
+    browser.shot("stay-1366")
+
+
+def show_details(stub, browser):
+    demand("details are folded", browser.text("details-checks") == "" and browser.text("health-rows") == "")
+    stub.status["details"] = details("stable", 430)
+    stub.status["occupation"] = occupation(whole=reading(set_ups=2, set_up_sd_mgal=1.1, set_up_error_mgal=0.778))
+    browser.open_details()
+    browser.wait_for_text("details-reading", "979861.32 mGal before all corrections; 6 min 28 s of data used, 12 s left out. "
+                          "Scatter of 2 set-ups: 1.10 mGal, of their mean 0.78 mGal.")
+    demand("the state and its time are said", browser.text("details-reading").startswith("stable. Unchanged for 7 min 10 s."))
+    checks = browser.text("details-checks").splitlines()
+    demand(f"checks have a mark, values have units and errors: {checks}", checks[0] == "✗ temperature slope 0.31 °C/h (limit 0.25 °C/h)"
+           and "✓ last knock 180 s ago (needs 72 s)" in checks and "✓ acceleration slope 2.1 ± 1.4 mGal/h (limit 12 mGal/h)" in checks)
+    browser.demand_readable("details")
+    browser.shot("details-1366", is_whole=True)
+    browser.open_details(False)
 
 
 def count_a_placement_test(stub, browser):
-    configured = {"planned_set_ups": 20, "planned_s": 3600.0, "set_up_count": 7, "set_up_left_s": 66.0}
-    stub.status["occupation"] = occupation(**configured)
-    browser.wait_for_text("run-plan", "set-up 7 of 20: 1:06 left")
+    configured = {"planned_set_ups": 20, "planned_s": 3600.0, "set_up_count": 7}
+    stub.status["occupation"] = occupation("No.1", **configured)
+    browser.wait_for_text("run-site", "No.1")
     demand("twenty configured set-ups are no placement test", not browser.find("#run-test").is_displayed())
-    test = {**configured, "has_own_plan": True, "set_up_left_s": 65.0}
+    test = {**configured, "has_own_plan": True}
     stub.status["occupation"] = occupation(**test)
-    browser.wait_for_text("run-plan", "set-up 7 of 20: 1:05 left")
     browser.wait_for_text("run-test", "Placement test: the scatter is shown from 8 set-ups on.")
-    whole = {**reading(0.31), "set_ups": 20, "set_up_sd_mgal": 1.3, "set_up_sd_limits_mgal": [0.99, 1.9], "set_up_error_mgal": 0.29}
-    stub.status["occupation"] = occupation(**{**test, "whole": whole, "set_up_count": 20, "set_up_left_s": 0.0, "may_stop": True})
-    browser.wait_for_text("run-plan", "set-up 20 of 20: the stay may be stopped")
+    whole = reading(set_ups=20, set_up_sd_mgal=1.3, set_up_sd_limits_mgal=[0.99, 1.9], set_up_error_mgal=0.29)
+    stub.status["signal"] = signal("go")
+    stub.status["occupation"] = occupation(**{**test, "whole": whole, "set_up_count": 20})
     browser.wait_for_text("run-test", "scatter of 20 set-ups 1.30 mGal (95 %: 0.99 to 1.90), with tilt, temperature and noise in it. "
                           "After Stop, in the evening: a351-correct calibrate --placement test.toml --out placement.toml")
     browser.demand_readable("a placement test")
     browser.shot("placement-test-1366")
 
 
-def show_occupations(stub, browser):
-    stub.status["verdict"] = verdict("stable", held_s=430)
-    stub.status["occupation"] = occupation()
-    browser.wait_for_text("run-judgement", "still about 4 min 10 s needed (target 1.00 mGal)")
-    demand("value and standard error are shown with their unit", browser.text("run-value") == "979861.32 ± 1.31 mGal reading")
-    count_set_ups_down(stub, browser)
-    count_a_placement_test(stub, browser)
-    stub.status["occupation"] = occupation()
-    browser.wait_for("the next set-up is not proposed yet", lambda: browser.text("run-propose") == "")
-    above = {name: browser.is_above_fold(name) for name in ABOVE_FOLD + ["stop", "run-value"]}
-    demand(f"the main items are visible without scrolling at 1366 x 768: {above}", all(above.values()))
-    browser.shot("occupation-1366")
-
-    stub.status["occupation"] = occupation(propose_set_up=True,
-                                           warnings=["the site was occupied before: this is stay 2"])
-    browser.wait_for_text("run-propose", "Lift the box")
-    browser.wait_for_text("run-warnings", "this is stay 2")
-    browser.demand_readable("the time for the next set-up")
-    demand("the stop button stays visible without scrolling", browser.is_above_fold("stop"))
-    browser.shot("next-set-up-1366")
-
-    both = {**reading(0.82, 0.0, True), "set_ups": 2, "set_up_sd_mgal": 1.1, "set_up_error_mgal": 0.778}
-    stub.status["occupation"] = occupation(whole=both, set_up_count=2, may_stop=True, set_up_left_s=0.0)
-    browser.wait_for_text("run-judgement", "✓ GOOD ENOUGH")
-    demand("the mean of all set-ups is the value", browser.text("run-value") == "979861.32 ± 0.82 mGal reading")
-    browser.wait_for_text("run-whole", "UTC: 979861.32 ± 1.31 mGal. Scatter of 2 set-ups: 1.10 mGal, of their mean 0.78 mGal.")
-    browser.demand_readable("good enough")
-    browser.shot("good-enough-1366")
-    browser.resize(PHONE)
-    browser.demand_readable("good enough at 360 px")
-    browser.shot("good-enough-360", is_whole=True)
-    browser.resize(LAPTOP)
-
-    at = "2026-03-01T01:43:20.000Z"
-    stay = {key: occupation()[key] for key in ("key", "site")}
-    for is_at_start, answers in ((False, {"moved-stop": ("occupation/stop", {**stay, "at": at}),
-                                          "moved-setup": ("occupation/setup", {**stay, "at": at}),
-                                          "moved-not": ("occupation/not_moved", stay)}),
-                                 (True, {"moved-stop": ("occupation/retime", {**stay, "from": at, "reason": "started too early"})})):
-        stub.status["occupation"] = occupation(moved={"utc": at, "is_at_start": is_at_start})
-        browser.wait_for_text("moved-text", "The box was moved until 01:43:20" if is_at_start else "The box was moved at 01:43:20 UTC")
-        browser.demand_readable("a moved box")
-        browser.shot(f"moved-{'early' if is_at_start else 'late'}-1366")
-        for button, (path, body) in answers.items():
-            sent = len(stub.posts)
-            browser.click(f"#{button}")
-            browser.wait_for(f"{browser.text(button)}: an order was sent", lambda: len(stub.posts) > sent)
-            demand(f"it is {path} {body}", stub.posts[-1] == (f"/api/{path}", body))
-        demand("an early start has no further set-up", browser.find("#moved-setup").is_displayed() is not is_at_start)
-    stub.status["occupation"] = occupation(moved={"utc": at, "is_at_start": False, "is_set_up": True})
-    browser.wait_for_text("moved-text", "The box was lifted and set down at 01:43:20 UTC")
-    demand("after a lift the next set-up is the first answer", browser.find("#run-moved button").get_attribute("id") == "moved-setup")
-    stub.status["occupation"] = occupation()
-    browser.wait_for("the question is gone", lambda: not browser.find("#run-moved").is_displayed())
-
-    stub.status["occupation"] = occupation(whole=reading(None, None))
-    browser.wait_for_text("run-judgement", "a set-up is missing")
-    stub.status["occupation"] = occupation(whole=reading(None, None), set_up_count=2)
-    browser.wait_for_text("run-judgement", "time needed not known yet")
-    demand("no standard error is shown before it is known", browser.text("run-value") == "979861.32 mGal reading")
-
-
 def show_level(stub, browser):
-    browser.wait_for_text("level-numbers", "tilt not known yet")
+    demand("while the box must not be touched there is no level", not browser.find("#level").is_displayed())
     stub.status["tilt"] = tilt(2.4, -0.6, ["lower the +x side by 2.4'", "raise the +y side by 0.6'"])
     browser.wait_for_text("level-advice", "lower the +x side by 2.4′")
     demand("both axes are shown in arc minutes with their signs", browser.text("level-numbers") == "x +2.4′ y −0.6′")
@@ -180,65 +146,83 @@ def show_level(stub, browser):
     demand("without a known tilt no bubble is shown", browser.find("#bubble-spot").get_attribute("visibility") == "hidden")
     stub.status["tilt"] = tilt(0.4, 0.3)
     browser.wait_for_text("level-word", "✓ within 1.2′")
+    stub.status["tilt"] = None
+
+
+def cells(browser):
+    return browser.run("return [...document.querySelectorAll('#day-rows tr[data-key]')].map((row) =>"
+                       "[...row.children].slice(1).map((cell) => cell.innerText).join('|'))")
 
 
 def show_day(stub, browser):
-    stub.occupations = [finished("No.0", hours_ago=30), finished("No.0", hours_ago=3, note="windy"),
-                        finished("No.1", hours_ago=2, reading=None),
-                        finished("No.1", hours_ago=1, set_ups=finished("x")["set_ups"] * 2, reading={**reading(0.42), "set_up_sd_mgal": 1.234})]
-    stub.status["occupation"] = None
-    browser.wait_for("the three occupations of the last 24 h are listed",
-                     lambda: len(browser.text("day-rows").splitlines()) == 3)
-    rows = browser.text("day-rows").splitlines()
-    demand(f"occupations are listed newest first, with set-ups, note and value if known: {rows}",
-           "2 set-ups, sd 1.23 mGal" in rows[0] and "–" in rows[1] and "windy" in rows[2] and "± 0.42" in rows[2])
-    browser.find("#start-site").send_keys("No.1")
-    browser.wait_for_text("start-warning", "was occupied at")
-    browser.choose("start-site", "No.0")
-    browser.wait_for("a return to the first site of the day is no warning", lambda: browser.text("start-warning") == "")
-    browser.choose("start-site", "No.1")
+    ended = [("No.0", 30, {}), ("No.0", 3, {"note": "windy"}), ("No.3", 2, {}), ("No.6", 1, {})]
+    stub.occupations = [{**finished(site, hours_ago=hours, **more), "key": f"key-{i}"} for i, (site, hours, more) in enumerate(ended)]
+    stub.discarded = [{**finished("No.9", hours_ago=4), "key": "gone"}]
+    stub.status["occupation"] = occupation()
+    headline, knock = "No.3 (1) reads like No.7: it is 12.1 mGal too high for No.3", "a knock <i> at 2026-03-01T01:43:20Z"
+    stub.survey = survey([stay("No.0", difference_mgal=0.42, key="key-1"), stay("No.3", gravity_mgal=979873.5, difference_mgal=12.1, key="key-2"),
+                          stay("No.6", gravity_mgal=None, key="key-3", remarks=[{"code": "left_out", "numbers": [], "text": knock}]),
+                          stay("No.5", is_running=True, u_evening_mgal=1.05)],
+                         [finding("the readings follow the temperature", False), finding(headline, True, "key-2"),
+                          finding("the sensor was exchanged", True)])
+    expected = ["No.5 (1)|979861.3 ± 1.3||✓", "No.6 (1)|–||⚠", "No.3 (1)|979873.5 ± 1.3|+12.1|⚠", "No.0 (1)|979861.3 ± 1.3|+0.4|✓", "No.9|–||"]
+    browser.wait_for(f"the stays are listed newest first, each with one mark: {expected}", lambda: cells(browser) == expected, seconds=15)
+    demand("the zone is said once", browser.text("day-zone") == "Start, UTC" and "UTC" not in browser.text("day-rows"))
+    demand("above the list are only headlines of the day", browser.text("gravity-findings") == "⚠ the sensor was exchanged")
+    demand("remarks are folded", headline not in browser.text("day-rows") and not browser.find("#day-change").is_displayed())
+    for key, remark, buttons in (("key-2", f"⚠ {headline}\n11 min 00 s", ["rename", "times", "discard"]),
+                                 ("key-3", "⚠ a knock <i> at 01:43:20 UTC", ["rename", "times", "discard"]),
+                                 ("key-1", "11 min 00 s; windy", ["rename", "times", "discard"]), ("gone", "discarded", ["restore"]),
+                                 (STAY["key"], "running; ± 1.1 mGal after a return to the base", ["rename", "times", "discard"])):
+        browser.click(f"#day-rows [data-key='{key}']")
+        browser.wait_for_text("day-rows", remark)
+        shown = [one for one in ("rename", "times", "discard", "resume", "restore") if browser.find(f"#day-{one}").is_displayed()]
+        demand(f"{key}: the buttons are {shown}", shown == buttons)
+    browser.demand_readable("an unfolded row")
     browser.shot("day-1366")
-    browser.resize((1366, 1500))
-    time.sleep(2.5)
-    browser.shot("whole-1366", is_whole=True)
+    browser.click(f"#day-rows [data-key='{STAY['key']}']")
+    demand("a second press folds it", "running" not in browser.text("day-rows"))
     browser.resize(PHONE)
     browser.demand_readable("the day at 360 px")
     browser.shot("day-360", is_whole=True)
     browser.resize(LAPTOP)
 
 
-def show_gravity(stub, browser):
-    browser.wait_for_text("gravity-state", "No figures: not computed yet.")
-    demand("without stays there is no table", not browser.find("#gravity-table").is_displayed())
-    headline, remark = "No.3 (1) reads like No.7: it is 12.1 mGal too high for No.3", "the readings follow the temperature <b>"
-    stub.survey = survey([stay("No.0", difference_mgal=0.42), stay("No.3", 2, 979873.5, 12.1, set_ups=2),
-                          stay("No.5", remarks=[{"code": "pulse", "numbers": [], "text": "a knock <i>"}], is_running=True,
-                               u_evening_mgal=1.05),
-                          stay("No.6", gravity_mgal=None, remarks=[{"code": "left_out", "numbers": [], "text": "no samples"}])],
-                         [finding(remark, False), finding(headline, True)])
-    browser.wait_for_text("gravity-state", "As of 12:03:10 UTC, data up to 12:03:09 UTC, model day.", seconds=20)
-    rows = [row.replace("\t", " ").strip() for row in browser.text("gravity-rows").splitlines()]
-    demand(f"the stays are listed newest first, with value, u, difference and remarks: {rows}",
-           rows == ["No.6 (1) – – no samples", "No.5 (1) 979861.32 ± 1.27 – running; ± 1.05 mGal after a return to the base; a knock <i>",
-                    "No.3 (2) 979873.50 ± 1.27 +12.10 2 set-ups", "No.0 (1) 979861.32 ± 1.27 +0.42"])
-    demand("headlines come first, word by word", browser.text("gravity-findings").splitlines() == [headline, remark])
-    browser.demand_readable("gravity so far")
-    browser.shot("gravity-1366", is_whole=True)
-    browser.resize(PHONE)
-    browser.demand_readable("gravity so far at 360 px")
-    browser.resize(LAPTOP)
+def choose_next(stub, browser):
+    stub.sites = sites()  # Sorted by the distance from the last stay.
+    stub.status["occupation"], stub.status["signal"] = None, no_stay()
+    browser.wait_for("the nearest site that was not visited today is chosen",
+                     lambda: browser.find("#start-site").get_attribute("value") == "No.1")
+    browser.choose("start-site", "No.6")
+    browser.wait_for_text("start-warning", "was occupied at")
+    stub.sites = sites(15)
+    browser.wait_for("the list is read again", lambda: "No.14" in browser.text("start-site"))
+    demand("what the operator has chosen stays", browser.find("#start-site").get_attribute("value") == "No.6")
+    browser.choose("start-site", "No.0")
+    browser.wait_for("a return to the first site of the day is no warning", lambda: browser.text("start-warning") == "")
+    browser.click("#start")
+    browser.wait_for("after a start the next one is chosen", lambda: browser.find("#start-site").get_attribute("value") == "No.1")
+    browser.shot("start-1366")
+
+
+def show_no_figures(stub, browser):
     stub.survey = {**stub.survey, "reason": "killed", "reason_text": "signal 9 ended it"}
-    browser.wait_for_text("gravity-state", "These figures are old: signal 9 ended it. As of 12:03:10 UTC", seconds=20)
+    browser.wait_for_text("gravity-state", "These figures are old: signal 9 ended it.", seconds=15)
     stub.survey = survey([], reason="no_reference", reason_text="no benchmark with known gravity was read yet", model=None)
-    browser.wait_for_text("gravity-state", "No figures: no benchmark with known gravity was read yet.", seconds=20)
+    browser.wait_for_text("gravity-state", "No figures: no benchmark with known gravity was read yet.", seconds=15)
 
 
 def show_trouble(stub, browser):
+    stub.status["level"], stub.status["signal"] = "warning", signal("look")
+    stub.status["reasons"] = [stub.status["signal"]["sentence"]]
+    browser.wait_for_text("signal-word", "LOOK")
+    demand("the sentence of the signal is not said twice", browser.text("trouble") == "")
     stub.status["level"] = "fault"
     stub.status["reasons"] = ["the disk of the data root is full", "port: no such device"]
     browser.wait_for_text("trouble", "FAULT: the disk of the data root is full; port: no such device")
     stub.rows = [row("state", ["fault"], ": the disk is full", level="fault"), row("troubles", "checksum errors 3"),
                  row("temperature", "42.500 degC"), row("outer oven", ["disabled"])]
+    browser.open_details()
     browser.wait_for_text("health-rows", "checksum errors 3")
     said = browser.text("health-rows")
     demand(f"the rows of the daemon are shown, and one of the page: {said!r}",
@@ -250,18 +234,34 @@ def show_trouble(stub, browser):
     browser.shot("fault-1366")
 
 
+def show_check_lists(stub, browser):
+    for count in (6, 12):
+        checks = [check(f"quantity {i} that is shown in the list of checks", 0.31, "degC/h", 0.25, i > 2) for i in range(count)]
+        stub.status["details"] = details(checks=checks)
+        browser.wait_for(f"{count} checks are listed", lambda: len(browser.text("details-checks").splitlines()) == count)  # noqa: B023
+        for width in (1366, 400):
+            browser.resize((width, 768))
+            hidden = browser.run("const e = document.getElementById('details-checks'); return [e, ...e.children]"
+                                 ".map((one) => one.scrollHeight - one.clientHeight).reduce((a, b) => Math.max(a, b));")
+            demand(f"{count} checks at {width} px: {hidden} px are cut, must be 0", hidden <= 0)
+    browser.resize(LAPTOP)
+
+
 with Browser() as page:
     daemon = StubDaemon()
     daemon.sites = sites()
-    time.sleep(0.3)
+    page.wait_for("samples arrive", lambda: daemon.samples)
     page.open(daemon.port)
     page.wait_for_text("clock", "UTC")
-    show_verdicts(daemon, page)
-    show_time_left(daemon, page)
-    show_without_colour(daemon, page)
+    show_words(daemon, page)
+    press_buttons(daemon, page)
     count_announcements(daemon, page)
-    show_occupations(daemon, page)
+    show_one_number(daemon, page)
+    show_details(daemon, page)
+    count_a_placement_test(daemon, page)
     show_level(daemon, page)
     show_day(daemon, page)
-    show_gravity(daemon, page)
+    choose_next(daemon, page)
+    show_no_figures(daemon, page)
     show_trouble(daemon, page)
+    show_check_lists(daemon, page)

@@ -3,7 +3,7 @@
 import time
 
 from browser import LAPTOP, PHONE, Browser
-from made_up import finished, occupation, verdict
+from made_up import details, finished, occupation, signal
 from programs import demand
 from stub_daemon import StubDaemon, row
 
@@ -27,7 +27,8 @@ def show_everywhere(stub, text):
     stub.sites = [{"site": text, "distance_m": 3.0}]
     stub.occupations = [finished(text, note=text)]
     stub.status["occupation"] = occupation(text, operator=text, note=text, warnings=[text])
-    stub.status["verdict"] = {**verdict("settling"), "checks": [], "reasons": [text]}
+    stub.status["signal"] = {**signal("look", buttons=["checked"]), "sentence": text + ".", "parts": None}
+    stub.status["details"] = {**details(checks=[]), "reasons": [text]}
     stub.status["tilt"] = {"axes": ["x", "y"], "x_arcmin": 2.0, "y_arcmin": 0.0, "limit_arcmin": 1.2, "is_within": False,
                            "reference": {"site": text, "utc": None}, "advice": [text]}
     stub.status["level"], stub.status["reasons"] = "warning", [text]
@@ -46,7 +47,7 @@ with Browser() as page:
         page.wait_for(f"{name}: the site is shown unchanged", lambda: shown(page, "run-site") == expected)
         page.wait_for(f"{name}: the site is shown unchanged in the list of the day",
                       lambda: expected in shown(page, "day-rows"))
-        for place in ("run-remark", "run-warnings", "verdict-checks", "level-advice", "level-reference", "trouble",
+        for place in ("run-remark", "run-warnings", "signal-sentence", "details-checks", "level-advice", "level-reference", "trouble",
                       "health-rows"):
             said = shown(page, place).replace("′", "'")
             demand(f"{name}: {place} shows the text", expected.replace("′", "'") in said)
@@ -55,13 +56,13 @@ with Browser() as page:
             page.resize(size)
             page.demand_readable(f"{name} at {size[0]} px")
             if size == LAPTOP:
-                demand(f"{name}: verdict and stop button are visible without scrolling",
-                       page.is_above_fold("verdict-word") and page.is_above_fold("stop"))
+                demand(f"{name}: word and stop button are visible without scrolling",
+                       page.is_above_fold("signal-word") and page.is_above_fold("stop"))
             page.shot(f"text-{name.replace(' ', '-')}-{size[0]}")
         page.resize(LAPTOP)
         demand(f"{name}: the text created no element", page.run(ELEMENTS) == elements)
         demand(f"{name}: the text did not change the title: {page.driver.title[:60]!r}",
-               page.driver.title.startswith("SETTLING") and page.driver.title.endswith("a351"))
+               page.driver.title.startswith("LOOK") and page.driver.title.endswith("a351"))
 
         daemon.status["occupation"] = None
         page.wait_for(f"{name}: the list of sites shows the site",
@@ -70,6 +71,7 @@ with Browser() as page:
         page.click("#start")
         page.wait_for(f"{name}: the order carries the name unchanged",
                       lambda: daemon.posts and daemon.posts[-1][1].get("site") == text)
+        page.run("const row = document.querySelector('#day-rows tr'); if (row.ariaExpanded !== 'true') row.click();")
         page.click("#day-discard")
         demand(f"{name}: the question shows the name", expected in shown(page, "discard-text"))
         demand(f"{name}: the buttons of the question are visible without scrolling", page.is_above_fold("discard-yes"))

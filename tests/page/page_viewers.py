@@ -31,7 +31,7 @@ with Scratch() as scratch, Browser() as page, Browser(allowed_errors=LOST) as re
     session = Session(scratch, speed=1)
     session.wait_for_frames(100)
     page.open(session.port)
-    page.wait_for_text("caption-x", "mean")
+    page.wait_for("samples are shown", lambda: page.run("return document.getElementById('trace-end').textContent") != "")
     readers = [Reader(session.port) for _ in range(SOCKETS)]
     stuck = open_stream(session.port, receive_buffer=4096)
     oldest_s, banners, loads, end = 0.0, set(), 0, time.monotonic() + CROWD_S
@@ -45,7 +45,7 @@ with Scratch() as scratch, Browser() as page, Browser(allowed_errors=LOST) as re
     demand(f"during {loads} reloads of the other browser the data of the page are at most {oldest_s} s old, limit 1",
            oldest_s < 1.0)
     demand(f"the page never called its data stale: {banners}", banners == {""})
-    restless.wait_for_text("caption-x", "mean")
+    restless.wait_for("samples are shown", lambda: restless.run("return document.getElementById('trace-end').textContent") != "")
     demand(f"every socket was served with at least {min(reader.count for reader in readers)} messages",
            min(reader.count for reader in readers) > 8 * CROWD_S)
     page.allowed_errors = restless.allowed_errors

@@ -45,10 +45,12 @@ def first_status():
         "journaled": 0, "archived": 0, "timing": {"state": "locked", "uncertainty_ms": 0.21,
                                   "rate": {"declared_hz": None, "measured_hz": 50.00012, "uncertainty_ppm": 0.3,
                                            "span_h": 2.5, "advice": ""}},
-        "verdict": {"state": "settling", "since": None, "held_s": 75.0, "reasons": [],
+        "signal": {"word": "go", "text": "YOU CAN GO", "sentence": "No stay runs. Set the box down level at a benchmark, then press Start.",
+                   "parts": None, "buttons": ["start"], "look": None},
+        "details": {"state": "settling", "since": None, "held_s": 75.0, "time_left_s": None, "reasons": [],
                     "checks": [check("temperature slope", 0.31, "degC/h", 0.25, False),
                                check("temperature differs from the set point by", 0.02, "degC", 1.0, True)]},
-        "occupation": None, "target_mgal": 1.0, "tilt": None,
+        "occupation": None, "tilt": None,
         "live": {"rate_hz": RATE_HZ, "interval_s": 1 / RATE_HZ,
                  "channels": [{"name": name, "unit": "mg", "scale": SCALE_MG, "offset": 0.0} for name in "xyz"]
                  + [{"name": "temperature", "unit": "degC", "scale": 1e-4, "offset": 25.0}]},
@@ -251,7 +253,7 @@ class StubDaemon:
         last_status, last_text, cursor = 0.0, "", -1
         try:
             while not self.is_away:
-                text = json.dumps({key: self.status[key] for key in ("verdict", "tilt", "occupation", "level")})
+                text = json.dumps({key: self.status[key] for key in ("signal", "details", "tilt", "occupation", "level")})
                 if time.time() - last_status >= 1 or text != last_text:
                     self.send(request, 1, json.dumps({"status": self.full_status(), "rows": self.rows}).encode())
                     last_status, last_text = time.time(), text

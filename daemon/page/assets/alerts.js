@@ -11,8 +11,7 @@ const kLoudness = 0.5;
 // Tones in Hz, which small loudspeakers reproduce, and vibrations in ms: on, off, on.  The last one is the most important.
 const kSignals = {
     due: { tones_hz: [1047, 784], vibration_ms: [120, 120, 120] },
-    stable: { tones_hz: [784, 1047], vibration_ms: [250] },
-    good: { tones_hz: [784, 1047, 1568], vibration_ms: [250, 120, 250] },
+    look: { tones_hz: [784, 1047, 1568], vibration_ms: [250, 120, 250] },
     fault: { tones_hz: [494, 494, 494, 494], vibration_ms: [700, 200, 700] },
 };
 
@@ -45,7 +44,7 @@ function toggle() {
 }
 
 /** Signals the states that have just become true: once per change, and none at the first call.
-    @param states  { due, stable, good, fault }: time of the set-up is over, verdict, reading good enough, fault or old data. */
+    @param states  { due, look, fault }: set-up or plan complete, a contradiction, no data or a fault. */
 export function follow(states) {
     const fresh = Object.keys(kSignals).filter((name) => before && states[name] && !before[name]);
     before = states;

@@ -1,9 +1,9 @@
-// Keeps the screen on while the field view is shown, where the browser allows it, and else says what to set by hand.
+// Keeps a small screen on while the page is shown, where the browser allows it, and else says what to set by hand.
 
 import { set_text, show } from "./dom.js";
 import { tr } from "./language.js";
-import { is_field } from "./view.js";
 
+const small = matchMedia("(max-width: 1099px), (max-height: 599px)"); // As in page.css.
 let lock = null;
 let refusal = ""; // Why the browser does not keep the screen on.
 
@@ -14,17 +14,17 @@ function reason() {
 }
 
 function say() {
-    show("awake", is_field() && reason() !== "");
+    show("awake", small.matches && reason() !== "");
     set_text("help-screen", reason()
         ? tr("Screen: {}. Therefore set the screen timeout of this device to 30 minutes or more by hand.", reason())
-        : tr("Screen: it stays on while the field view is shown."));
+        : tr("Screen: it stays on while this page is shown."));
     set_text("help-vibration", navigator.vibrate ? tr("Vibration: it comes with the sounds, if the device has it.")
         : tr("Vibration: this browser has none, or allows it only over https."));
 }
 
 /** Asks for the lock, or releases it; browsers release it by themselves while the page is hidden. */
 async function keep_awake() {
-    const is_wanted = is_field() && !document.hidden;
+    const is_wanted = small.matches && !document.hidden;
     if (!navigator.wakeLock) return say();
     try {
         if (is_wanted && (!lock || lock.released)) lock = await navigator.wakeLock.request("screen");
@@ -37,5 +37,5 @@ async function keep_awake() {
 }
 
 document.addEventListener("visibilitychange", keep_awake);
-addEventListener("view", keep_awake);
+small.addEventListener("change", keep_awake);
 keep_awake();

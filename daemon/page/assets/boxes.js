@@ -5,9 +5,10 @@ import { get, post } from "./api.js";
 import { Dialog } from "./dialog.js";
 import { by_id, make, set_text, show } from "./dom.js";
 import { number, visible } from "./format.js";
-import { sentence, sentences, tr } from "./language.js";
+import { sentence, tr } from "./language.js";
 import { recalled, remember } from "./memory.js";
-import { time_with_utc } from "./time.js";
+import { troubles_of } from "./signal.js";
+import { time_with_utc, with_local_times } from "./time.js";
 
 const kEvery_ms = 1000;
 const kPatience_ms = 3000;
@@ -16,7 +17,7 @@ const kMostApart_ms = 10_000; // A box that records is a second late at most; on
 
 /** Returns true for an answer that has what a panel shows. */
 function is_status(answer) {
-    return typeof answer?.verdict?.state === "string" && Array.isArray(answer.reasons)
+    return typeof answer?.signal?.word === "string" && Array.isArray(answer.reasons)
         && (!answer.sample || Number.isFinite(answer.sample.age_s)) && (!answer.occupation || answer.occupation.start);
 }
 
@@ -30,8 +31,8 @@ class Box {
         this.is_asked = false;
         const link = make("a", new URL(origin).host);
         link.href = origin;
-        this.parts = { head: make("h2", ""), word: make("p", "", "word"), stay: make("p", "", "foreign"),
-            value: make("p", "", "value"), age: make("p", ""), answer: make("p", "", "answer foreign"),
+        this.parts = { head: make("h2", ""), word: make("p", "", "word"), sentence: make("p", "", "sentence foreign"), stay: make("p", "", "foreign"),
+            gravity: make("p", "", "gravity"), age: make("p", ""), answer: make("p", "", "answer foreign"),
             trouble: make("p", "", "trouble foreign") };
         this.parts.head.append(link);
         this.panel = make("section", "", "box");
@@ -67,20 +68,18 @@ class Box {
 
     refresh() {
         const set = (part, text) => { if (this.parts[part].textContent !== text) this.parts[part].textContent = text; };
-        const verdict = this.status?.verdict.state ?? "no data";
-        this.parts.word.dataset.state = this.is_fresh() ? verdict : "no data";
-        set("word", (this.is_fresh() || !this.status ? tr(verdict) : tr("NO FRESH DATA")).toUpperCase());
+        const signal = this.is_fresh() ? this.status.signal : null;
+        this.parts.word.dataset.word = signal?.word ?? "no_data";
+        set("word", signal ? tr(signal.text) : this.status ? tr("NO FRESH DATA") : tr("NO DATA"));
+        set("sentence", signal ? visible(with_local_times(sentence(signal.parts, signal.sentence))) : "");
         const stay = this.status?.occupation;
         set("stay", stay ? tr("{}, stay {}, since {}", visible(stay.site), stay.number, time_with_utc(stay.start))
             : tr("no stay is running"));
-        const value = stay?.whole;
-        set("value", Number.isFinite(value?.value_mgal)
-            ? `${number(value.value_mgal)} ± ${number(value.set_up_error_mgal ?? value.standard_error_mgal)} mGal` : "");
+        const gravity = stay?.gravity;
+        set("gravity", Number.isFinite(gravity?.gravity_mgal) ? `${number(gravity.gravity_mgal, 1)} ± ${number(gravity.u_mgal, 1)} mGal` : "");
         const age_s = this.age_s();
         set("age", age_s === null ? tr("no data") : tr("data {} s old", number(age_s, 1)));
-        const is_good = !this.status || this.status.level === "good";
-        const reasons = is_good ? [] : sentences(this.status.reason_parts, this.status.reasons);
-        set("trouble", this.trouble || visible(reasons.join("; ")));
+        set("trouble", this.trouble || (this.status && this.status.level !== "good" ? troubles_of(this.status) : ""));
     }
 
     say(text, is_error) {
@@ -176,8 +175,8 @@ function name_other_address() {
 function refresh() {
     for (const box of boxes) box.refresh();
     const fresh = boxes.filter((box) => box.is_fresh());
-    const stable = fresh.filter((box) => box.status.verdict.state === "stable").length;
-    set_text("summary", boxes.length > 0 ? tr("{} of {} boxes have data, {} stable", fresh.length, boxes.length, stable)
+    const ready = fresh.filter((box) => box.status.signal.word === "go").length;
+    set_text("summary", boxes.length > 0 ? tr("{} of {} boxes have data, {} can go", fresh.length, boxes.length, ready)
         : tr("No boxes are configured: list their addresses as boxes in [page]."));
 }
 

@@ -99,9 +99,9 @@ export class Charts {
         this.minute = minute;
         this.spans = spans;
         this.charts = {};
-        this.spans_s = { signal: 60, warmth: kHour_s };
+        this.spans_s = { trace: 60, warmth: kHour_s };
         this.in_view = new Set();
-        this.asked_ms = { signal: -Infinity, warmth: -Infinity };
+        this.asked_ms = { trace: -Infinity, warmth: -Infinity };
         const watch = new IntersectionObserver((entries) => {
             for (const entry of entries) {
                 if (entry.isIntersecting) this.in_view.add(entry.target.id);
@@ -110,26 +110,26 @@ export class Charts {
         });
         for (const name of Object.keys(kNames)) watch.observe(by_id(`chart-${name}`));
         addEventListener("scheme", () => this.restart());
-        for (const group of ["signal", "warmth"]) {
+        for (const group of ["trace", "warmth"]) {
             by_id(`${group}-span`).addEventListener("change", (event) => {
                 this.spans_s[group] = Number(event.target.value);
                 this.asked_ms[group] = -Infinity;
                 for (const name of this.names(group)) this.clear(name);
-                show("signal-end", this.spans_s.signal === 60);
+                show("trace-end", this.spans_s.trace === 60);
             });
         }
     }
 
     /** Draws all charts again, in other colours. */
     restart() {
-        for (const group of ["signal", "warmth"]) {
+        for (const group of ["trace", "warmth"]) {
             this.asked_ms[group] = -Infinity;
             for (const name of this.names(group)) this.clear(name);
         }
     }
 
     names(group) {
-        return group === "signal" ? ["x", "y", "z", "norm"] : ["temperature", "oven", ...(by_id("figure-outer_oven").hidden ? [] : ["outer_oven"])];
+        return group === "trace" ? ["x", "y", "z", "norm"] : ["temperature", "oven", ...(by_id("figure-outer_oven").hidden ? [] : ["outer_oven"])];
     }
 
     clear(name) {
@@ -142,8 +142,8 @@ export class Charts {
         @param now_ms  instrument time.
         @return whether the last minute was drawn. */
     draw(now_ms) {
-        const is_drawn = this.spans_s.signal === 60 && this.draw_minute();
-        for (const group of ["signal", "warmth"]) {
+        const is_drawn = this.spans_s.trace === 60 && this.draw_minute();
+        for (const group of ["trace", "warmth"]) {
             const span_s = this.spans_s[group];
             // A bin of the history is a few seconds long for an hour, about a minute for a day.
             const period_ms = span_s > kHour_s ? 60000 : 5000;
@@ -158,8 +158,8 @@ export class Charts {
     draw_minute() {
         const end_ms = this.minute.newest_ms;
         if (end_ms === null) return false;
-        set_text("signal-end", tr("to {}", time_of_day(end_ms, 2)));
-        for (const name of this.names("signal")) {
+        set_text("trace-end", tr("to {}", time_of_day(end_ms, 2)));
+        for (const name of this.names("trace")) {
             if (!this.in_view.has(`chart-${name}`)) continue;
             const shown = this.minute.shown(name, by_id(`chart-${name}`).clientWidth || 300);
             this.update(name, ["UTC", name], false, shown.rows, end_ms - kMinute_ms, end_ms);

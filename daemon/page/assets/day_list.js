@@ -1,7 +1,9 @@
-// The list of the day's stays, each in one line so that a whole day is visible, and the buttons that change the chosen one.
+// The list of the day's stays, the newest first: gravity, one mark, and the remarks of the row that was pressed.  Below it are the
+// buttons that change this stay.
 
-import { by_id, make, show } from "./dom.js";
-import { duration, number, visible } from "./format.js";
+import { by_id, make, set_text, show } from "./dom.js";
+import { duration, number, signed, visible } from "./format.js";
+import { doubts_of, gravity_of } from "./gravity.js";
 import { tr } from "./language.js";
 import { time_of_day, zone } from "./time.js";
 
@@ -9,55 +11,50 @@ const kResume_ms = 10 * 60 * 1000; // The daemon's limit (kLongestResume) is the
 const kDialogs = ["rename", "times", "discard"];
 const kOrders = ["resume", "restore"];
 
-/** Returns value and standard error in mGal, as far as they are known. */
-export function reading_text(reading) {
-    if (!reading || reading.value_mgal === null) return "–";
-    return reading.standard_error_mgal === null ? number(reading.value_mgal, 2)
-        : `${number(reading.value_mgal, 2)} ± ${number(reading.standard_error_mgal, 2)}`;
-}
-
 /** Returns true if the last stay can be resumed still. */
 export function may_resume(last, now_ms) {
     return last !== undefined && now_ms <= Date.parse(last.set_ups.at(-1).end) + kResume_ms;
 }
 
-function start_text(start) {
-    const utc = start.slice(11, 19);
-    return zone(start) === "UTC" ? utc : `${time_of_day(start)} (${utc})`;
+/** Returns a running stay in the form of those that have ended. */
+function of_running({ key, site, number: count, start, set_up_count, running_s, note, whole }) {
+    return { key, site, number: count, note, running_s, reading: whole, is_running: true,
+        set_ups: Array(set_up_count).fill({ start, end: null }) };
 }
 
-function remark_text(one) {
+function remark_of(one) {
+    const { length } = one.set_ups;
     const sd_mgal = one.reading?.set_up_sd_mgal ?? null;
-    const set_ups = one.set_ups.length > 1 &&
-        tr("{} set-ups", one.set_ups.length) + (sd_mgal === null ? "" : tr(", sd {} mGal", number(sd_mgal, 2)));
-    return [one.is_discarded && tr("discarded"), set_ups, visible(one.note)].filter(Boolean).join("; ");
+    const seconds = one.set_ups.reduce((sum, part) => sum + (Date.parse(part.end) - Date.parse(part.start)) / 1000, 0);
+    const evening_mgal = gravity_of(one.key)?.u_evening_mgal ?? NaN;
+    const set_ups = tr("{} set-ups", length) + (sd_mgal === null ? "" : tr(", sd {} mGal", number(sd_mgal, 1)));
+    return [one.is_discarded && tr("discarded"), one.is_running ? tr("running") : duration(seconds), length > 1 && set_ups,
+        Number.isFinite(evening_mgal) && tr("± {} mGal after a return to the base", number(evening_mgal, 1)),
+        visible(one.note)].filter(Boolean).join("; ");
 }
 
-function name_of(one) {
-    return one.is_discarded ? visible(one.site) : `${visible(one.site)} (${one.number})`;
-}
-
+/** Returns what a row shows. */
 function row_of(one) {
-    const row = document.createElement("tr");
-    row.dataset.key = one.key;
-    if (one.is_discarded) row.className = "discarded";
-    const seconds = one.set_ups.reduce((sum, s) => sum + (Date.parse(s.end) - Date.parse(s.start)) / 1000, 0);
-    row.append(make("td", name_of(one)), make("td", start_text(one.set_ups[0].start)), make("td", duration(seconds)),
-        make("td", one.is_discarded ? "–" : reading_text(one.reading)), make("td", remark_text(one)));
-    row.firstElementChild.title = visible(one.site);
-    row.lastElementChild.title = remark_text(one);
-    return row;
+    const gravity = one.is_discarded ? undefined : gravity_of(one.key);
+    const doubts = one.is_discarded ? [] : doubts_of(one.key);
+    const is_known = Number.isFinite(gravity?.gravity_mgal);
+    const is_left_out = Number.isFinite(gravity?.left_out_difference_mgal);
+    const value = is_known ? `${number(gravity.gravity_mgal, 1)} ± ${number(gravity.u_mgal, 1)}` : "–";
+    const name = one.is_discarded ? visible(one.site) : `${visible(one.site)} (${one.number})`;
+    return { key: one.key, class_name: one.is_discarded ? "discarded" : one.is_running ? "running" : "",
+        cells: [time_of_day(one.set_ups[0].start).slice(0, 5), name, value, is_left_out ? signed(gravity.left_out_difference_mgal) : "",
+            doubts.length > 0 ? "⚠" : is_known ? "✓" : ""],
+        remarks: [...doubts.map((text) => `⚠ ${text}`), remark_of(one)] };
 }
 
 export class DayList {
     /** @param open  opens a dialog for a stay: open(kind, stay).
         @param change  sends an order: change(path, body). */
     constructor(open, change) {
+        this.ended = []; // In the order of the log.
         this.stays = []; // The newest first.
-        this.last = undefined; // The stay that ended last.
-        this.shown = null; // The stays in the table, as JSON.
-        this.is_running = true; // Another stay runs, as far as is known.
-        this.now_ms = 0;
+        this.unfolded = null; // Key of the stay whose remarks are shown.
+        this.shown = null; // The rows in the table, as JSON.
         for (const kind of kDialogs) by_id(`day-${kind}`).addEventListener("click", () => open(kind, this.named()));
         for (const kind of kOrders) {
             by_id(`day-${kind}`).addEventListener("click", () => {
@@ -65,66 +62,67 @@ export class DayList {
                 change(`/api/occupation/${kind}`, { key, site });
             });
         }
-        by_id("day-stay").addEventListener("change", () => this.mark());
-        by_id("day-rows").addEventListener("click", (event) => {
-            const row = event.target.closest("tr");
-            if (!row) return; // Between two rows.
-            by_id("day-stay").value = row.dataset.key;
-            this.mark();
-        });
+        const press = (event) => {
+            const key = event.target.closest("tr")?.dataset.key;
+            if (key === undefined || (event.key && event.key !== "Enter" && event.key !== " ")) return;
+            event.preventDefault();
+            this.unfolded = this.unfolded === key ? null : key;
+            this.draw();
+        };
+        by_id("day-rows").addEventListener("click", press);
+        by_id("day-rows").addEventListener("keydown", press);
     }
 
     chosen() {
-        return this.stays.find((one) => one.key === by_id("day-stay").value);
+        return this.stays.find((one) => one.key === this.unfolded);
     }
 
     /** Names the chosen stay for a dialog or an order. */
     named() {
-        const { key, site, number: count, set_ups } = this.chosen();
-        return { key, site, number: count, start: set_ups[0].start, end: set_ups.at(-1).end };
+        const { key, site, number: count, set_ups, running_s } = this.chosen();
+        return { key, site, number: count, start: set_ups[0].start, end: set_ups.at(-1).end, running_s };
     }
 
-    /** Sets the stays of the day.  Rows that did not change are kept. */
-    set(stays, discarded) {
-        this.last = stays.at(-1);
-        const all = [...stays, ...discarded.map((one) => ({ ...one, is_discarded: true }))];
-        const text = JSON.stringify(all);
+    /** Shows the stays of the day.  @param running  the running one, or null. */
+    set(ended, discarded, running, now_ms) {
+        this.ended = ended;
+        this.stays = [...ended, ...discarded.map((one) => ({ ...one, is_discarded: true })), ...(running ? [of_running(running)] : [])]
+            .sort((one, other) => (one.set_ups[0].start < other.set_ups[0].start ? 1 : -1));
+        this.draw();
+        const last = this.ended.at(-1);
+        show("day-resume", running === null && last !== undefined && this.unfolded === last.key && may_resume(last, now_ms));
+    }
+
+    /** Draws the table if it has changed, and keeps the focus. */
+    draw() {
+        const rows = this.stays.map(row_of);
+        const text = JSON.stringify([rows, this.unfolded]);
         if (text === this.shown) return;
         this.shown = text;
-        const [was_newest, chosen] = [this.stays[0]?.key, by_id("day-stay").value];
-        this.stays = all.sort((one, other) => (one.set_ups[0].start < other.set_ups[0].start ? 1 : -1));
-        by_id("day-rows").replaceChildren(...this.stays.map(row_of));
-        by_id("day-stay").replaceChildren(...this.stays.map((one) => {
-            const option = make("option", `${name_of(one).slice(0, 60)}, ${start_text(one.set_ups[0].start)}`);
-            option.value = one.key;
-            return option;
-        }));
-        // The newest is chosen until the operator chooses another one.
-        if (chosen !== was_newest && this.stays.some((one) => one.key === chosen)) by_id("day-stay").value = chosen;
-        show("day-empty", all.length === 0);
-        show("day-table", all.length > 0);
-        show("day-change", all.length > 0);
-        this.mark();
-    }
-
-    /** Marks the row of the chosen stay. */
-    mark() {
+        const focused = document.activeElement?.dataset.key;
+        by_id("day-rows").replaceChildren(...rows.flatMap((row) => this.elements_of(row)));
+        if (focused) [...by_id("day-rows").children].find((row) => row.dataset.key === focused)?.focus();
+        if (this.stays.length > 0) set_text("day-zone", tr("Start, {}", zone(this.stays[0].set_ups[0].start)));
+        show("day-empty", rows.length === 0);
+        show("day-table", rows.length > 0);
         const chosen = this.chosen();
-        for (const row of by_id("day-rows").children) row.classList.toggle("chosen", row.dataset.key === chosen?.key);
+        show("day-change", chosen !== undefined);
         for (const kind of kDialogs) show(`day-${kind}`, chosen !== undefined && !chosen.is_discarded);
         show("day-restore", Boolean(chosen?.is_discarded));
-        this.mark_resume();
     }
 
-    /** Offers to resume the last stay, as long as the daemon allows it. */
-    show_resume(running, now_ms) {
-        this.is_running = running !== null;
-        this.now_ms = now_ms;
-        this.mark_resume();
-    }
-
-    mark_resume() {
-        const is_last = this.last !== undefined && this.chosen()?.key === this.last.key;
-        show("day-resume", is_last && !this.is_running && may_resume(this.last, this.now_ms));
+    /** Returns the row, and a second one with its remarks if it is unfolded. */
+    elements_of({ key, class_name, cells, remarks }) {
+        const row = make("tr", "", class_name);
+        row.dataset.key = key;
+        row.tabIndex = 0;
+        row.ariaExpanded = key === this.unfolded;
+        row.append(...cells.map((text) => make("td", text)));
+        if (key !== this.unfolded) return [row];
+        const second = make("tr", "", "remarks");
+        const cell = make("td", remarks.filter(Boolean).join("\n"), "foreign");
+        cell.colSpan = cells.length;
+        second.append(cell);
+        return [row, second];
     }
 }

@@ -18,12 +18,10 @@ export function set_text(id, text) {
     if (element.textContent !== text) element.textContent = text;
 }
 
-/** Sets a value in mGal with its error, and its label if there is one.  Its element has three parts, which may differ in size. */
-export function set_value(id, value_mgal, error_mgal, label = null) {
-    const [value, error, name] = by_id(id).children;
-    const width = Number.isFinite(error_mgal) ? `± ${number(error_mgal)} mGal` : "mGal";
-    const texts = [[value, number(value_mgal)], [error, Number.isFinite(value_mgal) ? width : ""], [name, label ?? name.textContent]];
-    for (const [element, text] of texts) if (element.textContent !== text) element.textContent = text;
+/** Sets a value in mGal with its uncertainty.  Its element has two parts, which differ in size. */
+export function set_value(id, value_mgal, u_mgal) {
+    const texts = [number(value_mgal, 1), `± ${number(u_mgal, 1)} mGal`];
+    [...by_id(id).children].forEach((part, i) => { if (part.textContent !== texts[i]) part.textContent = texts[i]; });
 }
 
 export function show(id, is_shown) {

@@ -38,9 +38,9 @@ export function marked(text) {
 
 /** Returns a sentence of the daemon.
     @param parts  its parts: a text, or an array of a text of the catalogue and its arguments, which are such lists of parts.
-    @param english  the whole sentence, used if there are no parts. */
+    @param english  the whole sentence, used if there are no parts; null if it is not known. */
 export function sentence(parts, english) {
-    if (language === "en" || !Array.isArray(parts)) return english;
+    if ((language === "en" && english !== null) || !Array.isArray(parts)) return english;
     return parts.map((part) => (Array.isArray(part) ? tr(part[0], ...part.slice(1).map((words) => sentence(words, ""))) : part))
         .join("");
 }

@@ -8,12 +8,12 @@ import { duration, number, visible } from "./format.js";
 import { refresh_gravity } from "./gravity.js";
 import { show_health } from "./health.js";
 import "./help.js";
-import { sentences, tr } from "./language.js";
+import { tr } from "./language.js";
 import { OccupationPanel } from "./occupation.js";
 import { Minute } from "./samples.js";
+import { show_details, show_signal, show_tilt, troubles_of } from "./signal.js";
 import { Stream } from "./stream.js";
 import { date_with_utc, zone } from "./time.js";
-import { show_tilt, show_verdict } from "./verdict.js";
 
 show("boxes-link", document.querySelector('meta[name="a351-boxes"]').content !== "");
 
@@ -90,7 +90,7 @@ const stream = {
     },
 };
 
-/** Shows age, verdict and banner, which must never look fresher than they are. */
+/** Shows age, signal and banner, which must never look fresher than they are. */
 function refresh() {
     const age_s = (performance.now() - advanced_at_ms) / 1000;
     const is_stale = !is_connected || age_s > kStale_s;
@@ -103,24 +103,21 @@ function refresh() {
     set_text("age", tr("{} s old", number(age_s, 1)));
     if (!status) return;
     set_text("clock", date_with_utc(status.now));
-    for (const id of ["signal-zone", "warmth-zone"]) set_text(id, zone(status.now));
-    const is_good = status.level === "good";
-    show("trouble", !is_good);
-    if (!is_good) {
-        by_id("trouble").dataset.level = status.level;
-        set_text("trouble", `${tr(status.level).toUpperCase()}: ${
-            visible(sentences(status.reason_parts, status.reasons).join("; "))}`);
-    }
-    const word = show_verdict(status.verdict, is_stale && status.verdict.state !== "no data" ? age_s : null);
+    for (const id of ["trace-zone", "warmth-zone"]) set_text(id, zone(status.now));
+    const troubles = troubles_of(status);
+    show("trouble", status.level !== "good" && troubles !== "");
+    by_id("trouble").dataset.level = status.level;
+    set_text("trouble", `${tr(status.level).toUpperCase()}: ${troubles}`);
+    const stay = status.occupation;
+    const word = show_signal(status.signal, stay, is_stale && status.signal.word !== "no_data" ? age_s : null);
     show_tilt(status.tilt);
+    show_details(status);
     follow({
-        due: Boolean(status.occupation?.may_stop
-            || (status.occupation?.propose_set_up && status.occupation.planned_set_ups > 1)),
-        stable: status.verdict.state === "stable",
-        good: Boolean(status.occupation?.whole?.is_good_enough),
-        fault: status.level === "fault" || is_stale,
+        due: status.signal.word === "lift" || (status.signal.word === "go" && stay !== null),
+        look: status.signal.word === "look",
+        fault: status.level === "fault" || status.signal.word === "no_data" || is_stale,
     });
-    const title = `${word}${status.occupation ? ` · ${visible(status.occupation.site).slice(0, 40)}` : ""} · a351`;
+    const title = `${word}${stay ? ` · ${visible(stay.site).slice(0, 40)}` : ""} · a351`;
     if (document.title !== title) document.title = title;
 }
 

@@ -2,31 +2,15 @@
 // order names it by its key, so that nothing else is changed if stays come and go meanwhile.
 
 import { Dialog } from "./dialog.js";
-import { by_id, set_items, set_text, show } from "./dom.js";
-import { duration, number, visible } from "./format.js";
-import { sentences, tr } from "./language.js";
+import { by_id, set_text, show } from "./dom.js";
+import { duration, visible } from "./format.js";
+import { tr } from "./language.js";
 import { nearest_instant, span_with_utc, time_of_day, time_with_utc } from "./time.js";
 
 /** Returns a stay in words.  A running one has no end. */
 function described(stay) {
     const times = stay.end ? span_with_utc(stay.start, stay.end) : tr("running since {}", time_with_utc(stay.start));
     return tr("{} (stay {}), {}", visible(stay.site), stay.number, times);
-}
-
-/** Returns what speaks against stopping now, as texts. */
-function doubts(stay, verdict) {
-    const list = [];
-    if (stay.planned_s && stay.running_s < stay.planned_s) {
-        list.push(tr("It is shorter than planned: {} of {} min.", duration(stay.running_s), number(stay.planned_s / 60, 0)));
-    }
-    if (stay.set_up_count < stay.planned_set_ups) {
-        list.push(tr("Only {} of {} planned set-ups were made.", stay.set_up_count, stay.planned_set_ups));
-    }
-    if (verdict.state !== "stable") {
-        list.push(tr("The verdict is {}, not stable: {}", tr(visible(verdict.state)),
-            visible(sentences(verdict.reason_parts, verdict.reasons).join("; "))));
-    }
-    return list;
 }
 
 export class StayDialogs {
@@ -44,13 +28,13 @@ export class StayDialogs {
     }
 
     /** Opens a dialog: stop, discard, rename or times.
-        @param stay  { key, site, number, start, end, running_s, planned_s, set_up_count, planned_set_ups }
-        @param verdict  the present one; for stop. */
-    open(kind, stay, verdict = null) {
+        @param stay  { key, site, number, start, end, running_s }
+        @param doubt  what speaks against a stop, "" if nothing. */
+    open(kind, stay, doubt = "") {
         this.stay = stay;
         if (kind === "stop") {
             set_text("confirm-stop-text", tr("Stop {}?", described(stay)));
-            set_items("confirm-stop-doubts", doubts(stay, verdict).map((text) => [`⚠ ${text}`, ""]));
+            set_text("confirm-stop-doubt", doubt && `⚠ ${doubt}`);
         } else if (kind === "discard") {
             set_text("discard-text", stay.end ? tr("Discard {}?", described(stay))
                 : tr("Discard the running occupation at {}, {} so far?", visible(stay.site), duration(stay.running_s)));

@@ -61,3 +61,8 @@ export function nearest_instant(text, near_ms) {
     return [-1, 0, 1].map(parts[4] ? in_utc : in_zone)
         .reduce((best, one) => (Math.abs(one - near_ms) < Math.abs(best - near_ms) ? one : best));
 }
+
+/** Returns a text whose instants in RFC 3339 are in the operator's zone. */
+export function with_local_times(text) {
+    return text.replace(/\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z/g, (instant) => time_with_utc(instant));
+}

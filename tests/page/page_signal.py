@@ -1,4 +1,4 @@
-"""The page shows each verdict of a real daemon: cold, warmed up, at rest, disturbed and without data."""
+"""The page shows each word of the signal of a real daemon, and the terminal the same."""
 
 import time
 
@@ -14,17 +14,16 @@ COLD = CONFIG + "operating_degc = 45.0\n"
 
 
 def follow(session, browser, wanted, seconds):
-    """Waits until page and daemon have shown the same verdict for each of `wanted`, in any order."""
+    """Waits until page and daemon have shown the same word for each of `wanted`, in any order."""
     wanted, end = set(wanted), time.monotonic() + seconds
     while wanted and time.monotonic() < end:
-        word = browser.text("verdict-word").lower()
-        if word in wanted and session.status()["verdict"]["state"] == word:
-            checks = browser.text("verdict-checks").splitlines()
-            print(f"{browser.text('clock')}: {word}: {checks[0]}")
-            browser.shot(f"real-{word.replace(' ', '-')}-1366")
+        word = browser.text("signal-word")
+        if word in wanted and session.status()["signal"]["text"] == word:
+            print(f"{browser.text('clock')}: {word}: {browser.text('signal-sentence')}")
+            browser.shot(f"real-{word.lower().replace(' ', '-').replace(',', '')}-1366")
             wanted.remove(word)
         time.sleep(0.05)
-    demand(f"within {seconds:g} s the page showed every expected verdict; missing: {wanted or 'none'}", not wanted)
+    demand(f"within {seconds:g} s the page showed every expected word; missing: {wanted or 'none'}", not wanted)
 
 
 with Browser(allowed_errors=["WebSocket connection to", "Failed to load resource"]) as page:
@@ -32,11 +31,13 @@ with Browser(allowed_errors=["WebSocket connection to", "Failed to load resource
         daemon = Session(scratch, speed=SPEED, config=COLD)
         wait_for("the daemon answers", daemon.status)
         page.open(daemon.port)
-        follow(daemon, page, {"warming up"}, 20)
+        follow(daemon, page, {"WARMING UP"}, 20)
     with Scratch() as scratch:
         daemon = Session(scratch, speed=SPEED, config=CONFIG)
         wait_for("the daemon answers", daemon.status)
         page.open(daemon.port)
-        follow(daemon, page, {"settling", "stable", "disturbed"}, 6000 / SPEED)
+        follow(daemon, page, {"YOU CAN GO"}, 6000 / SPEED)
+        daemon.ctl("start", "No.1", "--set-ups", "2")
+        follow(daemon, page, {"KEEP OFF", "LIFT, SET DOWN"}, 6000 / SPEED)
         daemon.order("silence seconds=100000")
-        follow(daemon, page, {"no data"}, 20)
+        follow(daemon, page, {"NO DATA"}, 20)
