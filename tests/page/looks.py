@@ -9,86 +9,61 @@ import time
 
 from browser import SCREENSHOTS, Browser
 from gloves import SIZES
-from made_up import finding, finished, occupation, reading, sites, stay, survey, tilt, verdict
-from programs import demand
+from made_up import (MISSING, MOVED, SIGNALS, finding, finished, gravity, no_stay, occupation, reading, signal, sites, stay, survey, tilt)
 from stub_daemon import StubDaemon
 
 PART = sys.argv[1] if len(sys.argv) > 1 else ""
-DIALOGS = {"stop": ("#stop", "#confirm-stop"), "discard": ("#run-discard", "#discard"), "rename": ("#run-rename", "#rename"),
-           "times": ("#run-times", "#times"), "help": ("#help-open", "#help")}
+DIALOGS = {"stop": ("#stop", "#confirm-stop"), "discard": ("#day-discard", "#discard"), "rename": ("#day-rename", "#rename"),
+           "times": ("#day-times", "#times"), "help": ("#help-open", "#help")}
+
+
+def key_of(i):
+    return f"20260301T00{i:02}00Z"
 
 
 def made_up_day():
     stub = StubDaemon()
     stub.sites = sites()
-    stub.occupations = [{**finished(f"No.{i}", hours_ago=7 - 0.5 * i), "key": f"20260301T00{i:02}00Z"} for i in range(12)]
+    stub.occupations = [{**finished(f"No.{i}", hours_ago=7 - 0.5 * i), "key": key_of(i)} for i in range(12)]
     differences = {0: 0.42, 3: -1.16, 5: 12.1}
-    stub.survey = survey([*(stay(f"No.{i}", gravity_mgal=979861.32 - 6.37 * i, difference_mgal=differences.get(i)) for i in range(12)),
-                          {**stay("No.12", gravity_mgal=979782.11, is_running=True, set_ups=2), "u_evening_mgal": 0.87}],
-                         [finding("No.5 (1) reads like No.3: it is 12.1 mGal too high for No.5", True)])
+    stub.survey = survey([*(stay(f"No.{i}", gravity_mgal=979861.32 - 6.37 * i, difference_mgal=differences.get(i), key=key_of(i)) for i in range(12)),
+                          stay("No.12", gravity_mgal=979782.11, is_running=True, u_evening_mgal=0.87)],
+                         [finding("No.5 (1) reads like No.3: it is 12.1 mGal too high for No.5", True, key_of(5))])
     return stub
 
 
-def run_stay(stub, **changes):
-    stub.status["verdict"] = verdict("stable", 430)
-    stub.status["tilt"] = tilt(0.4, -0.3)
-    stub.status["occupation"] = occupation("No.12", set_up_count=2, whole=reading(0.82, 0.0, True), set_up_left_s=45.0, **changes)
-
-
-def field_views(stub, browser, shot):
-    run_stay(stub)
-    browser.wait_for("a stay runs", lambda: browser.text("run-gravity") != "", 15)
-    shot("field-stay")
-    stub.status["verdict"] = {**verdict("settling"), "time_left_s": 184.0}
-    stub.status["tilt"] = tilt(2.4, -0.6, ["lower the +x side by 2.4'", "raise the +y side by 0.6'"])
-    stub.status["occupation"] = occupation(moved={"utc": "2026-03-01T01:43:20.000Z", "is_at_start": False})
-    browser.wait_for("a moved box is shown", lambda: browser.text("moved-text") != "")
-    shot("field-moved")
-    run_stay(stub)
-    browser.wait_for("the box is still again", lambda: browser.text("moved-text") == "")
-    browser.click("#stop")
-    browser.wait_for("the dialog is open", lambda: browser.text("confirm-stop") != "")
-    shot("field-stop")
-    browser.click("#confirm-stop-no")
-    stub.status["occupation"] = None
+def words(stub, browser, shot):
+    for word in SIGNALS:
+        stub.status["signal"] = signal(word)
+        stub.status["tilt"] = tilt(2.4, -0.6, ["lower the +x side by 2.4'", "raise the +y side by 0.6'"]) if word == "lift" else None
+        stub.status["occupation"] = occupation("No.12", gravity=MISSING if word == "keep_off" else gravity(979782.11), moved=MOVED if word == "look" else None)
+        browser.wait_for(f"{word} is shown", lambda: browser.find("#signal").get_attribute("data-word") == word)  # noqa: B023
+        shot(word)
     stub.status["level"], stub.status["reasons"] = "fault", ["the disk of the data root is full"]
-    stub.status["verdict"] = verdict("no data", 42)
     browser.wait_for("a fault is shown", lambda: browser.text("trouble") != "")
-    shot("field-fault")
+    shot("fault")
     stub.status["level"], stub.status["reasons"] = "good", []
 
 
-def placement_test(stub, browser, shot):
-    browser.wait_for("no stay runs", lambda: browser.text("start") != "")
-    browser.run("document.getElementById('start-test').click()")
-    shot("field-before-test")
-    browser.run("document.getElementById('start-test').click()")
-    test = {**reading(0.82, 0.0, True), "set_ups": 13, "set_up_sd_mgal": 1.31, "set_up_sd_limits_mgal": [0.94, 2.16], "set_up_error_mgal": 0.36}
-    stub.status["verdict"] = verdict("stable", 100)
-    stub.status["occupation"] = occupation("No.0", set_up_count=13, planned_set_ups=20, planned_s=3600.0, has_own_plan=True, whole=test,
-                                           reading=reading(0.9), set_up_left_s=65.0)
-    browser.wait_for("the placement test runs", lambda: "13" in browser.text("run-plan"))
-    shot("field-test")
-
-
-def full_page(stub, browser, shot):
-    run_stay(stub)
-    browser.click("#view-switch")
-    browser.wait_for("the stays are shown", lambda: "979782" in browser.text("gravity-rows"), 15)
-    time.sleep(1.0)
-    shot("page", True)
-    browser.run("document.getElementById('gravity').scrollIntoView()")
-    shot("page-gravity")
+def unfolded(stub, browser, shot):
+    test = reading(set_ups=13, set_up_sd_mgal=1.31, set_up_sd_limits_mgal=[0.94, 2.16], set_up_error_mgal=0.36)
+    stub.status["occupation"] = occupation("No.0", set_up_count=13, planned_set_ups=20, planned_s=3600.0, has_own_plan=True, whole=test)
+    browser.wait_for("the placement test runs", lambda: browser.text("run-test") != "")
+    shot("test")
+    browser.run(f"document.querySelector('#day-rows [data-key=\"{key_of(5)}\"]').click()")
     for name, (button, dialog) in DIALOGS.items():
         browser.click(button)
         browser.wait_for(f"the dialog {name} is open", lambda: browser.text(dialog[1:]) != "")  # noqa: B023
         shot(f"dialog-{name}")
         browser.press("\ue00c")  # Escape.
-    stub.status["occupation"] = None
+    stub.status["occupation"], stub.status["signal"] = None, no_stay()
     browser.wait_for("no stay runs", lambda: browser.text("start") != "")
+    shot("start")
+    for part in ("more", "details"):
+        browser.open_details(identifier=part)
+    shot("unfolded", True)
     browser.click("#add-site")
     shot("dialog-new-site")
-    browser.press("\ue00c")
 
 
 def look(language, size, scheme):
@@ -97,15 +72,14 @@ def look(language, size, scheme):
         time.sleep(0.3)
         browser.resize(size)
         browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
-        browser.driver.get(f"http://127.0.0.1:{stub.port}/#field")
+        browser.open(stub.port)
 
         def shot(view, is_whole=False):
             if PART in view:
                 time.sleep(0.4)
                 browser.shot(f"looks/{view}-{size[0]}-{scheme}-{language}", is_whole)
-        field_views(stub, browser, shot)
-        placement_test(stub, browser, shot)
-        full_page(stub, browser, shot)
+        words(stub, browser, shot)
+        unfolded(stub, browser, shot)
 
 
 (SCREENSHOTS / "looks").mkdir(parents=True, exist_ok=True)

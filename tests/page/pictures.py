@@ -14,7 +14,7 @@ time.time = lambda: NOW  # For the made-up states and the stub daemon, which are
 random.seed(1)
 
 from browser import LAPTOP, Browser  # noqa: E402
-from made_up import finding, finished, occupation, reading, sites, stay, survey, tilt, verdict  # noqa: E402
+from made_up import SIGNALS, finding, finished, gravity, occupation, reading, signal, sites, stay, survey, tilt  # noqa: E402
 from programs import BIN, TOP, Scratch, demand, run  # noqa: E402
 from stub_daemon import StubDaemon  # noqa: E402
 
@@ -25,7 +25,10 @@ TABLET = (800, 480)
 STAYS = 7
 GRAVITY_MGAL = [979861.32 - 6.37 * i - 0.41 * (i % 3) for i in range(STAYS)]
 DIFFERENCES_MGAL = {0: 0.42, 3: -1.16, 5: 12.1}  # Of the known benchmarks.
-TIDE_AND_TEMPERATURE_MGAL = 51.45  # By which the made-up readings differ from gravity.
+
+
+def key_of(i):
+    return f"20260301T00{i:02}00Z"
 
 
 def shoot(browser, file, selector=None):
@@ -44,15 +47,12 @@ def shoot(browser, file, selector=None):
 def made_up_day():
     stub = StubDaemon()
     stub.sites = sites()
-    stub.occupations = [{**finished(f"No.{i}", hours_ago=4 - 0.5 * i), "key": f"20260301T00{i:02}00Z",
-                         "reading": {**reading(0.42 + 0.07 * (i % 4)), "value_mgal": gravity_mgal + TIDE_AND_TEMPERATURE_MGAL}}
-                        for i, gravity_mgal in enumerate(GRAVITY_MGAL)]
-    stub.status["verdict"] = verdict("stable", 430)
-    stub.status["occupation"] = occupation("No.7", key="20260301T040000Z", set_up_count=2, whole=reading(0.82, 0.0, True), set_up_left_s=45.0)
-    stub.status["tilt"] = tilt(0.4, -0.3)
-    stays = [stay(f"No.{i}", gravity_mgal=gravity_mgal, difference_mgal=DIFFERENCES_MGAL.get(i)) for i, gravity_mgal in enumerate(GRAVITY_MGAL)]
-    running = {**stay("No.7", gravity_mgal=979809.87, is_running=True, set_ups=2), "key": "20260301T040000Z"}
-    stub.survey = survey([*stays, running], [finding("No.5 (1) reads like No.3: it is 12.1 mGal too high for No.5", True)],
+    stub.occupations = [{**finished(f"No.{i}", hours_ago=4 - 0.5 * i), "key": key_of(i)} for i in range(STAYS)]
+    stub.status["signal"] = signal("go", [["{}: the reading is complete. Press Stop, then go.", ["No.7"]]])
+    stub.status["occupation"] = occupation("No.7", key="20260301T040000Z", set_up_count=2, gravity=gravity(), whole=reading(set_ups=2))
+    stays = [stay(f"No.{i}", gravity_mgal=gravity_mgal, difference_mgal=DIFFERENCES_MGAL.get(i), key=key_of(i)) for i, gravity_mgal in enumerate(GRAVITY_MGAL)]
+    running = stay("No.7", gravity_mgal=979809.87, is_running=True, set_ups=2, key="20260301T040000Z")
+    stub.survey = survey([*stays, running], [finding("No.5 (1) reads like No.3: it is 12.1 mGal too high for No.5", True, key_of(5))],
                          as_of_utc="2026-03-01T04:10:02.000Z", data_to_utc="2026-03-01T04:10:01.500Z")
     return stub
 
@@ -60,16 +60,18 @@ def made_up_day():
 def draw_page(browser):
     stub = made_up_day()
     time.sleep(1.0)
-    browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": "performance.now = () => 0;"})
+    browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": f"performance.now = () => 0; Date.now = () => {1000 * NOW};"})
     browser.open(stub.port)
-    browser.wait_for_text("gravity-rows", "979809.87")
-    stub.status["verdict"] = verdict("stable", 431)  # A further status, because time stands still.
-    browser.wait_for_text("run-gravity", "979809.87")
+    browser.wait_for_text("run-value", "979809.9")
+    stub.status["signal"] = {**stub.status["signal"], "look": {}}  # A further status, because time stands still.
+    browser.wait_for_text("day-rows", "979809.9")
     time.sleep(1.0)
     shoot(browser, "daemon/page/page.webp")
-    shoot(browser, "daemon/page/gravity.webp", "#gravity")
+    browser.click(f"#day-rows [data-key='{key_of(5)}']")
+    shoot(browser, "daemon/page/gravity.webp", "#day")
     browser.resize(TABLET)
-    browser.click("#view-switch")
+    stub.status["signal"], stub.status["tilt"] = signal("lift", [[SIGNALS["lift"][1][0], ["No.7"], ["1"], ["2"]]]), tilt(0.4, -0.3)
+    browser.wait_for_text("level-word", "within")
     time.sleep(1.0)
     shoot(browser, "daemon/page/field.webp")
     browser.resize(LAPTOP)

@@ -12,7 +12,7 @@ from programs import BIN, TOP, Scratch, demand, run
 PAGES = {
     "a351d": ("daemon/a351d.1", []),
     "a351ctl": ("daemon/ctl/a351ctl.1",
-                ["status", "start", "stop", "setup", "discard", "restore", "resume", "not-moved", "rename", "retime", "note", "target",
+                ["status", "start", "stop", "setup", "discard", "restore", "resume", "not-moved", "checked", "rename", "retime", "note",
                  "sites", "site add", "list", "survey", "bundle"]),
     "a351-stream": ("daemon/stream/a351-stream.1", []),
 }
