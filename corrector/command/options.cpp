@@ -43,6 +43,11 @@ void add_figures_option(CLI::App& command, std::vector<std::string>& formats) {
         ->check(CLI::IsMember(figure::picture_formats()));
 }
 
+void add_verbose_flag(CLI::App& command, bool& is_verbose) {
+    command.add_flag("--verbose", is_verbose,
+                     "Also print the readings, all models, and the coefficients of the model used");
+}
+
 void add_tide_factors(CLI::App& command, tide::Factors& factors) {
     add_with_default(command, "--delta2", "FACTOR", factors.delta2,
                      "Gravimetric factor of degree 2 (1: rigid Earth)");

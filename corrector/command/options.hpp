@@ -56,6 +56,9 @@ void add_column_options(CLI::App& command, std::string& input, std::string& colu
 /// Adds --figures, which may be repeated.  Only picture_formats() are accepted.
 void add_figures_option(CLI::App& command, std::vector<std::string>& formats);
 
+/// Adds --verbose, for survey_text().
+void add_verbose_flag(CLI::App& command, bool& is_verbose);
+
 /// Adds --delta2 and --delta3.  The present factors are the defaults in the help.
 void add_tide_factors(CLI::App& command, tide::Factors& factors);
 

@@ -19,10 +19,10 @@
 #include "corrector/job/survey_units.hpp"
 #include "corrector/model/joint_adjustment.hpp"
 #include "corrector/model/model.hpp"
-#include "corrector/model/trend_comparison.hpp"
 #include "corrector/report/joint_page.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/result/anomalies.hpp"
+#include "corrector/result/answer.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/joint_report.hpp"
 #include "corrector/result/joint_table.hpp"
@@ -51,6 +51,7 @@ struct SurveyCommandOptions {
     std::vector<std::string> figures;
     std::string sites;
     bool is_json = false;
+    bool is_verbose = false;
 };
 
 job::SurveyFile read_survey_of(const std::string& file, const std::string& sites) {
@@ -185,7 +186,10 @@ void write_joint(std::vector<Day> days, const std::filesystem::path& out,
         std::cout << sentence << '\n';
     std::cout << result::aligned_text(
                      adjustment != nullptr
-                         ? result::table_of(result::joint_columns(), tables.stations)
+                         ? result::table_of(
+                               result::with_decimals(result::joint_columns(),
+                                                     result::decimals_of(*surveys.front().result)),
+                               tables.stations)
                          : result::table_by_survey(tables.stations, surveys, false))
               << '\n';
 }
@@ -229,10 +233,8 @@ void correct_days(const SurveyCommandOptions& options) {
     for (const Day& day : days) {
         if (!day.result) continue;
         text::write_together(is_joint ? out / folder_name(day.name) : out, day.files);
-        std::cout << "survey " << day.name << '\n'
-                  << reading::findings_text(day.result->findings)
-                  << result::survey_text(*day.result) << day.amendments
-                  << model::trend_comparison_text(*day.result) << '\n';
+        if (is_joint) std::cout << "survey " << day.name << '\n';
+        std::cout << result::survey_text(*day.result, options.is_verbose) << day.amendments << '\n';
     }
     if (is_joint) write_joint(std::move(days), out, options.figures);
     std::cout << "written to " << out.string() << '\n';
@@ -280,6 +282,7 @@ void add_survey_command(CLI::App& program) {
         command, "--to", "UTC", options->to,
         "Use occupations that start before this instant (RFC 3339). Default: the end of the log");
     add_figures_option(command, options->figures);
+    add_verbose_flag(command, options->is_verbose);
     command.callback([options] { correct_days(*options); });
 }
 

@@ -30,6 +30,7 @@ struct TableOptions {
     std::vector<std::tuple<std::string, double, double>> priors;
     std::string out = "result";
     std::vector<std::string> figures;
+    bool is_verbose = false;
 };
 
 /// Checks the options of the correction, and sets those that are texts.
@@ -95,8 +96,8 @@ void correct_table(TableOptions options) {
     text::write_together(options.out, files);
     print_warnings(sources.warnings);
     print_warnings({report.warnings.begin(), report.warnings.end()});
-    std::cout << reading::findings_text(result.findings) << result::survey_text(result)
-              << "written to " << options.out << '\n';
+    std::cout << result::survey_text(result, options.is_verbose) << "\nwritten to " << options.out
+              << '\n';
 }
 
 }  // namespace
@@ -149,6 +150,7 @@ void add_table_command(CLI::App& program) {
         ->check(CLI::Range(0, model::kGreatestDriftDegree));
     add_with_default(command, "--out", "DIR", options->out, "Folder of the result");
     add_figures_option(command, options->figures);
+    add_verbose_flag(command, options->is_verbose);
     command.callback([options] { correct_table(*options); });
 }
 

@@ -59,12 +59,12 @@ std::string caption_of(const model::SurveyCorrection& result, bool has_records, 
                        bool has_signal) {
     const std::string errors =
         result.as<model::WholeDayPart>() != nullptr
-            ? tr("The day. Above: reference minus the value of the reading if its station is left "
-                 "out (cross-validated); bars: standard uncertainty u of this value.")
+            ? tr("The day. Above: value of the reading if its station is left out, minus reference "
+                 "(cross-validated); bars: standard uncertainty u of this value.")
         : result.as<model::NetworkPart>() != nullptr
-            ? tr("The day. Above: residuals, reference minus corrected value (in sample); bars: "
+            ? tr("The day. Above: residuals, corrected value minus reference (in sample); bars: "
                  "standard uncertainty u of a single reading, a priori.")
-            : tr("The day. Above: residuals, reference minus corrected value (in sample); bars: "
+            : tr("The day. Above: residuals, corrected value minus reference (in sample); bars: "
                  "standard uncertainty u as of a new station, from the scatter in sample.");
     return errors +
            (has_records ? tr(" Middle: samples of 2 s minus the mean of the reading; the scale "
@@ -177,10 +177,6 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
                   const std::vector<reading::SignalSpan>& signal) {
     const std::vector<Stay> stays = stays_of(result, records);
     UtcTime first = stays.front().start, last = first;
-    if (!course.empty()) {
-        first = std::min(first, course.front().middle);
-        last = std::max(last, course.back().middle);
-    }
     std::vector<Span> spans;
     std::vector<Text> names;
     std::size_t longest = 0;
@@ -202,7 +198,7 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
         caption_of(result, !records.empty(), !course.empty(), !signal.empty()),
         960,
         0,
-        {{.y = {tr("Reference - value (mGal)")}, .key = Key::top_of_figure, .height_px = 210.0},
+        {{.y = {tr("Value - reference (mGal)")}, .key = Key::top_of_figure, .height_px = 210.0},
          {.y = {tr("Samples - mean (mGal)")}, .height_px = 150.0},
          {.y = {tr("Temperature (°C)")}, .height_px = 170.0},
          {.y = {.range = {0.0, 1.0}, .is_shown = false}, .key = Key::in_line, .height_px = 46.0}}};

@@ -40,7 +40,7 @@ enum class Colour {
 /// Lines are interrupted by an empty line of the data.  Boxes are from 0 to y.
 enum class Look {
     line, thin_line, firm_line, strong_line, thick_line, heavy_line, ribbon, area, boxes, bars,
-    dots, discs, small_discs, circles, crosses, diamonds, open_diamonds, large_discs, triangles,
+    dots, discs, small_discs, crosses, diamonds, open_diamonds, large_discs, triangles,
     linked_discs, discs_with_bars, circles_with_bars
 };
 // clang-format on
@@ -51,15 +51,15 @@ struct Column {
     double plus = 0.0, times = 1.0;
 };
 
-/// Sources of the lines y = 0 and y = x, which need no data.
-inline const std::string kZero = "0", kDiagonal = "x";
+/// Source of the line y = 0, which needs no data.
+inline const std::string kZero = "0";
 
 struct Series {
     Look look = Look::line;
     Colour colour = Colour::blue;
     std::string label = {};  ///< In the key; empty: not there.
     std::vector<Column> columns = {{1}, {2}};
-    std::string source = {};  ///< Figure::add(), source_of(), kZero or kDiagonal.
+    std::string source = {};  ///< Figure::add(), source_of() or kZero.
     bool is_right = false;    ///< Its y axis is the right one.
 };
 

@@ -20,8 +20,8 @@ constexpr std::array kColours{
 constexpr std::array kLooks{
     "lines", "lines lw 0.7", "lines lw 1.2", "lines lw 1.5", "lines lw 2", "lines lw 2.5", "lines lw 9",
     "filledcurves", "boxes fs solid", "yerrorbars pt 0 lw 0.8", "points pt 7 ps 0.2",
-    "points pt 7 ps 0.6", "points pt 7 ps 0.5", "points pt 6 ps 0.7 lw 1.5",
-    "points pt 2 ps 0.7 lw 1.5", "points pt 13 ps 0.7", "points pt 12 ps 0.6",
+    "points pt 7 ps 0.6", "points pt 7 ps 0.5",
+    "points pt 2 ps 0.7 lw 1.5", "points pt 13 ps 0.8", "points pt 12 ps 0.6",
     "points pt 7 ps 0.9", "points pt 9 ps 1.1", "linespoints pt 7 ps 0.5",
     "yerrorbars pt 7 ps 0.6", "yerrorbars pt 6 ps 0.8 lw 1.2"};
 // clang-format on
@@ -138,7 +138,7 @@ std::string clause_of(const Series& series) {
                               ? fmt::format("{}", number_of)
                               : fmt::format("(${}{}{:+.14g})", number_of,
                                             times == 1.0 ? "" : "*" + number(times), plus));
-    const bool has_data = series.source != kZero && series.source != kDiagonal;
+    const bool has_data = series.source != kZero;
     return fmt::format("{}{}{} with {} {} {}", series.source,
                        has_data ? " using " + text::joined(columns, ":") : "",
                        series.is_right ? " axes x1y2" : "", entry_of(kLooks, series.look),

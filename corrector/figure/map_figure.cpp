@@ -18,12 +18,12 @@ namespace {
 using text::fixed, text::tr;
 
 // Place of the plot within the picture, from which the place of a label in pixels is computed.
-constexpr int kMapWidth_px = 820, kMapHeight_px = 600;
-constexpr Frame kFrame{98.4, 131.2, 18.0, 60.0};
+constexpr int kMapWidth_px = 600, kMapHeight_px = 480;
+constexpr Frame kFrame{84.0, 106.0, 14.0, 60.0};
 constexpr double kPlotWidth_px = kMapWidth_px - kFrame.left - kFrame.right;
 constexpr double kPlotHeight_px = kMapHeight_px - kFrame.above - kFrame.below;
 constexpr double kLetter_px = 7.0;  // width of the labels' 11 px letters, that of the widest digits
-constexpr double kLine_px = 15.0;   // height of one of the two lines of a label
+constexpr double kLine_px = 13.0;   // height of a label
 constexpr double kKilometresPerDegree = 111.2;  // degree of latitude on a sphere of 6371 km radius
 
 /// A station of the survey on the map.
@@ -89,7 +89,7 @@ struct Box {
 
 /// Places of a label's near end relative to the point, px, in the order of preference.
 constexpr std::array kRight_px{9, -9, 7, 7, -7, -7, 5, -5, 5, -5, 5, 5, -5, -5};
-constexpr std::array kUp_px{0, 0, 22, -22, 22, -22, 46, -46, -46, 46, 70, -70, 70, -70};
+constexpr std::array kUp_px{0, 0, 11, -11, 11, -11, 24, -24, -24, 24, 37, -37, 37, -37};
 
 /// Returns the labels of the stations.  Each is at the first place where it touches no other label
 /// and no point; if none is free, at the first place.
@@ -105,14 +105,12 @@ std::vector<Text> labels_of(const std::vector<MapStation>& stations, const Exten
         const text::Site& site = *station.site;
         std::string name = short_label(site.name);
         if (!station.visits.empty()) name += fmt::format(" [{}]", text::joined(station.visits));
-        std::string value = fixed(station.gravity_mgal, 2) + " mGal";
-        if (site.has_altitude) value += fmt::format(", {} m", fixed(site.altitude.value(), 0));
         const auto [x, y] = extent.place_px(site);
-        const double width = kLetter_px * static_cast<double>(std::max(name.size(), value.size()));
+        const double width = kLetter_px * static_cast<double>(name.size());
         const auto box_at = [&](std::size_t place) -> Box {
             const double left = x + kRight_px.at(place) - (kRight_px.at(place) < 0 ? width : 0.0);
             const double middle = y + kUp_px.at(place);
-            return {left, middle - kLine_px, left + width, middle + kLine_px};
+            return {left, middle - kLine_px / 2, left + width, middle + kLine_px / 2};
         };
         std::size_t place = 0;
         for (; place < kUp_px.size(); ++place) {
@@ -126,10 +124,10 @@ std::vector<Text> labels_of(const std::vector<MapStation>& stations, const Exten
             place = 0;
         else
             taken.push_back(box_at(place));
-        labels.push_back({name + '\n' + value,
-                          {(x + kRight_px.at(place)) / kPlotWidth_px,
-                           (y + kUp_px.at(place) + kLine_px / 2) / kPlotHeight_px},  // first line
-                          kRight_px.at(place) < 0 ? "right" : "left"});
+        labels.push_back(
+            {name,
+             {(x + kRight_px.at(place)) / kPlotWidth_px, (y + kUp_px.at(place)) / kPlotHeight_px},
+             kRight_px.at(place) < 0 ? "right" : "left"});
     }
     return labels;
 }
@@ -202,23 +200,21 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
 
     Figure figure{
         "map",
-        tr("Stations with the order of the visits in brackets, gravity and height; the scale is "
-           "the same in both directions. Gravity of known stations is in sample; its uncertainty "
-           "u is in the table.") +
+        tr("Stations with the order of the visits in brackets; colours: gravity in mGal. The scale "
+           "is the same in both directions.") +
             (absent.empty()
                  ? ""
                  : tr(" Not shown, because they have no position: {}.", text::joined(absent))),
         kMapWidth_px, kMapHeight_px};
     figure.frame = kFrame;
-    const double step_deg = round_step(extent.width_deg() / 4.0);
+    const double step_deg = round_step(extent.width_deg() / 3.0);
     const std::string format =
         fmt::format("%.{}f", std::clamp(-std::floor(std::log10(step_deg)), 0.0, 6.0));
     const auto [least, greatest] = std::ranges::minmax(stations, {}, &MapStation::gravity_mgal);
     Panel& panel = figure.panels.emplace_back(Panel{.height_px = kPlotHeight_px});
     panel.x = {tr("Longitude (° east)"), extent.longitude, step_deg, 0.0, format};
     panel.y = {tr("Latitude (° north)"), extent.latitude, step_deg, 0.0, format};
-    panel.colours = {.label = tr("Gravity (mGal)"),
-                     .range = {least.gravity_mgal - 0.5, greatest.gravity_mgal + 0.5},
+    panel.colours = {.range = {least.gravity_mgal - 0.5, greatest.gravity_mgal + 0.5},
                      .format = "%.0f"};
     panel.key = Key::in_corner;
     panel.texts = labels_of(stations, extent);

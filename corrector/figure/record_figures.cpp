@@ -66,10 +66,10 @@ double spread(const std::vector<double>& values, double centre, double share) {
     return distances[static_cast<std::size_t>(place)];
 }
 
-/// Returns half the range of an axis, not zero: a fifth more than 98 of 100 samples need, so that a
-/// knock does not flatten the rest.
+/// Returns half the range of an axis, not zero: 1.7 times what nine of ten samples need, 2.8 standard
+/// deviations of noise, so that a knock of a minute does not flatten the rest.
 double half_range(const std::vector<double>& values, double centre) {
-    return std::max(1.2 * spread(values, centre, 0.98), 1e-3);
+    return std::max(1.7 * spread(values, centre, 0.9), 1e-3);
 }
 
 /// Returns the axis of both directions with ticks that are not near its ends.
@@ -206,11 +206,12 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
                                  source_of(reading_figure_name(record.row), 0)};
             Panel& panel = figure.panels.emplace_back(Panel{minutes, y, {samples}});
             panel.height_px = 114.0;
-            panel.texts = {{short_label(judgement::reading_name(result.rows, record.row)), {0.04, 0.9}},
-                           {"mean " + fixed(centre, is_temperature ? 3 : 1),
-                            {0.96, 0.09},
-                            "right",
-                            Letters::tiny}};
+            panel.texts = {
+                {short_label(judgement::reading_name(result.rows, record.row)), {0.04, 0.9}},
+                {"mean " + fixed(centre, is_temperature ? 3 : 1),
+                 {0.96, 0.09},
+                 "right",
+                 Letters::tiny}};
         }
     }
     return figures;

@@ -13,8 +13,8 @@ namespace a351::corrector::figure {
 [[nodiscard]] std::string reading_figure_name(std::size_t row);
 
 /// Returns half the range of an axis for the samples of all records, each about the value of its
-/// reading: mGal, or degC of the temperatures.  98 of 100 samples of every record are within, so that
-/// a knock does not flatten the rest.
+/// reading: mGal, or degC of the temperatures.  Nine of ten samples of every record are within, with
+/// room, so that a knock does not flatten the rest.
 [[nodiscard]] double half_range_of(const model::SurveyCorrection& result,
                                    const std::vector<ReadingRecord>& records, bool is_temperature);
 

@@ -16,7 +16,7 @@ void plot_rows(Figure& figure, const model::SurveyCorrection& result, const std:
                                 text::marked("marked by the operator, in the fit"),
                                 text::marked("left out of the fit")};
     const std::array<Series, kKinds.size()> looks{{{Look::discs, Colour::blue},
-                                                   {Look::circles, Colour::blue},
+                                                   {Look::diamonds, Colour::orange},
                                                    {Look::crosses, Colour::vermilion}}};
     std::array<std::string, kKinds.size()> lines;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {

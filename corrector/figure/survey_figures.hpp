@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Figures of a survey: figures 10 to 14 of the publication, the day on one axis of time, and a map.
+/// Figures of a survey: figures 10 to 13 of the publication, the day on one axis of time, and a map.
 ///
 /// Each function returns figures as data; draw() of drawing.hpp makes the pictures.  Rows have
 /// three marks: in the fit, marked by the operator but in the fit, and left out of the fit.  In the
@@ -31,7 +31,7 @@ namespace a351::corrector::figure {
 /// The tide is not removed.  The line is a least-squares line through the rows in the fit; it is
 /// absent if there are fewer than three of them or if all have one reference.  The published lines
 /// are reproduced (figures_test.cpp).
-/// @return std::nullopt if no row has a reference; so do the next two.
+/// @return std::nullopt if no row has a reference; so does the next one.
 [[nodiscard]] std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result);
 
 /// Returns the figure of difference over temperature, with line and R2.  The difference is
@@ -39,16 +39,12 @@ namespace a351::corrector::figure {
 /// applied.
 [[nodiscard]] std::optional<Figure> difference_figure(const model::SurveyCorrection& result);
 
-/// Returns the figure of corrected value over reference, with the line y = x.  R2 is that of the
-/// rows in the fit about their own line, and is in sample.
-[[nodiscard]] std::optional<Figure> corrected_figure(const model::SurveyCorrection& result);
-
 /// Returns the figure of the sensor's values minus those of the reference gravimeter, over gravity,
 /// with u of the sensor as bars.  Each station has its own reference hidden.
 /// @return std::nullopt without a compared station.
 [[nodiscard]] std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result);
 
-/// Returns a map of the stations in longitude and latitude with their heights.  The scale is the
+/// Returns a map of the stations in longitude and latitude.  The scale is the
 /// same in both directions (by the cosine of the mean latitude) and is shown by a bar of a round
 /// length.
 ///
@@ -80,7 +76,7 @@ struct ReadingRecord {
 /// Returns one figure per record: the 2 s series, its trend, the extrema and the limits of the
 /// interval.
 ///
-/// The name is reading-NN with the number of the row from 1.  The range of the axis has 98 of 100
+/// The name is reading-NN with the number of the row from 1.  The range of the axis has nine of ten
 /// samples of the series and the whole trend, so that a knock does not flatten the rest.  The
 /// caption has the mean over the interval; for `day` it has the averaged time and the value.
 [[nodiscard]] std::vector<Figure> reading_figures(const model::SurveyCorrection& result,

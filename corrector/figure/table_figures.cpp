@@ -34,11 +34,9 @@ Figure scatter(const std::string& name, const std::string& x_label, const std::s
     return figure;
 }
 
-/// Adds the points of the rows and their least-squares line, or the line y = x with the R2 of
-/// theirs.
+/// Adds the points of the rows and their least-squares line.
 std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& result,
-                                const std::string& columns, bool is_diagonal,
-                                const PointOf& point_of) {
+                                const std::string& columns, const PointOf& point_of) {
     std::vector<double> all_x, x, y;  // of all points, and of those in the fit
     plot_rows(figure, result, columns, [&](const model::CorrectedRow& row) -> std::string {
         const Point point = point_of(row);
@@ -51,23 +49,18 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
         return data_line("44", {point.x, point.y}, "");
     });
     if (figure.data.empty()) return std::nullopt;
-    const bool has_line = x.size() >= 3 && std::ranges::min(x) < std::ranges::max(x);
-    const auto fit = has_line ? signal::fit_line(x, y) : signal::LineFit{};
-    const std::string r2 = text::fixed(fit.r2, 4);
+    if (x.size() < 3 || !(std::ranges::min(x) < std::ranges::max(x))) return figure;
+    const auto fit = signal::fit_line(x, y);
     const auto at = [&fit](double where) { return fit.mean_y + fit.slope * (where - fit.mean_x); };
-    Series line{Look::firm_line, Colour::grey};
-    if (is_diagonal) {
-        line.label = "y = x" + (has_line ? tr(" (R² of the readings in the fit {})", r2) : "");
-        line.source = kDiagonal;
-        figure.panels.front().series.push_back(line);
-    } else if (has_line) {
-        std::string ends;
-        for (const double end : {std::ranges::min(all_x), std::ranges::max(all_x)})
-            ends += data_line("44", {end, at(end)});
-        line.label = fmt::format("y = {} x {} {}, R² = {}", text::fixed(fit.slope, 4),
-                                 at(0.0) < 0.0 ? "-" : "+", text::fixed(std::abs(at(0.0)), 1), r2);
-        figure.plot("line through those in the fit: " + columns, ends, line);
-    }
+    std::string ends;
+    for (const double end : {std::ranges::min(all_x), std::ranges::max(all_x)})
+        ends += data_line("44", {end, at(end)});
+    figure.plot("line through those in the fit: " + columns, ends,
+                {.look = Look::firm_line,
+                 .colour = Colour::grey,
+                 .label = fmt::format("y = {} x {} {}, R² = {}", text::fixed(fit.slope, 4),
+                                      at(0.0) < 0.0 ? "-" : "+", text::fixed(std::abs(at(0.0)), 1),
+                                      text::fixed(fit.r2, 4))});
     return figure;
 }
 
@@ -78,8 +71,7 @@ std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result)
         scatter("acceleration", tr("Reference gravity (mGal)"), tr("Acceleration (mGal)"),
                 tr("Acceleration as measured, tide not removed, over reference gravity; "
                    "least-squares line and R² of the readings in the fit (in sample).")),
-        result, "reference_mgal acceleration_mgal", false,
-        [](const model::CorrectedRow& row) -> Point {
+        result, "reference_mgal acceleration_mgal", [](const model::CorrectedRow& row) -> Point {
             return {or_nan(row.row.reference), row.row.acceleration.value()};
         });
 }
@@ -90,20 +82,9 @@ std::optional<Figure> difference_figure(const model::SurveyCorrection& result) {
                 tr("Difference between the reading, tide removed, and reference gravity over "
                    "temperature; least-squares line and R² of the readings in the fit (in sample; "
                    "temperature alone, whatever model was applied).")),
-        result, "temperature_degc difference_mgal", false,
-        [](const model::CorrectedRow& row) -> Point {
+        result, "temperature_degc difference_mgal", [](const model::CorrectedRow& row) -> Point {
             return {row.row.has_temperature ? row.row.temperature.value() : std::nan(""),
                     or_nan(row.difference)};
-        });
-}
-
-std::optional<Figure> corrected_figure(const model::SurveyCorrection& result) {
-    return with_rows(
-        scatter("corrected", tr("Reference gravity (mGal)"), tr("Corrected gravity (mGal)"),
-                tr("Corrected gravity over reference gravity, with the line y = x. In sample: the "
-                   "same references were used in the fit.")),
-        result, "reference_mgal corrected_mgal", true, [](const model::CorrectedRow& row) -> Point {
-            return {or_nan(row.row.reference), row.corrected.value()};
         });
 }
 

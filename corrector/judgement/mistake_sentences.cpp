@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/judgement/physical_doubt.hpp"
 #include "corrector/model/amended_survey.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/strict_toml.hpp"
@@ -48,7 +47,6 @@ public:
                           : mistake.kind == adjustment::AlternativeKind::station
                               ? reference(mistake)
                               : bad_stay(mistake);
-        add_temperature(finding, mistake);
         add_step(finding, mistake);
         return {std::move(finding)};
     }
@@ -132,14 +130,6 @@ private:
         }
         std::ranges::stable_sort(candidates, {}, &Candidate::cost);
         return candidates;
-    }
-
-    /// Says that the temperature of the only or first reading was not steady, which may be the cause.
-    void add_temperature(Finding& finding, const Mistake& mistake) const {
-        std::string doubt = temperature_doubt(first(mistake));
-        if (doubt.empty()) return;
-        if (const auto at = doubt.find(';'); at != std::string::npos) doubt.replace(at, 1, ", ");
-        finding.text += text::message("; its temperature was not steady ({})", doubt);
     }
 
     /// Says that a stay at an end of the day may be good, and the instrument have stepped next to it.

@@ -9,71 +9,36 @@
 #include <utility>
 
 #include "corrector/judgement/closure.hpp"
-#include "corrector/judgement/reading_name.hpp"
 #include "corrector/judgement/physical_doubt.hpp"
+#include "corrector/judgement/reading_name.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::judgement {
 namespace {
-
-// Largest difference between the two trends of one record.  Reason: a quarter of the 2 mGal by
-// which good readings scatter.
-constexpr double kTrendDifference_mgal = 0.5;
 
 void add(ReadingGrade& reading, Grade grade, Reason reason) {
     reading.grade = std::max(reading.grade, grade);
     reading.reasons.push_back(std::move(reason));
 }
 
-struct NoteText {
-    std::string_view note;
-    Grade grade;
-    std::string_view text;
-};
-/// The flags of representative_value.hpp and of amendments, in words.
-constexpr std::array<NoteText, 14> kNoteTexts{{
-    {"fallback", Grade::care,
-     text::marked(
-         "the trend has too few extrema for the usual interval (fallback): look at the record")},
-    {"disturbed_start", Grade::trust,
-     text::marked("only the part after a disturbance at its start was averaged")},
-    {"disturbed_end", Grade::trust,
-     text::marked("only the part before a disturbance at its end was averaged")},
-    {"pulse", Grade::care, text::marked("a knock split the record; its longest part was used")},
-    {"gap", Grade::care, text::marked("samples are missing")},
-    {"no-stop", Grade::care,
-     text::marked("not stopped: it lasts until the next start, or until the box was moved")},
-    {"moved", Grade::care,
-     text::marked("the box was moved during the stay: the part before or after was used")},
-    {"shaken", Grade::repeat, text::marked("the box was never at rest")},
-    {"unsettled", Grade::care, text::marked("the smoother did not converge: look at the record")},
-    {"excluded", Grade::repeat, text::marked("excluded by an amendment")},
-    {"included", Grade::trust, text::marked("included by an amendment")},
-    {"retimed", Grade::trust, text::marked("its times were amended")},
-    {"renamed", Grade::trust, text::marked("its site was amended")},
-    {"divided", Grade::trust, text::marked("divided into set-ups by an amendment")},
-}};
+/// Adds that the operator or an amendment does not use the reading, or that it cannot be used.
+void add_refusals(ReadingGrade& reading, const model::CorrectedRow& row) {
+    if (row.row.is_flagged && !row.is_used)
+        add(reading, Grade::repeat,
+            {"flagged", {}, text::message("marked by the operator as not to be used")});
+    for (const std::string& note : row.row.notes) {
+        if (note == "excluded")
+            add(reading, Grade::repeat, {note, {}, text::message("excluded by an amendment")});
+        if (note == "shaken")
+            add(reading, Grade::repeat, {note, {}, text::message("the box was never at rest")});
+    }
+}
 
-/// Flags of the trend and its interval.
-constexpr std::array<std::string_view, 4> kTrendNotes{"fallback", "disturbed_start",
-                                                      "disturbed_end", "unsettled"};
-
-/// Adds a flag in words.
-/// @param is_day  the model averages the record without the trend, so flags of the trend do not
-///                matter.
-void add_note(ReadingGrade& reading, const std::string& note, bool is_day) {
-    if (is_day && std::ranges::count(kTrendNotes, note) > 0) return;
-    if (is_day && note == "pulse") {
+/// Adds that a knock split the record.  The whole-day model uses both parts.
+void add_knock(ReadingGrade& reading, const reading::SurveyRow& row) {
+    if (std::ranges::count(row.notes, "pulse") > 0)
         add(reading, Grade::care,
-            {note, {}, text::message("a knock: the samples around it were left out")});
-        return;
-    }
-    const auto known = std::ranges::find(kNoteTexts, note, &NoteText::note);
-    if (known == kNoteTexts.end()) {
-        add(reading, Grade::care, {note, {}, note});
-    } else {
-        add(reading, known->grade, {note, {}, text::marked_message(known->text)});
-    }
+            {"pulse", {}, text::message("a knock split the record; its longest part was used")});
 }
 
 void add_temperature(ReadingGrade& reading, const model::CorrectedRow& row, bool corrects_rate) {
@@ -101,24 +66,23 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
     if (std::abs(ratio) <= kCareRatio) return;
     add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
         {"off_reference",
-         {-ratio * row.u_corrected->value(), std::abs(ratio)},
+         {ratio * row.u_corrected->value(), std::abs(ratio)},
          text::message(
              "{} mGal {}{}, {} times its uncertainty",
              text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
-             ratio > 0.0 ? text::message("below its reference")
-                         : text::message("above its reference"),
+             ratio > 0.0 ? text::message("above its reference")
+                         : text::message("below its reference"),
              is_left_out ? text::message(" when its station is left out") : text::Message(),
              text::fixed(std::abs(ratio), 1))});
 }
 
-/// Adds the findings that concern the reading.
+/// Adds the mistakes that concern the reading.  After a move of the box the value is that of the
+/// part at rest, which is as good as any.
 void add_findings(ReadingGrade& reading, const reading::SurveyRow& row,
                   const std::vector<reading::Finding>& findings) {
     for (const reading::Finding& finding : findings) {
         if (finding.site != row.site || finding.occupation != row.occupation) continue;
-        // Those that have a note or a reason of their own.
-        if (finding.kind == reading::FindingKind::moved_box || finding.code == "never_at_rest" ||
-            finding.kind == reading::FindingKind::no_stop)
+        if (finding.kind == reading::FindingKind::moved_box || reading::is_remark(finding))
             continue;
         add(reading,
             finding.kind == reading::FindingKind::bad_reading ? Grade::repeat : Grade::care,
@@ -131,12 +95,11 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
     if (!row.row.record || !row.u_corrected) return;
     const MilliGal u = *row.u_corrected, by_shaking = row.row.record->rectification;
     if (const auto error = row.row.record->standard_error; error && *error > u)
-        add(reading, Grade::repeat,
+        add(reading, Grade::care,
             {"scattered",
              {error->value(), u.value()},
-             text::message(
-                 "the scatter of its samples alone gives {} mGal, more than its u of {} mGal",
-                 text::fixed(error->value(), 1), text::fixed(u.value(), 1))});
+             text::message("its samples scatter: their mean is known to {} mGal only (u: {} mGal)",
+                           text::fixed(error->value(), 1), text::fixed(u.value(), 1))});
     if (by_shaking > u)
         add(reading, Grade::repeat,
             {"shaken",
@@ -144,17 +107,6 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
              text::message("the box was shaken as on a drive: this changes the norm of its samples "
                            "by {} mGal, more than its u of {} mGal",
                            text::fixed(by_shaking.value(), 1), text::fixed(u.value(), 1))});
-}
-
-void add_trends(ReadingGrade& reading, const reading::SurveyRow& row) {
-    if (!row.record) return;
-    const double difference = row.record->smoother_minus_eemd().value();
-    if (std::abs(difference) <= kTrendDifference_mgal) return;
-    add(reading, Grade::care,
-        {"trends_differ",
-         {difference},
-         text::message("its two trends (smoother, EEMD) differ by {} mGal",
-                       text::fixed(difference, 2))});
 }
 
 /// Scatter of readings of one station after all corrections.
@@ -226,7 +178,7 @@ std::optional<double> error_of(const model::CorrectedRow& row) {
     const auto* const day = row.as<model::WholeDayRow>();
     if (day == nullptr) return row.residual->value();
     if (!day->left_out) return std::nullopt;
-    return (*row.row.reference - *day->left_out).value();
+    return (*day->left_out - *row.row.reference).value();
 }
 
 std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) {
@@ -237,20 +189,14 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
     std::vector<ReadingGrade> readings;
     for (const model::CorrectedRow& row : result.rows) {
         ReadingGrade& reading = readings.emplace_back();
-        if (row.row.is_flagged) {
-            add(reading, row.is_used ? Grade::care : Grade::repeat,
-                {"flagged",
-                 {},
-                 row.is_used
-                     ? text::message("marked by the operator as not to be used, but in the fit")
-                     : text::message("marked by the operator as not to be used")});
+        add_refusals(reading, row);
+        if (!is_day) {
+            add_temperature(reading, row, corrects_rate);
+            add_knock(reading, row.row);
         }
-        add_temperature(reading, row, corrects_rate);
         add_residual(reading, row, is_day);
         add_findings(reading, row.row, result.findings);
         add_samples(reading, row);
-        if (!is_day) add_trends(reading, row.row);
-        for (const std::string& note : row.row.notes) add_note(reading, note, is_day);
     }
     add_repeats(readings, result);
     return readings;

@@ -46,7 +46,7 @@ inline constexpr double kCareRatio = 2.0, kRepeatRatio = 3.0;
 /// @param grade  one of the enumerators; another value is not checked.
 [[nodiscard]] std::string_view grade_name(Grade grade) noexcept;
 
-/// The grade of one reading.  Some reasons only inform: `trust` can have reasons too.
+/// The grade of one reading.  `trust` has no reasons.
 struct ReadingGrade {
     Grade grade = Grade::trust;
     std::vector<Reason> reasons;
@@ -56,24 +56,25 @@ struct ReadingGrade {
 [[nodiscard]] std::string reason_text(const ReadingGrade& reading);
 [[nodiscard]] std::string reason_in_words(const ReadingGrade& reading);
 
-/// Returns the error to which u_corrected belongs, mGal: reference - corrected, or for `day`
-/// reference - left_out.  Absent without a reference, and for `day` if only this station is held.
+/// Returns the error to which u_corrected belongs, mGal: corrected - reference, or for `day`
+/// left_out - reference.  Absent without a reference, and for `day` if only this station is held.
 [[nodiscard]] std::optional<double> error_of(const model::CorrectedRow& row);
 
 /// Returns one grade per row.
 ///
-/// A temperature that was not steady (temperature_doubt()) means `care` if the model has a term for
-/// its rate, else `repeat`.  A reading that the operator marked means `repeat` unless it is in the
-/// fit.  The other rules are in corrector/methods.md, "Report".
+/// A reason is only what makes readings worse on simulated days (remarks_bench.py); the figures and
+/// all rules are in corrector/methods.md, "Report".
 ///
+/// - Not used by the operator or an amendment, or never at rest: `repeat`.
+/// - Temperature that was not steady (temperature_doubt()), not for `day`: `care` if the model has a
+///   term for its rate, else `repeat`.  A knock that split the record, not for `day`: `care`.
 /// - Residual: `care` above 2 u_corrected, `repeat` above 3.  A row without residual or u is not
 ///   tested.  For `day` it is the error of the prediction without the row's station.
-/// - Findings of the stay: `repeat` for a bad reading, else `care`.
-/// - Standard error of the samples above u_corrected: `repeat`.
+/// - Mistakes found at the stay: `repeat` for a bad reading, else `care`.
+/// - Samples: `care` if their standard error is above u_corrected, `repeat` if the effect of shaking
+///   is.
 /// - Two readings of a station: both get `care` if they differ by more than 2 sqrt(2) s (`day`:
 ///   placement).  Readings that have `repeat` for another reason are not compared.
-/// - Trends that differ by more than 0.5 mGal, and unknown notes: `care`.  For `day` differences
-///   and flags of the trend do not count.
 ///
 /// A value exactly at its limit is trusted (reading_grade_test.cpp).
 /// @param result  rows in ascending time, with coefficients, score and stations.

@@ -28,8 +28,8 @@ std::optional<Finding> base_not_revisited(const model::SurveyCorrection& result)
     Finding finding{
         .kind = FindingKind::base_not_revisited, .code = "base_not_revisited", .site = base};
     finding.text = text::message(
-        "the base {} has 1 stay of {}, at least 2 show a drift without the references", base,
-        stays.size());
+        "the base {} was read only once; a second stay would show a drift without any reference",
+        base);
     return finding;
 }
 

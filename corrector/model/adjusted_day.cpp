@@ -208,7 +208,7 @@ void set_day_stations(Fit& result, const SurveyProblem& problem, const RowChoice
         for (const std::size_t i : members) sum += rows[i].corrected.value();
         station.row_count = members.size();
         station.gravity = MilliGal(sum / static_cast<double>(members.size()));
-        if (station.reference) station.residual = *station.reference - station.gravity;
+        if (station.reference) station.residual = station.gravity - *station.reference;
         set_left_out(station, rows, members, day, is_calibrated);
         if (!station.is_flagged_only) {
             numbers.push_back(day.number_of(members.front()));

@@ -53,7 +53,7 @@ void correct_row(CorrectedRow& out, const AdjustedSurvey& adjusted, std::size_t 
             effects_mgal -= effect.value();
     }
     out.corrected = out.row.reduced() - MilliGal(effects_mgal);
-    if (out.row.reference) out.residual = *out.row.reference - out.corrected;
+    if (out.row.reference) out.residual = out.corrected - *out.row.reference;
 }
 
 /// Sets what depends on the noise: leverage, u, studentised residual.
@@ -67,7 +67,7 @@ void judge_row(CorrectedRow& out, const AdjustedSurvey& adjusted, std::size_t ro
                                              solution.variance(effects, noise.ratio)));
     if (const auto equation = adjusted.survey.equation_of(row)) {
         out.leverage = 1.0 - solution.redundancy(*equation);
-        out.studentised_residual = solution.studentised(*equation);
+        if (const auto t = solution.studentised(*equation)) out.studentised_residual = -*t;
         return;
     }
     out.leverage = solution.variance(effects) / (sd * sd);
@@ -157,7 +157,7 @@ void set_stations(Fit& result, const AdjustedSurvey& adjusted, const RowChoice& 
             set_adjusted(value, result, adjusted, unknown->second);
         else
             set_mean(value, result, adjusted, choice, noise);
-        if (value.reference) value.residual = *value.reference - value.gravity;
+        if (value.reference) value.residual = value.gravity - *value.reference;
         if (!adjusted.survey.design().is_exact || !(dof > 0.0)) continue;
         value.dof = dof;
         value.coverage_factor = signal::students_t_quantile(dof, 0.975);

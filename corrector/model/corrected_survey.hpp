@@ -6,7 +6,7 @@
 ///     corrected = acceleration - tide + temperature_correction + rate_correction
 ///                 + drift_correction (+ tilt_correction + flicker_correction + scale_correction,
 ///                 if present)
-///     residual  = reference - corrected
+///     residual  = corrected - reference
 ///
 /// The tide is the effect on gravity and is subtracted; every correction is added.  If the
 /// temperature makes a reading 1 mGal too large, its temperature_correction is -1 mGal.
@@ -78,8 +78,9 @@ struct SurveyOptions {
 
 /// Values of a row that only `paper` gives: in every row.
 struct PaperRow {
-    MilliGal corrected1;                ///< Corrected (1), before the drift step.
-    std::optional<MilliGal> residual1;  ///< reference - corrected1, the publication's Error (1).
+    MilliGal corrected1;  ///< Corrected (1), before the drift step.
+    std::optional<MilliGal>
+        residual1;  ///< corrected1 - reference; the publication's Error (1) is its negative.
 };
 
 /// Values of a row that only `day` gives: in every row.
@@ -109,7 +110,7 @@ struct CorrectedRow {
     /// Present in every row or in none: a model with a term for the scale.
     std::optional<MilliGal> scale_correction;
     MilliGal corrected;                ///< acceleration - tide + all corrections.
-    std::optional<MilliGal> residual;  ///< reference - corrected.
+    std::optional<MilliGal> residual;  ///< corrected - reference.
     /// Leverage; for a row outside the fit, the variance of its correction / s^2.  Absent for `day`.
     /// It is at most 1 for a row in the fit, and has no limit for another row.
     std::optional<double> leverage;
@@ -183,7 +184,7 @@ struct StationValue {
     std::optional<MilliGal> u_gravity;
     std::optional<MilliGal> u_a_posteriori;  ///< `network` only: s0 times u_gravity.
     std::optional<MilliGal> reference;       ///< Known gravity.
-    std::optional<MilliGal> residual;        ///< reference - gravity.
+    std::optional<MilliGal> residual;        ///< gravity - reference.
     /// Sum of 1 - leverage over its rows in the fit; `network`: and the redundancy of its datum.
     /// Absent without a row in the fit, and for `day`.
     std::optional<double> redundancy;
@@ -292,7 +293,7 @@ inline constexpr double kControlledRedundancy = 0.1;
 struct NetworkRow {
     /// Name of the row: `S2 (1)` for a reading (site and stay), `datum S2`, `prior` and the coefficient.
     std::string label;
-    double residual = 0.0;    ///< v = A x - y.
+    double residual = 0.0;    ///< y - A x.
     double sd = 1.0;          ///< Standard deviation a priori.
     double redundancy = 0.0;  ///< 0: uncontrolled, 1: fully controlled.
 };

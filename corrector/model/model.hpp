@@ -135,7 +135,7 @@ inline constexpr std::string_view kPaper = "paper", kWholeDay = "day", kNetwork 
 /// Use it where most stations are unknown and some are occupied repeatedly, or for several days
 /// with a constant of their own.
 ///
-/// - A row's residual is reference - corrected, held or not.  Its leverage is 1 - redundancy;
+/// - A row's residual is corrected - reference, held or not.  Its leverage is 1 - redundancy;
 ///   outside the network it is the variance of its corrections divided by sd^2, that of the reading.
 /// - A row's u_corrected is sqrt(sd^2 + variance of its corrections), a priori.
 /// - Accepted rows are in the network, with or without reference.

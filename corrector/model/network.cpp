@@ -207,7 +207,7 @@ NetworkPart part_of(const AdjustedSurvey& adjusted) {
     NetworkPart part;
     const std::vector<std::string> labels = adjusted.survey.labels();
     for (std::size_t i = 0; i < labels.size(); ++i)
-        part.rows.push_back({labels[i], solution.residual(i), solution.equations().rows[i].sd,
+        part.rows.push_back({labels[i], -solution.residual(i), solution.equations().rows[i].sd,
                              solution.redundancy(i)});
     part.reading_count = adjusted.survey.readings().size();
     for (const adjustment::EquationStation& station : adjusted.survey.stations())

@@ -83,16 +83,14 @@ void set_stations(Fit& result, const RowChoice& choice, const TemperatureLine& l
         station.gravity = MilliGal(sum / n);
         if (const auto s_mgal = result.score.s_mgal) {
             // u^2 = s^2 / n + var(line(mean T of its rows))
-            station.u_gravity =
-                MilliGal(std::sqrt(*s_mgal * *s_mgal / n +
-                                   *s_mgal * *s_mgal * line.leverage_at(degc / n)));
+            station.u_gravity = MilliGal(
+                std::sqrt(*s_mgal * *s_mgal / n + *s_mgal * *s_mgal * line.leverage_at(degc / n)));
             if (line.count > 2) {
                 station.dof = static_cast<double>(line.count - 2);
-                station.coverage_factor =
-                    signal::students_t_quantile(*station.dof, 0.975);
+                station.coverage_factor = signal::students_t_quantile(*station.dof, 0.975);
             }
         }
-        if (station.reference) station.residual = *station.reference - station.gravity;
+        if (station.reference) station.residual = station.gravity - *station.reference;
         result.stations.push_back(std::move(station));
     }
 }
@@ -119,11 +117,11 @@ FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
         CorrectedRow& out = result.rows[i];
         const MilliGal first(corrected1[i]);
         PaperRow& own = out.own.emplace<PaperRow>(PaperRow{first, std::nullopt});
-        if (rows[i].reference) own.residual1 = *rows[i].reference - first;
+        if (rows[i].reference) own.residual1 = first - *rows[i].reference;
         out.corrected = MilliGal(corrected2[i]);
         out.temperature_correction = first - rows[i].reduced();
         out.drift_correction = step.drift->at(rows[i].time);
-        if (rows[i].reference) out.residual = *rows[i].reference - out.corrected;
+        if (rows[i].reference) out.residual = out.corrected - *rows[i].reference;
         out.leverage = near.leverage_at(above_degc(rows[i]));
         // u^2 = s^2 + var(line(T))
         if (const auto s = result.score.s_mgal)
@@ -197,8 +195,7 @@ std::vector<double> temperature_corrected_mgal(const std::vector<reading::Survey
     std::vector<double> corrected;
     for (const reading::SurveyRow& row : rows) {
         // Equation (3), with the reading where the publication prints the reference.
-        const double temperature_effect =
-            line.slope * row.temperature.value() + line.intercept;
+        const double temperature_effect = line.slope * row.temperature.value() + line.intercept;
         corrected.push_back(row.reduced().value() - temperature_effect);
     }
     return corrected;

@@ -113,8 +113,7 @@ std::optional<Comparison> compare_with_linear(const SurveyProblem& problem, cons
 text::Message without_comparison(const Fit& day) {
     const bool is_tested = !day.as<WholeDayPart>()->fit_tests.empty();
     return text::message(
-        "the whole-day model is used without a comparison with others, which needs enough readings "
-        "at {} or more known stations; {}",
+        "model day; not compared with others (that needs enough readings at {} known stations); {}",
         kFewestComparedStations,
         is_tested ? text::message("its fit was tested at repeated and known stations")
                   : text::message("its fit could not be tested either"));

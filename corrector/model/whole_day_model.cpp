@@ -79,7 +79,7 @@ void correct_row(CorrectedRow& out, std::size_t i, const AdjustedDay& day,
                                                  .left_out = std::nullopt});
     if (out.row.reference) {
         out.difference = out.row.acceleration - *out.row.reference - out.row.tide;
-        out.residual = *out.row.reference - out.corrected;
+        out.residual = out.corrected - *out.row.reference;
     }
     // The values that the row has if its reference is unknown.
     const AdjustedDay::Without* const other = day.without(i);
@@ -88,7 +88,7 @@ void correct_row(CorrectedRow& out, std::size_t i, const AdjustedDay& day,
     if (!out.row.reference) return;
     own.left_out = other->adjustment->corrected(i);
     const double u_reference_mgal = out.row.u_reference.value_or(MilliGal(0.0)).value();
-    out.studentised_residual = (*out.row.reference - *own.left_out).value() /
+    out.studentised_residual = (*own.left_out - *out.row.reference).value() /
                                std::hypot(out.u_corrected->value(), u_reference_mgal);
 }
 

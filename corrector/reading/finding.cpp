@@ -58,11 +58,4 @@ nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
     return list;
 }
 
-std::string findings_text(const std::vector<Finding>& findings) {
-    std::string text;
-    for (std::size_t k = 0; k < findings.size(); ++k)
-        text += fmt::format("  {}. {}\n", k + 1, text::in_words(findings[k].text));
-    return text.empty() ? text : text::tr("found in this day:") + "\n" + text;
-}
-
 }  // namespace a351::corrector::reading

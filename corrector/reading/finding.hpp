@@ -90,7 +90,4 @@ void set_stay(Finding& finding, const SetUp& set_up, UtcTime time);
 /// Returns an array with one object per finding, for result.json.  What does not apply is null.
 [[nodiscard]] nlohmann::ordered_json findings_json(const std::vector<Finding>& findings);
 
-/// Returns the findings as numbered lines for the terminal; empty if there are none.
-[[nodiscard]] std::string findings_text(const std::vector<Finding>& findings);
-
 }  // namespace a351::corrector::reading

@@ -32,6 +32,10 @@ figure { margin: 1em 0; break-inside: avoid; }
 figure.table { overflow-x: auto; break-inside: auto; }
 figure svg { display: block; width: 100%; height: auto; max-height: 235mm; }
 figcaption { font-size: .85em; color: #333; }
+.answer { font-size: 1.25em; font-weight: bold; }
+.first { display: flex; flex-wrap: wrap; gap: 0 1.5em; align-items: flex-start; }
+.first figure { flex: 1 1 24em; min-width: 0; margin: .4em 0; }
+.first figure.table { flex: 0 1 30em; display: flex; flex-direction: column-reverse; }
 .small { display: grid; grid-template-columns: 1fr 1fr; gap: 0 1em; }
 .small figure { margin: .5em 0; }
 code { font-size: .95em; }

@@ -46,8 +46,8 @@ void add_days(pugi::xml_node parent, const std::vector<JointDay>& days) {
         cells[2] = to_rfc3339(result.rows.back().row.time);
         cells[3] = result.model;
         cells[4] = text::tr("{} of {}", result.score.row_count, result.rows.size());
-        cells[5] = text::fixed_or(result.score.rms_mgal, 3, "-");
-        cells[6] = text::fixed_or(result.score.loso_mgal, 3, "-");
+        cells[5] = text::fixed_or(result.score.rms_mgal, 2, "-");
+        cells[6] = text::fixed_or(result.score.loso_mgal, 2, "-");
     }
     add_table(
         parent,

@@ -33,8 +33,8 @@ SurveyFigures figures_of(const model::SurveyCorrection& result, const ReportSour
         figure::day_figure(result, records, sources.temperature_course, sources.signal)};
     if (const auto map = figure::map_figure(result, sources.sites)) figures.map = {*map};
     if (const auto figure = figure::side_by_side_figure(result)) figures.side_by_side = {*figure};
-    for (const auto& figure : {figure::corrected_figure(result), figure::difference_figure(result),
-                               figure::acceleration_figure(result)})
+    for (const auto& figure :
+         {figure::difference_figure(result), figure::acceleration_figure(result)})
         if (figure) figures.publication.push_back(*figure);
     figures.records = figure::panel_figures(result, records);
     for (figure::Figure& figure : figure::reading_figures(result, records))
@@ -55,26 +55,26 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
     for (const text::Message& remark : result.remarks) warnings.push_back(text::in_words(remark));
 
     Page page(tr("Gravity survey {}", sources.title));
-    add_head(page.body(), result, warnings, report.warnings);
-    if (!result.findings.empty())
-        add_findings(page.add_section(tr("Found in this day")), result.findings);
+    add_answer(page.body(), result, report.warnings);
+    const pugi::xml_node first = add_part(page.body(), "div", "first");
+    add_answer_table(first, result);
+    add_figures(first, figures.map, drawing);
+    add_notes(page.body(), result, warnings.size());
     add_figures(page.add_section(tr("The day")), figures.day, drawing);
-    add_actions(page.add_section(tr("What to do")), result);
-    const pugi::xml_node stations = page.add_section(tr("Stations"));
-    add_stations(stations, result);
-    add_figures(stations, figures.map, drawing);
+    const pugi::xml_node readings = page.add_section(tr("Readings"));
+    add_readings(readings, result);
+    add_closures(readings, result);
+    add_corrections(readings, result);
     const pugi::xml_node accuracy = page.add_section(tr("Accuracy"));
     add_accuracy(accuracy, result);
+    add_stations(accuracy, result);
     add_budget(accuracy, result);
+    add_models(accuracy, result);
     if (result.side_by_side) {
         const pugi::xml_node section = page.add_section(tr("Side by side"));
         add_side_by_side(section, result);
         add_figures(section, figures.side_by_side, drawing);
     }
-    add_readings(page.add_section(tr("Readings")), result);
-    add_corrections(page.add_section(tr("Corrections")), result);
-    add_closures(page.add_section(tr("Repeated stations")), result);
-    add_models(page.add_section(tr("Models")), result);
     if (!figures.publication.empty())
         add_figures(page.add_section(tr("Comparison with the references")), figures.publication,
                     drawing);

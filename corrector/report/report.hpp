@@ -40,7 +40,7 @@ struct ReportSources {
     std::vector<reading::RepresentativeValue> records;  ///< Records of the rows.
     /// Temperature of the sensor.
     std::vector<archive_series::MinuteTemperature> temperature_course;
-    std::vector<reading::SignalSpan> signal;           ///< Words of the recorder.
+    std::vector<reading::SignalSpan> signal;     ///< Words of the recorder.
     std::vector<text::InputFile> inputs;
     /// Entries skipped or left out, with reasons; the report adds the remarks of the result.
     std::vector<text::Message> warnings;
@@ -57,9 +57,9 @@ struct Report {
 
 /// Makes the report.
 ///
-/// The order is: what is wrong with the day, the day in one figure, what to do about each reading,
-/// stations with a map, accuracy, readings, corrections, repeated stations, models, comparison with
-/// the references, records, and settings with inputs and warnings.
+/// The order is: the answer with what is wrong with the day, a line per station and a map; the day in
+/// one figure; readings with repeated stations and corrections; accuracy with uncertainties and
+/// models; comparison with the references, records, and settings with inputs and warnings.
 ///
 /// gnuplot draws the figures.  If it is missing or fails, the page has its text and says which
 /// reason there is (page_test.cpp).

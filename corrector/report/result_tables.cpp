@@ -9,6 +9,7 @@
 #include "corrector/judgement/closure.hpp"
 #include "corrector/judgement/reading_name.hpp"
 #include "corrector/report/html.hpp"
+#include "corrector/result/answer.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/side_by_side_report.hpp"
 #include "corrector/result/table_text.hpp"
@@ -19,10 +20,6 @@ namespace a351::corrector::report {
 namespace {
 
 using text::tr;
-
-std::string number(MilliGal value, int decimals = 3) {
-    return text::fixed(value.value(), decimals);
-}
 
 /// Returns date and time of the first instant, and time of the last.
 std::string between(UtcTime start, UtcTime end) {
@@ -40,16 +37,18 @@ HtmlCells averaged(const reading::SurveyRow& row) {
 /// Returns the columns of a result that follow the name of a reading and its times.
 std::vector<result::Column<model::CorrectedRow>> reading_columns(
     const model::SurveyCorrection& result) {
-    return result::with_keys(
-        result::occupation_columns(result),
-        {"used", "corrected_mgal", "reference_mgal", "residual_mgal", "left_out_mgal",
-         "u_corrected_mgal", "studentised_residual", "grade", "flags"});
+    return result::with_decimals(
+        result::with_keys(
+            result::occupation_columns(result),
+            {"used", "corrected_mgal", "reference_mgal", "residual_mgal", "left_out_mgal",
+             "u_corrected_mgal", "studentised_residual", "grade", "flags"}),
+        result::decimals_of(result));
 }
 
 std::string reading_caption(const model::SurveyCorrection& result) {
     const std::string text =
-        tr("Gravity of the readings in mGal, with all corrections. Residual = reference - "
-           "corrected, in sample where the reading is in the fit. ");
+        tr("Gravity of the readings in mGal, with all corrections. Residual = corrected - "
+           "reference, in sample where the reading is in the fit. ");
     if (result.as<model::NetworkPart>() != nullptr)
         return text + tr("u: standard uncertainty of a single reading, a priori; t: studentised "
                          "residual.");
@@ -61,7 +60,7 @@ std::string reading_caption(const model::SurveyCorrection& result) {
               "is their duration in seconds. The residual is the error of placing the box, one "
               "value for each set-up. Left out: the value of the reading if the reference of its "
               "station is not used (cross-validated); u is the standard uncertainty of this value, "
-              "and t = (reference - left out) / u.");
+              "and t = (left out - reference) / u.");
 }
 
 std::string station_caption(const model::SurveyCorrection& result, const result::Table& table) {
@@ -86,19 +85,19 @@ std::string station_caption(const model::SurveyCorrection& result, const result:
 
 /// Returns the mean of the temperature corrections, rounded as they are shown.  It contains the
 /// constant of the model with the bias of the sensor.
-MilliGal constant_of(const model::SurveyCorrection& result) {
+MilliGal constant_of(const model::SurveyCorrection& result, int decimals) {
     double sum_mgal = 0.0;
     for (const model::CorrectedRow& row : result.rows)
         sum_mgal += row.temperature_correction.value();
-    constexpr double kSteps = 1e3;
-    return MilliGal(std::round(kSteps * sum_mgal / static_cast<double>(result.rows.size())) /
-                    kSteps);
+    const double steps = std::pow(10.0, decimals);
+    return MilliGal(std::round(steps * sum_mgal / static_cast<double>(result.rows.size())) / steps);
 }
 
 }  // namespace
 
 void add_stations(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const result::Table table = result::stations_table(result);
+    add(parent, "h3", tr("Stations"));
     add_table(parent, station_caption(result, table), table);
 }
 
@@ -154,14 +153,17 @@ void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result) 
 
 void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const bool is_day = result.as<model::WholeDayPart>() != nullptr;
-    const MilliGal constant = constant_of(result);
-    std::vector<result::Column<model::CorrectedRow>> columns = result::with_keys(
-        result::occupation_columns(result),
-        {"acceleration_mgal", "temperature_degc",
-         is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal", "height_correction_mgal",
-         "pressure_correction_mgal", "temperature_correction_mgal", "rate_correction_mgal",
-         "drift_correction_mgal", "scale_correction_mgal", "tilt_correction_mgal",
-         "flicker_correction_mgal", "corrected_mgal"});
+    const int decimals = result::decimals_of(result) + 1;
+    const MilliGal constant = constant_of(result, decimals);
+    std::vector<result::Column<model::CorrectedRow>> columns = result::with_decimals(
+        result::with_keys(
+            result::occupation_columns(result),
+            {"acceleration_mgal", "temperature_degc",
+             is_day ? "fast_rate_degc_per_h" : "rate_degc_per_h", "tide_mgal",
+             "height_correction_mgal", "pressure_correction_mgal", "temperature_correction_mgal",
+             "rate_correction_mgal", "drift_correction_mgal", "scale_correction_mgal",
+             "tilt_correction_mgal", "flicker_correction_mgal", "corrected_mgal"}),
+        decimals);
     for (result::Column<model::CorrectedRow>& column : columns)
         if (column.key == "temperature_correction_mgal")
             column.value = [constant](const model::CorrectedRow& row) {
@@ -172,12 +174,13 @@ void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& resul
     table.alignment.insert(0, "n");
     for (std::size_t i = 0; i < table.rows.size(); ++i)
         table.rows[i].insert(table.rows[i].begin(), judgement::reading_name(result.rows, i));
+    add(parent, "h3", tr("Corrections"));
     add_table(
         parent,
         tr("From acceleration to gravity, in mGal: corrected = acceleration - tide + constant "
            "+ the other columns. The constant of {} contains the bias of the sensor and the "
            "mean effect of its temperature; T corr. is the rest of this effect.",
-           number(constant)) +
+           text::fixed(constant.value(), decimals)) +
             (is_day ? tr(" °C/h is the rate that the model's fast term uses.") : ""),
         table);
 }
@@ -194,6 +197,10 @@ void add_side_by_side(pugi::xml_node parent, const model::SurveyCorrection& resu
 
 void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const std::vector<judgement::Closure> closures = judgement::close_stations(result);
+    const auto number = [decimals = result::decimals_of(result)](MilliGal value) {
+        return text::fixed(value.value(), decimals);
+    };
+    add(parent, "h3", tr("Repeated stations"));
     if (closures.empty()) {
         add(parent, "p",
             tr("No station was read twice, so there are no closures; drift is visible only against "
@@ -206,7 +213,7 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
                         judgement::reading_name(result.rows, pair.later),
                         text::fixed(pair.hours, 2), number(pair.before), number(pair.after_tide),
                         number(pair.after_temperature), number(pair.after_rate),
-                        number(pair.after_all), text::fixed_or(pair.drift_mgal_per_h, 3, "-")});
+                        number(pair.after_all), text::fixed_or(pair.drift_mgal_per_h, 1, "-")});
     }
     const judgement::ClosureRms rms = judgement::rms_of(closures).value();
     rows.push_back({tr("RMS of {}", closures.size()), "", "", number(rms.before),
@@ -225,6 +232,7 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
 }
 
 void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    add(parent, "h3", tr("Models"));
     add_table(
         parent,
         tr("Errors of all models. RMS and s: in sample. LOO: RMS error of a reading predicted "
@@ -236,11 +244,17 @@ void add_models(pugi::xml_node parent, const model::SurveyCorrection& result) {
             tr("Chosen: among the models within one standard error of the least "
                "leave-one-station-out error, up to {} mGal, the one with the fewest "
                "terms.",
-               text::fixed(result.choice->limit_mgal, 3)));
+               text::fixed(result.choice->limit_mgal, 2)));
+    if (result.choice_loso_mgal)
+        add(parent, "p",
+            tr("With the model chosen again for each station left out: {} mGal (cross-validated).",
+               text::fixed(*result.choice_loso_mgal, 2)));
     std::vector<HtmlCells> coefficients;
-    for (const model::Coefficient& c : result.coefficients)
-        coefficients.push_back(
-            {c.name, text::fixed(c.value, 4), text::fixed_or(c.standard_error, 4, "-")});
+    for (const model::Coefficient& c : result.coefficients) {
+        const int decimals = result::decimals_of(c);
+        coefficients.push_back({c.name, text::fixed(c.value, decimals),
+                                text::fixed_or(c.standard_error, decimals, "-")});
+    }
     add(parent, "h3", tr("Coefficients of {}", result.model));
     add_table(parent, tr("Standard errors are those of the fit (in sample)."), "lrr",
               {tr("Coefficient"), tr("Value"), tr("Standard error")}, coefficients);

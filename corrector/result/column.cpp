@@ -27,17 +27,20 @@ std::string csv_text(const Cell& cell) {
 }
 
 std::string shown_text(const Cell& cell, int decimals) {
-    return std::visit(Overloaded{[](std::monostate) { return std::string("-"); },
-                                 [](bool is_so) { return is_so ? text::tr("yes") : text::tr("no"); },
-                                 [](std::int64_t count) { return std::to_string(count); },
-                                 [decimals](double value) { return text::fixed(value, decimals); },
-                                 [](const std::string& text) { return text; },
-                                 [](UtcTime time) { return to_rfc3339(time); }},
-                      cell);
+    return std::visit(
+        Overloaded{[](std::monostate) { return std::string("-"); },
+                   [](bool is_so) { return is_so ? text::tr("yes") : text::tr("no"); },
+                   [](std::int64_t count) { return std::to_string(count); },
+                   [decimals](double value) { return text::fixed(value, decimals); },
+                   [](const std::string& text) { return text; },
+                   [](UtcTime time) { return to_rfc3339(time); }},
+        cell);
 }
 
 std::string aligned_text(const Table& table) {
-    std::vector<std::vector<std::string>> lines{table.headings};
+    std::vector<std::vector<std::string>> lines(1);
+    for (const std::string& heading : table.headings)
+        lines.front().emplace_back(text::translated(heading, text::language()));
     lines.insert(lines.end(), table.rows.begin(), table.rows.end());
     return text::aligned(lines);
 }

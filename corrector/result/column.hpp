@@ -153,6 +153,15 @@ template <class Row>
     return chosen;
 }
 
+/// Returns the columns with so many decimals where a value is in mGal.
+template <class Row>
+[[nodiscard]] std::vector<Column<Row>> with_decimals(std::vector<Column<Row>> columns,
+                                                     int decimals) {
+    for (Column<Row>& column : columns)
+        if (column.key.ends_with("_mgal")) column.shown.decimals = decimals;
+    return columns;
+}
+
 /// Returns a row of a table for people: a text for each column, also for those without a heading.
 template <class Row>
 [[nodiscard]] std::vector<std::string> shown_row(const std::vector<Column<Row>>& columns,

@@ -156,7 +156,7 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         {"u_corrected_mgal", of(&Row::u_corrected), {"u", 2}},
         {"studentised_residual", of(&Row::studentised_residual), {"t", 2}},
         of_model("corrected1_mgal", &model::PaperRow::corrected1),
-        // The publication's Error (1) (Table 2); residual_mgal is its Error (2).
+        // The publication's Error (1) and (2) (Table 2) are -residual1_mgal and -residual_mgal.
         of_model("residual1_mgal", &model::PaperRow::residual1),
     };
     const model::CorrectedRow& first = result.rows.front();
@@ -229,7 +229,7 @@ std::vector<Column<model::StationValue>> station_columns(
 std::vector<Column<model::StationDifference>> difference_columns() {
     using Row = model::StationDifference;
     const auto residual = [](const Row& row) {
-        return row.reference ? cell(*row.reference - row.difference) : Cell();
+        return row.reference ? cell(row.difference - *row.reference) : Cell();
     };
     return {
         {"from", of(&Row::from)},
@@ -254,10 +254,10 @@ std::vector<Column<ScoreRow>> score_columns(const model::SurveyCorrection& resul
         {"rows", rows, {text::marked("Rows"), 0, 'l'}},
         {"n", score(&Score::row_count), {"n"}},
         {"p", score(&Score::parameter_count), {"p"}},
-        {"rms_mgal", score(&Score::rms_mgal), {text::marked("RMS mGal (in sample)")}},
-        {"s_mgal", score(&Score::s_mgal), {text::marked("s mGal (in sample)")}},
-        {"loo_mgal", score(&Score::loo_mgal), {text::marked("LOO mGal (cross-validated)")}},
-        {"loso_mgal", score(&Score::loso_mgal), {text::marked("LOSO mGal (cross-validated)")}},
+        {"rms_mgal", score(&Score::rms_mgal), {text::marked("RMS mGal (in sample)"), 2}},
+        {"s_mgal", score(&Score::s_mgal), {text::marked("s mGal (in sample)"), 2}},
+        {"loo_mgal", score(&Score::loo_mgal), {text::marked("LOO mGal (cross-validated)"), 2}},
+        {"loso_mgal", score(&Score::loso_mgal), {text::marked("LOSO mGal (cross-validated)"), 2}},
         {"aicc", score(&Score::aicc), {"AICc", 2}},
         {"selected", selected, {text::marked("Applied"), 0, 'l'}},
         {"rms_before_drift_mgal", score(&Score::rms_before_drift_mgal)},

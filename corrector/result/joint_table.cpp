@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "corrector/result/answer.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
@@ -32,7 +33,7 @@ JointTables joint_tables(const std::vector<model::RecordedSurvey>& surveys,
         station.gravity = found->gravity;
         station.u_gravity = found->u;
         station.is_in_sample = found->is_in_sample;
-        if (station.reference) station.residual = *station.reference - *station.gravity;
+        if (station.reference) station.residual = *station.gravity - *station.reference;
     }
     tables.differences = adjustment->differences;
     return tables;
@@ -54,7 +55,8 @@ const std::vector<Column<JointStation>>& joint_columns() {
 
 Table table_by_survey(const std::vector<JointStation>& stations,
                       const std::vector<model::RecordedSurvey>& surveys, bool is_adjusted) {
-    Table table = table_of(joint_columns(), stations);
+    const int decimals = surveys.empty() ? 1 : decimals_of(*surveys.front().result);
+    Table table = table_of(with_decimals(joint_columns(), decimals), stations);
     for (const model::RecordedSurvey& survey : surveys) {
         table.alignment += 'r';
         table.headings.push_back(is_adjusted ? text::tr("{} - joint", survey.name) : survey.name);
@@ -64,11 +66,15 @@ Table table_by_survey(const std::vector<JointStation>& stations,
                 find_station(*survey.result, stations[i].site);
             if (station == nullptr || (is_adjusted && !stations[i].gravity)) continue;
             const DayValue value = day_value(*station);
+            const int digits =
+                decimals_for(value.u ? std::optional(value.u->value()) : std::nullopt);
+            const auto shown = [digits](MilliGal gravity) {
+                return text::fixed(gravity.value(), digits);
+            };
             if (is_adjusted)
-                cell = text::fixed((value.gravity - *stations[i].gravity).value(), 3);
+                cell = shown(value.gravity - *stations[i].gravity);
             else
-                cell = text::fixed(value.gravity.value(), 3) +
-                       (value.u ? " +- " + text::fixed(value.u->value(), 2) : "");
+                cell = shown(value.gravity) + (value.u ? " +- " + shown(*value.u) : "");
             if (station->is_flagged_only) cell += " *";
         }
     }

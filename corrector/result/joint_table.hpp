@@ -25,7 +25,7 @@ struct JointStation {
     /// all readings are marked.
     std::optional<MilliGal> gravity, u_gravity;
     std::optional<MilliGal> reference;  ///< Reference in the last survey that has one.
-    std::optional<MilliGal> residual;   ///< reference - gravity.
+    std::optional<MilliGal> residual;   ///< gravity - reference.
     /// True: gravity has seen the station's reference; without an adjustment a survey's value.
     bool is_in_sample = false;
 };

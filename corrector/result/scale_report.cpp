@@ -1,8 +1,8 @@
 #include "corrector/result/scale_report.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "corrector/result/answer.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/message.hpp"
@@ -12,19 +12,33 @@ namespace a351::corrector::result {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+/// Says how much the readings know of a scale.
+std::string source_of(const model::ScaleEstimate& scale) {
+    constexpr double kNearlyAll = 0.8, kLittle = 0.2;  // shares of the prior's variance
+    const double share = scale.prior_share();
+    return share > kNearlyAll ? text::tr("the readings say almost nothing about it")
+           : share > kLittle  ? text::tr("the readings confirm its prior and narrow it")
+                              : text::tr("it comes from the readings");
+}
+
+}  // namespace
+
 std::vector<std::string> scale_sentences(const model::SurveyCorrection& result) {
     std::vector<std::string> sentences;
     for (const model::ScaleEstimate& scale : result.scales) {
         const model::Interval limits = scale.limits();
-        sentences.push_back(text::tr(
-            "scale of {}: {} +- {} (95 % limits: {} to {}). Of the variance of its prior ({} +- "
-            "{}) the readings leave {} %. The scale makes a difference of 100 mGal uncertain by {} "
-            "mGal",
-            scale.instrument.empty() ? text::tr("the sensor") : scale.instrument,
-            text::fixed(scale.value, 5), text::fixed(scale.u, 5), text::fixed(limits.low, 5),
-            text::fixed(limits.high, 5), text::shortest(scale.prior.mean),
-            text::shortest(scale.prior.sd), std::lround(100.0 * scale.prior_share()),
-            text::fixed(100.0 * scale.u, 3)));
+        const int decimals = decimals_for(scale.u);
+        const auto shown = [decimals](double value) { return text::fixed(value, decimals); };
+        sentences.push_back(
+            text::tr("scale of {}: {} +- {} (95 % limits: {} to {}); {} (prior {} +- {}). A "
+                     "difference of 100 "
+                     "mGal is uncertain by {} mGal because of it",
+                     scale.instrument.empty() ? text::tr("the sensor") : scale.instrument,
+                     shown(scale.value), shown(scale.u), shown(limits.low), shown(limits.high),
+                     source_of(scale), text::shortest(scale.prior.mean),
+                     text::shortest(scale.prior.sd), text::fixed(100.0 * scale.u, 2)));
     }
     return sentences;
 }

@@ -17,7 +17,7 @@ struct Table {
     std::vector<std::vector<std::string>> rows;  ///< One text per column each.
 };
 
-/// Returns a table as lines of text, the headings first.
+/// Returns a table as lines of text, the headings first, in the language of the program.
 ///
 /// The first column is aligned left and the others right.  `alignment` has no effect here; it is
 /// for HTML.  Letters of two columns on a terminal count as two (text::aligned()).

@@ -3,25 +3,33 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "corrector/model/model.hpp"
+#include "corrector/model/trend_comparison.hpp"
+#include "corrector/result/answer.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/network_report.hpp"
 #include "corrector/result/scale_report.hpp"
 #include "corrector/result/side_by_side_report.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/columns.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::result {
+
+using text::tr;
+
 namespace {
 
 std::string occupations_text(const model::SurveyCorrection& result) {
-    const auto columns =
+    const auto columns = with_decimals(
         with_keys(occupation_columns(result),
                   {"site", "occupation", "time_utc", "used", "acceleration_mgal",
                    "temperature_degc", "rate_degc_per_h", "tide_mgal", "height_correction_mgal",
                    "pressure_correction_mgal", "difference_mgal", "corrected_mgal",
-                   "reference_mgal", "residual_mgal", "u_corrected_mgal", "flags"});
+                   "reference_mgal", "residual_mgal", "u_corrected_mgal", "flags"}),
+        decimals_of(result) + 1);
     Table table = empty_table(columns);
     in_order_of_time(
         result, [&](std::size_t i) { table.rows.push_back(shown_row(columns, result.rows[i])); },
@@ -35,23 +43,12 @@ std::string occupations_text(const model::SurveyCorrection& result) {
     return aligned_text(table);
 }
 
-/// Returns the doubtful rows with their reasons, one per line, or a line that there are none.
-std::string doubts_text(const model::SurveyCorrection& result) {
-    std::string text;
-    for (const model::CorrectedRow& row : result.rows) {
-        if (row.doubt_physical.empty()) continue;
-        text +=
-            fmt::format("  {} ({}): {}\n", row.row.site, row.row.occupation, row.doubt_physical);
-    }
-    if (text.empty()) return "doubtful readings: none\n";
-    return "doubtful readings (none is left out because of this):\n" + text;
-}
-
 std::string coefficients_text(const model::SurveyCorrection& result) {
     std::string text;
     for (const model::Coefficient& c : result.coefficients) {
-        text += fmt::format("  {} = {}", c.name, text::fixed(c.value, 4));
-        if (c.standard_error) text += " +- " + text::fixed(*c.standard_error, 4);
+        const int decimals = decimals_of(c);
+        text += fmt::format("  {} = {}", c.name, text::fixed(c.value, decimals));
+        if (c.standard_error) text += " +- " + text::fixed(*c.standard_error, decimals);
         if (const adjustment::Prior* const prior = result.options.priors.find(c.name);
             prior != nullptr && c.prior) {
             text += fmt::format(" (prior {} +- {})", text::fixed(prior->mean, 4),
@@ -64,37 +61,70 @@ std::string coefficients_text(const model::SurveyCorrection& result) {
 
 std::string summary_text(const model::SurveyCorrection& result) {
     const model::Score& score = result.score;
-    std::string text = "model " + result.model + choice_text(result);
-    text += fmt::format(": RMS {} mGal (in sample, n = {})", text::fixed_or(score.rms_mgal, 3, "-"),
-                        score.row_count);
-    const auto add = [&text](std::string_view before, const std::optional<double>& value_mgal,
-                             std::string_view after) {
-        if (value_mgal)
-            text += fmt::format("{}{} mGal {}", before, text::fixed_or(value_mgal, 3, "-"), after);
+    std::string text =
+        tr("model {}{}: RMS {} mGal (in sample, n = {})", result.model, choice_text(result),
+           text::fixed_or(score.rms_mgal, 2, "-"), score.row_count);
+    const auto add = [&text](const std::optional<double>& value_mgal, const std::string& kind) {
+        if (value_mgal) text += fmt::format(", {} mGal ({})", text::fixed(*value_mgal, 2), kind);
     };
-    add(", ", score.loo_mgal, "(leave-one-out)");
-    add(", ", score.loso_mgal, "(leave-one-station-out)");
+    add(score.loo_mgal, tr("leave-one-out"));
+    add(score.loso_mgal, tr("leave-one-station-out"));
+    add(result.choice_loso_mgal,
+        tr("leave-one-station-out, with the model chosen again each time"));
+    add(score.rms_before_drift_mgal, tr("in sample, before the drift step"));
     text += '\n';
-    if (const auto interval = result.loo_interval_mgal) {
-        text += fmt::format("leave-one-out, 95 % interval by resampling stations: {} to {} mGal\n",
-                            text::fixed(interval->low, 2), text::fixed(interval->high, 2));
-    }
-    add("RMS of Error (1), before the drift step: ", score.rms_before_drift_mgal,
-        fmt::format("(in sample); of Error (2), after it: {} mGal (in sample)\n",
-                    text::fixed_or(score.rms_mgal, 3, "-")));
-    add("with the choice of the model repeated for every station left out: ",
-        result.choice_loso_mgal, "(leave-one-station-out)\n");
+    if (const auto interval = result.loo_interval_mgal)
+        text += tr("leave-one-out, 95 % interval by resampling stations: {} to {} mGal",
+                   text::fixed(interval->low, 2), text::fixed(interval->high, 2)) +
+                '\n';
     return text;
+}
+
+/// Appends a text as lines of at most kWidth columns, the further ones indented.
+void add_lines(std::string& lines, const std::string& text) {
+    constexpr std::size_t kWidth = 118;
+    std::istringstream words(text);
+    std::string line;
+    for (std::string word; words >> word;) {
+        if (!line.empty() && text::columns_of(line) + 1 + text::columns_of(word) > kWidth) {
+            lines += line + '\n';
+            line = "  " + word;
+        } else {
+            line += (line.empty() ? "" : " ") + word;
+        }
+    }
+    lines += line + '\n';
+}
+
+/// Appends the findings with their numbers, as `a351-correct amend` counts them: the mistakes, or
+/// the remarks.
+void add_findings(std::string& lines, const std::vector<reading::Finding>& findings,
+                  bool are_remarks) {
+    for (std::size_t k = 0; k < findings.size(); ++k)
+        if (reading::is_remark(findings[k]) == are_remarks)
+            add_lines(lines, fmt::format("{}. {}", k + 1, text::in_words(findings[k].text)));
+}
+
+/// Returns the tables and models that are in the files of the result too.
+std::string details_text(const model::SurveyCorrection& result) {
+    std::string text = occupations_text(result) + '\n' + aligned_text(stations_table(result)) +
+                       '\n' + aligned_text(models_table(result)) +
+                       tr("LOO: leave-one-out. LOSO: leave-one-station-out.") + "\n\n" +
+                       summary_text(result) + coefficients_text(result) + network_text(result);
+    for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
+    for (const std::string& sentence : side_by_side_sentences(result)) text += sentence + '\n';
+    for (const text::Message& remark : result.remarks) text += text::in_words(remark) + '\n';
+    return text + model::trend_comparison_text(result);
 }
 
 }  // namespace
 
 std::string choice_text(const model::SurveyCorrection& result) {
     if (result.options.model != model::kAutomatic) return "";
-    if (result.choice) return text::tr(" (chosen by leave-one-station-out error)");
+    if (result.choice) return tr(" (chosen by leave-one-station-out error)");
     return result.as<model::WholeDayPart>() != nullptr
-               ? text::tr(" (chosen because the whole day was recorded)")
-               : text::tr(" (chosen because the known stations do not allow to compare models)");
+               ? tr(" (chosen because the whole day was recorded)")
+               : tr(" (chosen because the known stations do not allow to compare models)");
 }
 
 std::string flags_of(const model::CorrectedRow& row, const model::SurveyOptions& options) {
@@ -150,7 +180,9 @@ Table stations_table(const model::SurveyCorrection& result) {
         keys.emplace_back("flagged_only");
     for (const auto key : {"normal_gravity_mgal", "free_air_anomaly_mgal", "bouguer_anomaly_mgal"})
         keys.emplace_back(key);
-    return table_of(with_keys(station_columns(result.stations), keys), result.stations);
+    return table_of(
+        with_decimals(with_keys(station_columns(result.stations), keys), decimals_of(result)),
+        result.stations);
 }
 
 Table budget_table(const model::SurveyCorrection& result) {
@@ -170,16 +202,17 @@ Table models_table(const model::SurveyCorrection& result) {
         score_rows(result));
 }
 
-std::string survey_text(const model::SurveyCorrection& result) {
-    std::string text = occupations_text(result) + '\n' + aligned_text(stations_table(result)) +
-                       '\n' + aligned_text(models_table(result)) +
-                       "LOO: leave-one-out. LOSO: leave-one-station-out.\n\n" +
-                       summary_text(result) + coefficients_text(result) + network_text(result) +
-                       doubts_text(result);
-    for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
-    for (const std::string& sentence : side_by_side_sentences(result)) text += sentence + '\n';
-    for (const text::Message& remark : result.remarks) text += text::in_words(remark) + '\n';
-    return text;
+std::string survey_text(const model::SurveyCorrection& result, bool is_verbose) {
+    const std::vector<judgement::ReadingGrade> grades = judgement::grade_readings(result);
+    std::string text;
+    add_lines(text, answer(result, grades));
+    add_findings(text, result.findings, false);
+    text += '\n' + aligned_text(answer_table(result, grades));
+    std::string below;
+    for (const std::string& note : notes(result, grades)) add_lines(below, note);
+    add_findings(below, result.findings, true);
+    if (!below.empty()) text += '\n' + below;
+    return is_verbose ? text + '\n' + details_text(result) : text;
 }
 
 }  // namespace a351::corrector::result

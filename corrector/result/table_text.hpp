@@ -2,7 +2,7 @@
 /// @file
 /// A corrected survey as text for people, and helpers that the tables for programs share.
 ///
-///     std::cout << survey_text(result);
+///     std::cout << survey_text(result, false);
 ///
 /// The text may change from version to version.  Programs read the files of result_files.hpp.
 
@@ -65,13 +65,14 @@ struct ScoreRow {
 /// Returns the scores of all models, without columns in which no model has a value.
 [[nodiscard]] Table models_table(const model::SurveyCorrection& result);
 
-/// Returns aligned tables of occupations, stations and models.  Each root mean square is marked as
-/// in sample or cross-validated (result_files_test.cpp).
+/// Returns the survey for the terminal: the answer, the findings, a line per station, what must be
+/// known, the remarks.
 ///
-/// A summary of the applied model follows the tables, then its coefficients, the network's test, the
-/// doubtful rows and the remarks.  Parts that the model does not have are absent.  Each line ends
-/// with LF.
-/// @param result  at least one row; order as for in_order_of_time().
-[[nodiscard]] std::string survey_text(const model::SurveyCorrection& result);
+/// Lines have at most 118 columns, and end with LF.
+/// @param result      at least one row; order as for in_order_of_time().
+/// @param is_verbose  adds the tables of readings, stations and models, the coefficients, and what
+///                    is to be said about them.  Each root mean square is marked as in sample or
+///                    cross-validated (result_files_test.cpp).
+[[nodiscard]] std::string survey_text(const model::SurveyCorrection& result, bool is_verbose);
 
 }  // namespace a351::corrector::result

@@ -49,7 +49,7 @@ def check_formulas(title, result):
         reduced = without_tide + value.get("height_correction_mgal", 0.0) + value.get("pressure_correction_mgal", 0.0)
         worst = max(worst, abs(without_tide + sum(value.get(column, 0.0) for column in added) - value["corrected_mgal"]))
         if "reference_mgal" in value:
-            worst = max(worst, abs(value["reference_mgal"] - value["corrected_mgal"] - value["residual_mgal"]),
+            worst = max(worst, abs(value["corrected_mgal"] - value["reference_mgal"] - value["residual_mgal"]),
                         abs(reduced - value["reference_mgal"] - value["difference_mgal"]))
     demand(f"{title}: {len(occupations)} rows, {len(added)} corrections: the formulas hold within {worst:.1e} mGal, "
            f"limit {ROUNDING_MGAL:g}",

@@ -25,22 +25,29 @@ demand("A351_LANG and the locale give the same text", answers["ja"] == answers["
 demand("a language without a catalogue is English", answers["en"] == answers["unknown"])
 
 
+def rows_of_english(text):
+    """Returns the rows of four English words in a text."""
+    return re.findall(r"[A-Za-z]{2,}(?:[ ,]+[a-z]{2,}){3,}", text)
+
+
 def english_phrases(page):
-    """Returns the rows of four English words in a page, except those of figures and of the settings of result.json beside it."""
+    """Returns those in a page, except those of figures and of the settings of result.json beside it."""
     text = re.sub(r"<(style|svg|pre|title)\b.*?</\1>|<[^>]+>", "\n", page.read_text(), flags=re.DOTALL)
     settings = str(read_json(page.parent / "result.json").get("settings"))
-    return [row for row in re.findall(r"[A-Za-z]{2,}(?:[ ,]+[a-z]{2,}){3,}", text) if row not in settings]
+    return [row for row in rows_of_english(text) if row not in settings]
 
 
 with Scratch() as scratch:
     run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 3, "--out", "day", cwd=scratch)
-    for language in ("en", "ja"):
-        run(BIN / "a351-correct", "survey", "day/survey.toml", "--out", language, cwd=scratch, env={"A351_LANG": language})
+    said = {language: run(BIN / "a351-correct", "survey", "day/survey.toml", "--out", language, "--verbose", cwd=scratch,
+                          env={"A351_LANG": language}).stdout for language in ("en", "ja")}
+    demand(f"the terminal is in Japanese {rows_of_english(said['ja'])}", "測定点" in said["ja"] and "Station" not in said["ja"] and
+           not rows_of_english(said["ja"]))
     differing = {file.name for file in (scratch / "en").iterdir()
                  if file.is_file() and file.read_bytes() != (scratch / "ja" / file.name).read_bytes()}
     demand(f"only the report depends on the language, not JSON and CSV: {differing}", differing == {"report.html"})
     report = (scratch / "ja" / "report.html").read_text()
-    demand("the report is in Japanese", 'lang="ja"' in report and "すべきこと" in report and "What to do" not in report)
+    demand("the report is in Japanese", 'lang="ja"' in report and "補正" in report and "Corrections" not in report)
     rows = english_phrases(scratch / "ja" / "report.html")
     demand(f"no sentence of it is in English: {rows}", not rows)
 

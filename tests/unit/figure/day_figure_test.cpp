@@ -51,8 +51,8 @@ TEST_CASE("the day shows the whole-day model's errors with the station left out"
     for (CorrectedRow& row : result.rows)
         row.own.emplace<WholeDayRow>().left_out = *row.row.reference - MilliGal(7.77);
     const Figure figure = day_figure(result, {}, {}, {});
-    CHECK(count(figure.data, "Z 7.7700 ") == 12);
-    CHECK_THAT(figure.caption, ContainsSubstring("left out (cross-validated)"));
+    CHECK(count(figure.data, "Z -7.7700 ") == 12);
+    CHECK_THAT(figure.caption, ContainsSubstring("left out, minus reference (cross-validated)"));
 }
 
 TEST_CASE("a stay without a value is on the axis of the day", "[report][figures]") {

@@ -21,7 +21,7 @@ SurveyCorrection quiet(std::size_t count) {
         row.row.time = UtcTime(std::chrono::days(i));
         row.row.rate_degc_per_h = 0.2;
         row.is_used = true;
-        row.residual = MilliGal(-4.0);
+        row.residual = MilliGal(4.0);
         row.u_corrected = MilliGal(2.0);
         result.rows.push_back(row);
         StationValue station;
@@ -79,16 +79,16 @@ TEST_CASE("the whole-day model is graded by its prediction without the station",
           "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.own = WholeDayPart{};
-    result.rows[0].residual = MilliGal(-9.0);
-    result.rows[0].studentised_residual = 1.9;
+    result.rows[0].residual = MilliGal(9.0);
+    result.rows[0].studentised_residual = -1.9;
     CHECK(first_grade(result) == Grade::trust);
-    result.rows[0].studentised_residual = -3.1;
+    result.rows[0].studentised_residual = 3.1;
     CHECK(first_grade(result) == Grade::repeat);
     CHECK(first_reasons(result) ==
           "6.2 mGal above its reference when its station is left out, 3.1 times its uncertainty|");
 }
 
-TEST_CASE("a reading whose samples are worse than its uncertainty is graded repeat",
+TEST_CASE("a reading with a scatter above its uncertainty is graded care, a shaken one repeat",
           "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.record.emplace();
@@ -97,9 +97,9 @@ TEST_CASE("a reading whose samples are worse than its uncertainty is graded repe
     record.rectification = MilliGal(2.0);
     CHECK(first_grade(result) == Grade::trust);
     record.standard_error = MilliGal(2.1);
-    CHECK(first_grade(result) == Grade::repeat);
+    CHECK(first_grade(result) == Grade::care);
     CHECK(first_reasons(result) ==
-          "the scatter of its samples alone gives 2.1 mGal, more than its u of 2.0 mGal|");
+          "its samples scatter: their mean is known to 2.1 mGal only (u: 2.0 mGal)|");
     record.standard_error.reset();
     record.rectification = MilliGal(77.6);
     CHECK(first_grade(result) == Grade::repeat);
@@ -124,18 +124,41 @@ TEST_CASE("set-ups of one station are compared by the placement scatter of the w
           "differs by 4.3 mGal from A (1b), 2.0 times the value expected from placement|");
 }
 
-TEST_CASE("problems of the trend do not lower the grade of the whole-day model",
+TEST_CASE("what does not make the readings of the whole-day model worse does not lower their grade",
           "[report][grade]") {
     SurveyCorrection result = quiet(1);
-    result.rows[0].row.notes = {"fallback", "disturbed_end"};
-    result.rows[0].row.record.emplace().smoother_mean = MilliGal(3.0);
-    CHECK(first_grade(result) == Grade::care);
+    SurveyRow& row = result.rows[0].row;
+    row.notes = {"pulse", "gap", "fallback", "disturbed_end", "unsettled", "moved", "no-stop"};
+    row.rate_degc_per_h = 0.5;
+    row.is_flagged = true;
+    row.record.emplace().smoother_mean = MilliGal(3.0);
     result.own = WholeDayPart{};
     CHECK(first_grade(result) == Grade::trust);
     CHECK(first_reasons(result).empty());
+}
+
+TEST_CASE("a record split by a knock is graded care, except for the whole-day model",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"pulse"};
     CHECK(first_grade(result) == Grade::care);
-    CHECK(first_reasons(result) == "a knock: the samples around it were left out|");
+    CHECK(first_reasons(result) == "a knock split the record; its longest part was used|");
+}
+
+TEST_CASE("a mistake found at a stay lowers its grade; a remark or a move of the box does not",
+          "[report][grade]") {
+    SurveyCorrection result = quiet(1);
+    Finding finding{.code = "found", .site = "A", .occupation = 1, .text = "found"};
+    const auto grade_with = [&](FindingKind kind) {
+        finding.kind = kind;
+        result.findings = {finding};
+        return first_grade(result);
+    };
+    result.rows[0].row.occupation = 1;
+    CHECK(grade_with(FindingKind::short_stay) == Grade::trust);
+    CHECK(grade_with(FindingKind::moved_box) == Grade::trust);
+    CHECK(grade_with(FindingKind::other_name) == Grade::care);
+    CHECK(grade_with(FindingKind::bad_reading) == Grade::repeat);
 }
 
 TEST_CASE("an excluded reading is graded repeat, an amended one can be trusted",
@@ -149,43 +172,22 @@ TEST_CASE("an excluded reading is graded repeat, an amended one can be trusted",
 
 TEST_CASE("a residual above two u is graded care, above three u repeat", "[report][grade]") {
     SurveyCorrection result = quiet(1);
-    result.rows[0].residual = MilliGal(-4.1);
+    result.rows[0].residual = MilliGal(4.1);
     CHECK(first_grade(result) == Grade::care);
     CHECK_THAT(first_reasons(result), ContainsSubstring("4.1 mGal above its reference"));
-    result.rows[0].residual = MilliGal(6.1);
+    result.rows[0].residual = MilliGal(-6.1);
     CHECK(first_grade(result) == Grade::repeat);
     result.rows[0].residual.reset();
     CHECK(first_grade(result) == Grade::trust);
 }
 
-TEST_CASE("a reading whose trends disagree is graded care", "[report][grade]") {
-    SurveyCorrection result = quiet(1);
-    result.rows[0].row.record.emplace().smoother_mean = MilliGal(-0.51);
-    CHECK(first_grade(result) == Grade::care);
-    CHECK_THAT(first_reasons(result), ContainsSubstring("differ by -0.51 mGal"));
-    result.rows[0].row.record->smoother_mean = MilliGal(0.5);
-    CHECK(first_grade(result) == Grade::trust);
-}
-
-TEST_CASE("a reading flagged by the operator is graded repeat, or care if it is in the fit",
+TEST_CASE("a reading that the operator marked is graded repeat unless it is in the fit",
           "[report][grade]") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.is_flagged = true;
-    CHECK(first_grade(result) == Grade::care);
+    CHECK(first_grade(result) == Grade::trust);
     result.rows[0].is_used = false;
     CHECK(first_grade(result) == Grade::repeat);
-}
-
-TEST_CASE("known notes are graded by their meaning, unknown notes as care", "[report][grade]") {
-    SurveyCorrection result = quiet(1);
-    result.rows[0].row.notes = {"disturbed_end"};
-    CHECK(first_grade(result) == Grade::trust);
-    CHECK(first_reasons(result) == "only the part before a disturbance at its end was averaged|");
-    result.rows[0].row.notes = {"fallback"};
-    CHECK(first_grade(result) == Grade::care);
-    result.rows[0].row.notes = {"seen from afar"};
-    CHECK(first_grade(result) == Grade::care);
-    CHECK(first_reasons(result) == "seen from afar|");
 }
 
 TEST_CASE("readings of one station that disagree are both graded care", "[report][grade]") {

@@ -184,7 +184,7 @@ TEST_CASE("a base with one stay is named", "[mistake]") {
     const auto found = day.findings();
     REQUIRE(kinds(found) == Kinds{"base_not_revisited", "not_visited"});
     CHECK(found[0].text ==
-          "the base B has 1 stay of 12, at least 2 show a drift without the references");
+          "the base B was read only once; a second stay would show a drift without any reference");
 }
 
 TEST_CASE("a day that the model does not fit is named, with the reading after the step",

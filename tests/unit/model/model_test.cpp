@@ -136,7 +136,7 @@ TEST_CASE("the publication's Error (1) is given only with a reference", "[survey
     CHECK_FALSE(fit.rows[4].as<PaperRow>()->residual1);
     const PaperRow& known = *fit.rows[3].as<PaperRow>();
     CHECK(known.residual1->value() ==
-          Approx((*rows[3].reference - known.corrected1).value()).margin(1e-9));
+          Approx((known.corrected1 - *rows[3].reference).value()).margin(1e-9));
 }
 
 TEST_CASE("a model without a scale says that it does not use the prior of the scale",
@@ -147,8 +147,7 @@ TEST_CASE("a model without a scale says that it does not use the prior of the sc
     for (const std::string name : {"paper", "network", "t-rate-drift"}) {
         options.model = name;
         const std::string remark = text::in_words(correct_survey(rows, options).remarks, "; ");
-        CHECK((remark.find("does not use: prior scale") != std::string::npos) ==
-              (name == "paper"));
+        CHECK((remark.find("does not use: prior scale") != std::string::npos) == (name == "paper"));
     }
 }
 

@@ -76,10 +76,10 @@ TEST_CASE("the corrections of the whole-day model add up to the corrected value,
         const double sum = value("Acceleration") - value("Tide") + std::stod(constant[1]) +
                            value("T corr.") + value("Rate corr.") + value("Drift corr.") +
                            value("Scale corr.") + value("Tilt corr.") + value("Flicker corr.");
-        CHECK(sum == Approx(value("Corrected")).epsilon(0).margin(0.0045));  // nine roundings
+        CHECK(sum == Approx(value("Corrected")).epsilon(0).margin(0.045));  // nine roundings
         mean += value("T corr.") / static_cast<double>(lines.size());
     }
-    CHECK(mean == Approx(0.0).margin(0.001));
+    CHECK(mean == Approx(0.0).margin(0.01));
 }
 
 TEST_CASE("t of the whole-day model is the error with the station left out over its u",
@@ -87,9 +87,9 @@ TEST_CASE("t of the whole-day model is the error with the station left out over 
     const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
     for (auto line : readings_of(corrected_by_day(made.record()))) {
         const auto value = [&line](const char* title) { return std::stod(line.at(title)); };
-        // Both are rounded to 0.01, t to three digits at least.
-        CHECK((value("Reference") - value("Left out")) / value("u") ==
-              Approx(value("t")).epsilon(0.01).margin(0.02));
+        // All but t are rounded to 0.1.
+        CHECK((value("Left out") - value("Reference")) / value("u") ==
+              Approx(value("t")).epsilon(0.05).margin(0.1));
     }
 }
 

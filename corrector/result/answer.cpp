@@ -1,0 +1,152 @@
+#include "corrector/result/answer.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "corrector/judgement/reading_name.hpp"
+#include "corrector/result/columns.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
+
+namespace a351::corrector::result {
+namespace {
+
+using judgement::Grade;
+using judgement::ReadingGrade;
+using text::tr;
+
+std::string grade_in_words(Grade grade) {
+    return std::string(text::translated(judgement::grade_name(grade), text::language()));
+}
+
+/// Returns u of the stations in ascending order.
+std::vector<double> uncertainties(const model::SurveyCorrection& result) {
+    std::vector<double> values;
+    for (const model::StationValue& station : result.stations)
+        if (station.u_gravity) values.push_back(station.u_gravity->value());
+    std::ranges::sort(values);
+    return values;
+}
+
+std::string accuracy(const model::SurveyCorrection& result) {
+    const std::size_t count = result.stations.size();
+    if (const auto loso = result.score.loso_mgal)
+        return tr("{} stations; a new one is known to +- {} mGal (each known station left out).",
+                  count, text::fixed(*loso, decimals_for(loso)));
+    const std::vector<double> u = uncertainties(result);
+    if (u.empty())
+        return tr(
+            "{} stations; this model and these readings do not show how well a new one is known.",
+            count);
+    const int decimals = decimals_of(result);
+    return tr("{} stations; u is {} to {} mGal, not tested: no known station can be left out.",
+              count, text::fixed(u.front(), decimals), text::fixed(u.back(), decimals));
+}
+
+std::string listed(const reading::LeftOut& stay) {
+    return fmt::format("{} ({})", stay.site, stay.occupation);
+}
+
+/// Returns the difference from the reference that the first table shows.
+Column<model::StationValue> difference_column(const model::SurveyCorrection& result) {
+    const bool is_left_out = std::ranges::any_of(
+        result.stations,
+        [](const model::StationValue& station) { return station.left_out && station.reference; });
+    const auto difference = [is_left_out](const model::StationValue& station) {
+        const auto& value = is_left_out ? station.left_out : std::optional(station.gravity);
+        return value && station.reference ? cell(*value - *station.reference) : Cell();
+    };
+    return {"difference_mgal",
+            difference,
+            {is_left_out ? text::marked("Left out - reference")
+                         : text::marked("Gravity - reference, in sample")}};
+}
+
+}  // namespace
+
+int decimals_for(const std::optional<double>& u_mgal) {
+    if (!u_mgal || !(*u_mgal > 0.0)) return 1;
+    return std::clamp(1 - static_cast<int>(std::floor(std::log10(*u_mgal))), 0, 4);
+}
+
+int decimals_of(const model::SurveyCorrection& result) {
+    const std::vector<double> u = uncertainties(result);
+    return decimals_for(u.empty() ? std::nullopt : std::optional(u[u.size() / 2]));
+}
+
+int decimals_of(const model::Coefficient& coefficient) {
+    constexpr int kWithoutError = 4;
+    return coefficient.standard_error ? decimals_for(coefficient.standard_error) : kWithoutError;
+}
+
+std::string answer(const model::SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
+    const bool is_unusable = std::ranges::count(result.findings, reading::FindingKind::unusable_day,
+                                                &reading::Finding::kind) > 0;
+    const std::string text = is_unusable ? tr("{} stations, but this day cannot be used as it is.",
+                                              result.stations.size())
+                                         : accuracy(result);
+    if (!std::ranges::all_of(result.findings, reading::is_remark))
+        return text + ' ' + tr("First correct what was found:");
+    std::vector<std::string> urgent, optional;
+    for (const reading::LeftOut& stay : result.left_out) urgent.push_back(listed(stay));
+    for (std::size_t i = 0; i < grades.size(); ++i) {
+        if (grades[i].grade != Grade::repeat) continue;
+        const bool has_other =
+            judgement::grade_of_station(result, grades, result.rows[i].row.site).grade ==
+            Grade::trust;
+        (has_other ? optional : urgent).push_back(judgement::reading_name(result.rows, i));
+    }
+    if (urgent.empty() && optional.empty()) return text + ' ' + tr("Nothing to repeat.");
+    return text + (urgent.empty() ? "" : ' ' + tr("Repeat: {}.", text::joined(urgent))) +
+           (optional.empty() ? ""
+                             : ' ' + tr("If there is time, repeat: {}.", text::joined(optional)));
+}
+
+Table answer_table(const model::SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
+    using Row = model::StationValue;
+    std::vector<Column<Row>> columns = with_keys(station_columns(result.stations),
+                                                 {"site", "n", "gravity_mgal", "u_gravity_mgal"});
+    columns.push_back(difference_column(result));
+    columns = with_decimals(columns, decimals_of(result));
+    const auto mark = [&](const Row& station) {
+        return grade_in_words(judgement::grade_of_station(result, grades, station.site).grade);
+    };
+    columns.push_back({"mark", mark, {text::marked("Mark"), 0, 'l'}});
+    return table_of(columns, result.stations);
+}
+
+std::vector<std::string> notes(const model::SurveyCorrection& result,
+                               const std::vector<ReadingGrade>& grades) {
+    std::vector<std::string> list;
+    std::map<std::string, std::vector<std::string>> without_value;
+    for (const reading::LeftOut& stay : result.left_out)
+        without_value[stay.reason].push_back(listed(stay));
+    for (const auto& [reason, names] : without_value)
+        list.push_back(tr("{}: no value ({}).", text::joined(names), reason));
+    const auto is_found = [&](const ReadingGrade& one) {
+        return std::ranges::any_of(one.reasons, [&](const judgement::Reason& reason) {
+            return std::ranges::count(result.findings, reason.text, &reading::Finding::text) > 0;
+        });
+    };
+    for (const Grade grade : {Grade::repeat, Grade::care})
+        for (std::size_t i = 0; i < grades.size(); ++i)
+            if (grades[i].grade == grade && !is_found(grades[i]))
+                list.push_back(tr("{}, {}: {}.", judgement::reading_name(result.rows, i),
+                                  grade_in_words(grade), judgement::reason_in_words(grades[i])));
+    if (const auto* const network = result.as<model::NetworkPart>();
+        network != nullptr && !network->passes_global_test().value_or(true))
+        list.push_back(
+            tr("The readings scatter more than stated (global test failed): look for a fault."));
+    std::vector<std::string> unchecked;
+    for (const model::StationValue& station : result.stations)
+        if (station.row_count == 1 && !station.reference) unchecked.push_back(station.site);
+    if (!unchecked.empty())
+        list.push_back(tr("One reading and no reference, so nothing checks them: {}.",
+                          text::joined(unchecked)));
+    return list;
+}
+
+}  // namespace a351::corrector::result

@@ -1,0 +1,51 @@
+#pragma once
+/// @file
+/// What a survey says first: how well it knows gravity, what to repeat, and one line for each
+/// station.  Terminal and report begin with it.
+///
+///     const auto grades = judgement::grade_readings(result);
+///     std::cout << answer(result, grades) << "\n\n" << aligned_text(answer_table(result, grades));
+///
+/// All texts are in the language of the program.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corrector/judgement/reading_grade.hpp"
+#include "corrector/model/corrected_survey.hpp"
+#include "corrector/result/table.hpp"
+
+namespace a351::corrector::result {
+
+/// Returns the digits after the point that a value with this uncertainty deserves: one more than
+/// its first digit.  1.5 gives 1, 0.94 gives 2, 31 gives 0.
+/// @param u_mgal  absent or not above 0: 1 digit.
+[[nodiscard]] int decimals_for(const std::optional<double>& u_mgal);
+
+/// Returns decimals_for() of the median uncertainty of the stations, or of the standard error of a
+/// coefficient (without one: 4).
+[[nodiscard]] int decimals_of(const model::SurveyCorrection& result);
+[[nodiscard]] int decimals_of(const model::Coefficient& coefficient);
+
+/// Returns the first sentences: number of stations, error of a new one, what to repeat.
+///
+/// The error is the leave-one-station-out error; without one it is the range of u.  On a day with
+/// findings that are no remarks the second sentence is that they must be corrected first.
+/// @param grades  from grade_readings() of this result.
+[[nodiscard]] std::string answer(const model::SurveyCorrection& result,
+                                 const std::vector<judgement::ReadingGrade>& grades);
+
+/// Returns a line per station: readings, gravity, u, difference from the reference, mark.
+///
+/// The difference is that of the value with the reference left out; for a model that gives no such
+/// value it is that of gravity, which is in sample.  The mark is the grade of the station.
+[[nodiscard]] Table answer_table(const model::SurveyCorrection& result,
+                                 const std::vector<judgement::ReadingGrade>& grades);
+
+/// Returns what must be known beside the table: occupations without a value, each reading that is
+/// not to be trusted with its reasons (unless a finding says them), stations that nothing checks.
+[[nodiscard]] std::vector<std::string> notes(const model::SurveyCorrection& result,
+                                             const std::vector<judgement::ReadingGrade>& grades);
+
+}  // namespace a351::corrector::result

@@ -1,0 +1,135 @@
+#include "corrector/result/answer.hpp"
+
+#include <sstream>
+#include "tests/support/catch.hpp"
+
+#include "corrector/model/survey_correction.hpp"
+#include "corrector/result/table_text.hpp"
+#include "tests/unit/model/survey_rows.hpp"
+
+using namespace a351;
+using namespace a351::corrector::judgement;
+using namespace a351::corrector::model;
+using namespace a351::corrector::reading;
+using namespace a351::corrector::result;
+
+namespace {
+
+/// Returns good readings with some scatter.
+SurveyCorrection scattered_day() {
+    auto rows = made_up::day();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i].acceleration = rows[i].acceleration + MilliGal(i % 2 == 0 ? 0.5 : -0.5);
+    SurveyOptions options;
+    options.model = "t-rate-drift";
+    return correct_survey(rows, options);
+}
+
+std::vector<ReadingGrade> all_good(const SurveyCorrection& result) {
+    return std::vector<ReadingGrade>(result.rows.size());
+}
+
+}  // namespace
+
+TEST_CASE("a value has one digit more than the first of its uncertainty", "[result][answer]") {
+    CHECK(decimals_for(1.5) == 1);
+    CHECK(decimals_for(0.94) == 2);
+    CHECK(decimals_for(10.0) == 0);
+    CHECK(decimals_for(310.0) == 0);
+    CHECK(decimals_for(0.0) == 1);
+    CHECK(decimals_for(std::nullopt) == 1);
+}
+
+TEST_CASE(
+    "the answer gives the error of a station left out, and says so if nothing is to be repeated",
+    "[result][answer]") {
+    SurveyCorrection result = scattered_day();
+    result.score.loso_mgal = 1.68;
+    CHECK(answer(result, all_good(result)) ==
+          "8 stations; a new one is known to +- 1.7 mGal (each known station left out). Nothing to "
+          "repeat.");
+    result.score.loso_mgal.reset();
+    for (StationValue& station : result.stations) station.u_gravity = MilliGal(1.5);
+    result.stations.back().u_gravity = MilliGal(2.04);
+    CHECK_THAT(answer(result, all_good(result)),
+               StartsWith("8 stations; u is 1.5 to 2.0 mGal, not tested"));
+    for (StationValue& station : result.stations) station.u_gravity.reset();
+    CHECK_THAT(answer(result, all_good(result)), ContainsSubstring("do not show how well"));
+}
+
+TEST_CASE("the answer names what to repeat, first where a station has no other reading to trust",
+          "[result][answer]") {
+    SurveyCorrection result = scattered_day();
+    LeftOut stay;
+    stay.site = "S9";
+    stay.occupation = 2;
+    stay.reason = "no samples";
+    result.left_out = {stay};
+    std::vector<ReadingGrade> grades = all_good(result);
+    grades[1] = {Grade::repeat, {{"x", {}, "x"}}};  // S1, its only reading
+    grades[2] = {Grade::repeat, {{"y", {}, "y"}}};  // S2, read again later
+    grades[5] = {Grade::care, {{"z", {}, "z"}}};    // S4
+    CHECK_THAT(answer(result, grades),
+               EndsWith(" Repeat: S9 (2), S1 (1). If there is time, repeat: S2 (1)."));
+    CHECK(notes(result, grades) ==
+          std::vector<std::string>{"S9 (2): no value (no samples).", "S1 (1), repeat: x.",
+                                   "S2 (1), repeat: y.", "S4 (1), care: z."});
+    const Table table = answer_table(result, grades);
+    REQUIRE(table.rows.size() == 8);
+    CHECK(table.rows[0].back() == "trust");
+    CHECK(table.rows[1].back() == "repeat");
+    CHECK(table.rows[2].back() == "trust");
+}
+
+TEST_CASE("with mistakes the answer says to correct them, and with remarks it does not",
+          "[result][answer]") {
+    SurveyCorrection result = scattered_day();
+    result.findings = {{.kind = FindingKind::short_stay}};
+    CHECK_THAT(answer(result, all_good(result)), EndsWith("Nothing to repeat."));
+    result.findings.push_back({.kind = FindingKind::reference});
+    CHECK_THAT(answer(result, all_good(result)), EndsWith("First correct what was found:"));
+    result.findings.back().text = "said above";
+    std::vector<ReadingGrade> grades = all_good(result);
+    grades[1] = {Grade::repeat, {{"x", {}, "said above"}}};
+    CHECK(notes(result, grades).empty());
+    result.findings.push_back({.kind = FindingKind::unusable_day});
+    CHECK_THAT(answer(result, all_good(result)),
+               StartsWith("8 stations, but this day cannot be used as it is."));
+}
+
+TEST_CASE("the difference of a station is measured minus reference", "[result][answer]") {
+    SurveyCorrection result = scattered_day();
+    StationValue& station = result.stations[1];
+    station.left_out = *station.reference + MilliGal(3.0);
+    Table table = answer_table(result, all_good(result));
+    REQUIRE(table.headings[4] == "Left out - reference");
+    CHECK(std::stod(table.rows[1][4]) == 3.0);
+    for (StationValue& one : result.stations) one.left_out.reset();
+    station.gravity = *station.reference - MilliGal(2.0);
+    table = answer_table(result, all_good(result));
+    REQUIRE(table.headings[4] == "Gravity - reference, in sample");
+    CHECK(std::stod(table.rows[1][4]) == -2.0);
+}
+
+TEST_CASE("a station with one reading and no reference is named, because nothing checks it",
+          "[result][answer]") {
+    SurveyCorrection result = scattered_day();
+    for (StationValue& station : result.stations) station.reference.reset();
+    CHECK_THAT(notes(result, all_good(result)).back(),
+               EndsWith("nothing checks them: S1, S4, S5, S6, S7."));
+}
+
+TEST_CASE("findings keep their numbers in the text, and no line is too long", "[result][answer]") {
+    SurveyCorrection result = scattered_day();
+    std::string words;
+    for (int i = 0; i < 60; ++i) words += "word ";
+    result.findings = {{.kind = FindingKind::reference, .text = words},
+                       {.kind = FindingKind::short_stay, .text = "a remark"}};
+    const std::string text = survey_text(result, false);
+    CHECK_THAT(text, ContainsSubstring("\n1. word") && ContainsSubstring("\n2. a remark\n"));
+    CHECK(text.find("2. a remark") > text.find("Station"));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 118);
+    CHECK_FALSE(text.find("LOSO") < text.size());
+    CHECK_THAT(survey_text(result, true), StartsWith(text) && ContainsSubstring("LOSO"));
+}
