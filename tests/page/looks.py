@@ -27,7 +27,7 @@ def made_up_day():
     stub.occupations = [{**finished(f"No.{i}", hours_ago=7 - 0.5 * i), "key": key_of(i)} for i in range(12)]
     differences = {0: 0.42, 3: -1.16, 5: 12.1}
     stub.survey = survey([*(stay(f"No.{i}", gravity_mgal=979861.32 - 6.37 * i, difference_mgal=differences.get(i), key=key_of(i)) for i in range(12)),
-                          stay("No.12", gravity_mgal=979782.11, is_running=True, u_evening_mgal=0.87)],
+                          stay("No.12", gravity_mgal=979782.11, is_running=True)],
                          [finding("No.5 (1) reads like No.3: it is 12.1 mGal too high for No.5", True, key_of(5))])
     return stub
 

@@ -79,7 +79,7 @@ def finished(site, number=1, hours_ago=1.0, **changes):
 
 def stay(site, occupation=1, gravity_mgal=979861.32, difference_mgal=None, **changes):
     return {"key": "20260301T013000Z", "site": site, "occupation": occupation, "set_ups": 1, "gravity_mgal": gravity_mgal,
-            "u_mgal": None if gravity_mgal is None else 1.27, "u_evening_mgal": None, "left_out_difference_mgal": difference_mgal,
+            "u_mgal": None if gravity_mgal is None else 1.27, "left_out_difference_mgal": difference_mgal,
             "is_running": False, "remarks": [], **changes}
 
 

@@ -26,10 +26,8 @@ function remark_of(one) {
     const { length } = one.set_ups;
     const sd_mgal = one.reading?.set_up_sd_mgal ?? null;
     const seconds = one.set_ups.reduce((sum, part) => sum + (Date.parse(part.end) - Date.parse(part.start)) / 1000, 0);
-    const evening_mgal = gravity_of(one.key)?.u_evening_mgal ?? NaN;
     const set_ups = tr("{} set-ups", length) + (sd_mgal === null ? "" : tr(", sd {} mGal", number(sd_mgal, 1)));
     return [one.is_discarded && tr("discarded"), one.is_running ? tr("running") : duration(seconds), length > 1 && set_ups,
-        Number.isFinite(evening_mgal) && tr("± {} mGal after a return to the base", number(evening_mgal, 1)),
         visible(one.note)].filter(Boolean).join("; ");
 }
 
