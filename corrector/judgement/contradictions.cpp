@@ -7,6 +7,7 @@
 
 #include "corrector/judgement/closure.hpp"
 #include "corrector/judgement/reading_name.hpp"
+#include "protocol/signal/median.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::judgement {
@@ -110,6 +111,14 @@ std::vector<Contradiction> contradictions(const model::SurveyCorrection& result)
     add_references(all, result);
     add_set_ups(all, result);
     return all;
+}
+
+double doubt_factor(const model::SurveyCorrection& result) {
+    std::vector<double> ratios;
+    for (const model::CorrectedRow& row : result.rows)
+        if (const auto ratio = ratio_of(row)) ratios.push_back(std::abs(*ratio));
+    if (ratios.empty()) return 1.0;
+    return std::max(1.0, signal::kGaussianPerMad * signal::median(std::move(ratios)));
 }
 
 }  // namespace a351::corrector::judgement

@@ -36,4 +36,10 @@ inline constexpr double kContradictionRatio = 4.0;
 /// @param result  with its findings.
 [[nodiscard]] std::vector<Contradiction> contradictions(const model::SurveyCorrection& result);
 
+/// Returns the factor by which the uncertainties of a survey with contradictions are too small: the
+/// median of the ratios of the known stations, divided by that of a normal error; at least 1.
+///
+/// One station that is off among many does not change it; two that contradict each other do.
+[[nodiscard]] double doubt_factor(const model::SurveyCorrection& result);
+
 }  // namespace a351::corrector::judgement

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -65,8 +66,10 @@ std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
 }
 
 /// Sets the value of a stay with rows.  That of a known station does not use its own reference.
+/// @param factor      of all uncertainties, while something contradicts.
+/// @param is_named    the stay is one of those that contradict: its difference is a part of u.
 void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& result,
-               std::optional<MilliGal> u_evening) {
+               std::optional<MilliGal> u_evening, double factor, bool is_named) {
     if (stay.rows.empty()) return;
     const model::StationValue* const station = result::find_station(result, stay.site);
     const bool is_whole_station = station != nullptr && station->row_count == stay.rows.size();
@@ -92,8 +95,10 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
     if (is_whole_station && stay.rows.size() > 1 && station->u_gravity)
         u = station->u_gravity->value();
     json["gravity_mgal"] = gravity;
-    json["u_mgal"] = text::or_null(u_evening ? std::optional(u_evening->value()) : u);
-    if (reference) json["left_out_difference_mgal"] = gravity - reference->value();
+    const double off = reference ? gravity - reference->value() : 0.0;
+    if (reference) json["left_out_difference_mgal"] = off;
+    if (u_evening) u = u_evening->value();
+    if (u) json["u_mgal"] = std::hypot(factor * *u, is_named ? off : 0.0);
 }
 
 Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& grades,
@@ -148,6 +153,9 @@ Json to_json(const GravitySoFar& so_far) {
     if (so_far.read) left_out = so_far.result ? so_far.result->left_out : so_far.read->left_out;
     const auto grades = so_far.result ? judgement::grade_readings(*so_far.result)
                                       : std::vector<judgement::ReadingGrade>();
+    const auto contradictions = so_far.result ? judgement::contradictions(*so_far.result)
+                                              : std::vector<judgement::Contradiction>();
+    const double factor = contradictions.empty() ? 1.0 : judgement::doubt_factor(*so_far.result);
     for (const Stay& stay : stays_of(rows_of(so_far), left_out)) {
         Json one;
         one["key"] = text::or_null(stay.key);
@@ -160,7 +168,10 @@ Json to_json(const GravitySoFar& so_far) {
         const bool is_running = !stay.key.empty() && stay.key == so_far.read->running_key;
         if (so_far.result)
             add_value(one, stay, *so_far.result,
-                      is_running ? so_far.u_evening : std::optional<MilliGal>());
+                      is_running ? so_far.u_evening : std::optional<MilliGal>(), factor,
+                      std::ranges::any_of(contradictions, [&](const auto& named) {
+                          return named.site == stay.site && named.occupation == stay.occupation;
+                      }));
         else
             one["missing_parts"] = json["reason_parts"];
         one["is_running"] = is_running;
@@ -174,14 +185,13 @@ Json to_json(const GravitySoFar& so_far) {
     });
     json["findings"] = reading::findings_json(findings);
     json["contradictions"] = Json::array();
-    if (so_far.result)
-        for (const judgement::Contradiction& one : judgement::contradictions(*so_far.result))
-            json["contradictions"].push_back({{"code", one.code},
-                                              {"key", one.key},
-                                              {"site", one.site},
-                                              {"occupation", one.occupation},
-                                              {"text", one.text.english()},
-                                              {"text_parts", one.text.to_json()}});
+    for (const judgement::Contradiction& one : contradictions)
+        json["contradictions"].push_back({{"code", one.code},
+                                          {"key", one.key},
+                                          {"site", one.site},
+                                          {"occupation", one.occupation},
+                                          {"text", one.text.english()},
+                                          {"text_parts", one.text.to_json()}});
     return json;
 }
 

@@ -113,9 +113,7 @@ def look(scratch, kind, seed):
         found.append([one["text"] for one in answer["contradictions"]])
         for stay in answer["stays"]:
             if stay["gravity_mgal"] is not None and kind != "clean":
-                told = stay["gravity_mgal"] - true[stay["site"]] if kind != "names" else None
-                if told is not None:
-                    spread.append((told, stay["u_mgal"]))
+                spread.append((stay["gravity_mgal"] - true[stay["site"]], stay["u_mgal"]))
             if kind == "clean" and stay is answer["stays"][-1] and stay["gravity_mgal"] is not None:
                 spread.append((stay["gravity_mgal"] - true[stay["site"]], stay["u_mgal"]))
     shutil.rmtree(folder)

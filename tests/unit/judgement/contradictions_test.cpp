@@ -60,6 +60,15 @@ TEST_CASE("known stations contradict from four uncertainties on; of two neither 
     CHECK(said(three).empty());
 }
 
+TEST_CASE("two stations that contradict each other enlarge all uncertainties, one of many does not",
+          "[contradiction]") {
+    CHECK(doubt_factor(day({"A", "B"}, 0.5)) == 1.0);
+    CHECK(doubt_factor(day({"A", "B"}, 6.745)) == Approx(10.0).epsilon(1e-3));
+    SurveyCorrection many = day({"A", "B", "C", "D", "E"}, 0.5);
+    many.rows[2].studentised_residual = 15.0;
+    CHECK(doubt_factor(many) == 1.0);
+}
+
 TEST_CASE("set-ups of a stay contradict when they differ by more than their placement allows",
           "[contradiction]") {
     SurveyCorrection result = day({"A", "B", "B"}, 0.0);
