@@ -99,5 +99,5 @@ def tilt(x_arcmin, y_arcmin, advice=()):
 
 
 def sites(count=14):
-    return [{"site": f"No.{i}", "distance_m": 130.0 * i * i, "longitude_deg": None, "latitude_deg": None,
+    return [{"site": f"No.{i}", "distance_m": 130.0 * i * i, "longitude_deg": 140.1 + 0.02 * (i % 5), "latitude_deg": 36.1 + 0.013 * i,
              "altitude_m": None, "gravity_mgal": None} for i in range(count)]

@@ -100,6 +100,7 @@ def work_an_occupation(session, browser):
     browser.wait_for_text("answer", "resumed No.1 (stay 1)")
     browser.wait_for_text("run-site", "No.1")
     session.ctl("stop")
+    browser.wait_for("the stay has ended", lambda: browser.text("start") != "" and "No.1 (1)" in browser.text("day-rows"))
     browser.run("document.querySelector('#day-rows tr').click()")
     browser.wait_for_text("day-rows", "2 set-ups")
     browser.shot("real-stopped-1366")

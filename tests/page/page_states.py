@@ -188,11 +188,26 @@ def show_day(stub, browser):
     browser.resize(LAPTOP)
 
 
+def show_figures(stub, browser):
+    browser.wait_for("the trace of the stay is drawn", lambda: browser.run(
+        "return (document.querySelector('#run-trace .curve')?.getAttribute('d').match(/[ML]/g) ?? []).length") > 100, seconds=15)
+    begin, width = browser.run("const r = document.querySelector('#run-trace .shade'); return [+r.getAttribute('x'), +r.getAttribute('width')]")
+    demand(f"the running set-up is shaded, from {begin:.0f} to {begin + width:.0f} of 53 to 389", abs(begin - 53) < 1 and abs(width - 336) < 1)
+    states = "return [...document.querySelectorAll(`#${arguments[0]} circle`)].map((one) => one.getAttribute('class')).sort()"
+    demand("known benchmarks are in the figure of the day, a doubtful one marked", browser.run(states, "day-differences") == ["doubt", "read"])
+    marks = browser.run(states, "map")
+    demand(f"benchmarks fill in on the map: {marks}", [marks.count(one) for one in ("read", "doubt", "open", "here")] == [2, 2, 10, 1])
+    demand("their number is said", browser.text("map-caption") == "4 of 14 benchmarks were read today")
+    demand("the place of the running stay has its name", browser.run("return document.querySelector('#map text').textContent") == "No.5")
+    browser.shot("figures-1366", is_whole=True)
+    browser.open_details(False)
+
+
 def choose_next(stub, browser):
     stub.sites = sites()  # Sorted by the distance from the last stay.
     stub.status["occupation"], stub.status["signal"] = None, no_stay()
     browser.wait_for("the nearest site that was not visited today is chosen",
-                     lambda: browser.find("#start-site").get_attribute("value") == "No.1")
+                     lambda: browser.text("start") != "" and browser.find("#start-site").get_attribute("value") == "No.1")
     browser.choose("start-site", "No.6")
     browser.wait_for_text("start-warning", "was occupied at")
     stub.sites = sites(15)
@@ -261,6 +276,7 @@ with Browser() as page:
     count_a_placement_test(daemon, page)
     show_level(daemon, page)
     show_day(daemon, page)
+    show_figures(daemon, page)
     choose_next(daemon, page)
     show_no_figures(daemon, page)
     show_trouble(daemon, page)

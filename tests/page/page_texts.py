@@ -67,7 +67,7 @@ with Browser() as page:
         daemon.status["occupation"] = None
         page.wait_for(f"{name}: the list of sites shows the site",
                       lambda: page.text("start-site") != "" and expected[:200] in shown(page, "start-site"))
-        page.run("const s = document.getElementById('start-site'); s.selectedIndex = 1;")
+        page.run("const s = document.getElementById('start-site'); s.selectedIndex = 1; s.dispatchEvent(new Event('change'));")
         page.click("#start")
         page.wait_for(f"{name}: the order carries the name unchanged",
                       lambda: daemon.posts and daemon.posts[-1][1].get("site") == text)

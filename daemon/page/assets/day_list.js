@@ -49,8 +49,8 @@ export class DayList {
     /** @param open  opens a dialog for a stay: open(kind, stay).
         @param change  sends an order: change(path, body). */
     constructor(open, change) {
-        this.ended = []; // In the order of the log.
         this.stays = []; // The newest first.
+        this.resumable = null; // Key of the stay that can be resumed.
         this.unfolded = null; // Key of the stay whose remarks are shown.
         this.shown = null; // The rows in the table, as JSON.
         for (const kind of kDialogs) by_id(`day-${kind}`).addEventListener("click", () => open(kind, this.named()));
@@ -83,18 +83,16 @@ export class DayList {
 
     /** Shows the stays of the day.  @param running  the running one, or null. */
     set(ended, discarded, running, now_ms) {
-        this.ended = ended;
         this.stays = [...ended, ...discarded.map((one) => ({ ...one, is_discarded: true })), ...(running ? [of_running(running)] : [])]
             .sort((one, other) => (one.set_ups[0].start < other.set_ups[0].start ? 1 : -1));
+        this.resumable = running === null && may_resume(ended.at(-1), now_ms) ? ended.at(-1).key : null;
         this.draw();
-        const last = this.ended.at(-1);
-        show("day-resume", running === null && last !== undefined && this.unfolded === last.key && may_resume(last, now_ms));
     }
 
     /** Draws the table if it has changed, and keeps the focus. */
     draw() {
         const rows = this.stays.map(row_of);
-        const text = JSON.stringify([rows, this.unfolded]);
+        const text = JSON.stringify([rows, this.unfolded, this.resumable]);
         if (text === this.shown) return;
         this.shown = text;
         const focused = document.activeElement?.dataset.key;
@@ -106,6 +104,7 @@ export class DayList {
         const chosen = this.chosen();
         show("day-change", chosen !== undefined);
         for (const kind of kDialogs) show(`day-${kind}`, chosen !== undefined && !chosen.is_discarded);
+        show("day-resume", chosen !== undefined && chosen.key === this.resumable);
         show("day-restore", Boolean(chosen?.is_discarded));
     }
 

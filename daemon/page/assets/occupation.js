@@ -3,6 +3,7 @@
 import { get, post } from "./api.js";
 import { DayList, may_resume } from "./day_list.js";
 import { by_id, make, set_items, set_text, set_value, show } from "./dom.js";
+import { show_differences, show_map, show_trace } from "./figures.js";
 import { number, visible } from "./format.js";
 import { sentence, sentences, tr } from "./language.js";
 import { recalled, remember } from "./memory.js";
@@ -98,7 +99,7 @@ export class OccupationPanel {
 
     async answer_to(path, body) {
         const { message, message_parts } = await post(path, body);
-        return sentence(message_parts, message);
+        return with_local_times(sentence(message_parts, message));
     }
 
     /** Sends an order to the daemon and shows its answer.  @throws Error with a line for the operator. */
@@ -260,6 +261,10 @@ export class OccupationPanel {
         this.show_resume();
         this.day.set(this.today(), this.of_today(this.discarded), this.running, this.now_ms);
         if (this.running) this.show_running(this.running);
+        const stays = [...this.today().map(({ key, site, set_ups }) => ({ key, site, start: set_ups[0].start })), ...(this.running ? [this.running] : [])];
+        show_trace(this.running, this.now_ms);
+        show_differences(stays);
+        show_map(this.sites, stays, this.running?.site ?? this.chosen("start"));
     }
 
     show_running(one) {
