@@ -19,17 +19,16 @@ text::Message text_of(const MovePrompt& prompt) {
     const std::string time = to_rfc3339(prompt.time, 0);
     if (prompt.is_at_start)
         return text::message(
-            "the box was moved until {}: should the stay begin at that time, or was the box not "
-            "moved?",
+            "the box was moved until {}: let the stay begin at that time, or say that it was not "
+            "moved",
             time);
     return prompt.is_set_up
                ? text::message(
-                     "the box was lifted and set down at {}: next set-up at that time, stop at "
-                     "that time, or was it not moved?",
+                     "the box was lifted and set down at {}: begin the next set-up at that time, or "
+                     "say that it was not moved",
                      time)
                : text::message(
-                     "the box was moved at {}: stop at that time, next set-up at that time, or was "
-                     "it not moved?",
+                     "the box was moved at {}: stop at that time, or say that it was not moved",
                      time);
 }
 

@@ -82,6 +82,10 @@ Signal signal_of(const verdict::Verdict& verdict, const std::vector<text::Messag
     signal.word = word_of(verdict.state, stay, !contradictions.empty());
     switch (signal.word) {
         case Word::no_data:
+            if (verdict.reasons.size() == 1 && verdict.reasons.front().is_least) {
+                signal.sentence = text::message("Values arrive. The first one takes 20 s.");
+                break;
+            }
             signal.sentence = text::message("No values arrive");
             if (!why.empty()) signal.sentence += ": " + why.front();
             signal.sentence += text::message(". Check the sensor's plug and its power supply.");

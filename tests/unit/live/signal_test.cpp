@@ -74,6 +74,10 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     };
     CHECK(sentence(State::no_data, {}) ==
           "No values arrive: why. Check the sensor's plug and its power supply.");
+    verdict::Verdict first;
+    first.reasons.emplace_back().is_least = true;
+    CHECK(signal_of(first, {"why"}, {}, "", {}).sentence ==
+          "Values arrive. The first one takes 20 s.");
     CHECK(sentence(State::warming_up, {}) ==
           "The box is not at its operating temperature yet: why.");
     CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(1, 129.2)}) ==
