@@ -337,7 +337,6 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     page.start();
     gravity.start();
     notice.ready();
-
     report_until_end(recorder, notice, status_log, signals, [&] { page.post(log_signal); },
                      [&] { reload(config.file, log, live, occupations, page); });
     log.info("stopping");

@@ -15,7 +15,7 @@ CHECKS = [check("temperature slope", 0.31, "degC/h", 0.25, False),
           check("reading will change in 10 min by", 2.9, "mGal", 2.0, False, error=0.5), SLOPE, CHANGE, DRIFT, WARM, QUIET, NOISE]
 
 MOVED = {"utc": "2026-03-01T01:43:20.000Z", "is_at_start": False}
-MOVED_PARTS = ["the box was moved at {}: stop at that time, next set-up at that time, or was it not moved?", ["2026-03-01T01:43:20Z"]]
+MOVED_PARTS = ["the box was moved at {}: stop at that time, or say that it was not moved", ["2026-03-01T01:43:20Z"]]
 
 # For each word: the text, parts of the sentence, and the buttons.
 SIGNALS = {

@@ -80,7 +80,7 @@ TEST_CASE("a site that cannot be added is refused with the reason, and the list 
     CHECK_THAT(trouble(new_site("\x83\x65")), ContainsSubstring("not UTF-8"));
     CHECK_THAT(trouble(new_site("a,b")), ContainsSubstring("comma"));
     for (const char* name : {"a\nb", "a\x7f", "a\tb", "a\xC2\x9B"})
-        CHECK_THAT(trouble(new_site(name)), ContainsSubstring("control character"));
+        CHECK_THAT(trouble(new_site(name)), ContainsSubstring("hidden character"));
     for (const char* name : {" a", "a ", "a\t"})
         CHECK_THAT(trouble(new_site(name)), ContainsSubstring("blank"));
     text::Site site = new_site("B");
@@ -148,7 +148,9 @@ TEST_CASE("a new site is used at once, and a list that cannot be written names t
     CHECK(added.message == "added No.2: 2 sites in " + list.file.string());
     CHECK(occupations.changes() == changes + 1);
     CHECK(occupations.start("No.2", {}, minute(1)).kind == Outcome::Kind::done);
-    CHECK(occupations.add_site(new_site("no 2")).message.english().ends_with("; a similar name is No.2"));
+    CHECK(occupations.add_site(new_site("no 2"))
+              .message.english()
+              .ends_with("; a similar name is No.2"));
     std::filesystem::remove(list.file);
     const auto gone = occupations.add_site(new_site("No.3"));
     CHECK(gone.kind == Outcome::Kind::failed);
