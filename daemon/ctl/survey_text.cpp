@@ -33,12 +33,17 @@ std::string state_of(const json& answer) {
     std::string state;
     if (const std::string reason = word_of(answer, "reason"); !reason.empty()) {
         const std::string cause = printable(sentence_of(answer, "reason_text", "reason_parts"));
-        state =
-            text::tr("no new figures: {}", cause.empty() ? reason : reason + ": " + cause) + "\n";
+        // The corrector's refusals are sentences with parts; the daemon's need their code.
+        const bool is_sentence = !answer.value("reason_parts", json()).is_null();
+        const std::string why = cause.empty() ? reason
+                                : is_sentence ? cause
+                                              : reason + ": " + cause;
+        state = text::tr("no new figures: {}", why) + "\n";
     }
-    const std::string as_of = word_of(answer, "as_of_utc");
+    const std::string as_of = word_of(answer, "as_of_utc"), to = word_of(answer, "data_to_utc");
     if (!as_of.empty())
-        state += text::tr("as of {}, data up to {}", as_of, word_of(answer, "data_to_utc")) +
+        state += (to.empty() ? text::tr("as of {}, without data", as_of)
+                             : text::tr("as of {}, data up to {}", as_of, to)) +
                  (answer.at("model").is_string() ? text::tr(", model {}", word_of(answer, "model"))
                                                  : "") +
                  "\n";

@@ -11,6 +11,7 @@ constexpr std::chrono::seconds kStall{1};
 // Free space below which the status warns.  Reason: 1 GiB lasts 9 days at 50 Hz, with 100 MB of
 // journal and 15 MB of archive a day, so there is time for a remedy.
 constexpr std::uint64_t kLittleSpace_bytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kSpaceOfADay_bytes = 115'000'000;
 
 }  // namespace
 
@@ -54,10 +55,12 @@ void report(const JournalStatus& journal, const ArchiveStatus& archive, const st
     if (is_short) {
         status.fail(text::message(
             "disk full: the archive waits so that the journal can continue; make room"));
-    }
-    if (!status.disk_free_bytes) {
+    } else if (!status.disk_free_bytes) {
         status.warn(text::message(
             "disk: the free space cannot be determined; check the disk of storage.root"));
+    } else if (*status.disk_free_bytes < kSpaceOfADay_bytes) {
+        status.warn(
+            text::message("disk: nearly full, less than a day at 50 Hz is left; make room now"));
     } else if (*status.disk_free_bytes < kLittleSpace_bytes) {
         status.warn(
             text::message("disk: less than 1 GiB free, at most 9 days at 50 Hz; make room"));

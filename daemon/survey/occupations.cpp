@@ -191,7 +191,10 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     }
     const text::Message clock = remark_on_clock();
     using Minutes = std::chrono::duration<double, std::ratio<60>>;
-    if (const Nanoseconds stay = utc - running()->start; clock.empty() && stay < planned()) {
+    // Whoever stops when the countdown is at zero has kept the plan.
+    constexpr std::chrono::seconds kShorter{3};  // 0.05 min, below the last digit.
+    const Nanoseconds stay = utc - running()->start;
+    if (clock.empty() && planned() - stay >= kShorter) {
         message += text::message("; shorter than planned: {:.1f} of {:.0f} min",
                                  Minutes(stay).count(), Minutes(planned()).count());
     }

@@ -117,3 +117,13 @@ TEST_CASE("the gravity so far is a table with findings first and remarks behind"
           "no new figures: killed: signal 9 ended it\n"
           "as of 2026-03-01T12:03:10.000Z, data up to 2026-03-01T12:03:09.500Z, model day\n");
 }
+
+TEST_CASE("before the first stay the gravity so far is one sentence and its time",
+          "[daemon][ctl]") {
+    const auto answer = nlohmann::json::parse(R"({
+        "as_of_utc": "2026-03-01T12:03:10.000Z", "data_to_utc": null, "reason": "no_stay",
+        "reason_text": "no stay was started", "reason_parts": [["no stay was started", []]],
+        "model": null, "stays": [], "findings": []})");
+    CHECK(survey_text(answer) ==
+          "no new figures: no stay was started\nas of 2026-03-01T12:03:10.000Z, without data\n");
+}

@@ -68,6 +68,13 @@ TEST_CASE("below 1 GiB of free space, or if it is unknown, the status warns", "[
     constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
     CHECK(reported(kGiB).level == Status::Level::good);
     CHECK(reported(kGiB - 1).level == Status::Level::warning);
+    const auto sentence = [&](std::uint64_t free_bytes) {
+        const Status status = reported(free_bytes);
+        REQUIRE(status.reasons.size() == 1);
+        return status.reasons.front().english();
+    };
+    CHECK(sentence(120'000'000).find("at most 9 days") != std::string::npos);
+    CHECK(sentence(100'000'000).find("less than a day") != std::string::npos);
     CHECK(reported({}).reasons ==
           std::vector<text::Message>{"disk: the free space cannot be determined; check the disk of "
                                      "storage.root"});

@@ -103,6 +103,14 @@ TEST_CASE("a placement test counts twenty set-ups of three minutes, also after a
     CHECK(field.occupations.planned_set_ups() == 1);
 }
 
+TEST_CASE("a stop at the end of the countdown is as planned", "[field]") {
+    Field field;
+    (void)field.occupations.start("No.0", {}, minute(1));
+    const auto stopped = field.occupations.stop({}, minute(11) - std::chrono::milliseconds(2900));
+    CHECK(stopped.kind == Outcome::Kind::done);
+    CHECK(stopped.message.english().find("shorter") == std::string::npos);
+}
+
 TEST_CASE("a short stay and a repeated site are said at the stop and the start", "[field]") {
     Field field;
     (void)field.occupations.start("No.0", {}, minute(1));
