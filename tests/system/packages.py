@@ -19,7 +19,7 @@ MORE_FILES = {
     "a351": ["usr/lib/sysusers.d/a351.conf", "usr/share/a351/a351d.toml", "usr/share/a351/sites.csv",
              "usr/share/man/man1/a351-stream.1.gz",
              "usr/share/man/man5/a351d.toml.5.gz", "usr/share/man/man7/a351d-http.7.gz",
-             "usr/share/doc/a351/daemon/field-guide.md", "usr/share/doc/a351/daemon/field-guide.ja.md",
+             "usr/share/doc/a351/README.Debian", "usr/share/doc/a351/daemon/field-guide.md", "usr/share/doc/a351/daemon/field-guide.ja.md",
              "usr/share/doc/a351/protocol/journal/journal-format.md"],
     "a351-correct": ["usr/share/a351/survey.toml", "usr/share/man/man1/a351-correct-survey.1.gz",
                      "usr/share/man/man5/a351-survey.toml.5.gz",
