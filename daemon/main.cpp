@@ -26,7 +26,7 @@
 #include "daemon/identify/identify_file.hpp"
 #include "daemon/identify/report.hpp"
 #include "daemon/live/live_record.hpp"
-#include "daemon/page/operator_signal.hpp"
+#include "daemon/survey/operator_signal.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/service/process_setup.hpp"
 #include "daemon/service/service_notice.hpp"
@@ -297,12 +297,12 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         store.set_day_end(occupations.day_end());
     };
     if (occupations.running() || !occupations.list().empty()) note_change();
-    page::SignalLog signal_log(occupations, live, [&](const auto& event) { store.note(event); });
+    survey::SignalLog signal_log(occupations, live, [&](const auto& event) { store.note(event); });
     survey::Word word = survey::Word::no_data;  // The page's thread uses it.
     const auto log_signal = [&] {
         if (!is_recovered) return;  // The last run has logged the words of what its journal left.
         const auto now =
-            signal_log.advance(snapshot(recorder), page::read_so_far(gravity.document()));
+            signal_log.advance(snapshot(recorder), survey::read_so_far(gravity.document()));
         const bool is_complete = now == survey::Word::go && occupations.running();
         if (is_complete && now != word) gravity.note_change(true);
         word = now;

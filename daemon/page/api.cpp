@@ -8,11 +8,11 @@
 #include <span>
 
 #include "daemon/page/history_json.hpp"
-#include "daemon/page/operator_signal.hpp"
 #include "daemon/page/order.hpp"
 #include "daemon/page/status_fields.hpp"
 #include "daemon/page/status_json.hpp"
 #include "daemon/page/status_rows.hpp"
+#include "daemon/survey/operator_signal.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::daemon::page {
@@ -122,14 +122,15 @@ json Api::status_now() const {
     status::Status status = sources_.status();
     const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
     const Judgement judgement = judged(status, sources_.stale_after);
-    const SoFar so_far = so_far_now();
-    const survey::Signal signal =
-        operator_signal(status, judgement, sources_.occupations, field, so_far);
+    const survey::SoFar so_far = so_far_now();
+    const survey::Signal signal = survey::operator_signal(
+        status, judgement.verdict, judgement.reasons, sources_.occupations, field, so_far);
     return to_json({status, sources_.occupations, field, sources_.live, judgement, signal, so_far});
 }
 
-SoFar Api::so_far_now() const {
-    return sources_.gravity_so_far ? read_so_far(sources_.gravity_so_far()) : SoFar();
+survey::SoFar Api::so_far_now() const {
+    return sources_.gravity_so_far ? survey::read_so_far(sources_.gravity_so_far())
+                                   : survey::SoFar();
 }
 
 Response Api::route(const Request& request) {
@@ -211,11 +212,10 @@ Response Api::sites_around() const {
 
 Response Api::occupations_so_far() const {
     json list = json::array();
-    const SoFar so_far = so_far_now();
+    const survey::SoFar so_far = so_far_now();
     for (const auto& one : sources_.occupations.list()) {
         list.push_back(to_json(one));
-        const auto gravity = so_far.stays.find(one.key);
-        list.back()["gravity"] = gravity == so_far.stays.end() ? json() : gravity->second;
+        list.back()["gravity"] = gravity_of(so_far, one.key);
         const auto reading = [&](std::span<const events::Occupation::SetUp> set_ups) {
             return to_json(sources_.live.reading(set_ups));
         };
@@ -284,7 +284,7 @@ survey::Outcome Api::check() const {
     const status::Status status = sources_.status();
     const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
     for (const auto& one :
-         open_contradictions(status, sources_.occupations, field.moved, so_far_now()))
+         survey::open_contradictions(status, sources_.occupations, field.moved, so_far_now()))
         if (std::ranges::count(one.buttons, survey::kChecked) > 0)
             return sources_.occupations.check(one);
     return {survey::Outcome::Kind::refused, text::message("nothing is to be checked")};

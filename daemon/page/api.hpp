@@ -24,7 +24,7 @@
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/assets.hpp"
 #include "daemon/page/message.hpp"
-#include "daemon/page/so_far.hpp"
+#include "daemon/survey/so_far.hpp"
 #include "daemon/page/metrics.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/survey/occupations.hpp"
@@ -77,7 +77,7 @@ public:
 
 private:
     [[nodiscard]] nlohmann::json status_now() const;
-    [[nodiscard]] SoFar so_far_now() const;
+    [[nodiscard]] survey::SoFar so_far_now() const;
     [[nodiscard]] survey::Outcome check() const;
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query, bool is_local);

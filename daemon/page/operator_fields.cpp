@@ -138,9 +138,7 @@ Fields stay_fields() {
          .unit = "s"},
         {.path = "/occupation/gravity",
          .value = of_stay([](const Moment& now) {
-             const auto& stays = now.so_far.stays;
-             const auto found = stays.find(now.occupations.running()->key);
-             return found == stays.end() ? json() : found->second;
+             return gravity_of(now.so_far, now.occupations.running()->key);
          }),
          .meaning = "Gravity so far of the stay, null before it is computed: gravity_mgal, u_mgal "
                     "(its standard uncertainty by the evening), and missing_parts, what is needed "

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "daemon/live/live_record.hpp"
-#include "daemon/page/so_far.hpp"
+#include "daemon/survey/so_far.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/survey/field_status.hpp"
 #include "daemon/survey/occupations.hpp"
@@ -47,7 +47,7 @@ struct Moment {
     const live::Record& live;
     const Judgement& judgement;
     const survey::Signal& signal;
-    const SoFar& so_far;
+    const survey::SoFar& so_far;
 };
 
 /// How people see a field.  A default-constructed one hides it from them.

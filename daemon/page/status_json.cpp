@@ -106,6 +106,15 @@ json to_json(const verdict::RunningReading& reading) {
             {"left_out_s", reading.left_out_s}};
 }
 
+json gravity_of(const survey::SoFar& so_far, const std::string& key) {
+    const auto found = so_far.stays.find(key);
+    if (found == so_far.stays.end()) return {};
+    const survey::StayGravity& stay = found->second;
+    return {{"gravity_mgal", or_null(stay.gravity)},
+            {"u_mgal", or_null(stay.u)},
+            {"missing_parts", stay.missing.empty() ? json() : stay.missing.to_json()}};
+}
+
 json channels_of(const live::Record& live) {
     const wire::DeviceProfile& profile = live.profile();
     json channels = json::array();

@@ -1,4 +1,4 @@
-#include "daemon/page/operator_signal.hpp"
+#include "daemon/survey/operator_signal.hpp"
 
 #include "tests/support/catch.hpp"
 #include "tests/unit/daemon/asked_page.hpp"
@@ -13,7 +13,7 @@ TEST_CASE("the log has each word with the time of the data, however seldom it is
     const auto logged = [](int step_s) {
         Page page;
         std::vector<std::string> words;
-        SignalLog log(page.occupations, page.live, [&](const events::Event& event) {
+        survey::SignalLog log(page.occupations, page.live, [&](const events::Event& event) {
             words.push_back(event.details.at("word") + " " + to_rfc3339(event.utc).substr(11));
         });
         page.occupations.use(two_sites(),

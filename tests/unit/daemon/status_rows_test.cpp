@@ -72,7 +72,7 @@ json full_status() {
     field.level.emplace().advice = {"lower the +x side"};
     field.level_site = "No.0";
     const Judgement judgement = judged(page.status, std::chrono::seconds(3));
-    const SoFar so_far;
+    const survey::SoFar so_far;
     const survey::Signal signal =
         survey::signal_of({verdict::State::stable, {}, {}}, {}, field.stay, "",
                           {{"reference", "K", "No.1 is off", {survey::kChecked}}});

@@ -1,38 +1,37 @@
-#include "daemon/page/operator_signal.hpp"
+#include "daemon/survey/operator_signal.hpp"
 
 #include <algorithm>
 #include <chrono>
 
 #include "daemon/verdict/live_sample.hpp"
 
-namespace a351::daemon::page {
+namespace a351::daemon::survey {
 namespace {
-
-using survey::Contradiction;
-using survey::Word;
 
 /// After this time without a call there is no series of words, only the present one.
 constexpr auto kMostBehind = std::chrono::hours(1);
 
-Contradiction of_move(const survey::MovePrompt& moved, const std::string& key) {
+Contradiction of_move(const MovePrompt& moved, const std::string& key) {
     return {"moved",
             key,
-            survey::text_of(moved),
-            {moved.is_at_start ? "begin_at" : moved.is_set_up ? "setup_at" : "stop_at",
+            text_of(moved),
+            {moved.is_at_start ? "begin_at"
+             : moved.is_set_up ? "setup_at"
+                               : "stop_at",
              "not_moved"}};
 }
 
 }  // namespace
 
 std::vector<Contradiction> open_contradictions(const status::Status& status,
-                                               const survey::Occupations& occupations,
-                                               const std::optional<survey::MovePrompt>& moved,
+                                               const Occupations& occupations,
+                                               const std::optional<MovePrompt>& moved,
                                                const SoFar& so_far) {
     std::vector<Contradiction> all;
     for (const text::Message& trouble : status.sensor_troubles)
-        all.push_back({"sensor: " + trouble.english(), "", trouble, {survey::kChecked}});
+        all.push_back({"sensor: " + trouble.english(), "", trouble, {kChecked}});
     if (const auto unit = status::unit_warning(status))
-        all.push_back({"other_unit: " + status.unit_change->after, "", *unit, {survey::kChecked}});
+        all.push_back({"other_unit: " + status.unit_change->after, "", *unit, {kChecked}});
     const auto& running = occupations.running();
     if (moved && running) all.push_back(of_move(*moved, running->key));
     all.insert(all.end(), so_far.contradictions.begin(), so_far.contradictions.end());
@@ -40,14 +39,13 @@ std::vector<Contradiction> open_contradictions(const status::Status& status,
     return all;
 }
 
-survey::Signal operator_signal(status::Status& status, const Judgement& judgement,
-                               const survey::Occupations& occupations,
-                               const survey::FieldStatus& field, const SoFar& so_far) {
-    const auto day = survey::survey_day(occupations, status.now);
-    survey::Signal signal =
-        survey::signal_of(judgement.verdict, judgement.reasons, field.stay,
-                          day.empty() ? std::string() : day.back().site,
-                          open_contradictions(status, occupations, field.moved, so_far));
+Signal operator_signal(status::Status& status, const verdict::Verdict& verdict,
+                       const std::vector<text::Message>& why, const Occupations& occupations,
+                       const FieldStatus& field, const SoFar& so_far) {
+    const auto day = survey_day(occupations, status.now);
+    Signal signal =
+        signal_of(verdict, why, field.stay, day.empty() ? std::string() : day.back().site,
+                  open_contradictions(status, occupations, field.moved, so_far));
     const bool is_said = signal.word == Word::no_data
                              ? status.level != status::Status::Level::good
                              : std::ranges::count(status.reasons, signal.sentence) > 0;
@@ -59,26 +57,25 @@ survey::Signal operator_signal(status::Status& status, const Judgement& judgemen
 Word SignalLog::advance(const status::Status& status, const SoFar& so_far) {
     const auto last = live_.last_sample();
     if (!last) return word_;
-    const auto moved = survey::field_status(occupations_, live_, *last).moved;
+    const auto moved = field_status(occupations_, live_, *last).moved;
     const bool has_contradiction =
         !open_contradictions(status, occupations_, moved, so_far).empty();
     constexpr Nanoseconds kStep = from_seconds(verdict::kLiveStepSeconds);
     // Also after a clock that was set back.
     if (!end_ || *last < *end_ - kStep || *last - *end_ > kMostBehind) {
         end_ = *last;
-        lasting_ = survey::LastingWord(*last);
+        lasting_ = LastingWord(*last);
     }
     for (; *end_ <= *last; *end_ += kStep) {
-        word_ =
-            survey::word_of(live_.state_at(*end_), survey::planned_stay(occupations_, live_, *end_),
-                            has_contradiction);
+        word_ = word_of(live_.state_at(*end_), planned_stay(occupations_, live_, *end_),
+                        has_contradiction);
         const auto change = lasting_.take(word_, *end_);
         if (!change) continue;
         events::Event event{"signal", change->since, {}, {}, {}};
-        event.details["word"] = survey::code_of(change->word);
+        event.details["word"] = code_of(change->word);
         note_(event);
     }
     return word_;
 }
 
-}  // namespace a351::daemon::page
+}  // namespace a351::daemon::survey

@@ -1,8 +1,8 @@
-#include "daemon/page/so_far.hpp"
+#include "daemon/survey/so_far.hpp"
 
 #include <nlohmann/json.hpp>
 
-namespace a351::daemon::page {
+namespace a351::daemon::survey {
 namespace {
 
 using nlohmann::json;
@@ -10,6 +10,12 @@ using nlohmann::json;
 std::string text_of(const json& object, const char* key) {
     const auto found = object.find(key);
     return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::optional<MilliGal> value_of(const json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) return std::nullopt;
+    return MilliGal(found->get<double>());
 }
 
 const json& list_of(const json& document, const char* key) {
@@ -26,9 +32,11 @@ SoFar read_so_far(std::string_view document) {
     if (!read.is_object()) return so_far;
     for (const json& stay : list_of(read, "stays")) {
         if (!stay.is_object()) continue;
-        json& one = so_far.stays[text_of(stay, "key")];
-        for (const char* const name : {"gravity_mgal", "u_mgal", "missing_parts"})
-            one[name] = stay.value(name, json());
+        StayGravity& one = so_far.stays[text_of(stay, "key")];
+        one.gravity = value_of(stay, "gravity_mgal");
+        one.u = value_of(stay, "u_mgal");
+        if (!one.gravity && stay.contains("missing_parts"))
+            one.missing = text::parse_message(stay.at("missing_parts"), "");
     }
     for (const json& one : list_of(read, "contradictions")) {
         if (!one.is_object()) continue;
@@ -36,9 +44,9 @@ SoFar read_so_far(std::string_view document) {
             {text_of(one, "code"),
              text_of(one, "key"),
              text::parse_message(one.value("text_parts", json()), text_of(one, "text")),
-             {survey::kChecked}});
+             {kChecked}});
     }
     return so_far;
 }
 
-}  // namespace a351::daemon::page
+}  // namespace a351::daemon::survey
