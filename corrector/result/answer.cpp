@@ -85,11 +85,15 @@ int decimals_of(const model::Coefficient& coefficient) {
 std::string answer(const model::SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
     const bool is_unusable = std::ranges::count(result.findings, reading::FindingKind::unusable_day,
                                                 &reading::Finding::kind) > 0;
-    const std::string text = is_unusable ? tr("{} stations, but this day cannot be used as it is.",
-                                              result.stations.size())
-                                         : accuracy(result);
-    if (!std::ranges::all_of(result.findings, reading::is_remark))
-        return text + ' ' + tr("First correct what was found:");
+    std::string text = is_unusable ? tr("{} stations, but this day cannot be used as it is.",
+                                        result.stations.size())
+                                   : accuracy(result);
+    const bool has_findings = !std::ranges::all_of(result.findings, reading::is_remark);
+    if (has_findings) text += ' ' + tr("First look at what was found (below).");
+    if (std::ranges::any_of(result.findings, [](const reading::Finding& finding) {
+            return !reading::is_remark(finding) && !finding.amendment.empty();
+        }))
+        return text;
     std::vector<std::string> urgent, optional;
     for (const reading::LeftOut& stay : result.left_out) urgent.push_back(listed(stay));
     for (std::size_t i = 0; i < grades.size(); ++i) {
@@ -99,10 +103,11 @@ std::string answer(const model::SurveyCorrection& result, const std::vector<Read
             Grade::trust;
         (has_other ? optional : urgent).push_back(judgement::reading_name(result.rows, i));
     }
-    if (urgent.empty() && optional.empty()) return text + ' ' + tr("Nothing to repeat.");
-    return text + (urgent.empty() ? "" : ' ' + tr("Repeat: {}.", text::joined(urgent))) +
-           (optional.empty() ? ""
-                             : ' ' + tr("If there is time, repeat: {}.", text::joined(optional)));
+    if (!urgent.empty()) text += ' ' + tr("Repeat: {}.", text::joined(urgent));
+    if (!optional.empty())
+        text += ' ' + tr("If there is time, repeat: {}.", text::joined(optional));
+    if (!has_findings && urgent.empty() && optional.empty()) text += ' ' + tr("Nothing to repeat.");
+    return text;
 }
 
 Table answer_table(const model::SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {

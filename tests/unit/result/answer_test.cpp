@@ -81,17 +81,19 @@ TEST_CASE("the answer names what to repeat, first where a station has no other r
     CHECK(table.rows[2].back() == "trust");
 }
 
-TEST_CASE("with mistakes the answer says to correct them, and with remarks it does not",
-          "[result][answer]") {
+TEST_CASE("the answer says to look at findings first, but not at remarks", "[result][answer]") {
     SurveyCorrection result = scattered_day();
     result.findings = {{.kind = FindingKind::short_stay}};
     CHECK_THAT(answer(result, all_good(result)), EndsWith("Nothing to repeat."));
     result.findings.push_back({.kind = FindingKind::reference});
-    CHECK_THAT(answer(result, all_good(result)), EndsWith("First correct what was found:"));
     result.findings.back().text = "said above";
+    CHECK_THAT(answer(result, all_good(result)), EndsWith("First look at what was found (below)."));
     std::vector<ReadingGrade> grades = all_good(result);
     grades[1] = {Grade::repeat, {{"x", {}, "said above"}}};
     CHECK(notes(result, grades).empty());
+    CHECK_THAT(answer(result, grades), EndsWith("(below). Repeat: S1 (1)."));
+    result.findings.back().amendment = "[[reference]]\n";
+    CHECK_THAT(answer(result, grades), EndsWith("(below)."));
     result.findings.push_back({.kind = FindingKind::unusable_day});
     CHECK_THAT(answer(result, all_good(result)),
                StartsWith("8 stations, but this day cannot be used as it is."));
