@@ -16,8 +16,7 @@ constexpr std::size_t kLeastStay = 90;  // three minutes
 constexpr std::size_t kWayToCar = 300;  // ten minutes
 constexpr std::chrono::minutes kPressedAfter(10), kPressedBefore(1);  // *Next set-up* and a move
 constexpr std::chrono::minutes kLift(3);  // lifting, turning and levelling again
-// Three standard deviations of two placements, 5 mGal, and a tilt of 0.1 deg with an axis bias of 2 Gal.
-constexpr double kSamePlace_mgal = 10.0;
+constexpr double kSamePlace_mgal = 5.0;   // three standard deviations of two placements
 
 using Samples = std::span<const MotionSample>;
 

@@ -70,7 +70,7 @@ struct JudgedSetUp {
 /// - Change of set-ups: the last move, without a drive, began up to ten minutes before *Next set-up*;
 ///   or the first one, without a drive, began up to one minute after it.
 /// - Forgotten set-up: in each move the box is handled, and at rest again within three minutes at a
-///   gravity that differs by less than 10 mGal; then it is at rest for a minute before the stop, or for
+///   gravity that differs by less than 5 mGal; then it is at rest for a minute before the stop, or for
 ///   three minutes while the set-up runs; and there is no drive.  A set-up without a stop has none,
 ///   because it lasts until the next benchmark.  A next benchmark that is as near and as similar is not
 ///   distinguished.
