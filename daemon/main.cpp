@@ -78,7 +78,7 @@ void recall_past(const config::Config& config, UtcTime now, spdlog::logger& log,
     try {
         live::take_archived_past(config.storage.root / "archive", config.station.codes, now, live);
     } catch (const std::exception& error) {
-        log.warn("archived data could not be loaded, the verdict starts without them: {}",
+        log.warn("archived data could not be loaded, the signal starts without them: {}",
                  error.what());
     }
 }

@@ -37,8 +37,12 @@ void add_findings(std::vector<Contradiction>& all, const std::vector<Finding>& f
             finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading ||
             finding.kind == FindingKind::scale;
         if (!is_of_reading) continue;
-        all.push_back({finding.code, finding.site, finding.occupation.value_or(1), finding.key,
-                       finding.text});
+        // Without a key, the code says which one.
+        const std::string code = finding.key.empty() && finding.time
+                                     ? finding.code + ' ' + to_rfc3339(*finding.time)
+                                     : finding.code;
+        all.push_back(
+            {code, finding.site, finding.occupation.value_or(1), finding.key, finding.text});
     }
 }
 
@@ -60,56 +64,66 @@ void add_references(std::vector<Contradiction>& all, const model::SurveyCorrecti
         const double off_mgal =
             (*row.as<model::WholeDayRow>()->left_out - *row.row.reference).value();
         const std::string size = text::fixed(std::abs(off_mgal), 1);
-        const text::Message what =
-            known.size() == 2 ? text::message("{} and {} contradict each other by {} mGal",
-                                              known[0], known[1], size)
-                              : text::message("{} ({}) differs from its reference by {} mGal",
-                                              row.row.site, row.row.occupation, size);
-        all.push_back(about(row.row, "references",
-                            what + text::message(": check the name and the reference, then read "
-                                                 "one of them again")));
+        all.push_back(about(
+            row.row, "references",
+            known.size() == 2
+                ? text::message(
+                      "{} and {} contradict each other by {} mGal: one of them has a wrong "
+                      "name or reference; read a third known benchmark",
+                      known[0], known[1], size)
+                : text::message("{} ({}) differs from its reference by {} mGal: check its name "
+                                "and its reference, then read it again",
+                                row.row.site, row.row.occupation, size)));
         if (known.size() == 2) return;  // The other one says the same.
     }
 }
 
-/// Returns the placement that the other pairs of set-ups show, mGal.
+/// Returns the placement that the set-ups of other stays show, mGal.
 ///
 /// The fit's own placement is no measure: the set-up that is off enlarges it.
-double placement_without(const std::vector<Closure>& pairs, const Closure& judged) {
+double placement_without(const std::vector<Closure>& pairs, const Closure& judged,
+                         const std::vector<model::CorrectedRow>& rows) {
+    const reading::SurveyRow& stay = rows[judged.later].row;
     double weight = kUsualWeight, sum = kUsualWeight * kUsualPlacement_mgal * kUsualPlacement_mgal;
     for (const Closure& pair : pairs) {
-        if (&pair == &judged) continue;
+        const reading::SurveyRow& other = rows[pair.later].row;
+        if (other.site == stay.site && other.occupation == stay.occupation) continue;
         sum += 0.5 * pair.after_all.value() * pair.after_all.value();
         ++weight;
     }
     return std::sqrt(sum / weight);
 }
 
-void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
+void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection& result,
+                 const std::string& running_key) {
     std::vector<Closure> pairs = close_stations(result);
     std::erase_if(pairs, [](const Closure& pair) { return pair.drift_mgal_per_h.has_value(); });
     for (const Closure& pair : pairs) {
         const reading::SurveyRow& row = result.rows[pair.later].row;
         const double difference_mgal = std::abs(pair.after_all.value());
-        const double expected_mgal = std::numbers::sqrt2 * placement_without(pairs, pair);
+        const double expected_mgal =
+            std::numbers::sqrt2 * placement_without(pairs, pair, result.rows);
         if (difference_mgal <= kContradictionRatio * expected_mgal || is_named(all, row)) continue;
         all.push_back(about(
             row, "set_ups",
-            text::message("{} and {} differ by {} mGal, {} times what their placement allows: lift "
-                          "the box, set it down level, and add a set-up",
+            text::message("{} and {} differ by {} mGal, {} times what their placement allows: ",
                           reading_name(result.rows, pair.earlier),
                           reading_name(result.rows, pair.later), text::fixed(difference_mgal, 1),
-                          text::fixed(difference_mgal / expected_mgal, 1))));
+                          text::fixed(difference_mgal / expected_mgal, 1)) +
+                (row.key == running_key && !running_key.empty()
+                     ? text::message("lift the box, set it down level, and add a set-up")
+                     : text::message("read it again if you pass there"))));
     }
 }
 
 }  // namespace
 
-std::vector<Contradiction> contradictions(const model::SurveyCorrection& result) {
+std::vector<Contradiction> contradictions(const model::SurveyCorrection& result,
+                                          const std::string& running_key) {
     std::vector<Contradiction> all;
     add_findings(all, result.findings);
     add_references(all, result);
-    add_set_ups(all, result);
+    add_set_ups(all, result, running_key);
     return all;
 }
 

@@ -33,8 +33,10 @@ inline constexpr double kContradictionRatio = 4.0;
 ///   show for their placement.
 ///
 /// Errors and power: corrector/methods.md, "What a stay can tell" (signal_bench.py).
-/// @param result  with its findings.
-[[nodiscard]] std::vector<Contradiction> contradictions(const model::SurveyCorrection& result);
+/// @param result       with its findings.
+/// @param running_key  key of the stay that runs: there the box can be set down again; empty: none.
+[[nodiscard]] std::vector<Contradiction> contradictions(const model::SurveyCorrection& result,
+                                                        const std::string& running_key = {});
 
 /// Returns the factor by which the uncertainties of a survey with contradictions are too small: the
 /// median of the ratios of the known stations, divided by that of a normal error; at least 1.

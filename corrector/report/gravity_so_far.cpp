@@ -67,14 +67,15 @@ std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
 
 /// Sets the value of a stay with rows.  That of a known station does not use its own reference.
 /// @param factor      of all uncertainties, while something contradicts.
-/// @param is_named    the stay is one of those that contradict: its difference is a part of u.
+/// @param is_named    the stay is one of those that contradict: its difference from the reference, or
+///                    half of that between its set-ups, is a part of u.
 void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& result,
                std::optional<MilliGal> u_evening, double factor, bool is_named) {
     if (stay.rows.empty()) return;
     const model::StationValue* const station = result::find_station(result, stay.site);
     const bool is_whole_station = station != nullptr && station->row_count == stay.rows.size();
     const auto& reference = result.rows[stay.rows.front()].row.reference;
-    double sum = 0.0;
+    double sum = 0.0, least = HUGE_VAL, most = -HUGE_VAL;
     std::size_t known = 0;
     std::optional<double> u;
     for (const std::size_t i : stay.rows) {
@@ -84,6 +85,8 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
             !reference || day == nullptr ? std::optional(row.corrected) : day->left_out;
         if (value) ++known;
         sum += value.value_or(MilliGal(0.0)).value();
+        least = std::min(least, row.corrected.value());
+        most = std::max(most, row.corrected.value());
         if (row.u_corrected) u = std::max(u.value_or(0.0), row.u_corrected->value());
     }
     if (known < stay.rows.size()) {
@@ -98,7 +101,9 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
     const double off = reference ? gravity - reference->value() : 0.0;
     if (reference) json["left_out_difference_mgal"] = off;
     if (u_evening) u = u_evening->value();
-    if (u) json["u_mgal"] = std::hypot(factor * *u, is_named ? off : 0.0);
+    if (u)
+        json["u_mgal"] =
+            std::hypot(factor * *u, is_named ? std::max(std::abs(off), 0.5 * (most - least)) : 0.0);
 }
 
 Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& grades,
@@ -153,8 +158,9 @@ Json to_json(const GravitySoFar& so_far) {
     if (so_far.read) left_out = so_far.result ? so_far.result->left_out : so_far.read->left_out;
     const auto grades = so_far.result ? judgement::grade_readings(*so_far.result)
                                       : std::vector<judgement::ReadingGrade>();
-    const auto contradictions = so_far.result ? judgement::contradictions(*so_far.result)
-                                              : std::vector<judgement::Contradiction>();
+    const auto contradictions =
+        so_far.result ? judgement::contradictions(*so_far.result, so_far.read->running_key)
+                      : std::vector<judgement::Contradiction>();
     const double factor = contradictions.empty() ? 1.0 : judgement::doubt_factor(*so_far.result);
     for (const Stay& stay : stays_of(rows_of(so_far), left_out)) {
         Json one;

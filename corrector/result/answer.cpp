@@ -95,13 +95,15 @@ std::string answer(const model::SurveyCorrection& result, const std::vector<Read
         }))
         return text;
     std::vector<std::string> urgent, optional;
-    for (const reading::LeftOut& stay : result.left_out) urgent.push_back(listed(stay));
+    const auto has_other = [&](const std::string& site) {
+        return judgement::grade_of_station(result, grades, site).grade == Grade::trust;
+    };
+    for (const reading::LeftOut& stay : result.left_out)
+        if (!has_other(stay.site)) urgent.push_back(listed(stay));
     for (std::size_t i = 0; i < grades.size(); ++i) {
         if (grades[i].grade != Grade::repeat) continue;
-        const bool has_other =
-            judgement::grade_of_station(result, grades, result.rows[i].row.site).grade ==
-            Grade::trust;
-        (has_other ? optional : urgent).push_back(judgement::reading_name(result.rows, i));
+        (has_other(result.rows[i].row.site) ? optional : urgent)
+            .push_back(judgement::reading_name(result.rows, i));
     }
     if (!urgent.empty()) text += ' ' + tr("Repeat: {}.", text::joined(urgent));
     if (!optional.empty())

@@ -43,7 +43,7 @@ std::vector<std::string> reachable_addresses(const std::string& listen) {
 }
 
 std::string page_url(const std::string& authority, std::string_view token) {
-    std::string url = "http://" + authority + "/#field&token=";
+    std::string url = "http://" + authority + "/#token=";
     for (const char c : token) {
         const auto byte = static_cast<unsigned char>(c);
         url += std::isalnum(byte) != 0 ? std::string(1, c) : fmt::format("%{:02X}", byte);

@@ -12,7 +12,7 @@ namespace a351::daemon::ctl {
 /// @param listen  the numeric address on which it listens; 0.0.0.0 means all of this host.
 [[nodiscard]] std::vector<std::string> reachable_addresses(const std::string& listen);
 
-/// Returns the address of the field view with the token in the fragment, which browsers neither
+/// Returns the address of the page with the token in the fragment, which browsers neither
 /// send nor log.
 /// @param authority  address and port.
 [[nodiscard]] std::string page_url(const std::string& authority, std::string_view token);

@@ -57,6 +57,9 @@ std::string survey_text(const json& answer) {
     for (const json& finding : answer.at("findings"))
         screen += fmt::format("{}{}\n", finding.value("is_headline", false) ? "! " : "  ",
                               printable(sentence_of(finding, "text", "text_parts")));
+    if (answer.contains("contradictions"))
+        for (const json& one : answer.at("contradictions"))
+            screen += fmt::format("! {}\n", printable(sentence_of(one, "text", "text_parts")));
     std::vector<std::vector<std::string>> rows = {
         {"stay", "gravity_mgal", "u_mgal", "left_out_difference_mgal", "set_ups"}};
     std::string remarks;
@@ -67,8 +70,9 @@ std::string survey_text(const json& answer) {
         if (stay.value("is_running", false))
             remarks += "  " + stay_name(stay) + ": " + text::tr("running") + "\n";
         if (stay.contains("missing_parts") && !stay.at("missing_parts").is_null())
-            remarks += fmt::format("  {}: {}\n", stay_name(stay),
-                                   printable(text::in_words(text::parse_message(stay.at("missing_parts"), "-"))));
+            remarks += fmt::format(
+                "  {}: {}\n", stay_name(stay),
+                printable(text::in_words(text::parse_message(stay.at("missing_parts"), "-"))));
         for (const json& remark : stay.at("remarks"))
             remarks += fmt::format("  {}: {}\n", stay_name(stay),
                                    printable(sentence_of(remark, "text", "text_parts")));

@@ -92,7 +92,9 @@ void Record::note_state() {
     const verdict::Verdict& verdict = judge_.verdict();
     if (!states_.empty() && states_.back().state == verdict.state) return;
     states_.push_back({verdict.since, verdict.state});
-    keep_a_day(states_);
+    // The first one still holds until the second.
+    while (states_.size() > 1 && states_[1].time < verdict.since - kHistoryKept)
+        states_.pop_front();
 }
 
 void Record::end_of_history() {
@@ -194,8 +196,7 @@ std::vector<text::Message> Record::troubles() const {
     return watch_.troubles();
 }
 
-verdict::RunningReading Record::reading(
-    std::span<const events::Occupation::SetUp> set_ups) const {
+verdict::RunningReading Record::reading(std::span<const events::Occupation::SetUp> set_ups) const {
     const std::lock_guard lock(mutex_);
     verdict::RunningValue value(options_);
     for (const auto& [from, to] : set_ups) {

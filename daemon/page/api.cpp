@@ -265,8 +265,7 @@ Response Api::change(std::string_view path, const std::string& body) {
             return refusal(409, other);
         outcome = occupations.setup(order.at);
     } else if (path == "/api/occupation/checked") {
-        (void)parse_order(body, {});
-        outcome = check();
+        outcome = check(parse_order(body, {"code", "key"}));
     } else if (path == "/api/sites") {
         outcome = occupations.add_site(parse_new_site(body));
     } else if (path == "/api/note") {
@@ -280,14 +279,18 @@ Response Api::change(std::string_view path, const std::string& body) {
 }
 
 /// Says that the operator has looked at the contradiction that the signal shows.
-survey::Outcome Api::check() const {
+survey::Outcome Api::check(const Order& order) const {
     const status::Status status = sources_.status();
     const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
-    for (const auto& one :
-         survey::open_contradictions(status, sources_.occupations, field.moved, so_far_now()))
-        if (std::ranges::count(one.buttons, survey::kChecked) > 0)
-            return sources_.occupations.check(one);
-    return {survey::Outcome::Kind::refused, text::message("nothing is to be checked")};
+    const auto open =
+        survey::open_contradictions(status, sources_.occupations, field.moved, so_far_now());
+    const bool is_shown = !open.empty() &&
+                          std::ranges::count(open.front().buttons, survey::kChecked) > 0 &&
+                          (order.code.empty() || order.code == open.front().code) &&
+                          (order.key.empty() || order.key == open.front().key);
+    if (is_shown) return sources_.occupations.check(open.front());
+    return {survey::Outcome::Kind::refused,
+            text::message("the signal shows something else by now; nothing was changed")};
 }
 
 /// Carries out discard, restore, resume, rename, retime or not_moved, which name their stay.

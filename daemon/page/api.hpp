@@ -24,10 +24,11 @@
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/assets.hpp"
 #include "daemon/page/message.hpp"
-#include "daemon/survey/so_far.hpp"
 #include "daemon/page/metrics.hpp"
+#include "daemon/page/order.hpp"
 #include "daemon/status/status.hpp"
 #include "daemon/survey/occupations.hpp"
+#include "daemon/survey/so_far.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/event_log.hpp"
 #include "protocol/text/sites.hpp"
@@ -42,10 +43,10 @@ struct ApiSources {
     Degrees latitude = {}, longitude = {};  ///< Position of the base, where a day begins.
     std::function<std::vector<events::Event>()> events;  ///< The whole event log, in file order.
     std::function<std::string()> gravity_so_far = {};    ///< Body of GET /api/survey.
-    std::function<Download()> bundle = {};  ///< File of GET /api/bundle.
-    std::function<void()> changing = {};    ///< Called before each change,
-    std::function<void()> changed = {};     ///< and after each that is on disk.
-    std::filesystem::path assets = {};      ///< The page's files; empty: the compiled ones.
+    std::function<Download()> bundle = {};               ///< File of GET /api/bundle.
+    std::function<void()> changing = {};                 ///< Called before each change,
+    std::function<void()> changed = {};                  ///< and after each that is on disk.
+    std::filesystem::path assets = {};    ///< The page's files; empty: the compiled ones.
     std::vector<std::string> boxes = {};  ///< Origins of the daemons that /boxes shows.
     bool is_token_configured = false;     ///< The server sets it.
 
@@ -78,7 +79,7 @@ public:
 private:
     [[nodiscard]] nlohmann::json status_now() const;
     [[nodiscard]] survey::SoFar so_far_now() const;
-    [[nodiscard]] survey::Outcome check() const;
+    [[nodiscard]] survey::Outcome check(const Order& order) const;
     [[nodiscard]] Response route(const Request& request);
     [[nodiscard]] Response read(std::string_view path, std::string_view query, bool is_local);
     [[nodiscard]] Response change(std::string_view path, const std::string& body);

@@ -40,7 +40,7 @@ Fields signal_fields() {
                     .help = "1 for the present word of the signal.",
                     .states = {"no_data", "warming_up", "keep_off", "lift", "go", "look"}}},
         {.path = "/signal/text",
-         .value = [](const Moment& now) { return json(survey::to_text(now.signal.word)); },
+         .value = [](const Moment& now) { return json(now.signal.text); },
          .meaning = "The word as people read it."},
         {.path = "/signal/sentence",
          .value = [](const Moment& now) { return json(now.signal.sentence.english()); },
@@ -85,8 +85,7 @@ Fields detail_fields() {
          .unit = "s"},
         {.path = "/details/time_left_s",
          .value = of_verdict([](const auto& verdict) { return verdict.time_left_s; }),
-         .meaning =
-             "Least time until it can be stable, null if more than waiting is needed.",
+         .meaning = "Least time until it can be stable, null if more than waiting is needed.",
          .unit = "s"},
         {.path = "/details/reasons",
          .value = [](const Moment& now) { return json(now.judgement.reasons); },
@@ -149,8 +148,7 @@ Fields stay_fields() {
          }),
          .meaning = "Reading of the running set-up, see A READING."},
         {.path = "/occupation/whole",
-         .value = of_stay(
-             [](const Moment& now) { return to_json(now.field.whole); }),
+         .value = of_stay([](const Moment& now) { return to_json(now.field.whole); }),
          .meaning = "Reading of all set-ups together, see A READING."},
         {.path = "/occupation/warnings",
          .value = of_stay([](const Moment& now) { return json(now.field.warnings); }),

@@ -19,11 +19,14 @@ std::string number_of(const json& value, const char* format) {
 
 Row signal_row(const json& signal) {
     const auto word = signal.at("word").get<std::string>();
-    const Message text = text::marked_message(signal.at("text").get<std::string>()) +
-                         Message(": ") +
-                         text::parse_message(signal.at("parts"), signal.at("sentence").get<std::string>());
+    const Message text =
+        text::marked_message(signal.at("text").get<std::string>()) + Message(": ") +
+        text::parse_message(signal.at("parts"), signal.at("sentence").get<std::string>());
     const bool is_wrong = word == "no_data" || word == "look";
-    return {text::marked("signal"), text, is_wrong ? "warning" : word == "go" ? "good" : ""};
+    return {text::marked("signal"), text,
+            is_wrong                                                ? "warning"
+            : word == "go" && signal.at("buttons").at(0) != "start" ? "good"
+                                                                    : ""};
 }
 
 Message stay_text(const json& stay) {

@@ -40,6 +40,7 @@ Order parse_order(std::string_view body, const std::vector<std::string>& allowed
         if (!value.is_string()) throw InputError("body: key " + key + ": not a text");
         const auto text = value.get<std::string>();
         if (key == "key") order.key = text;
+        if (key == "code") order.code = text;
         if (key == "site") order.site = text;
         if (key == "operator") order.remark.operator_name = text;
         if (key == "note") order.remark.note = text;

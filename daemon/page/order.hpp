@@ -18,6 +18,7 @@ namespace a351::daemon::page {
 /// counts as not given.
 struct Order {
     std::string key;        ///< Key of a stay.
+    std::string code;       ///< Code of a contradiction.
     std::string site;       ///< To rename: the correct one; else that of the stay.
     survey::Remark remark;  ///< Keys operator, note and reason.
     std::optional<UtcTime> at, from, to;

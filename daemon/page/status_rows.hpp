@@ -25,7 +25,7 @@ struct Row {
 /// @param status  the body of GET /api/status.
 [[nodiscard]] std::vector<Row> recorder_rows(const nlohmann::json& status);
 
-/// Returns the rows that an operator needs at a benchmark: verdict, stay and tilt.
+/// Returns the rows that an operator needs at a benchmark: signal, stay, gravity and tilt.
 [[nodiscard]] std::vector<Row> operator_rows(const nlohmann::json& status);
 
 /// Returns the rows as a list of objects with label, text, text_parts and level.

@@ -223,7 +223,7 @@ void assess(Status& status) {
     if (!calibrated.empty() && !status.serial_number.empty() &&
         calibrated != status.serial_number) {
         status.warn(
-            text::message("the calibration is for unit {}, but the sensor is unit {}: the verdict "
+            text::message("the calibration is for unit {}, but the sensor is unit {}: the signal "
                           "uses another unit's behaviour; check survey.calibration",
                           printable(calibrated), status.serial_number));
     }

@@ -280,7 +280,7 @@ void Occupations::observe(const events::Event& event) {
 void Occupations::note_aside(const events::Event& event) {
     last_event_ = event.utc;
     if (const std::string code = detail(event, kChecked); !code.empty())
-        checked_.insert({code, detail(event, "key")});
+        checked_[{code, detail(event, "key")}] = event.utc;
 }
 
 Outcome Occupations::commit(events::Event event, text::Message message) {

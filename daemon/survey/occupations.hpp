@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -110,9 +110,10 @@ public:
 
     /// Says that the operator has looked at a contradiction: a note, which the signal does not repeat.
     Outcome check(const Contradiction& contradiction);
-    /// Returns true if he has.
-    [[nodiscard]] bool is_checked(const Contradiction& contradiction) const {
-        return checked_.contains({contradiction.code, contradiction.key});
+    /// Returns true if he has, within a day.
+    [[nodiscard]] bool is_checked(const Contradiction& contradiction, UtcTime now) const {
+        const auto found = checked_.find({contradiction.code, contradiction.key});
+        return found != checked_.end() && now - found->second < std::chrono::hours(24);
     }
 
     /// Returns the planned length of the running stay, or else of the next one.
@@ -188,7 +189,8 @@ private:
     text::Message doubtful_site_;
     events::OccupationReplay replay_;
     UtcTime last_event_;
-    std::set<std::pair<std::string, std::string>> checked_;  ///< Code and key of contradictions.
+    /// When contradictions were checked, by code and key.
+    std::map<std::pair<std::string, std::string>, UtcTime> checked_;
     std::uint64_t changes_ = 0;
 };
 

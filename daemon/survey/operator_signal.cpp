@@ -12,7 +12,7 @@ namespace {
 constexpr auto kMostBehind = std::chrono::hours(1);
 
 Contradiction of_move(const MovePrompt& moved, const std::string& key) {
-    return {"moved",
+    return {kMoved,
             key,
             text_of(moved),
             {moved.is_at_start ? "begin_at"
@@ -31,11 +31,23 @@ std::vector<Contradiction> open_contradictions(const status::Status& status,
     for (const text::Message& trouble : status.sensor_troubles)
         all.push_back({"sensor: " + trouble.english(), "", trouble, {kChecked}});
     if (const auto unit = status::unit_warning(status))
-        all.push_back({"other_unit: " + status.unit_change->after, "", *unit, {kChecked}});
+        all.push_back(
+            {"other_unit " + to_rfc3339(status.unit_change->since), "", *unit, {kChecked}});
     const auto& running = occupations.running();
     if (moved && running) all.push_back(of_move(*moved, running->key));
-    all.insert(all.end(), so_far.contradictions.begin(), so_far.contradictions.end());
-    std::erase_if(all, [&](const Contradiction& one) { return occupations.is_checked(one); });
+    // Those of another day are not to be cleared up now.
+    const auto day = survey_day(occupations, status.now);
+    for (const Contradiction& one : so_far.contradictions) {
+        const bool is_running = running && one.key == running->key;
+        const bool is_of_day = one.key.empty()
+                                   ? running || !day.empty()
+                                   : std::ranges::count(day, one.key, &events::Occupation::key) > 0;
+        if (!is_running && !is_of_day) continue;
+        all.push_back(one);
+        if (is_running && one.code == "set_ups") all.back().buttons = {"setup", kChecked};
+    }
+    std::erase_if(
+        all, [&](const Contradiction& one) { return occupations.is_checked(one, status.now); });
     return all;
 }
 
@@ -43,9 +55,13 @@ Signal operator_signal(status::Status& status, const verdict::Verdict& verdict,
                        const std::vector<text::Message>& why, const Occupations& occupations,
                        const FieldStatus& field, const SoFar& so_far) {
     const auto day = survey_day(occupations, status.now);
-    Signal signal =
-        signal_of(verdict, why, field.stay, day.empty() ? std::string() : day.back().site,
-                  open_contradictions(status, occupations, field.moved, so_far));
+    auto stay = field.stay;
+    if (stay) {
+        const auto gravity = so_far.stays.find(occupations.running()->key);
+        stay->is_compared = gravity != so_far.stays.end() && gravity->second.gravity.has_value();
+    }
+    Signal signal = signal_of(verdict, why, stay, day.empty() ? std::string() : day.back().site,
+                              open_contradictions(status, occupations, field.moved, so_far));
     const bool is_said = signal.word == Word::no_data
                              ? status.level != status::Status::Level::good
                              : std::ranges::count(status.reasons, signal.sentence) > 0;
@@ -66,9 +82,14 @@ Word SignalLog::advance(const status::Status& status, const SoFar& so_far) {
         end_ = *last;
         lasting_ = LastingWord(*last);
     }
+    // While the clock is behind the stay, the stay runs all the same.
+    const auto& running = occupations_.running();
+    const UtcTime begin =
+        running && *last < running->set_ups.back() ? running->set_ups.back() : UtcTime::min();
     for (; *end_ <= *last; *end_ += kStep) {
-        word_ = word_of(live_.state_at(*end_), planned_stay(occupations_, live_, *end_),
-                        has_contradiction);
+        word_ =
+            word_of(live_.state_at(*end_),
+                    planned_stay(occupations_, live_, std::max(*end_, begin)), has_contradiction);
         const auto change = lasting_.take(word_, *end_);
         if (!change) continue;
         events::Event event{"signal", change->since, {}, {}, {}};

@@ -28,8 +28,21 @@ text::Message of_warm_up(const verdict::Verdict& verdict, const std::vector<text
     return sentence + ".";
 }
 
-text::Message of_set_up(const PlannedStay& stay, verdict::State state) {
+/// Returns where a stay is in its plan, and what to do.
+text::Message of_plan(const PlannedStay& stay, verdict::State state) {
     const SetUpPlan& plan = stay.plan;
+    if (plan.needs_next())
+        return text::message(
+            "{}: set-up {} of {} is complete. Lift the box, set it down level, then press Next "
+            "set-up.",
+            stay.site, plan.running, plan.planned);
+    if (plan.is_complete())
+        return stay.is_compared
+                   ? text::message("{}: the reading is complete. Press Stop, then go.", stay.site)
+                   : text::message(
+                         "{}: the plan is complete. The reading was not compared with "
+                         "others yet. Press Stop, then go.",
+                         stay.site);
     text::Message sentence =
         text::message("{}: set-up {} of {}, {} left", stay.site, plan.running,
                       std::max(plan.planned, plan.running), minutes_of(plan.left_s));
@@ -38,6 +51,18 @@ text::Message of_set_up(const PlannedStay& stay, verdict::State state) {
     else if (state == verdict::State::disturbed)
         sentence += text::message(". The box was disturbed: step back two paces");
     return sentence + ".";
+}
+
+text::Message of_no_data(const verdict::Verdict& verdict, const std::vector<text::Message>& why) {
+    if (verdict.reasons.size() == 1 && verdict.reasons.front().is_least)
+        return text::message("Values arrive. The first one takes 20 s.");
+    // The age of the sample is met, and another check is not.
+    if (verdict.reasons.size() > 1 && !why.empty())
+        return text::message("The values cannot be used: {}. Switch the sensor off and on.",
+                             why.front());
+    text::Message sentence = text::message("No values arrive");
+    if (!why.empty()) sentence += ": " + why.front();
+    return sentence + text::message(". Check the sensor's plug and its power supply.");
 }
 
 }  // namespace
@@ -63,7 +88,8 @@ SetUpPlan set_up_plan(int planned, double length_s, int running, double stay_s, 
     const double by_clock_s = running > planned ? length_s - stay_s : planned_s - set_up_s;
     const double by_signal_s = kLeastUsed * planned_s - used_s;
     plan.left_s = std::max({0.0, by_clock_s, by_signal_s});
-    plan.is_disturbed = by_signal_s > std::max(0.0, by_clock_s);
+    plan.is_disturbed = by_signal_s > std::max(0.0, by_clock_s) &&
+                        set_up_s - used_s > (1.0 - kLeastUsed) * planned_s;
     return plan;
 }
 
@@ -80,41 +106,31 @@ Signal signal_of(const verdict::Verdict& verdict, const std::vector<text::Messag
                  const std::vector<Contradiction>& contradictions) {
     Signal signal;
     signal.word = word_of(verdict.state, stay, !contradictions.empty());
+    signal.text = to_text(signal.word);
     switch (signal.word) {
         case Word::no_data:
-            if (verdict.reasons.size() == 1 && verdict.reasons.front().is_least) {
-                signal.sentence = text::message("Values arrive. The first one takes 20 s.");
-                break;
-            }
-            signal.sentence = text::message("No values arrive");
-            if (!why.empty()) signal.sentence += ": " + why.front();
-            signal.sentence += text::message(". Check the sensor's plug and its power supply.");
+            signal.sentence = of_no_data(verdict, why);
             break;
         case Word::warming_up:
             signal.sentence = of_warm_up(verdict, why);
             break;
         case Word::keep_off:
-            signal.sentence = of_set_up(*stay, verdict.state);
+            signal.sentence = of_plan(*stay, verdict.state);
             break;
         case Word::lift:
-            signal.sentence = text::message(
-                "{}: set-up {} of {} is complete. Lift the box, set it down level, then press Next "
-                "set-up.",
-                stay->site, stay->plan.running, stay->plan.planned);
+            signal.sentence = of_plan(*stay, verdict.state);
             signal.buttons = {"setup", "stop"};
             break;
         case Word::go:
             if (stay) {
-                signal.sentence =
-                    text::message("{}: the reading is complete. Press Stop, then go.", stay->site);
+                signal.sentence = of_plan(*stay, verdict.state);
                 signal.buttons = {"stop", "setup"};
                 break;
             }
+            signal.text = marked("NO STAY RUNS");
             signal.sentence =
                 last_site.empty()
-                    ? text::message(
-                          "No stay runs. Set the box down level at a benchmark, then "
-                          "press Start.")
+                    ? text::message("Set the box down level at a benchmark, then press Start.")
                     : text::message(
                           "The stay at {} has ended. At the next benchmark set the box "
                           "down level, then press Start.",
@@ -124,6 +140,8 @@ Signal signal_of(const verdict::Verdict& verdict, const std::vector<text::Messag
         case Word::look:
             signal.look = contradictions.front();
             signal.sentence = signal.look->text;
+            if (stay && signal.look->code != kMoved)
+                signal.sentence += ". " + of_plan(*stay, verdict.state);
             signal.buttons = signal.look->buttons;
             break;
     }

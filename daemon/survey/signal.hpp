@@ -38,6 +38,8 @@ struct Contradiction {
     std::vector<std::string> buttons;  ///< Codes of the answers, at most two.
 };
 
+/// Code of the contradiction that the box was moved.
+inline constexpr const char* kMoved = "moved";
 /// The answer that the operator has looked at a contradiction.
 inline constexpr const char* kChecked = "checked";
 
@@ -67,10 +69,12 @@ struct SetUpPlan {
 struct PlannedStay {
     std::string site;
     SetUpPlan plan;
+    bool is_compared = false;  ///< The corrector has compared it with other readings.
 };
 
 struct Signal {
     Word word = Word::no_data;
+    std::string_view text;  ///< The word as people read it; without a stay not that of `go`.
     text::Message sentence;
     std::vector<std::string> buttons;   ///< At most two: start, setup, stop, or those of `look`.
     std::optional<Contradiction> look;  ///< With the word `look` only.

@@ -17,7 +17,7 @@ namespace a351::daemon::survey {
 /// The gravity of a stay so far.
 struct StayGravity {
     std::optional<MilliGal> gravity;
-    std::optional<MilliGal> u;  ///< Standard uncertainty by the evening.
+    std::optional<MilliGal> u;  ///< Standard uncertainty; of the running stay by the evening.
     text::Message missing;      ///< What is needed before they are known; empty if they are.
 };
 

@@ -84,7 +84,7 @@ with Browser(language="ja,en") as page:
             page.shot(f"page-ja-{scheme}-{size[0]}", is_whole=True)
     page.resize(LAPTOP)
     page.click("#language-switch")
-    page.wait_for_text("signal-word", "YOU CAN GO")
+    page.wait_for_text("signal-word", "NO STAY RUNS")
     demand("the button leads back to English", page.run("return document.documentElement.lang") == "en")
     page.open(daemon.port)
     page.wait_for_text("clock", "UTC")

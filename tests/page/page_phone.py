@@ -52,7 +52,7 @@ def show_code(session, scratch):
     shown = session.run("phone")
     code, url = shown.rstrip("\n").rsplit("\n", 1)
     token = json.loads(session.ctl_get("/api/token"))["token"]
-    demand("the address has view and token in its fragment", url == f"http://{ADDRESS}:{session.port}/#field&token={token}")
+    demand("the address has the token in its fragment", url == f"http://{ADDRESS}:{session.port}/#token={token}")
     if shutil.which("zbarimg"):
         demand("a reader of codes sees this address", decoded(code, scratch) == url)
     else:
@@ -130,5 +130,5 @@ with Scratch() as scratch:
     demand("another address is refused", f"allowed: {ADDRESS}" in phone(TOKEN, "192.0.2.8").stderr)
     shown = phone(TOKEN)
     demand("with its token the code has the address of --url",
-           shown.returncode == 0 and shown.stdout.endswith(f"\nhttp://{ADDRESS}:{port}/#field&token={TOKEN.replace('-', '%2D')}\n"))
+           shown.returncode == 0 and shown.stdout.endswith(f"\nhttp://{ADDRESS}:{port}/#token={TOKEN.replace('-', '%2D')}\n"))
     demand("no note was written", list((scratch / "data" / "events").glob("*.jsonl")) == [])

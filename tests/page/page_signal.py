@@ -36,7 +36,7 @@ with Browser(allowed_errors=["WebSocket connection to", "Failed to load resource
         daemon = Session(scratch, speed=SPEED, config=CONFIG)
         wait_for("the daemon answers", daemon.status)
         page.open(daemon.port)
-        follow(daemon, page, {"YOU CAN GO"}, 6000 / SPEED)
+        follow(daemon, page, {"NO STAY RUNS"}, 6000 / SPEED)
         daemon.ctl("start", "No.1", "--set-ups", "2")
         follow(daemon, page, {"KEEP OFF", "LIFT, SET DOWN"}, 6000 / SPEED)
         daemon.order("silence seconds=100000")

@@ -45,7 +45,7 @@ def first_status():
         "journaled": 0, "archived": 0, "timing": {"state": "locked", "uncertainty_ms": 0.21,
                                   "rate": {"declared_hz": None, "measured_hz": 50.00012, "uncertainty_ppm": 0.3,
                                            "span_h": 2.5, "advice": ""}},
-        "signal": {"word": "go", "text": "YOU CAN GO", "sentence": "No stay runs. Set the box down level at a benchmark, then press Start.",
+        "signal": {"word": "go", "text": "NO STAY RUNS", "sentence": "Set the box down level at a benchmark, then press Start.",
                    "parts": None, "buttons": ["start"], "look": None},
         "details": {"state": "settling", "since": None, "held_s": 75.0, "time_left_s": None, "reasons": [],
                     "checks": [check("temperature slope", 0.31, "degC/h", 0.25, False),

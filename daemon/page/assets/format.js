@@ -29,13 +29,6 @@ export function duration(seconds) {
     return tr("{} h {} min", Math.floor(s / 3600), String(Math.floor((s % 3600) / 60)).padStart(2, "0"));
 }
 
-/** Formats seconds that are left as 2:10; 0:00 only if none is left. */
-export function countdown(seconds) {
-    if (!Number.isFinite(seconds)) return "–";
-    const s = Math.max(0, Math.ceil(seconds));
-    return `${Math.floor(s / 60)}:${String(s % 60).padStart(2, "0")}`;
-}
-
 /** Makes a text of unknown origin safe to show: control characters become visible signs, and characters
     that change the writing direction are replaced. */
 export function visible(text) {

@@ -36,7 +36,8 @@ export function gravity_of(key) {
 /** Returns what speaks against the reading of a stay, as texts. */
 export function doubts_of(key) {
     const findings = survey.findings.filter((one) => one.key === key && one.is_headline);
-    return [...findings, ...(gravity_of(key)?.remarks ?? [])].map(text_of);
+    const texts = [...(survey.contradictions ?? []).filter((one) => one.key === key), ...findings, ...(gravity_of(key)?.remarks ?? [])].map(text_of);
+    return [...new Set(texts)];
 }
 
 /** Reads the gravity so far, at most once in some seconds; called with each status. */

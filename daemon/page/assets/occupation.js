@@ -81,7 +81,7 @@ export class OccupationPanel {
             setup_at: () => this.order("/api/occupation/setup", { ...stay, at }),
             begin_at: () => this.change("/api/occupation/retime", { ...stay, from: at, reason: "started too early" }),
             not_moved: () => this.change("/api/occupation/not_moved", stay),
-            checked: () => this.order("/api/occupation/checked", {}),
+            checked: () => this.order("/api/occupation/checked", this.signal.look),
         };
         return acts[code]();
     }

@@ -14,6 +14,7 @@ export function show_signal(signal, stay, stale_s) {
     const code = is_stale ? "no_data" : signal.word;
     const word = is_stale ? tr("NO FRESH DATA") : tr(signal.text);
     by_id("signal").dataset.word = code;
+    by_id("signal").toggleAttribute("data-idle", signal.buttons.includes("start")); // Nothing is complete.
     by_id("signal-sign").setAttribute("href", `#sign-${code}`);
     set_text("signal-word", word);
     set_text("signal-sentence", is_stale ? tr("Last signal: {}, {} ago.", tr(signal.text), duration(stale_s))

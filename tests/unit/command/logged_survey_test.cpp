@@ -82,7 +82,7 @@ TEST_CASE(
                                  "lasts until the next start, at 2020-05-01T23:58:20Z"));
     CHECK_THAT(rows_of(morning)[1], StartsWith("S1 (1) no-stop"));
     CHECK_THAT(text::read_text_file(morning.folder().path() / "result/report.html"),
-               ContainsSubstring("lasts until the next start, or until the box was moved"));
+               ContainsSubstring("S1 (1) has no stop: it lasts until the next start"));
 }
 
 TEST_CASE("the order in which events were logged does not change the survey", "[logged]") {

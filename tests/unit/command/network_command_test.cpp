@@ -145,7 +145,7 @@ TEST_CASE("a network with a weak part is adjusted, and text and report name the 
         words = "the temperature does not vary between the readings";
     }
     write_sites(folder);
-    const Outcome outcome = adjust(folder);
+    const Outcome outcome = adjust(folder, "--verbose");
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.output, ContainsSubstring(words));
     CHECK_THAT(text::read_text_file(folder.path() / "result/report.html"),
@@ -161,7 +161,7 @@ TEST_CASE("t-drift refuses a constant temperature, and a drift from one base occ
     const Outcome constant = run(folder, table + "t-drift");
     CHECK(constant.status == 2);
     CHECK_THAT(constant.errors, ContainsSubstring("temperature, rate and time vary independently"));
-    const Outcome automatic = run(folder, table + "auto");
+    const Outcome automatic = run(folder, table + "auto --verbose");
     CHECK(automatic.status == 0);
     CHECK_THAT(automatic.output, ContainsSubstring("model network (chosen because the known "
                                                    "stations do not allow to compare models)"));

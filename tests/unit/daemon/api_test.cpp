@@ -133,21 +133,30 @@ TEST_CASE("what was looked at is not shown again, also after a restart", "[daemo
     Page page;
     page.status.now = page.status.last_sample.emplace(minute(30));
     page.status.verdict.state = verdict::State::stable;
-    page.gravity_so_far = R"({"stays":[{"key":"K","gravity_mgal":979800.5,"u_mgal":1.5}],
-        "contradictions":[{"code":"reference","key":"K","text":"No.1 is 71.0 mGal off"}]})";
+    page.ask(post("/api/occupation/start", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})"));
+    page.ask(post("/api/occupation/stop", R"({"at":"2026-03-14T08:20:00Z"})"));
+    page.gravity_so_far = R"({"stays":[{"key":"20260314T081000Z","gravity_mgal":979800.5,"u_mgal":1.5}],
+        "contradictions":[{"code":"reference","key":"20260314T081000Z","text":"No.1 is 71.0 mGal off"}]})";
+    // One of another day is not to be cleared up now.
+    const std::string of_today = page.gravity_so_far;
+    page.gravity_so_far.replace(page.gravity_so_far.rfind("20260314"), 8, "20260313");
+    CHECK(is(page.ask(get("/api/status")), "/signal/word", R"("go")"));
+    page.gravity_so_far = of_today;
     const auto signal = [&] { return page.ask(get("/api/status"))["signal"]; };
     CHECK(is(signal(), "/word", R"("look")"));
     CHECK(is(signal(), "/sentence", R"("No.1 is 71.0 mGal off")"));
     CHECK(is(signal(), "/buttons", R"(["checked"])"));
     CHECK(is(page.ask(get("/api/status")), "/level", R"("warning")"));
-    page.ask(post("/api/occupation/checked", "{}"));
+    page.ask(post("/api/occupation/checked", R"({"code":"another","key":"20260314T081000Z"})"), 409);
+    page.ask(post("/api/occupation/checked", R"({"code":"reference","key":"20260314T081000Z"})"));
     CHECK(is(signal(), "/word", R"("go")"));
     CHECK(is(page.ask(get("/api/status")), "/level", R"("good")"));
-    REQUIRE(page.recorder.log.size() == 1);
-    CHECK(page.recorder.log[0].details.at("note") == "checked: No.1 is 71.0 mGal off");
+    REQUIRE(page.recorder.log.size() == 3);
+    CHECK(page.recorder.log[2].details.at("note") == "checked: No.1 is 71.0 mGal off");
     const survey::Occupations again(page.recorder, {}, page.recorder.log);
-    CHECK(again.is_checked({"reference", "K", {}, {}}));
-    CHECK_FALSE(again.is_checked({"reference", "L", {}, {}}));
+    CHECK(again.is_checked({"reference", "20260314T081000Z", {}, {}}, minute(31)));
+    CHECK_FALSE(again.is_checked({"reference", "20260314T081000Z", {}, {}}, minute(60 * 25)));
+    CHECK_FALSE(again.is_checked({"reference", "L", {}, {}}, minute(31)));
     page.ask(post("/api/occupation/checked", "{}"), 409);
 }
 

@@ -136,7 +136,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
         "[page]\nlisten=\"127.0.0.1:0\"\nhosts=[\"box\"]\ntoken=\"sixteen-or-longer\"\nassets=\"."
         "\"\nboxes=[\"http://192.0.2.7:8351\", \"https://box2\"]\n"
         "[survey]\nsites=\"sites.csv\"\ncalibration=\"\"\noccupation_min=15\nset_ups=3\n"
-        "[verdict]\nslope_degc_per_h=0.4\nknock_gal=3\n");
+        "[verdict]\nwarm_up_degc=0.4\nknock_gal=3\n");
     CHECK(config.station.codes == journal::StationCodes{"JP", "TKB", "", {"Z", "1", "2"}});
     CHECK(config.sensor.address.usb == UsbAddress{0x0403, 0x6001, "A:5"});
     CHECK(config.sensor.settings.filter_code == 7);
@@ -166,7 +166,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
     CHECK(config.survey.planned == std::chrono::minutes(15));
     CHECK(config.survey.set_ups == 3);
     verdict::Options verdict;
-    verdict.slope_degc_per_h = 0.4;
+    verdict.warm_up_degc = 0.4;
     verdict.knock_gal = 3.0;
     CHECK(config.verdict == verdict);
 }
@@ -248,9 +248,9 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
           "a351d.toml:11: survey.set_ups = 4: out of range; allowed: a whole number from 1 to 3");
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n"),
                StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&
-                   ContainsSubstring("slope_degc_per_h"));
-    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nshake_factor = 0.5\n"),
-               StartsWith("a351d.toml:10: verdict.shake_factor = 0.5: out of range"));
+                   ContainsSubstring("tilt_deg"));
+    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nshake_gal = 0.001\n"),
+               StartsWith("a351d.toml:10: verdict.shake_gal = 0.001: out of range"));
     CHECK(refusal(kStation + kSensor + "[storage]\n") ==
           "a351d.toml:7: storage.root: missing; allowed: the directory for the recorded data");
 }
@@ -306,7 +306,7 @@ TEST_CASE_METHOD(Fixture, "a symbolic link to the sensor's port is refused as th
 }
 
 TEST_CASE_METHOD(Fixture,
-                 "a calibration sets the verdict's defaults, and explicit keys override them",
+                 "a calibration sets the response of the live signal, and keys override its warm-up",
                  "[daemon][config]") {
     unit::Calibration unit;
     unit.serial_number = "00000042";
@@ -318,13 +318,16 @@ TEST_CASE_METHOD(Fixture,
     std::ofstream(directory.path() / "unit.toml") << unit::to_toml(unit);
     const Config config = read(kStation + kSensor + kStorage +
                                "[survey]\ncalibration = \"unit.toml\"\n[verdict]\n"
-                               "slow_mgal_per_degc = -17\n");
+                               "gap_s = 20\n");
     CHECK(config.verdict.static_mgal_per_degc == -10.0);
-    CHECK(config.verdict.slow_mgal_per_degc == -17.0);  // The explicit key wins.
+    CHECK(config.verdict.slow_mgal_per_degc == -15.0);
     CHECK(config.verdict.rate_mgal_h_per_degc == 9.0);
     CHECK(config.verdict.slow_lag_min == Approx(30.0));
     // 36 mGal at power-on decay to 1 mGal after 9 h.
     CHECK(36.0 * std::exp(-9.0 / config.verdict.warm_up_h) == Approx(1.0));
+    const Config given = read(kStation + kSensor + kStorage +
+                              "[survey]\ncalibration = \"unit.toml\"\n[verdict]\nwarm_up_h = 3\n");
+    CHECK(given.verdict.warm_up_h == 3.0);  // The explicit key wins.
 
     std::ofstream(directory.path() / "unit.toml") << "format = 2\n";
     CHECK_THAT(refusal(kStation + kSensor + kStorage + "[survey]\ncalibration = \"unit.toml\"\n"),

@@ -76,18 +76,18 @@ TEST_CASE("the curve of the day's temperature is interrupted where nothing was r
     CHECK_THAT(day_figure(result, {}, {}, {}).data, !ContainsSubstring("means of a minute"));
 }
 
-TEST_CASE("the verdicts of the day are a band with a key in words, if the log has them",
+TEST_CASE("the signal of the day is a band with a key in words, if the log has them",
           "[report][figures]") {
     const SurveyCorrection result = corrected(made_up::day());
     const auto at = [](int minute) { return made_up::kMorning + std::chrono::minutes(minute); };
     const Figure figure = day_figure(
         result, {}, {},
-        {{at(0), at(5), "settling"}, {at(5), at(9), "stable"}, {at(9), at(10), "new word"}});
+        {{at(0), at(5), "keep_off"}, {at(5), at(9), "go"}, {at(9), at(10), "new word"}});
     CHECK_THAT(script_of(figure),
-               ContainsSubstring("title 'stable'") && ContainsSubstring("title 'settling'") &&
-                   !ContainsSubstring("disturbed") && !ContainsSubstring("new word"));
+               ContainsSubstring("title 'YOU CAN GO'") && ContainsSubstring("title 'KEEP OFF'") &&
+                   !ContainsSubstring("LOOK") && !ContainsSubstring("new word"));
     CHECK_THAT(figure.data,
                ContainsSubstring("2020-05-01T00:00:00Z 0.25\n2020-05-01T00:05:00Z 0.25\n"));
-    CHECK_THAT(figure.caption, ContainsSubstring("Band: verdict"));
+    CHECK_THAT(figure.caption, ContainsSubstring("Band: signal"));
     CHECK_THAT(day_figure(result, {}, {}, {}).caption, !ContainsSubstring("Band"));
 }

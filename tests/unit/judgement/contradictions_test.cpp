@@ -48,14 +48,14 @@ TEST_CASE("known stations contradict from four uncertainties on; of two neither 
           "[contradiction]") {
     CHECK(said(day({"A", "B"}, 4.0)).empty());
     CHECK(said(day({"A", "B"}, 35.0)) ==
-          "K0 A and B contradict each other by 70.0 mGal: check the name and the reference, then "
-          "read one of them again|");
+          "K0 A and B contradict each other by 70.0 mGal: one of them has a wrong name or "
+          "reference; read a third known benchmark|");
     SurveyCorrection three = day({"A", "B", "C"}, 0.0);
     three.rows[1].studentised_residual = 5.0;
     three.rows[1].own = left_out(979790.0);
     CHECK(said(three) ==
-          "K1 B (1) differs from its reference by 10.0 mGal: check the name and the reference, "
-          "then read one of them again|");
+          "K1 B (1) differs from its reference by 10.0 mGal: check its name and its reference, "
+          "then read it again|");
     three.rows[1].row.is_reference_refused = true;
     CHECK(said(three).empty());
 }
@@ -76,9 +76,18 @@ TEST_CASE("set-ups of a stay contradict when they differ by more than their plac
     CHECK(said(result).empty());
     result.rows[2].corrected = MilliGal(12.0);
     CHECK(said(result) ==
-          "K2 B (1a) and B (1b) differ by 12.0 mGal, 7.1 times what their placement allows: lift "
-          "the box, set it down level, and add a set-up|");
-    // The other pairs show the placement of this box.
+          "K2 B (1a) and B (1b) differ by 12.0 mGal, 7.1 times what their placement allows: read "
+          "it again if you pass there|");
+    CHECK(contradictions(result, "K2").front().text.english().ends_with(
+        "lift the box, set it down level, and add a set-up"));
+    // A third set-up, with the first or with neither, does not hide it.
+    for (const double third : {0.0, 24.0}) {
+        SurveyCorrection three = day({"A", "B", "B", "B"}, 0.0);
+        three.rows[2].corrected = MilliGal(12.0);
+        three.rows[3].corrected = MilliGal(third);
+        CHECK(contradictions(three).size() == 1);
+    }
+    // The other stays show the placement of this box.
     SurveyCorrection rough = day({"A", "A", "B", "B", "C", "C", "D", "D"}, 0.0);
     for (const std::size_t i : {1U, 3U, 5U, 7U}) rough.rows[i].corrected = MilliGal(8.0);
     CHECK(said(rough).empty());

@@ -34,6 +34,7 @@ TEST_CASE("a plan of several set-ups counts each one down", "[signal]") {
 }
 
 TEST_CASE("a set-up of which more than half was disturbed needs more time", "[signal]") {
+    CHECK_FALSE(set_up_plan(2, 720.0, 3, 700.0, 10.0, 10.0).is_disturbed);  // beyond the plan
     const SetUpPlan plan = set_up_plan(2, 720.0, 1, 360.0, 360.0, 100.0);
     CHECK(plan.left_s == 80.0);
     CHECK(plan.is_disturbed);
@@ -87,17 +88,29 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(1, 0.0)}) ==
           "No.1: set-up 1 of 2 is complete. Lift the box, set it down level, then press Next "
           "set-up.");
-    CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(2, 0.0)}) ==
+    CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(2, 0.0), true}) ==
           "No.1: the reading is complete. Press Stop, then go.");
+    CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(2, 0.0)}) ==
+          "No.1: the plan is complete. The reading was not compared with others yet. Press Stop, "
+          "then go.");
+    CHECK(said(State::stable, {}).text == "NO STAY RUNS");
+    CHECK(said(State::stable, PlannedStay{"No.1", plan_with(2, 0.0)}).text == "YOU CAN GO");
     CHECK(sentence(State::stable, {}) ==
           "The stay at No.5 has ended. At the next benchmark set the box down level, then press "
           "Start.");
     CHECK(signal_of({State::stable, {}, {}}, {}, {}, "", {}).sentence ==
-          "No stay runs. Set the box down level at a benchmark, then press Start.");
+          "Set the box down level at a benchmark, then press Start.");
     const Signal look = said(State::stable, {}, {{"moved", "K", "the box was moved", {"a", "b"}}});
     CHECK(look.sentence == "the box was moved");
     CHECK(look.buttons == std::vector<std::string>{"a", "b"});
     CHECK(look.look->key == "K");
+    // The plan goes on beside a contradiction of another stay.
+    CHECK(said(State::stable, PlannedStay{"No.1", plan_with(1, 129.2)}, {{"set_ups", "K", "look", {}}})
+              .sentence == "look. No.1: set-up 1 of 2, 2:10 left.");
+    verdict::Verdict frozen;
+    frozen.reasons.resize(2);
+    CHECK(signal_of(frozen, {"temperature unchanged"}, {}, "", {}).sentence ==
+          "The values cannot be used: temperature unchanged. Switch the sensor off and on.");
 }
 
 }  // namespace
