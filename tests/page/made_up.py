@@ -43,7 +43,8 @@ def signal(word, parts=None, buttons=None):
 
 
 def no_stay():
-    return signal("go", [["The stay at {} has ended. At the next benchmark set the box down level, then press Start.", ["No.5"]]], ["start"])
+    said = [["The stay at {} has ended. At the next benchmark set the box down level, then press Start.", ["No.5"]]]
+    return {**signal("go", said, ["start"]), "text": "NO STAY RUNS"}
 
 
 def details(state="settling", held_s=75.0, checks=None):

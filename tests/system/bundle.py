@@ -96,6 +96,7 @@ with Scratch() as scratch:
     wait_for("the archive has everything", lambda: session.status()["archived"] == session.status()["received"], 60)
     session.archive_is_true(missing=0)
     data = scratch / "data"
+    wait_for("the gravity so far has every stay", lambda: len(json.loads(session.ctl("survey", "--json"))["stays"]) == len(stays), 120)
 
     bundle(session, scratch / "day.tar")
     folder = unpacked(scratch / "day.tar", scratch / "home")
