@@ -42,7 +42,7 @@ def press_buttons(stub, browser):
             ("look", ["stop_at", "not_moved"], {"stop_at": ("stop", {**STAY, "at": at}), "not_moved": ("not_moved", STAY)}),
             ("look", ["setup_at", "not_moved"], {"setup_at": ("setup", {**STAY, "at": at})}),
             ("look", ["begin_at", "not_moved"], {"begin_at": ("retime", {**STAY, "from": at, "reason": "started too early"})}),
-            ("look", ["checked"], {"checked": ("checked", {})})):
+            ("look", ["checked"], {"checked": ("checked", {"code": "moved", "key": ""})})):
         stub.status["signal"] = signal(word, buttons=buttons)
         stub.status["occupation"] = occupation(moved=early if "begin_at" in buttons else MOVED)
         for code, (path, body) in presses.items():
