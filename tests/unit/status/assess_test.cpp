@@ -304,7 +304,7 @@ TEST_CASE("the calibration of another unit is a warning", "[daemon][assess]") {
     assess(status);
     CHECK(status.level == Status::Level::warning);
     CHECK(status.reasons.at(0) ==
-          "the calibration is for unit 00000042, but the sensor is unit 00000043: the verdict uses "
+          "the calibration is for unit 00000042, but the sensor is unit 00000043: the signal uses "
           "another unit's behaviour; check survey.calibration");
 }
 
