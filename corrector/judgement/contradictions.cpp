@@ -17,7 +17,7 @@ using reading::Finding;
 using reading::FindingKind;
 
 /// Placement of a box before the day shows its own, and the number of pairs of set-ups that this
-/// counts as.  Source: the prior of whole_day::DayModel.
+/// counts as.  Sources: the prior of whole_day::DayModel; four is a choice.
 constexpr double kUsualPlacement_mgal = 1.2, kUsualWeight = 4.0;
 
 Contradiction about(const reading::SurveyRow& row, std::string code, text::Message text) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What contradicts in a survey that is still being made, while the operator can clear it up.
+/// Contradictions in a survey that is still being made.  The operator can still clear them up.
 
 #include <cstddef>
 #include <string>

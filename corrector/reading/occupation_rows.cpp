@@ -95,7 +95,7 @@ void add_outer(DayRecord& day, const Samples& samples, const Epoch& epoch,
 /// The average of a set-up.
 struct AveragedSetUp {
     OccupationWindow window;  ///< The given window, or the part of it in which the box stood.
-    std::optional<Finding> moved = {};  ///< What is to be said of a move of the box.
+    std::optional<Finding> moved = {};  ///< A move of the box; absent if there was none to name.
     /// Its value, with a temperature unless there is trouble.
     std::optional<RepresentativeValue> value = {};
     std::vector<DayBin> bins = {};

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a survey says first: how well it knows gravity, what to repeat, and one line for each
+/// The first lines about a survey: how well it knows gravity, what to repeat, and one line for each
 /// station.  Terminal and report begin with it.
 ///
 ///     const auto grades = judgement::grade_readings(result);

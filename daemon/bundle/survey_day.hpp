@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What is taken home of a survey day.
+/// The parts of a survey day that a bundle takes home.
 
 #include <filesystem>
 #include <optional>

@@ -22,7 +22,7 @@ namespace http = page::http;
 using page::error_code;
 using page::into;
 
-// Time limit of a question.  When an order has waited for so long, the operator is told.
+// Longest wait for the answer to a question.  After this time the operator is told that an order waits.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::chrono::seconds kPatience{15};
 #else

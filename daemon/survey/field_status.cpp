@@ -54,6 +54,23 @@ std::optional<PlannedStay> planned_stay(const Occupations& occupations, const li
                     live.reading({&last, 1}).used_s)};
 }
 
+std::optional<MovePrompt> moved_box(const Occupations& occupations, const live::Record& live,
+                                    UtcTime now) {
+    const auto& running = occupations.running();
+    if (!running) return std::nullopt;
+    const SetUp last = set_ups_so_far(*running, now).back();
+    auto moved = move_prompt(live.motion(std::max(last.start, now - kMoveMemory), now),
+                              {.start = last.start,
+                               .end = now,
+                               .ended_by = signal::SetUpEnd::running,
+                               .began_with_next_set_up = running->set_ups.size() > 1,
+                               .not_moved_until = running->not_moved_until});
+    // The start of a long set-up is not in the part that is looked at.
+    if (moved && moved->is_at_start && now - last.start > kMoveMemory)
+        moved.reset();
+    return moved;
+}
+
 FieldStatus field_status(const Occupations& occupations, const live::Record& live, UtcTime now) {
     FieldStatus field;
     const auto& running = occupations.running();
@@ -73,15 +90,7 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
     if (const double missing_s = live.missing_s(last.start, now); missing_s >= kLeastMissing_s) {
         field.warnings.push_back(text::message("{:.0f} s are missing in this set-up", missing_s));
     }
-    field.moved = move_prompt(live.motion(std::max(last.start, now - kMoveMemory), now),
-                              {.start = last.start,
-                               .end = now,
-                               .ended_by = signal::SetUpEnd::running,
-                               .began_with_next_set_up = set_ups.size() > 1,
-                               .not_moved_until = running->not_moved_until});
-    // The start of a long set-up is not in the part that is looked at.
-    if (field.moved && field.moved->is_at_start && now - last.start > kMoveMemory)
-        field.moved.reset();
+    field.moved = moved_box(occupations, live, now);
     return field;
 }
 

@@ -40,6 +40,10 @@ struct FieldStatus {
 [[nodiscard]] std::vector<events::Occupation> survey_day(const Occupations& occupations,
                                                          UtcTime now);
 
+/// Returns what is to be asked about a move of the box in the running set-up.
+[[nodiscard]] std::optional<MovePrompt> moved_box(const Occupations& occupations,
+                                                  const live::Record& live, UtcTime now);
+
 /// Returns the information for the operator at this time.
 [[nodiscard]] FieldStatus field_status(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);

@@ -62,18 +62,18 @@ Signal operator_signal(status::Status& status, const verdict::Verdict& verdict,
     }
     Signal signal = signal_of(verdict, why, stay, day.empty() ? std::string() : day.back().site,
                               open_contradictions(status, occupations, field.moved, so_far));
-    const bool is_said = signal.word == Word::no_data
-                             ? status.level != status::Status::Level::good
-                             : std::ranges::count(status.reasons, signal.sentence) > 0;
-    if ((signal.word == Word::no_data || signal.word == Word::look) && !is_said)
+    if (signal.word == Word::no_data && status.level == status::Status::Level::good)
         status.warn(signal.sentence);
+    // The sentence may have the plan too.
+    if (signal.look && std::ranges::count(status.reasons, signal.look->text) == 0)
+        status.warn(signal.look->text);
     return signal;
 }
 
 Word SignalLog::advance(const status::Status& status, const SoFar& so_far) {
     const auto last = live_.last_sample();
     if (!last) return word_;
-    const auto moved = field_status(occupations_, live_, *last).moved;
+    const auto moved = moved_box(occupations_, live_, *last);
     const bool has_contradiction =
         !open_contradictions(status, occupations_, moved, so_far).empty();
     constexpr Nanoseconds kStep = from_seconds(verdict::kLiveStepSeconds);

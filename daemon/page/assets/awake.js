@@ -3,7 +3,7 @@
 import { set_text, show } from "./dom.js";
 import { tr } from "./language.js";
 
-const small = matchMedia("(max-width: 1099px), (max-height: 599px)"); // As in page.css.
+const small = matchMedia("(max-width: 1099px), (max-height: 599px)"); // The same limits are in page.css.
 let lock = null;
 let refusal = ""; // Why the browser does not keep the screen on.
 

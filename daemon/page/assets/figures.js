@@ -11,10 +11,10 @@ const kRefresh_ms = 5000;
 const kMostPoints = 350; // One for each unit of the drawing.
 const kLeast_mgal = 3; // Half of the least height, so that noise does not look like a signal.
 const kShown = 0.9; // Share of a trace inside the frame; knocks are cut off.
-const kBox = { left: 46, right: 396, top: 8, bottom: 122 }; // Of a drawing of 400 x 145.
+const kBox = { left: 46, right: 396, top: 8, bottom: 122 }; // The plot in a drawing of 400 x 145.
 const kDot = 7;
 
-const shown = new Map(); // What each figure shows, as JSON.
+const shown = new Map(); // Data of each figure as it was drawn, as JSON.
 let asked_ms = -Infinity; // Time of the last request for a trace.
 let traced = null; // Key of the stay whose trace is drawn.
 

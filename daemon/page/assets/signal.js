@@ -35,7 +35,7 @@ export function show_signal(signal, stay, stale_s) {
 
 /** Returns the reasons of the status in words, without the one that is the signal's sentence. */
 export function troubles_of({ reasons, reason_parts, signal }) {
-    return sentences(reason_parts, reasons).filter((_, i) => reasons[i] !== signal.sentence).map((text) => visible(with_local_times(text)))
+    return sentences(reason_parts, reasons).filter((_, i) => !signal.sentence.startsWith(reasons[i])).map((text) => visible(with_local_times(text)))
         .join("; ");
 }
 

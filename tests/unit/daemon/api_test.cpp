@@ -160,6 +160,17 @@ TEST_CASE("what was looked at is not shown again, also after a restart", "[daemo
     page.ask(post("/api/occupation/checked", "{}"), 409);
 }
 
+TEST_CASE("a fault of the sensor is said once, also while the signal shows the plan", "[daemon][page]") {
+    Page page;
+    page.status.now = page.status.last_sample.emplace(minute(30));
+    page.status.verdict.state = verdict::State::stable;
+    page.status.sensor_troubles = {"the x axis is dead"};
+    page.status.fail("the x axis is dead");
+    page.ask(post("/api/occupation/start", R"({"site":"No.0","at":"2026-03-14T08:29:00Z"})"));
+    CHECK(is(page.ask(get("/api/status")), "/signal/word", R"("look")"));
+    CHECK(is(page.ask(get("/api/status")), "/reasons", R"(["the x axis is dead"])"));
+}
+
 TEST_CASE("every change raises the counter in the status, and GET does not", "[daemon][page]") {
     Page page;
     const auto changes = [&] { return page.ask(get("/api/status"))["changes"].get<int>(); };
