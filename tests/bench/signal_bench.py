@@ -1,19 +1,25 @@
-"""What the signal's LOOK finds at the benchmark, and what it says on days without a mistake.
+"""What the signal's LOOK finds at the benchmark, and how good the gravity beside it is.
 
 usage: signal_bench.py FIRST_SEED DAYS [KIND ...]    (A351_BIN)
-KIND: clean, set_up, names, reference; default all.  Days are of tsukuba and hot-afternoon in turn, each stay of two set-ups of
-6 min, all benchmarks known.  The log is cut after each stop, as the recorder has it then.  On a day of a mistake, one draw:
+KIND: default all.  The log of a day is cut after each stop, as the recorder has it then.  Without a mistake:
+- clean: DAYS of tsukuba and of hot-afternoon, one set-up of 12 min in each stay, all benchmarks known;
+- clean_two: the same with two set-ups of 6 min;
+- one_known: DAYS of quadratic and of three-links, one set-up of 12 min, the base alone known; and the same with stays of 17 min.
+With one mistake in a day with two set-ups, drawn, DAYS of both scenarios in turn:
 - set_up: the second set-up of a stay is 12 mGal higher;
 - names: the first two stays are under each other's names, whose references differ by more than 10 mGal;
-- reference: the reference of one stay is 20 mGal too high.
+- reference: the reference of one stay is 20 mGal too high;
+- moved: the box was lifted and set down without *Next set-up*; its LOOK comes from the motion (signal_words_bench).
 The mistake is found if its stay, or a later one up to the next benchmark, has a contradiction.
 """
 
 import concurrent.futures
+import datetime
 import json
 import os
 import random
 import shutil
+import statistics
 import struct
 import subprocess
 import sys
@@ -22,15 +28,17 @@ from simulated_units import rms, simulate
 from programs import BIN, Scratch, rows
 
 SCENARIOS = ("tsukuba", "hot-afternoon")
+CURVED = ("quadratic", "three-links")
 TWO_SET_UPS = "[schedule]\nsetups = 2\n"
+STAYS_s = (720, 1020)  # As they are, and 5 min longer.
 DISPLACED_mgal, WRONG_mgal, LEAST_APART_mgal = 12.0, 20.0, 10.0
 RECORD_bytes = 512
 
 
-def sites_with(gravity_of):
+def sites_with(table, gravity_of):
     return "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n" + "".join(
-        ",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], str(gravity_of[row["site"]])]) + "\n"
-        for row in gravity_of["rows"])
+        ",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], str(gravity_of.get(row["site"], ""))]) + "\n"
+        for row in table)
 
 
 def so_far(day, events, sites):
@@ -60,7 +68,6 @@ def displace(day, higher, start, end):
 
 
 def as_second(utc):
-    import datetime
     time = datetime.datetime.fromisoformat(utc[:26])
     return (time.year, time.timetuple().tm_yday), 3600 * time.hour + 60 * time.minute + time.second + time.microsecond * 1e-6
 
@@ -71,68 +78,114 @@ def stays_of(events):
     return [(i, next(k for k in range(i, len(events)) if events[k]["type"] == "stop")) for i in starts]
 
 
-def look(scratch, kind, seed):
-    """Returns (contradiction at the stay or the next one, errors and u after it) of a day."""
+class Day:
+    """A simulated survey day, its events and its benchmarks."""
+
+    def __init__(self, folder, scenario, seed, more):
+        folder.mkdir()
+        self.folder, self.path = folder, simulate(folder, "day", scenario, seed, 0.0, more)
+        self.events = [json.loads(line) for line in next((self.path / "events").glob("*.jsonl")).read_text().splitlines()]
+        self.table = rows(self.path / "sites.csv")
+        self.true = {row["site"]: float(row["gravity_mgal"]) for row in self.table}
+        self.listed = dict(self.true)
+        self.stays = stays_of(self.events)
+
+    def site(self, k):
+        return self.events[self.stays[k][0]]["site"]
+
+    def after_stop(self, k):
+        """Returns the texts of the contradictions and the stays, as after the stop of stay k."""
+        answer = so_far(self.path, self.events[:self.stays[k][1] + 1], sites_with(self.table, self.listed))
+        return [one["text"] for one in answer["contradictions"]], answer["stays"]
+
+    def spread(self, stays):
+        """Returns error and u of those that have a gravity and are not the only known ones."""
+        return [(stay["gravity_mgal"] - self.true[stay["site"]], stay["u_mgal"]) for stay in stays
+                if stay["gravity_mgal"] is not None and not (len(self.listed) == 1 and stay["site"] in self.listed)]
+
+
+def without_mistake(scratch, scenario, seed, more, is_base_alone):
+    """Returns the contradictions after each stop of a day, and error and u of the stay that was stopped."""
+    day = Day(scratch, scenario, seed, more)
+    if is_base_alone:
+        day.listed = {day.site(0): day.true[day.site(0)]}
+    answers = [day.after_stop(k) for k in range(len(day.stays))]
+    shutil.rmtree(day.folder)
+    return [found for found, _ in answers], [one for _, stays in answers for one in day.spread(stays[-1:])]
+
+
+def raise_second_set_up(day, scenario, seed, k):
+    raised = {name: gravity + DISPLACED_mgal for name, gravity in day.true.items()}
+    text = "".join(f"[[site]]\nname = \"{row['site']}\"\n" + "".join(
+        f"{key} = {raised[row['site']] if key == 'gravity_mgal' else row[key]}\n"
+        for key in ("longitude_deg", "latitude_deg", "altitude_m", "gravity_mgal")) for row in day.table)
+    higher = simulate(day.folder, "higher", scenario, seed, 0.0, TWO_SET_UPS + text)
+    start, stop = day.stays[k]
+    second = next(i for i in range(start, stop) if day.events[i]["type"] == "setup")
+    displace(day.path, higher, as_second(day.events[second]["utc"]), as_second(day.events[stop]["utc"]))
+
+
+def with_mistake(scratch, kind, seed):
+    """Returns the contradictions after the stop of the stay with the mistake and of the next one, and error and u of all stays
+    then; None if this day has no place for it."""
     scenario = SCENARIOS[seed % len(SCENARIOS)]
-    folder = scratch / f"{kind}-{seed}"
-    folder.mkdir()
-    day = simulate(folder, "day", scenario, seed, 0.0, TWO_SET_UPS)
-    events = [json.loads(line) for line in next((day / "events").glob("*.jsonl")).read_text().splitlines()]
-    table = rows(day / "sites.csv")
-    true = {row["site"]: float(row["gravity_mgal"]) for row in table}
-    listed = {**true, "rows": table}
-    stays = stays_of(events)
+    day = Day(scratch, scenario, seed, TWO_SET_UPS)
     draw = random.Random(seed)
-    place = draw.randrange(1, len(stays) - 1)
-    site = events[stays[place][0]]["site"]
+    place = draw.randrange(1, len(day.stays) - 1)
     if kind == "names":
-        place = 1
-        first, second = events[stays[0][0]]["site"], events[stays[1][0]]["site"]
-        if abs(true[first] - true[second]) <= LEAST_APART_mgal:
+        place, first, second = 1, day.site(0), day.site(1)
+        if abs(day.true[first] - day.true[second]) <= LEAST_APART_mgal:
             return None
         for k, name in ((0, second), (1, first)):
-            for i in range(stays[k][0], stays[k][1] + 1):
-                events[i]["site"] = name
-    if kind == "reference":
-        listed[site] += WRONG_mgal
-        place = next(k for k, (start, _) in enumerate(stays) if events[start]["site"] == site)
-    if kind == "set_up":
-        raised = {name: gravity + DISPLACED_mgal for name, gravity in true.items()}
-        text = "".join(f"[[site]]\nname = \"{row['site']}\"\n" + "".join(
-            f"{key} = {raised[row['site']] if key == 'gravity_mgal' else row[key]}\n"
-            for key in ("longitude_deg", "latitude_deg", "altitude_m", "gravity_mgal")) for row in table)
-        higher = simulate(folder, "higher", scenario, seed, 0.0, TWO_SET_UPS + text)
-        start, stop = stays[place]
-        second = next(i for i in range(start, stop) if events[i]["type"] == "setup")
-        displace(day, higher, as_second(events[second]["utc"]), as_second(events[stop]["utc"]))
-    sites = sites_with(listed)
-    asked = range(len(stays)) if kind == "clean" else range(place, min(place + 2, len(stays)))
-    found, spread = [], []
-    for k in asked:
-        answer = so_far(day, events[:stays[k][1] + 1], sites)
-        found.append([one["text"] for one in answer["contradictions"]])
-        for stay in answer["stays"]:
-            if stay["gravity_mgal"] is not None and kind != "clean":
-                spread.append((stay["gravity_mgal"] - true[stay["site"]], stay["u_mgal"]))
-            if kind == "clean" and stay is answer["stays"][-1] and stay["gravity_mgal"] is not None:
-                spread.append((stay["gravity_mgal"] - true[stay["site"]], stay["u_mgal"]))
-    shutil.rmtree(folder)
-    return found, spread
+            for event in day.events[day.stays[k][0]:day.stays[k][1] + 1]:
+                event["site"] = name
+    elif kind == "reference":
+        site = day.site(place)
+        day.listed[site] += WRONG_mgal
+        place = next(k for k in range(len(day.stays)) if day.site(k) == site)
+    elif kind == "set_up":
+        raise_second_set_up(day, scenario, seed, place)
+    else:
+        start, stop = day.stays[place]
+        day.events = [event for i, event in enumerate(day.events) if not (start < i < stop and event["type"] == "setup")]
+        day.stays = stays_of(day.events)
+    answers = [day.after_stop(k) for k in range(place, place + 2)]
+    shutil.rmtree(day.folder)
+    return [found for found, _ in answers], [one for _, stays in answers for one in day.spread(stays)]
 
 
-first, days = int(sys.argv[1]), int(sys.argv[2])
+def show(days):
+    if os.environ.get("A351_SHOW"):
+        for found, _ in days:
+            print("   ", found)
+
+
+def ratio_of(days):
+    """Returns the rms of error over u in words, with its standard error from the scatter of the days."""
+    squares = [statistics.fmean((error / u) ** 2 for error, u in day) for _, day in days if day]
+    ratio = statistics.fmean(squares) ** 0.5
+    scatter = statistics.stdev(squares) / len(squares) ** 0.5 / (2.0 * ratio) if len(squares) > 1 else float("nan")
+    return f"{ratio:.2f} +- {scatter:.2f} of {sum(len(day) for _, day in days)} values"
+
+
+WITHOUT = {"clean": (SCENARIOS, [""], False), "clean_two": (SCENARIOS, [TWO_SET_UPS], False),
+           "one_known": (CURVED, [f"[schedule]\nlength_s = {length:.1f}\n" for length in STAYS_s], True)}
+MISTAKES = ("set_up", "names", "reference", "moved")
+seeds = range(int(sys.argv[1]), int(sys.argv[1]) + int(sys.argv[2]))
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    for kind in sys.argv[3:] or ["clean", "set_up", "names", "reference"]:
-        seen = [one for one in pool.map(lambda seed: look(scratch, kind, seed), range(first, first + days)) if one]
-        spread = [one for _, day in seen for one in day]
-        if os.environ.get("A351_SHOW"):
-            for found, _ in seen:
-                print("   ", found)
-        ratio = rms(error / u for error, u in spread) if spread else float("nan")
-        if kind == "clean":
-            stays = [bool(stay) for found, _ in seen for stay in found]
-            print(f"clean: LOOK at {sum(stays)} of {len(stays)} stays ({100 * sum(stays) / len(stays):.1f} %, promised 3); error over u "
-                  f"at the end of the stay {ratio:.2f} (promised 0.9 to 1.1), of {len(spread)} values", flush=True)
-        else:
-            print(f"{kind}: LOOK at the benchmark on {sum(bool(found[0]) for found, _ in seen)}, there or at the next one on "
-                  f"{sum(any(found) for found, _ in seen)} of {len(seen)} days (promised 95 %); error over u then {ratio:.2f}", flush=True)
+    for kind in sys.argv[3:] or [*WITHOUT, *MISTAKES]:
+        if kind in MISTAKES:
+            days = [one for one in pool.map(lambda seed: with_mistake(scratch / f"{kind}-{seed}", kind, seed), seeds) if one]
+            show(days)
+            print(f"{kind}: LOOK at the benchmark on {sum(bool(found[0]) for found, _ in days)}, there or at the next one on "
+                  f"{sum(any(found) for found, _ in days)} of {len(days)} days (promised 95 %); error over u then {ratio_of(days)} "
+                  "(promised at most 2)", flush=True)
+            continue
+        scenarios, plans, is_base_alone = WITHOUT[kind]
+        for scenario, more in ((scenario, more) for scenario in scenarios for more in plans):
+            days = list(pool.map(lambda seed: without_mistake(scratch / f"{kind}-{seed}", scenario, seed, more, is_base_alone), seeds))
+            show(days)
+            looks = [bool(stay) for found, _ in days for stay in found]
+            print(f"{kind}, {scenario}{', ' + more.split()[-1] + ' s' if is_base_alone else ''}: LOOK at {sum(looks)} of {len(looks)} stays "
+                  f"({100 * sum(looks) / len(looks):.1f} %, promised 3); at the end of the stay error rms "
+                  f"{rms(error for _, day in days for error, _ in day):.2f} mGal, over u {ratio_of(days)}", flush=True)

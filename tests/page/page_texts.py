@@ -27,7 +27,8 @@ def show_everywhere(stub, text):
     stub.sites = [{"site": text, "distance_m": 3.0}]
     stub.occupations = [finished(text, note=text)]
     stub.status["occupation"] = occupation(text, operator=text, note=text, warnings=[text])
-    stub.status["signal"] = {**signal("look", buttons=["checked"]), "sentence": text + ".", "parts": None}
+    # A sentence that began with a reason would take its place.
+    stub.status["signal"] = {**signal("look", buttons=["checked"]), "sentence": f"Look: {text}", "parts": None}
     stub.status["details"] = {**details(checks=[]), "reasons": [text]}
     stub.status["tilt"] = {"axes": ["x", "y"], "x_arcmin": 2.0, "y_arcmin": 0.0, "limit_arcmin": 1.2, "is_within": False,
                            "reference": {"site": text, "utc": None}, "advice": [text]}
