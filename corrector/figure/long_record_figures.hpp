@@ -35,6 +35,10 @@ namespace a351::corrector::figure {
 /// leads.  Without any point the figure has the fit alone.
 [[nodiscard]] Figure response_figure(const long_record::RecordResult& result);
 
+/// Returns the figures of the noise of the acceleration: noise-spectrum, with the three noises of the
+/// Allan deviation and Peterson's models of the ground, and noise-allan.  Both have 95 % limits.
+[[nodiscard]] std::vector<Figure> noise_figures(const long_record::RecordResult& result);
+
 /// Returns the figures of a record before and after a calibration was applied: the series, and
 /// their Allan deviations.
 ///

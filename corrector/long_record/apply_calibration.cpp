@@ -161,8 +161,9 @@ AppliedCalibration apply_calibration(const unit::ThermalResponse& thermal,
     for (std::size_t samples = 1; samples <= segment.size() / 4; samples *= 2)
         applied.allan.push_back(
             {static_cast<double>(samples) * analysis.step_s,
-             {allan_deviation(*series[0], samples), allan_deviation(*series[1], samples),
-              allan_deviation(*series[2], samples)}});
+             {noise::allan_deviation(*series[0], samples),
+              noise::allan_deviation(*series[1], samples),
+              noise::allan_deviation(*series[2], samples)}});
     return applied;
 }
 

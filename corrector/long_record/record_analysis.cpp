@@ -120,7 +120,7 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     analysis.step_s = step_s;
     const auto correlated = static_cast<std::size_t>(4.0 * options.cycle_s / step_s);
     analysis.raw = signal::fit_line(temperature, acceleration, correlated);
-    analysis.noise = record_noise(acceleration, step_s);
+    analysis.noise = noise::record_noise(acceleration, step_s);
     analysis.raw.mean_y += segment.acceleration_mgal.front();
 
     const double shortest_s = shortest_of_band_s(options.cycle_s),

@@ -19,10 +19,10 @@
 
 #include "corrector/eemd/eemd.hpp"
 #include "corrector/long_record/pair_statistics.hpp"
-#include "corrector/long_record/record_noise.hpp"
 #include "corrector/long_record/record_segments.hpp"
 #include "corrector/long_record/response.hpp"
 #include "corrector/long_record/two_path_fit.hpp"
+#include "corrector/noise/record_noise.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
@@ -77,7 +77,7 @@ struct RecordAnalysis {
     /// record that is needed.
     text::Message reading;
     TwoPathFit two_paths;
-    RecordNoise noise;                   ///< Noise of the acceleration.
+    noise::RecordNoise noise;                   ///< Noise of the acceleration.
     std::vector<text::Message> remarks;  ///< Doubtful or impossible results, with the reason.
 };
 

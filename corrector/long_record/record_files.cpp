@@ -118,25 +118,41 @@ Json segments_json(const RecordResult& result) {
     return list;
 }
 
-Json noise_json(const RecordNoise& noise) {
-    Json json{{"white_mgal_sqrt_s", noise.white_mgal_sqrt_s},
-              {"flicker_mgal", noise.flicker_mgal},
-              {"walk_mgal_per_sqrt_s", noise.walk_mgal_per_sqrt_s},
-              {"useful_average_s", noise.useful ? Json(noise.useful->averaging_s) : nullptr},
-              {"stays", Json::array()},
-              {"allan", Json::array()},
-              {"spectrum", Json::array()}};
-    for (const StayScatter& stay : noise.stays)
+void add_limits(Json& json, const std::string& name, const Limits& limits) {
+    json[name] = limits.value;
+    json[name + "_low"] = limits.low;
+    json[name + "_high"] = limits.high;
+}
+
+Json noise_json(const noise::RecordNoise& noise) {
+    Json json;
+    json["describe_record"] = noise.allan.noises.describes_record;
+    add_limits(json, "white_mgal_sqrt_s", noise.allan.noises.white_mgal_sqrt_s);
+    add_limits(json, "flicker_mgal", noise.allan.noises.flicker_mgal);
+    add_limits(json, "walk_mgal_per_sqrt_s", noise.allan.noises.walk_mgal_per_sqrt_s);
+    json["useful_average_s"] = noise.useful ? Json(noise.useful->averaging_s) : nullptr;
+    json["stays"] = Json::array();
+    for (const noise::StayScatter& stay : noise.stays)
         json["stays"].push_back(
             {{"averaging_s", stay.averaging_s}, {"scatter_mgal", stay.scatter_mgal}});
-    for (const AllanDeviation& point : noise.allan)
-        json["allan"].push_back({{"averaging_s", point.averaging_s},
-                                 {"deviation_mgal", point.deviation_mgal},
-                                 {"model_mgal", point.model_mgal}});
-    for (const NoiseBand& band : noise.spectrum)
-        json["spectrum"].push_back(
-            {{"period_s", band.period_s}, {"density_mgal2_per_hz", band.density_mgal2_per_hz}});
+    json["allan"] = Json::array();
+    for (const noise::AllanPoint& point : noise.allan.points) {
+        Json one{{"averaging_s", point.averaging_s}};
+        add_limits(one, "deviation_mgal", point.deviation_mgal);
+        one["model_mgal"] = point.model_mgal;
+        json["allan"].push_back(one);
+    }
     return json;
+}
+
+/// Returns spectrum.csv: the spectral density of the acceleration, with 95 % limits.
+std::string spectrum_csv(const noise::RecordNoise& noise) {
+    std::string text = "frequency_hz,mgal_per_sqrt_hz,mgal_per_sqrt_hz_low,mgal_per_sqrt_hz_high\n";
+    for (const noise::Density& one : noise.spectrum)
+        text += fmt::format("{:.9g},{:.6g},{:.6g},{:.6g}\n", one.frequency_hz,
+                            std::sqrt(one.mgal2_per_hz.value), std::sqrt(one.mgal2_per_hz.low),
+                            std::sqrt(one.mgal2_per_hz.high));
+    return text;
 }
 
 /// Returns record.csv: `time_utc,acceleration_mgal,temperature_degc,segment`, one row per sample.
@@ -234,6 +250,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
 std::vector<text::NamedText> record_files(const RecordResult& result, const Json& settings) {
     return {{"record.csv", record_csv(result)},
             {"response.csv", response_csv(result)},
+            {"spectrum.csv", spectrum_csv(result.analysis.noise)},
             {"result.json", record_json(result, settings)}};
 }
 

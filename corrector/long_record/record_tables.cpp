@@ -161,22 +161,35 @@ TextTable two_paths_table(const RecordResult& result) {
 }
 
 TextTable noise_table(const RecordResult& result) {
-    TextTable rows{{text::tr("averages of s"), text::tr("Allan deviation mGal"),
+    TextTable rows{{text::tr("averages of s"), text::tr("Allan deviation mGal"), text::tr("95 %"),
                     text::tr("by the noise model")}};
-    for (const AllanDeviation& point : result.analysis.noise.allan)
-        rows.push_back({text::fixed(point.averaging_s, 0), text::fixed(point.deviation_mgal, 3),
+    for (const noise::AllanPoint& point : result.analysis.noise.allan.points)
+        rows.push_back({text::fixed(point.averaging_s, 0),
+                        text::fixed(point.deviation_mgal.value, 3),
+                        text::tr("{} to {}", text::fixed(point.deviation_mgal.low, 3),
+                                 text::fixed(point.deviation_mgal.high, 3)),
                         text::fixed(point.model_mgal, 3)});
     return rows;
 }
 
 std::string noise_reading(const RecordResult& result) {
-    const RecordNoise& noise = result.analysis.noise;
-    const auto with_noise = [&noise](const text::Message& stay) {
+    const noise::RecordNoise& noise = result.analysis.noise;
+    const noise::ThreeNoises& levels = noise.allan.noises;
+    const auto level = [&levels](const Limits& limits, double unit, int digits) {
+        const std::string value = text::fixed(unit * limits.value, digits);
+        if (!levels.describes_record) return text::Message(value);
+        return text::message("{} ({} to {})", value, text::fixed(unit * limits.low, digits),
+                             text::fixed(unit * limits.high, digits));
+    };
+    const auto with_noise = [&](const text::Message& stay) {
         return text::tr(
-            "Noise: white {} mGal in 1 s, flicker {} mGal, random walk {} mGal in 1 h. How long to "
-            "stay: {}",
-            text::fixed(noise.white_mgal_sqrt_s, 2), text::fixed(noise.flicker_mgal, 3),
-            text::fixed(noise.walk_mgal_per_sqrt_s * std::sqrt(kSecondsPerHour), 3), stay);
+            "Noise{}: white {} mGal in 1 s, flicker {} mGal, random walk {} mGal in 1 h. How long "
+            "to stay: {}",
+            levels.describes_record
+                ? text::message(", with 95 % limits")
+                : text::message(", the nearest one, because a drift or a cycle is in the record"),
+            level(levels.white_mgal_sqrt_s, 1.0, 2), level(levels.flicker_mgal, 1.0, 3),
+            level(levels.walk_mgal_per_sqrt_s, std::sqrt(kSecondsPerHour), 3), stay);
     };
     if (!noise.useful) return with_noise(text::message("not known; needed: a record of 3 h"));
     const bool is_longest = noise.useful->averaging_s >= noise.stays.back().averaging_s;

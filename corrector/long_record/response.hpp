@@ -21,14 +21,12 @@
 #include <string>
 #include <vector>
 
+#include "corrector/noise/limits.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
 
-/// A value with its confidence limits: low <= value <= high.
-struct Limits {
-    double value = 0.0, low = 0.0, high = 0.0;
-};
+using noise::Limits;
 
 /// The response in one band, or of one mode.
 ///

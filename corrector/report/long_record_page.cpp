@@ -54,6 +54,8 @@ Report make_long_record_page(const long_record::RecordResult& result,
     const std::vector<figure::Figure> response{figure::response_figure(result)};
     std::vector<figure::Figure> all = figures;
     all.push_back(response.front());
+    const std::vector<figure::Figure> noise = figure::noise_figures(result);
+    all.insert(all.end(), noise.begin(), noise.end());
     const std::vector<figure::Figure> applied =
         result.applied ? figure::applied_figures(result) : std::vector<figure::Figure>();
     all.insert(all.end(), applied.begin(), applied.end());
@@ -81,7 +83,8 @@ Report make_long_record_page(const long_record::RecordResult& result,
         "lrrll", long_record::two_paths_table(result));
     section = document.add_section(text::tr("Noise, and how long to stay"));
     add(section, "p", fmt::format("{}.", long_record::noise_reading(result)));
-    add_text_table(section, text::tr("Allan deviation of the record by averaging time."), "rrr",
+    add_figures(section, noise, drawing);
+    add_text_table(section, text::tr("Allan deviation of the record by averaging time."), "rrrr",
                    long_record::noise_table(result));
     section = document.add_section(text::tr("The publication's statistics"));
     add_text_table(section, text::tr("Statistics of this record beside the published ones."),

@@ -6,6 +6,7 @@
 #include "tests/unit/long_record/simulated_record.hpp"
 
 using namespace a351;
+using namespace a351::corrector;
 using namespace a351::corrector::long_record;
 using namespace a351::unit;
 
@@ -90,7 +91,7 @@ TEST_CASE("the Allan deviations of a ramp and of alternating samples have their 
         alternating.push_back(i % 2 == 0 ? 1.0 : -1.0);
     }
     // Slope x averaging time / sqrt(2).
-    CHECK(allan_deviation(ramp, 4) == Approx(0.5 * 4 / std::sqrt(2.0)));
-    CHECK(allan_deviation(alternating, 1) == Approx(std::sqrt(2.0)));
-    CHECK(allan_deviation(alternating, 2) == Approx(0.0).margin(1e-12));
+    CHECK(noise::allan_deviation(ramp, 4) == Approx(0.5 * 4 / std::sqrt(2.0)));
+    CHECK(noise::allan_deviation(alternating, 1) == Approx(std::sqrt(2.0)));
+    CHECK(noise::allan_deviation(alternating, 2) == Approx(0.0).margin(1e-12));
 }

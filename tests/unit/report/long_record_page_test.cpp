@@ -48,7 +48,7 @@ TEST_CASE("the page of a long record is well-formed and has the publication's fi
         CHECK(document.load_string(html.c_str()));
         // Figures: raw and at 20 s, trend, modes, their scatter and correlation, all samples,
         // response.
-        CHECK(document.select_nodes("//*[local-name()='svg']").size() == (is_raw ? 8U : 7U));
+        CHECK(document.select_nodes("//*[local-name()='svg']").size() == (is_raw ? 10U : 9U));
         CHECK_THAT(html, ContainsSubstring("rate of change") && ContainsSubstring("by spectrum") &&
                              ContainsSubstring("&lt;B&gt; is left out") &&
                              !ContainsSubstring("This figure is missing"));

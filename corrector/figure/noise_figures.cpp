@@ -1,0 +1,86 @@
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "corrector/figure/long_record_figures.hpp"
+#include "corrector/noise/earth_noise.hpp"
+
+namespace a351::corrector::figure {
+namespace {
+
+using long_record::RecordResult;
+using text::tr;
+
+/// Returns the density of the three noises, see noise::ThreeNoises.
+double density_of(const noise::ThreeNoises& noises, double frequency_hz) {
+    const double white = noises.white_mgal_sqrt_s.value, flicker = noises.flicker_mgal.value,
+                 walk = noises.walk_mgal_per_sqrt_s.value;
+    constexpr double kPi = std::numbers::pi;
+    return std::sqrt(2.0 * white * white + flicker * flicker / (kPi * frequency_hz) +
+                     walk * walk / (2.0 * kPi * kPi * frequency_hz * frequency_hz));
+}
+
+Figure spectrum_figure(const RecordResult& result) {
+    const noise::RecordNoise& noise = result.analysis.noise;
+    Figure figure{"noise-spectrum",
+                  tr("Amplitude spectral density of the acceleration with 95 % limits, the three "
+                     "noises of the Allan deviation, and the ground at the quietest and noisiest "
+                     "seismic stations (Peterson 1993)."),
+                  900, 480};
+    figure.panels = {
+        {{.label = tr("Frequency (Hz)"), .scale = Scale::logarithmic},
+         {.label = tr("Acceleration (mGal/√Hz)"), .format = "%g", .scale = Scale::logarithmic}}};
+    std::string measured, model, low, high;
+    for (const noise::Density& one : noise.spectrum) {
+        const double f = one.frequency_hz;
+        measured +=
+            data_line("9666", {f, std::sqrt(one.mgal2_per_hz.value),
+                               std::sqrt(one.mgal2_per_hz.low), std::sqrt(one.mgal2_per_hz.high)});
+        model += data_line("96", {f, density_of(noise.allan.noises, f)});
+        low +=
+            data_line("99", {f, ground_noise_mgal_per_sqrt_hz(noise::GroundNoise::low, 1.0 / f)});
+        high +=
+            data_line("99", {f, ground_noise_mgal_per_sqrt_hz(noise::GroundNoise::high, 1.0 / f)});
+    }
+    const std::string source = figure.add("frequency_hz mgal_per_sqrt_hz low high", measured);
+    figure.panels[0].series = {{Look::area, Colour::limits, "", {{1}, {3}, {4}}, source},
+                               {Look::firm_line, Colour::blue, tr("record"), {{1}, {2}}, source}};
+    figure.plot("three noises: frequency_hz mgal_per_sqrt_hz", model,
+                {Look::strong_line, Colour::vermilion, tr("three noises")});
+    figure.plot("NHNM: frequency_hz mgal_per_sqrt_hz", high,
+                {Look::firm_line, Colour::black, "NHNM"});
+    figure.plot("NLNM: frequency_hz mgal_per_sqrt_hz", low,
+                {Look::firm_line, Colour::grey, "NLNM"});
+    return figure;
+}
+
+Figure allan_noise_figure(const RecordResult& result) {
+    Figure figure{"noise-allan",
+                  tr("Allan deviation of the acceleration with 95 % limits, and that of white "
+                     "noise, flicker and random walk together."),
+                  480, 400};
+    const auto& allan = result.analysis.noise.allan.points;
+    const Axis time{.label = tr("Averaging time (s)"),
+                    .range = {0.8 * allan.front().averaging_s, 1.25 * allan.back().averaging_s},
+                    .scale = Scale::logarithmic};
+    figure.panels = {{time, {.label = tr("Allan deviation (mGal)"), .scale = Scale::logarithmic}}};
+    std::string points, model;
+    for (const noise::AllanPoint& point : allan) {
+        points += data_line("0666", {point.averaging_s, point.deviation_mgal.value,
+                                     point.deviation_mgal.low, point.deviation_mgal.high});
+        model += data_line("06", {point.averaging_s, point.model_mgal});
+    }
+    figure.plot("averaging_s deviation_mgal", model,
+                {Look::strong_line, Colour::vermilion, tr("three noises")});
+    figure.plot("averaging_s deviation_mgal low high", points,
+                {Look::discs_with_bars, Colour::blue, tr("record"), {{1}, {2}, {3}, {4}}});
+    return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> noise_figures(const RecordResult& result) {
+    return {spectrum_figure(result), allan_noise_figure(result)};
+}
+
+}  // namespace a351::corrector::figure

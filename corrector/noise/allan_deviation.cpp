@@ -1,0 +1,246 @@
+#include "corrector/noise/allan_deviation.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "protocol/signal/distributions.hpp"
+#include "protocol/signal/regression.hpp"
+
+namespace a351::corrector::noise {
+namespace {
+
+constexpr double kNormalLimit = 1.959964;  // 95 % of a normal distribution are within +- this
+
+/// Returns the effect of the three squared noises on the variance of averages over t, unit noises.
+Eigen::Vector3d variances_at(double t) {
+    return {1.0 / t, 2.0 * std::numbers::ln2 / std::numbers::pi, t / 3.0};
+}
+
+/// The covariance of the Allan variances as a function of the squared noises per sample.  It is a sum
+/// of their products, each with a matrix.
+class Covariance {
+public:
+    /// @param averages  numbers of samples of the averages.
+    Covariance(std::ptrdiff_t n, const std::vector<std::ptrdiff_t>& averages) {
+        const auto size = static_cast<Eigen::Index>(averages.size());
+        for (auto& matrix : of_products_) matrix.resize(size, size);
+        std::vector<double> flicker(static_cast<std::size_t>(n) + 1, 0.0);
+        for (std::size_t k = 1; k < flicker.size(); ++k) {
+            const auto t = static_cast<double>(k);
+            flicker[k] = t * t * std::log(t) / (2.0 * std::numbers::pi);
+        }
+        for (Eigen::Index i = 0; i < size; ++i)
+            for (Eigen::Index k = 0; k <= i; ++k) {
+                const auto products =
+                    sums_of_products(n, averages[static_cast<std::size_t>(i)],
+                                     averages[static_cast<std::size_t>(k)], flicker);
+                for (std::size_t p = 0; p < products.size(); ++p)
+                    of_products_[p](i, k) = of_products_[p](k, i) = products[p];
+            }
+    }
+
+    [[nodiscard]] Eigen::MatrixXd at(const Eigen::Vector3d& squares) const {
+        Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(of_products_[0].rows(), of_products_[0].cols());
+        std::size_t p = 0;
+        for (Eigen::Index i = 0; i < 3; ++i)
+            for (Eigen::Index k = 0; k <= i; ++k)
+                sum += (i == k ? 1.0 : 2.0) * squares(i) * squares(k) * of_products_[p++];
+        return sum;
+    }
+
+private:
+    using Products = std::array<double, 6>;  ///< 00, 10, 11, 20, 21, 22
+
+    /// Returns 1/2 mean over i, k of the products of r_ml(k - i) of each two noises.
+    static Products sums_of_products(std::ptrdiff_t n, std::ptrdiff_t m, std::ptrdiff_t l,
+                                     const std::vector<double>& flicker) {
+        constexpr std::array<double, 3> kDifference{1.0, -2.0, 1.0};
+        const std::ptrdiff_t count_m = n - 2 * m + 1, count_l = n - 2 * l + 1;
+        Products sums{};
+        for (std::ptrdiff_t j = 1 - count_m; j < count_l; ++j) {
+            std::array<double, 3> r{};
+            // Where no argument changes its sign, the differences of powers below 4 are 0.
+            const bool is_far = j - 2 * m > 0 || j + 2 * l < 0;
+            for (std::ptrdiff_t a = 0; a < 3; ++a)
+                for (std::ptrdiff_t b = 0; b < 3; ++b) {
+                    const double c = kDifference[static_cast<std::size_t>(a)] *
+                                     kDifference[static_cast<std::size_t>(b)];
+                    const auto k = static_cast<std::size_t>(std::abs(j + b * l - a * m));
+                    r[1] += c * flicker[k];
+                    if (is_far) continue;
+                    const auto t = static_cast<double>(k);
+                    r[0] -= c * t / 2.0;
+                    r[2] += c * t * t * t / 12.0;
+                }
+            const auto pairs = static_cast<double>(std::min(count_l - 1, count_m - 1 + j) -
+                                                   std::max<std::ptrdiff_t>(0, j) + 1);
+            std::size_t p = 0;
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t k = 0; k <= i; ++k) sums[p++] += pairs * r[i] * r[k];
+        }
+        const auto scale = static_cast<double>(m * l);
+        for (double& sum : sums)
+            sum *=
+                0.5 / (scale * scale * static_cast<double>(count_m) * static_cast<double>(count_l));
+        return sums;
+    }
+
+    std::array<Eigen::MatrixXd, 6> of_products_;
+};
+
+/// Minimises the squares of the misfits over squares that are not negative, by coordinate descent,
+/// which converges because they are convex.
+Eigen::Vector3d not_negative(const Eigen::Matrix3d& normal, const Eigen::Vector3d& right) {
+    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+    constexpr int kRounds = 10'000;
+    for (int round = 0; round < kRounds; ++round)
+        for (Eigen::Index i = 0; i < squares.size(); ++i) {
+            const double rest = right(i) - normal.row(i).dot(squares) + normal(i, i) * squares(i);
+            squares(i) = normal(i, i) > 0.0 ? std::max(0.0, rest / normal(i, i)) : 0.0;
+        }
+    return squares;
+}
+
+/// The squared noises, per sample, not negative.
+struct Fit {
+    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+    Eigen::MatrixXd weights;
+};
+
+/// Probability below which the noises do not describe the record.
+constexpr double kMisfit = 0.001;
+
+/// Returns where the estimate is `kNormalLimit` standard errors from the truth, on one side.
+/// The standard error is that with the truth at the limit: with an estimate of 0 it would be too small.
+double limit(double estimate, double side, const std::function<double(double)>& standard_error) {
+    const auto next = [&](double square) {
+        return std::max(0.0, estimate + side * kNormalLimit * standard_error(square));
+    };
+    if (next(0.0) == 0.0) return 0.0;
+    constexpr int kRounds = 50;
+    double square = std::max(0.0, estimate);
+    for (int round = 0; round < kRounds; ++round) square = 0.5 * (square + next(square));
+    return square;
+}
+
+Fit fit(const Eigen::MatrixXd& design, const Eigen::VectorXd& variances, Eigen::MatrixXd weights) {
+    const Eigen::Matrix3d normal = design.transpose() * weights * design;
+    return {not_negative(normal, design.transpose() * weights * variances), std::move(weights)};
+}
+
+/// Fits the noises, with limits if they describe the record.
+ThreeNoises fit_noises(const Eigen::VectorXd& variances,
+                       const std::vector<std::ptrdiff_t>& averages, const Covariance& covariance,
+                       Eigen::Vector3d& squares) {
+    const Eigen::Index size = variances.size();
+    Eigen::MatrixXd design(size, 3);
+    Eigen::VectorXd by_number(size);  // weights of relative misfits by the number of averages
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const auto samples = static_cast<double>(averages[static_cast<std::size_t>(i)]);
+        design.row(i) = variances_at(samples);
+        by_number(i) = 1.0 / (samples * variances(i) * variances(i));
+    }
+    const Fit simple = fit(design, variances, by_number.asDiagonal());
+    Fit best = simple;
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds; ++round)
+        best = fit(design, variances,
+                   covariance.at(best.squares).ldlt().solve(Eigen::MatrixXd::Identity(size, size)));
+    const Eigen::VectorXd misfits = variances - design * best.squares;
+    ThreeNoises noises;
+    noises.describes_record =
+        signal::chi_square_exceedance(static_cast<double>(size - 3),
+                                      misfits.dot(best.weights * misfits)) > kMisfit;
+    squares = noises.describes_record ? best.squares : simple.squares;
+    std::array<Limits*, 3> levels{&noises.white_mgal_sqrt_s, &noises.flicker_mgal,
+                                  &noises.walk_mgal_per_sqrt_s};
+    const Eigen::MatrixXd estimator = (design.transpose() * best.weights * design)
+                                          .ldlt()
+                                          .solve(design.transpose() * best.weights);
+    const Eigen::Vector3d estimates = estimator * variances;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        Limits& level = *levels[static_cast<std::size_t>(i)];
+        level = {squares(i), squares(i), squares(i)};
+        if (!noises.describes_record) continue;
+        const auto standard_error = [&](double square) {
+            Eigen::Vector3d truth = squares;
+            truth(i) = square;
+            return std::sqrt(
+                estimator.row(i).dot(covariance.at(truth) * estimator.row(i).transpose()));
+        };
+        level.low = std::min(level.value, limit(estimates(i), -1.0, standard_error));
+        level.high = std::max(level.value, limit(estimates(i), 1.0, standard_error));
+    }
+    return noises;
+}
+
+/// Returns the roots of squares per sample, in another unit.
+Limits level(const Limits& square, double unit) {
+    return {unit * std::sqrt(square.value), unit * std::sqrt(square.low),
+            unit * std::sqrt(square.high)};
+}
+
+}  // namespace
+
+double ThreeNoises::deviation_mgal(double averaging_s) const {
+    const Eigen::Vector3d levels(white_mgal_sqrt_s.value, flicker_mgal.value,
+                                 walk_mgal_per_sqrt_s.value);
+    return std::sqrt(variances_at(averaging_s).dot(levels.cwiseAbs2()));
+}
+
+AllanAnalysis analyse_allan(const std::vector<double>& values, double step_s) {
+    const auto n = static_cast<std::ptrdiff_t>(values.size());
+    std::vector<std::ptrdiff_t> averages;
+    for (std::ptrdiff_t m = 1; m <= n / 4; m *= 2) averages.push_back(m);
+    Eigen::VectorXd variances(static_cast<Eigen::Index>(averages.size()));
+    AllanAnalysis analysis;
+    for (const std::ptrdiff_t m : averages) {
+        const double deviation = allan_deviation(values, static_cast<std::size_t>(m));
+        variances(static_cast<Eigen::Index>(analysis.points.size())) = deviation * deviation;
+        analysis.points.push_back({.averaging_s = static_cast<double>(m) * step_s,
+                                   .deviation_mgal = {deviation, deviation, deviation}});
+    }
+    if (!(variances.minCoeff() > 0.0)) return analysis;  // A constant record has no noise.
+    const Covariance covariance(n, averages);
+    Eigen::Vector3d squares;
+    ThreeNoises& noises = analysis.noises = fit_noises(variances, averages, covariance, squares);
+    noises.white_mgal_sqrt_s = level(noises.white_mgal_sqrt_s, std::sqrt(step_s));
+    noises.flicker_mgal = level(noises.flicker_mgal, 1.0);
+    noises.walk_mgal_per_sqrt_s = level(noises.walk_mgal_per_sqrt_s, 1.0 / std::sqrt(step_s));
+    const Eigen::VectorXd expected_variances = covariance.at(squares).diagonal();
+    for (std::size_t i = 0; i < averages.size(); ++i) {
+        AllanPoint& point = analysis.points[i];
+        point.model_mgal = analysis.noises.deviation_mgal(point.averaging_s);
+        // chi-square with nu degrees of freedom has the relative variance 2 / nu.
+        const auto k = static_cast<Eigen::Index>(i);
+        const double expected = point.model_mgal * point.model_mgal;
+        const Limits limits =
+            variance_limits(variances(k), 2.0 * expected * expected / expected_variances(k));
+        point.deviation_mgal.low = std::sqrt(limits.low);
+        point.deviation_mgal.high = std::sqrt(limits.high);
+    }
+    return analysis;
+}
+
+double allan_deviation(const std::vector<double>& values, std::size_t samples) {
+    std::vector<double> sums(values.size() + 1, 0.0);
+    const double mean = signal::mean_of(values);
+    for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
+    // With cumulative sums s: sigma^2 = 1/2 mean ((s[i+2m] - 2 s[i+m] + s[i]) / m)^2
+    const std::size_t count = values.size() - 2 * samples + 1;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double change = (sums[i + 2 * samples] - 2.0 * sums[i + samples] + sums[i]) /
+                              static_cast<double>(samples);
+        squares += change * change;
+    }
+    return std::sqrt(0.5 * squares / static_cast<double>(count));
+}
+
+}  // namespace a351::corrector::noise

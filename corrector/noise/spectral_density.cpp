@@ -1,0 +1,65 @@
+#include "corrector/noise/spectral_density.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+#include "protocol/signal/fourier.hpp"
+#include "protocol/signal/regression.hpp"
+
+namespace a351::corrector::noise {
+namespace {
+
+constexpr std::size_t kSegments = 8, kShortest = 32, kFirst = 3;
+
+std::size_t segment_length(std::size_t count) {
+    std::size_t length = std::max(kShortest, count / kSegments);
+    while (length > kShortest && (length % 2 != 0 || signal::fast_length(length) != length))
+        --length;
+    return length;
+}
+
+/// Returns the Hann window of period n, whose transform is exact at the frequencies of the segment.
+std::vector<double> hann(std::size_t n) {
+    std::vector<double> window(n);
+    for (std::size_t i = 0; i < n; ++i)
+        window[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                         static_cast<double>(n));
+    return window;
+}
+
+}  // namespace
+
+std::vector<Density> spectral_density(const std::vector<double>& values, double step_s) {
+    return spectral_density(values, step_s, segment_length(values.size()));
+}
+
+std::vector<Density> spectral_density(const std::vector<double>& values, double step_s,
+                                      std::size_t length) {
+    const std::vector<double> window = hann(length);
+    const double power = std::inner_product(window.begin(), window.end(), window.begin(), 0.0);
+    const std::size_t half = length / 2;
+    const double overlap = std::inner_product(window.begin() + static_cast<std::ptrdiff_t>(half),
+                                              window.end(), window.begin(), 0.0) /
+                           power;
+    std::vector<double> sums(half + 1, 0.0);
+    std::size_t count = 0;
+    for (std::size_t first = 0; first + length <= values.size(); first += half, ++count) {
+        std::vector<double> part = signal::without_line(std::span(values).subspan(first, length));
+        for (std::size_t i = 0; i < length; ++i) part[i] *= window[i];
+        const signal::Spectrum spectrum = signal::half_spectrum(part, length);
+        for (std::size_t k = 0; k <= half; ++k) sums[k] += std::norm(spectrum[k]);
+    }
+    const auto segments = static_cast<double>(count);
+    const double dof = 2.0 * segments / (1.0 + 2.0 * (1.0 - 1.0 / segments) * overlap * overlap);
+    std::vector<Density> densities;
+    for (std::size_t k = kFirst; k < half; ++k) {
+        densities.push_back({static_cast<double>(k) / (static_cast<double>(length) * step_s),
+                             variance_limits(2.0 * step_s * sums[k] / (segments * power), dof)});
+    }
+    return densities;
+}
+
+}  // namespace a351::corrector::noise

@@ -1,0 +1,90 @@
+#include "corrector/noise/allan_deviation.hpp"
+
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/long_tests.hpp"
+#include "tests/unit/noise/known_noise.hpp"
+
+using namespace a351;
+using namespace a351::corrector::noise;
+
+namespace {
+
+struct Share {
+    int inside = 0, all = 0;
+    void add(const Limits& limits, double truth) {
+        ++all;
+        inside += limits.low <= truth && truth <= limits.high ? 1 : 0;
+    }
+    [[nodiscard]] double value() const { return static_cast<double>(inside) / all; }
+};
+
+/// Levels per sample of the three noises.
+struct Known {
+    const char* name;
+    double white, flicker, walk;
+};
+
+}  // namespace
+
+TEST_CASE("the limits contain the Allan deviation and the levels of known noises", "[noise]") {
+    const int records = test::is_long() ? 500 : 60;
+    constexpr std::size_t kSamples = 1024;
+    Share pooled;
+    for (const Known& known : {Known{"white", 2.0, 0.0, 0.0}, Known{"flicker", 0.0, 1.0, 0.0},
+                               Known{"walk", 0.0, 0.0, 0.1}, Known{"sum", 2.0, 0.5, 0.1}}) {
+        const ThreeNoises truth{
+            {known.white * std::sqrt(kStep_s)}, {known.flicker}, {known.walk / std::sqrt(kStep_s)}};
+        std::vector<Share> points;
+        std::array<Share, 3> levels;
+        int described = 0;
+        for (int record = 0; record < records; ++record) {
+            const auto seed = static_cast<std::uint64_t>(record);
+            const auto white = white_noise(kSamples, known.white, seed),
+                       flicker = flicker_noise(kSamples, known.flicker, seed),
+                       walk = random_walk(kSamples, known.walk, seed);
+            std::vector<double> values(kSamples, 979800.0);
+            for (std::size_t i = 0; i < kSamples; ++i) values[i] += white[i] + flicker[i] + walk[i];
+            const AllanAnalysis found = analyse_allan(values, kStep_s);
+            described += found.noises.describes_record ? 1 : 0;
+            points.resize(found.points.size());
+            for (std::size_t i = 0; i < points.size(); ++i)
+                points[i].add(found.points[i].deviation_mgal,
+                              truth.deviation_mgal(found.points[i].averaging_s));
+            const std::array<Limits, 3> found_levels{found.noises.white_mgal_sqrt_s,
+                                                     found.noises.flicker_mgal,
+                                                     found.noises.walk_mgal_per_sqrt_s};
+            const std::array<double, 3> true_levels{truth.white_mgal_sqrt_s.value,
+                                                    truth.flicker_mgal.value,
+                                                    truth.walk_mgal_per_sqrt_s.value};
+            for (std::size_t i = 0; i < 3; ++i) {
+                levels[i].add(found_levels[i], true_levels[i]);
+            }
+        }
+        std::printf("%s: deviations", known.name);
+        for (const Share& share : points) {
+            std::printf(" %.3f", share.value());
+            CHECK(share.value() >= (test::is_long() ? 0.91 : 0.85));
+            pooled.inside += share.inside;
+            pooled.all += share.all;
+        }
+        std::printf("; white, flicker, walk %.3f %.3f %.3f; described %d of %d\n",
+                    levels[0].value(), levels[1].value(), levels[2].value(), described, records);
+        CHECK(described >= 0.97 * records);
+        for (const Share& share : levels) CHECK(share.value() >= (test::is_long() ? 0.9 : 0.82));
+    }
+    std::printf("pooled %.4f\n", pooled.value());
+    CHECK(std::abs(pooled.value() - 0.95) < (test::is_long() ? 0.01 : 0.025));
+}
+
+TEST_CASE("a cycle of the oven is not taken for noise", "[noise]") {
+    std::vector<double> values = white_noise(4000, 0.5, 11);
+    CHECK(analyse_allan(values, kStep_s).noises.describes_record);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] += 3.0 * std::sin(2.0 * 3.14159265 * static_cast<double>(i) * kStep_s / 900.0);
+    CHECK_FALSE(analyse_allan(values, kStep_s).noises.describes_record);
+}

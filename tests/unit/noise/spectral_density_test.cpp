@@ -1,0 +1,89 @@
+#include "corrector/noise/spectral_density.hpp"
+
+#include <cstdio>
+#include <numbers>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/long_tests.hpp"
+#include "tests/unit/noise/known_noise.hpp"
+
+using namespace a351;
+using namespace a351::corrector::noise;
+
+namespace {
+
+/// Returns the density at frequency k of segments of this length, by the definition.
+double dense(const std::vector<double>& values, std::size_t length, std::size_t k) {
+    long double power = 0.0L, sum = 0.0L;
+    int segments = 0;
+    for (std::size_t first = 0; first + length <= values.size(); first += length / 2, ++segments) {
+        // The line by its normal equations about the middle.
+        long double mean = 0.0L, slope = 0.0L, squares = 0.0L;
+        const long double middle = 0.5L * static_cast<long double>(length - 1);
+        for (std::size_t i = 0; i < length; ++i) {
+            const long double t = static_cast<long double>(i) - middle;
+            mean += values[first + i] / static_cast<long double>(length);
+            slope += t * values[first + i];
+            squares += t * t;
+        }
+        std::complex<long double> transform = 0.0L;
+        power = 0.0L;
+        for (std::size_t i = 0; i < length; ++i) {
+            const long double t = static_cast<long double>(i) - middle;
+            const long double w = 0.5L - 0.5L * std::cos(2.0L * std::numbers::pi_v<long double> *
+                                                         static_cast<long double>(i) /
+                                                         static_cast<long double>(length));
+            power += w * w;
+            transform += w * (values[first + i] - mean - slope / squares * t) *
+                         std::polar(1.0L, -2.0L * std::numbers::pi_v<long double> *
+                                              static_cast<long double>(k * i % length) /
+                                              static_cast<long double>(length));
+        }
+        sum += std::norm(transform);
+    }
+    return static_cast<double>(2.0L * static_cast<long double>(kStep_s) * sum / power / segments);
+}
+
+}  // namespace
+
+TEST_CASE("a spectral density equals its definition", "[noise]") {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        auto values = random_walk(720, 0.3, seed);
+        const auto white = white_noise(720, 1.0, seed);
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] += white[i];
+        const auto found = spectral_density(values, kStep_s);
+        REQUIRE(found.size() == 42);  // segments of 90
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            CHECK(found[i].frequency_hz == Approx(static_cast<double>(i + 3) / (90 * kStep_s)));
+            CHECK(found[i].mgal2_per_hz.value == Approx(dense(values, 90, i + 3)).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("the limits contain the density of known noise", "[noise]") {
+    constexpr std::size_t kCount = 1024;
+    const int records = test::is_long() ? 2000 : 500;
+    std::vector<int> inside;
+    for (int record = 0; record < records; ++record) {
+        const auto found =
+            spectral_density(white_noise(kCount, 2.0, static_cast<std::uint64_t>(record)), kStep_s);
+        inside.resize(found.size());
+        for (std::size_t i = 0; i < found.size(); ++i)
+            inside[i] += found[i].mgal2_per_hz.low <= 2.0 * 4.0 * kStep_s &&
+                                 2.0 * 4.0 * kStep_s <= found[i].mgal2_per_hz.high
+                             ? 1
+                             : 0;
+    }
+    double all = 0.0;
+    for (const int count : inside) {
+        CHECK(count >= 0.91 * records);
+        CHECK(count <= 0.98 * records);
+        all += count;
+    }
+    all /= static_cast<double>(records) * static_cast<double>(inside.size());
+    std::printf("limits of %zu frequencies contain the density: %.4f; least %.3f, most %.3f\n",
+                inside.size(), all,
+                *std::ranges::min_element(inside) / static_cast<double>(records),
+                *std::ranges::max_element(inside) / static_cast<double>(records));
+    CHECK(std::abs(all - 0.95) < 0.01);
+}
