@@ -30,8 +30,38 @@ bool is_named(const std::vector<Contradiction>& all, const reading::SurveyRow& r
     });
 }
 
-void add_findings(std::vector<Contradiction>& all, const std::vector<Finding>& findings) {
-    for (const Finding& finding : findings) {
+std::string size_of(double mgal) { return text::fixed(std::abs(mgal), 1); }
+
+text::Message off_reference(const reading::SurveyRow& row, double off_mgal) {
+    return text::message(
+        "{} ({}) differs from its reference by {} mGal: check its name and its reference, then "
+        "read "
+        "it again",
+        row.site, row.occupation, size_of(off_mgal));
+}
+
+/// Returns the only stay at a known station after a step; null if there are more or none.
+///
+/// Then its name or its reference explains as much as a step does, and can be checked at once.
+const reading::SurveyRow* only_known_after(const model::SurveyCorrection& result,
+                                           const Finding& step) {
+    const reading::SurveyRow* only = nullptr;
+    for (const model::CorrectedRow& row : result.rows) {
+        if (!row.row.reference || !step.time || row.row.time < *step.time) continue;
+        if (only != nullptr && only->key != row.row.key) return nullptr;
+        only = &row.row;
+    }
+    return only;
+}
+
+void add_findings(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
+    for (const Finding& finding : result.findings) {
+        if (finding.kind == FindingKind::step && finding.size_mgal) {
+            if (const auto* const row = only_known_after(result, finding)) {
+                all.push_back(about(*row, "references", off_reference(*row, *finding.size_mgal)));
+                continue;
+            }
+        }
         const bool is_of_reading =
             finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
             finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading ||
@@ -63,17 +93,14 @@ void add_references(std::vector<Contradiction>& all, const model::SurveyCorrecti
         if (!ratio || std::abs(*ratio) <= kContradictionRatio || is_named(all, row.row)) continue;
         const double off_mgal =
             (*row.as<model::WholeDayRow>()->left_out - *row.row.reference).value();
-        const std::string size = text::fixed(std::abs(off_mgal), 1);
-        all.push_back(about(
-            row.row, "references",
-            known.size() == 2
-                ? text::message(
-                      "{} and {} contradict each other by {} mGal: one of them has a wrong "
-                      "name or reference; read a third known benchmark",
-                      known[0], known[1], size)
-                : text::message("{} ({}) differs from its reference by {} mGal: check its name "
-                                "and its reference, then read it again",
-                                row.row.site, row.row.occupation, size)));
+        all.push_back(
+            about(row.row, "references",
+                  known.size() == 2
+                      ? text::message(
+                            "{} and {} contradict each other by {} mGal: one of them has a wrong "
+                            "name or reference; read a third known benchmark",
+                            known[0], known[1], size_of(off_mgal))
+                      : off_reference(row.row, off_mgal)));
         if (known.size() == 2) return;  // The other one says the same.
     }
 }
@@ -121,7 +148,7 @@ void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection&
 std::vector<Contradiction> contradictions(const model::SurveyCorrection& result,
                                           const std::string& running_key) {
     std::vector<Contradiction> all;
-    add_findings(all, result.findings);
+    add_findings(all, result);
     add_references(all, result);
     add_set_ups(all, result, running_key);
     return all;

@@ -93,7 +93,7 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
         .kind = FindingKind::unusable_day,
         .code = "unusable_day",
         .text = text::message("this day is not usable as it is: stations left out are predicted "
-                              "with an error of {} mGal, {} with the mistakes below put right",
+                              "with an error of {} mGal, {} with the mistakes that were found put right",
                               text::fixed(*loso, 1), text::fixed(*amended_loso_mgal, 1)),
         .is_headline = true};
 }

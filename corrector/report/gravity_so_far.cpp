@@ -106,8 +106,9 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
             std::hypot(factor * *u, is_named ? std::max(std::abs(off), 0.5 * (most - least)) : 0.0);
 }
 
+/// @param is_running  a set-up that has just begun has no value yet, which is no remark.
 Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& grades,
-                const std::vector<reading::LeftOut>& left_out) {
+                const std::vector<reading::LeftOut>& left_out, bool is_running) {
     Json remarks = Json::array();
     std::set<std::string> texts;
     const auto add = [&](const judgement::Reason& reason) {
@@ -117,7 +118,8 @@ Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& gr
                                {"text", reason.text.english()},
                                {"text_parts", reason.text.to_json()}});
     };
-    for (const std::size_t i : stay.left_out) add({"left_out", {}, left_out[i].reason});
+    for (const std::size_t i : stay.left_out)
+        if (!is_running || i != stay.left_out.back()) add({"left_out", {}, left_out[i].reason});
     if (!grades.empty())
         for (const std::size_t i : stay.rows)
             for (const judgement::Reason& reason : grades[i].reasons) add(reason);
@@ -181,7 +183,7 @@ Json to_json(const GravitySoFar& so_far) {
         else
             one["missing_parts"] = json["reason_parts"];
         one["is_running"] = is_running;
-        one["remarks"] = remarks_of(stay, grades, left_out);
+        one["remarks"] = remarks_of(stay, grades, left_out, is_running);
         json["stays"].push_back(std::move(one));
     }
     std::vector<reading::Finding> findings;

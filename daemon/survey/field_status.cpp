@@ -84,7 +84,7 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
     field.whole = live.reading(set_ups);
     // The clock may be behind the stay.
     field.stay = planned_stay(occupations, live, std::max(now, last.start));
-    if (field.stay->plan.needs_next() || field.reading->used_s == 0.0)
+    if (field.stay->plan.needs_next())
         compare_level(field, occupations, live, now);
     constexpr double kLeastMissing_s = 1.0;  // A shorter gap changes no reading.
     if (const double missing_s = live.missing_s(last.start, now); missing_s >= kLeastMissing_s) {

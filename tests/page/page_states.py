@@ -54,10 +54,8 @@ def press_buttons(stub, browser):
             demand(f"it is {path} {body}", stub.posts[-1] == (f"/api/occupation/{path}", body))
     demand("the sentence has the operator's time", "01:43:20 UTC" in browser.text("signal-sentence"))
     stub.status["signal"], stub.status["occupation"] = no_stay(), None
-    start = "#signal-buttons [data-code=start]"
-    browser.wait_for("Start is offered", lambda: browser.find(start).is_displayed())
-    browser.click(start)
-    demand("Start leads to the choice of the site", browser.run("return document.activeElement.id") == "start-site")
+    browser.wait_for("Start is offered beside the signal",
+                     lambda: browser.find("#signal #start").is_displayed() and browser.find("#signal #start-site").is_displayed())
     demand("without a stay there is nothing to stop", not browser.find("#stop").is_displayed())
 
 

@@ -74,7 +74,6 @@ export class OccupationPanel {
         const stay = this.running && { key: this.running.key, site: this.running.site };
         const at = this.running?.moved?.utc;
         const acts = {
-            start: () => by_id(this.sites.length ? "start-site" : "start-name").focus(),
             stop: () => this.dialogs.open("stop", this.running, this.doubt_of_stop()),
             setup: () => this.order("/api/occupation/setup", stay),
             stop_at: () => this.order("/api/occupation/stop", { ...stay, at }),
@@ -252,6 +251,7 @@ export class OccupationPanel {
         this.now_ms = Date.parse(status.now);
         this.signal = status.signal;
         if (status.changes !== this.changes) {
+            if (this.changes !== null) set_text("answer", ""); // The terminal or another page made a change.
             this.changes = status.changes;
             this.read_lists();
         }

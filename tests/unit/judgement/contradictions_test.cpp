@@ -78,8 +78,10 @@ TEST_CASE("set-ups of a stay contradict when they differ by more than their plac
     CHECK(said(result) ==
           "K2 B (1a) and B (1b) differ by 12.0 mGal, 7.1 times what their placement allows: read "
           "it again if you pass there|");
-    CHECK(contradictions(result, "K2").front().text.english().ends_with(
-        "lift the box, set it down level, and add a set-up"));
+    CHECK(contradictions(result, "K2")
+              .front()
+              .text.english()
+              .ends_with("lift the box, set it down level, and add a set-up"));
     // A third set-up, with the first or with neither, does not hide it.
     for (const double third : {0.0, 24.0}) {
         SurveyCorrection three = day({"A", "B", "B", "B"}, 0.0);
@@ -111,4 +113,20 @@ TEST_CASE("a mistake of the search is a contradiction, and its reading is named 
     CHECK(all[0].text == "the reference of A is wrong");
     CHECK(all[1].site == "B");
     CHECK(all[2].site == "C");
+}
+
+TEST_CASE("a step that one known reading shows is told as its difference from the reference",
+          "[contradiction]") {
+    SurveyCorrection result = day({"A", "B", "C", "D"}, 0.0);
+    result.findings = {{.kind = corrector::reading::FindingKind::step,
+                        .code = "step",
+                        .time = result.rows[3].row.time - std::chrono::minutes(5),
+                        .size_mgal = -40.2,
+                        .text = "the instrument stepped"}};
+    CHECK(
+        said(result) ==
+        "K3 D (1) differs from its reference by 40.2 mGal: check its name and its reference, then "
+        "read it again|");
+    result.findings[0].time = result.rows[2].row.time - std::chrono::minutes(5);
+    CHECK(said(result).find("the instrument stepped") != std::string::npos);
 }
