@@ -67,14 +67,14 @@ with Browser(allowed_errors=["status of 403", "status of 409"]) as page:
 
     page.driver.refresh()
     page.wait_for_text("start-site", "No.5")
-    page.press(Keys.TAB, Keys.ENTER, "No.5", Keys.TAB, Keys.TAB, Keys.ENTER, Keys.TAB, "T. Sato", Keys.TAB, "on the pillar", Keys.ENTER)
+    page.press(Keys.TAB, "No.5", Keys.TAB, Keys.TAB, Keys.ENTER, Keys.TAB, "T. Sato", Keys.TAB, "on the pillar", Keys.ENTER)
     demand("Enter starts an occupation at the typed site, with operator and note",
            last_post(daemon, page, "/api/occupation/start")
            == {"site": "No.5", "operator": "T. Sato", "note": "on the pillar"})
 
     page.driver.refresh()
     page.wait_for_text("start-site", "No.5")
-    page.press(Keys.TAB, Keys.ENTER, "No.5", Keys.TAB, Keys.TAB, Keys.ENTER, *[Keys.TAB] * 5, Keys.SPACE)
+    page.press(Keys.TAB, "No.5", Keys.TAB, Keys.TAB, Keys.ENTER, *[Keys.TAB] * 5, Keys.SPACE)
     page.press_with_shift(*[Keys.TAB] * 6)
     page.press(Keys.ENTER)
     demand("a placement test is started with twenty set-ups",
