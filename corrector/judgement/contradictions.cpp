@@ -48,7 +48,9 @@ const reading::SurveyRow* only_known_after(const model::SurveyCorrection& result
     const reading::SurveyRow* only = nullptr;
     for (const model::CorrectedRow& row : result.rows) {
         if (!row.row.reference || !step.time || row.row.time < *step.time) continue;
-        if (only != nullptr && only->key != row.row.key) return nullptr;
+        const bool is_other = only != nullptr && (only->site != row.row.site ||
+                                                  only->occupation != row.row.occupation);
+        if (is_other) return nullptr;
         only = &row.row;
     }
     return only;

@@ -61,7 +61,7 @@ Column<model::StationValue> difference_column(const model::SurveyCorrection& res
     };
     return {"difference_mgal",
             difference,
-            {is_left_out ? text::marked("Left out - reference")
+            {is_left_out ? text::marked("Measured - reference, left out")
                          : text::marked("Gravity - reference, in sample")}};
 }
 

@@ -104,7 +104,7 @@ TEST_CASE("the difference of a station is measured minus reference", "[result][a
     StationValue& station = result.stations[1];
     station.left_out = *station.reference + MilliGal(3.0);
     Table table = answer_table(result, all_good(result));
-    REQUIRE(table.headings[4] == "Left out - reference");
+    REQUIRE(table.headings[4] == "Measured - reference, left out");
     CHECK(std::stod(table.rows[1][4]) == 3.0);
     for (StationValue& one : result.stations) one.left_out.reset();
     station.gravity = *station.reference - MilliGal(2.0);
