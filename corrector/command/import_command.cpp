@@ -33,8 +33,8 @@ void import_files(const ImportOptions& options) {
         for (const gravimeter::RefusedLine& line : file.refused)
             std::cerr << fmt::format("a351-correct: {}:{}: {}\n", file.path.string(), line.line,
                                      line.reason);
-        std::cout << fmt::format("{}: {}, {} lines: {} readings, {} comments, {} refused\n",
-                                 file.path.string(), file.format,
+        std::cout << fmt::format("{}: {}, {}; {} lines: {} readings, {} comments, {} refused\n",
+                                 file.path.string(), file.format, file.layout,
                                  file.readings.size() + file.comment_count + file.refused.size(),
                                  file.readings.size(), file.comment_count, file.refused.size());
         is_damaged = is_damaged || !file.refused.empty();

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "corrector/gravimeter/fields.hpp"
@@ -6,46 +8,107 @@
 namespace a351::corrector::gravimeter {
 namespace {
 
-/// The columns.  The reading is a constant + feedback + tide + tilt + temperature.
-const std::vector<std::string_view> kBurrisColumns{
-    "station", "operator",  "meter",    "date",     "time",        "reading",
-    "dial",    "feedback",  "tide",     "tilt",     "temperature", "beam error",
-    "height",  "elevation", "latitude", "longitude"};
+/// Names of the Android program, which are the order of the older forms too: with 16 columns they
+/// end with the longitude, and with 15 the observer is missing.
+const std::vector<std::string_view> kNames{"Station ID",
+                                           "Observer ID",
+                                           "Serial Number",
+                                           "Date",
+                                           "Time",
+                                           "ObsG",
+                                           "Dial",
+                                           "Feedback Correction",
+                                           "Earthtide Correction",
+                                           "Level Correction",
+                                           "Temperature Correction",
+                                           "Beam Error",
+                                           "Height",
+                                           "Elevation",
+                                           "Latitude",
+                                           "Longitude",
+                                           "Elapsed Time",
+                                           "Standard Deviation",
+                                           "Temperature Frequency",
+                                           "Note"};
+constexpr std::size_t kWithoutNames = 16;
 
-Line burris_line(std::string_view line) {
-    if (trimmed(line).empty()) return Comment{};
-    Fields fields(
-        line.find(',') != std::string_view::npos ? split_at(line, ',') : split_at_blanks(line),
-        kBurrisColumns);
-    Reading reading;
-    reading.site = fields.site("station");
-    reading.instrument = fields.site("meter");
-    reading.time = fields.time("date", "time");
-    reading.value =
-        MilliGal(fields.number("reading", -kGreatestReading_mgal, kGreatestReading_mgal));
-    reading.dial = fields.text("dial");
-    reading.tide_correction =
-        MilliGal(fields.number("tide", -kGreatestTide_mgal, kGreatestTide_mgal));
-    reading.height = Metres(fields.number("height", -10.0, 10.0));
-    reading.position = Position{Degrees(fields.number("latitude", -90.0, 90.0)),
-                                Degrees(fields.number("longitude", -180.0, 360.0)),
-                                Metres(fields.number("elevation", -500.0, 9000.0))};
-    for (const auto& [name, column] : {std::pair("feedback_mgal", "feedback"),
-                                       {"tilt_correction_mgal", "tilt"},
-                                       {"temperature_correction_mgal", "temperature"},
-                                       {"beam_error", "beam error"}})
-        reading.kept.emplace_back(name, fields.text(column));
-    if (!fields.trouble().empty()) return Refusal{fields.trouble()};
-    return reading;
+/// Returns the usual layout of lines with so many columns; without places if there is none.  A note
+/// can have separators in it.
+Layout layout_of_width(std::size_t width) {
+    std::vector<std::string_view> names = kNames;
+    if (width >= names.size()) return usual_layout(Form::burris, names);
+    names.resize(kWithoutNames);
+    if (width == kWithoutNames - 1) names.erase(names.begin() + 1);
+    return width == names.size() ? usual_layout(Form::burris, names) : Layout();
 }
+
+std::vector<std::string_view> split(std::string_view line) {
+    for (const char separator : {'\t', ','})
+        if (line.find(separator) != std::string_view::npos) return split_at(line, separator);
+    return split_at_blanks(line);
+}
+
+/// Returns true for a line of names: its first one, and the one of the meter.
+bool is_names(const std::vector<std::string_view>& cells) {
+    return cells.front().starts_with("Station") &&
+           std::ranges::find(cells, "Serial Number") != cells.end();
+}
+
+class BurrisLines : public LineReader {
+public:
+    Line read(std::string_view line) override {
+        line = trimmed(line);
+        if (line.empty()) return Comment{};
+        auto cells = split(line);
+        if (is_names(cells)) {
+            layout_ = named_layout(Form::burris, cells);
+            if (!layout_.trouble.empty()) return Refusal{layout_.trouble};
+            return Comment{};
+        }
+        if (!layout_.trouble.empty()) return Refusal{"its columns are not known"};
+        // Without names the first line that can be read decides, and the others must be like it.
+        const Layout layout = layout_.places.empty() ? layout_of_width(cells.size()) : layout_;
+        if (layout.places.empty())
+            return Refusal{fmt::format("{} columns; allowed: 15, 16 or 20", cells.size())};
+        join_note(cells, line, layout);
+        Fields fields(layout, cells);
+        const UtcTime time = fields.time({}, true);
+        if (!fields.trouble().empty()) return Refusal{fields.trouble()};
+        layout_ = layout;
+        is_month_first_ = is_month_first_ || parse_day(fields.text("date"))->is_month_first;
+        Reading reading = fields.reading();
+        reading.time = time;
+        return reading;
+    }
+
+    [[nodiscard]] std::string layout() const override {
+        return layout_.description + (is_month_first_ ? ", dates read as month/day/year" : "");
+    }
+
+private:
+    /// Joins the cells of a note that has separators in it.
+    static void join_note(std::vector<std::string_view>& cells, std::string_view line,
+                          const Layout& layout) {
+        const std::size_t last = layout.places.size() - 1;
+        if (cells.size() <= last + 1 || layout.places[last].column->field != "note") return;
+        cells[last] = line.substr(static_cast<std::size_t>(cells[last].data() - line.data()));
+        cells.resize(last + 1);
+    }
+
+    Layout layout_;
+    bool is_month_first_ = false;
+};
 
 }  // namespace
 
 Format burris_format() {
-    return {
-        "ZLS Burris",
-        [](std::string_view line) { return std::holds_alternative<Reading>(burris_line(line)); },
-        [] { return LineReader(burris_line); }};
+    return {"ZLS Burris",
+            [](std::string_view line) {
+                return !trimmed(line).empty() &&
+                       (is_names(split(trimmed(line))) ||
+                        std::holds_alternative<Reading>(BurrisLines().read(line)));
+            },
+            []() -> std::unique_ptr<LineReader> { return std::make_unique<BurrisLines>(); }};
 }
 
 }  // namespace a351::corrector::gravimeter

@@ -1,11 +1,13 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "corrector/gravimeter/fields.hpp"
 #include "corrector/gravimeter/line_readers.hpp"
-#include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
+#include "protocol/text/echo.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::gravimeter {
@@ -13,9 +15,15 @@ namespace {
 
 constexpr std::string_view kCg5Title = "CG-5 SURVEY";
 
-const std::vector<std::string_view> kCg5Columns{
+/// The usual columns, and those of an instrument that names its stations by their coordinates.
+const std::vector<std::string_view> kByStation{
     "LINE", "STATION", "ALT.", "GRAV.", "SD.",           "TILTX",   "TILTY", "TEMP",
     "TIDE", "DUR",     "REJ",  "TIME",  "DEC.TIME+DATE", "TERRAIN", "DATE"};
+
+/// Largest distance of a station from the coordinates in the header, by which a line without names
+/// is known to begin with coordinates.  Reason: more than a day's drive, and a line and a station
+/// with such numbers by chance are hardly possible.
+constexpr double kNear_deg = 3.0;
 
 /// Returns a coordinate such as `1.6000000 E` in degrees, north and east positive.
 std::optional<Degrees> coordinate(std::string_view text) {
@@ -29,25 +37,75 @@ std::optional<Degrees> coordinate(std::string_view text) {
 
 /// Returns the name of a station: `16.0000000` is 16.
 std::string station_name(std::string_view text) {
-    const auto number = text::parse_number(text);
-    return number ? text::shortest(*number) : std::string(text);
+    const std::size_t point = text.find('.');
+    const bool is_number = text::parse_number(text) && point != std::string_view::npos;
+    if (!is_number) return std::string(text);
+    const std::size_t end = text.find_last_not_of('0');
+    return std::string(text.substr(0, text[end] == '.' ? end : end + 1));
 }
 
 /// The reader of a file with one or more surveys.
-class Cg5Lines {
+class Cg5Lines : public LineReader {
 public:
-    Line operator()(std::string_view line) {
+    Line read(std::string_view line) override {
         line = trimmed(line);
         if (line.empty()) return Comment{};
+        if (line.starts_with("/-")) return names_line(line.substr(1));
         if (line.front() == '/') return header_line(trimmed(line.substr(1)));
+        // Readings that a person has switched off, for example for GravTools.
+        if (line.front() == '#') return Comment{};
         // The marker of a line of stations: `Line    2.000N`.
         if (line.starts_with("Line") && split_at_blanks(line).size() == 2) return Comment{};
         return reading_line(line);
     }
 
+    [[nodiscard]] std::string layout() const override {
+        return layout_.description +
+               (is_by_note_ ? ", station from the first word of the line Note:" : "");
+    }
+
 private:
+    /// Takes the names: `/------LINE-----STATION-----ALT.---`.
+    Line names_line(std::string_view line) {
+        std::vector<std::string_view> names;
+        for (const std::string_view name : split_at(line, '-'))
+            if (!name.empty()) names.push_back(name);
+        const auto has = [&](std::string_view name) {
+            return std::ranges::find(names, name) != names.end();
+        };
+        is_by_note_ = !has("STATION") && has("LAT") && has("LONG");
+        layout_ =
+            is_by_note_ ? named_layout(Form::cg5, names, {"site"}) : named_layout(Form::cg5, names);
+        if (!layout_.trouble.empty()) return Refusal{layout_.trouble};
+        return Comment{};
+    }
+
+    /// Chooses the usual columns for a file without names.
+    void take_usual_layout(const std::vector<std::string_view>& cells) {
+        const auto is_near = [](std::string_view cell, const std::optional<Degrees>& header) {
+            const auto value = text::parse_number(cell);
+            return value && header && std::abs(*value - header->value()) < kNear_deg;
+        };
+        is_by_note_ = !note_.empty() && cells.size() > 2 && is_near(cells[0], survey_.latitude) &&
+                      is_near(cells[1], survey_.longitude);
+        std::vector<std::string_view> names = kByStation;
+        if (is_by_note_) std::tie(names[0], names[1]) = std::pair("LAT", "LONG");
+        layout_ =
+            is_by_note_ ? named_layout(Form::cg5, names, {"site"}) : named_layout(Form::cg5, names);
+        layout_.description =
+            fmt::format("{} columns in the usual order, without a line of names{}", names.size(),
+                        is_by_note_ ? ", LAT and LONG known from the header" : "");
+    }
+
     Line header_line(std::string_view line) {
-        if (line == kCg5Title) survey_ = {};
+        if (line == kCg5Title) {
+            // The options can be before this line.
+            const auto has_tide = are_options_used_ ? std::nullopt : survey_.has_tide;
+            survey_ = {};
+            survey_.has_tide = has_tide;
+            layout_ = {};
+            note_.clear();
+        }
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos) return Comment{};
         const std::string_view key = line.substr(0, colon), value = trimmed(line.substr(colon + 1));
@@ -59,7 +117,9 @@ private:
         if (key == "Tide Correction") {
             is_valid = value == "YES" || value == "NO";
             survey_.has_tide = is_valid ? std::optional(value == "YES") : std::nullopt;
+            are_options_used_ = false;
         }
+        if (key == "Note") note_ = value.substr(0, value.find_first_of(" \t"));
         if (key == "LONG") is_valid = (survey_.longitude = coordinate(value)).has_value();
         if (key == "LAT") is_valid = (survey_.latitude = coordinate(value)).has_value();
         if (key == "GMT DIFF.") {
@@ -73,35 +133,30 @@ private:
         return Comment{};
     }
 
-    [[nodiscard]] Line reading_line(std::string_view line) const {
-        Fields fields(split_at_blanks(line), kCg5Columns);
-        Reading reading;
-        reading.instrument = survey_.instrument;
-        reading.site = station_name(fields.site("STATION"));
-        reading.time =
-            fields.time("DATE", "TIME", survey_.utc_minus_local.value_or(std::chrono::minutes(0)));
-        reading.value =
-            MilliGal(fields.number("GRAV.", -kGreatestReading_mgal, kGreatestReading_mgal));
-        const MilliGal tide(fields.number("TIDE", -kGreatestTide_mgal, kGreatestTide_mgal));
-        if (survey_.has_tide.value_or(false)) reading.tide_correction = tide;
-        const Metres altitude(fields.number("ALT.", -500.0, 9000.0));
-        if (survey_.latitude && survey_.longitude)
-            reading.position = Position{*survey_.latitude, *survey_.longitude, altitude};
-        for (const auto& [name, column] : {std::pair("sd_mgal", "SD."),
-                                           {"tilt_x_arcsec", "TILTX"},
-                                           {"tilt_y_arcsec", "TILTY"},
-                                           {"temperature_offset_mk", "TEMP"},
-                                           {"duration_s", "DUR"},
-                                           {"rejected", "REJ"},
-                                           {"line_name", "LINE"},
-                                           {"terrain_correction_mgal", "TERRAIN"}})
-            reading.kept.emplace_back(name, fields.text(column));
+    Line reading_line(std::string_view line) {
+        const auto cells = split_at_blanks(line);
+        if (layout_.places.empty()) take_usual_layout(cells);
+        if (!layout_.trouble.empty()) return Refusal{"its columns are not known"};
+        Fields fields(layout_, cells);
+        const UtcTime time = fields.time(survey_.utc_minus_local.value_or(std::chrono::minutes(0)));
         if (!fields.trouble().empty()) return Refusal{fields.trouble()};
+        Reading reading = fields.reading();
         for (const auto& [is_known, key] :
              {std::pair(!survey_.instrument.empty(), "Instrument S/N"),
               {survey_.utc_minus_local.has_value(), "GMT DIFF."},
-              {survey_.has_tide.has_value(), "Tide Correction"}})
+              {survey_.has_tide.has_value(), "Tide Correction"},
+              {!is_by_note_ || !note_.empty(), "Note, whose first word is the station,"}})
             if (!is_known) return Refusal{fmt::format("no header with {} before it", key)};
+        reading.instrument = survey_.instrument;
+        reading.time = time;
+        reading.site = is_by_note_ ? note_ : station_name(reading.site);
+        if (const auto trouble = text::trouble_with_site_name(reading.site); !trouble.empty())
+            return Refusal{fmt::format("Note = {}: {}", text::echoed(note_), trouble)};
+        if (!*survey_.has_tide) reading.tide_correction.reset();
+        are_options_used_ = true;
+        if (const auto altitude = fields.number("altitude_m");
+            !is_by_note_ && altitude && survey_.latitude && survey_.longitude)
+            reading.position = Position{*survey_.latitude, *survey_.longitude, Metres(*altitude)};
         return reading;
     }
 
@@ -114,6 +169,10 @@ private:
         std::optional<bool> has_tide;
     };
     Survey survey_;
+    Layout layout_;
+    std::string note_;               ///< First word of the last line Note:.
+    bool is_by_note_ = false;        ///< It is the station.
+    bool are_options_used_ = false;  ///< By a reading.
 };
 
 }  // namespace
@@ -123,7 +182,7 @@ Format cg5_format() {
             [](std::string_view line) {
                 return line.starts_with('/') && trimmed(line.substr(1)) == kCg5Title;
             },
-            [] { return LineReader(Cg5Lines()); }};
+            []() -> std::unique_ptr<LineReader> { return std::make_unique<Cg5Lines>(); }};
 }
 
 }  // namespace a351::corrector::gravimeter

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
@@ -51,54 +52,133 @@ std::vector<std::string_view> split_at(std::string_view line, char separator) {
     return parts;
 }
 
-Fields::Fields(std::vector<std::string_view> cells, const std::vector<std::string_view>& names)
-    : cells_(std::move(cells)), names_(names) {
-    if (cells_.size() != names_.size())
-        trouble_ = fmt::format("{} columns; allowed: {}", cells_.size(), names_.size());
+std::optional<Day> parse_day(std::string_view text) {
+    const auto parts = split_at(text, text.find('/') != std::string_view::npos ? '/' : '-');
+    constexpr std::string_view kDigits = "0123456789";
+    if (parts.size() != 3) return std::nullopt;
+    for (const std::string_view part : parts)
+        if (part.empty() || part.find_first_not_of(kDigits) != std::string_view::npos)
+            return std::nullopt;
+    const auto two = [](std::string_view part) {
+        return part.size() == 1 ? "0" + std::string(part) : std::string(part);
+    };
+    const bool is_month_first = parts[2].size() == 4;
+    const auto& [year, month, day] = is_month_first ? std::tuple(parts[2], parts[0], parts[1])
+                                                    : std::tuple(parts[0], parts[1], parts[2]);
+    return Day{std::string(year) + "-" + two(month) + "-" + two(day), is_month_first};
+}
+
+Fields::Fields(const Layout& layout, const std::vector<std::string_view>& cells) {
+    const auto& places = layout.places;
+    if (cells.size() != places.size()) {
+        trouble_ = fmt::format("{} columns; allowed: {}", cells.size(), places.size());
+        return;
+    }
+    for (std::size_t i = 0; i < cells.size() && trouble_.empty(); ++i) {
+        const bool is_given = cells[i].find_first_not_of('-') != std::string_view::npos &&
+                              cells[i].find_first_not_of('*') != std::string_view::npos;
+        cells_.push_back({&places[i], is_given ? cells[i] : std::string_view(), std::nullopt});
+        if (is_given || places[i].column->is_required) {
+            cells_.back().text = cells[i];
+            check(cells_.back());
+        }
+    }
+}
+
+void Fields::check(Cell& cell) {
+    const auto& [name, column, factor] = *cell.place;
+    switch (column->type) {
+        case CellType::text:
+            break;
+        case CellType::site:
+            if (const std::string trouble = text::trouble_with_site_name(cell.text);
+                !trouble.empty())
+                refuse(name, cell.text, trouble);
+            break;
+        case CellType::number: {
+            const auto value = text::parse_number(cell.text);
+            if (value) cell.number = *value * factor;
+            if (!value || *cell.number < column->low || *cell.number > column->high)
+                refuse(name, cell.text,
+                       fmt::format("{}; allowed: {} to {}", value ? "out of range" : "not a number",
+                                   text::shortest(column->low / factor),
+                                   text::shortest(column->high / factor)));
+            break;
+        }
+        case CellType::date:
+        case CellType::time:
+            break;  // time() needs both
+        case CellType::flags:
+            constexpr std::size_t kFlagCount = 5;
+            if (cell.text.size() != kFlagCount ||
+                cell.text.find_first_not_of("01") != std::string_view::npos)
+                refuse(name, cell.text, "not five digits 0 or 1");
+            break;
+    }
 }
 
 void Fields::refuse(std::string_view name, std::string_view cell, std::string_view reason) {
     if (trouble_.empty()) trouble_ = fmt::format("{} = {}: {}", name, shown(cell), reason);
 }
 
-std::string_view Fields::text(std::string_view name) {
-    const auto at = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
-    if (at < cells_.size()) return cells_[at];
-    if (trouble_.empty()) trouble_ = fmt::format("no column {}", name);
+const Fields::Cell* Fields::find(std::string_view field) const {
+    const auto found = std::ranges::find_if(
+        cells_, [&](const Cell& cell) { return cell.place->column->field == field; });
+    return found == cells_.end() ? nullptr : &*found;
+}
+
+std::string_view Fields::text(std::string_view field) const {
+    const Cell* const cell = find(field);
+    return cell != nullptr ? cell->text : std::string_view();
+}
+
+std::optional<double> Fields::number(std::string_view field) const {
+    const Cell* const cell = find(field);
+    return cell != nullptr ? cell->number : std::nullopt;
+}
+
+UtcTime Fields::time(std::chrono::minutes utc_minus_local, bool allows_month_first) {
+    const Cell *const date = find("date"), *const clock = find("time");
+    if (date == nullptr || clock == nullptr) return {};
+    auto day = parse_day(date->text);
+    const bool is_doubtful = day && day->is_month_first && !allows_month_first;
+    if (is_doubtful) day.reset();
+    const bool is_short_hour = clock->text.find(':') == 1;
+    if (const auto parsed = parse_rfc3339_in_zone(
+            fmt::format("{}T{}{}", day ? day->iso : "", is_short_hour ? "0" : "", clock->text),
+            -utc_minus_local))
+        return *parsed;
+    refuse(fmt::format("{} {}", date->place->name, clock->place->name),
+           fmt::format("{} {}", date->text, clock->text),
+           is_doubtful ? "not an instant, month and day can be either; allowed: YYYY-MM-DD hh:mm:ss"
+                       : "not an instant; allowed: YYYY/MM/DD hh:mm:ss");
     return {};
 }
 
-double Fields::number(std::string_view name, double low, double high) {
-    const std::string_view cell = text(name);
-    const auto value = text::parse_number(cell);
-    if (value && *value >= low && *value <= high) return *value;
-    refuse(name, cell,
-           fmt::format("{}; allowed: {} to {}", value ? "out of range" : "not a number",
-                       text::shortest(low), text::shortest(high)));
-    return 0.0;
+std::optional<Position> Fields::position(std::string_view prefix) const {
+    const auto of = [&](std::string_view name) {
+        return number(fmt::format("{}{}", prefix, name));
+    };
+    const auto latitude = of("latitude_deg"), longitude = of("longitude_deg"),
+               altitude = of("altitude_m");
+    if (!latitude || !longitude || !altitude) return std::nullopt;
+    return Position{Degrees(*latitude), Degrees(*longitude), Metres(*altitude)};
 }
 
-std::string Fields::site(std::string_view name) {
-    const std::string_view cell = text(name);
-    if (const std::string trouble = text::trouble_with_site_name(cell); !trouble.empty())
-        refuse(name, cell, trouble);
-    return std::string(cell);
-}
-
-UtcTime Fields::time(std::string_view date, std::string_view time,
-                     std::chrono::minutes utc_minus_local) {
-    const std::string_view day = text(date), clock = text(time);
-    std::string instant(day);
-    std::ranges::replace(instant, '/', '-');
-    instant.append("T").append(clock);
-    if (const auto parsed = parse_rfc3339_in_zone(instant, -utc_minus_local)) return *parsed;
-    refuse(fmt::format("{} {}", date, time), fmt::format("{} {}", day, clock),
-           "not an instant; allowed: YYYY/MM/DD hh:mm:ss");
-    return {};
-}
-
-bool Fields::is_given(std::string_view name) {
-    return text(name).find_first_not_of('-') != std::string_view::npos;
+Reading Fields::reading() const {
+    Reading reading;
+    reading.site = std::string(text("site"));
+    reading.instrument = std::string(text("instrument"));
+    if (const auto value = number("reading_mgal")) reading.value = MilliGal(*value);
+    if (const auto tide = number("tide_correction_mgal")) reading.tide_correction = MilliGal(*tide);
+    if (const auto dial = number("dial")) reading.dial = text::shortest(*dial);
+    if (const auto height = number("instrument_height_m")) reading.height = Metres(*height);
+    reading.position = position("");
+    if (!reading.position) reading.position = position("receiver_");
+    for (const Column& column : columns())
+        if (const Cell* const cell = column.is_kept ? find(column.field) : nullptr)
+            reading.kept.emplace_back(column.field, cell->text);
+    return reading;
 }
 
 }  // namespace a351::corrector::gravimeter

@@ -1,23 +1,22 @@
 #pragma once
 /// @file
-/// The columns of one line of a gravimeter, with the first trouble that was found in them.
+/// The cells of one line of a gravimeter, checked, with the first trouble that was found in them.
 ///
-///     Fields fields(split_at_blanks(line), kColumns);
-///     reading.value = MilliGal(fields.number("GRAV.", -20e3, 20e3));
+///     const Fields fields(layout, split_at_blanks(line));
 ///     if (!fields.trouble().empty()) return Refusal{fields.trouble()};
+///     Reading reading = fields.reading();
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "corrector/gravimeter/columns.hpp"
+#include "corrector/gravimeter/gravimeter_file.hpp"
 #include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector::gravimeter {
-
-/// Limits of a reading and of a tide correction, mGal.  Reason: the range of a gravimeter for the
-/// whole Earth is 8000 mGal, and no solid-Earth tide exceeds 0.3 mGal.
-inline constexpr double kGreatestReading_mgal = 20e3, kGreatestTide_mgal = 1.0;
 
 /// Returns the parts of a line between blanks and tabs; none is empty.
 [[nodiscard]] std::vector<std::string_view> split_at_blanks(std::string_view line);
@@ -26,33 +25,50 @@ inline constexpr double kGreatestReading_mgal = 20e3, kGreatestTide_mgal = 1.0;
 /// Returns the text without blanks and tabs at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// The cells of a line, found by the name of their column.
+/// A day: YYYY/MM/DD or YYYY-MM-DD, or with the year last MM/DD/YYYY.
+struct Day {
+    std::string iso;  ///< YYYY-MM-DD.
+    bool is_month_first = false;
+};
+[[nodiscard]] std::optional<Day> parse_day(std::string_view text);
+
+/// Cells of a line by the field that they fill.  The views must outlive the object.
 ///
-/// The views must outlive the object.  After a trouble the values are 0 and must not be used.
+/// Each cell is checked when the object is made.  A cell of dashes, of stars (a number too wide for
+/// its column) or without text is not given, which is a trouble in a required column only.
 class Fields {
 public:
-    Fields(std::vector<std::string_view> cells, const std::vector<std::string_view>& names);
+    Fields(const Layout& layout, const std::vector<std::string_view>& cells);
 
     /// Returns the first trouble in a few words; empty if there is none.
     [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
-    /// Returns a cell; empty if there is no such column, which is a trouble.
-    [[nodiscard]] std::string_view text(std::string_view name);
-    /// Returns a number within limits.
-    [[nodiscard]] double number(std::string_view name, double low, double high);
-    /// Returns the name of a station, which must be one of a table of sites.
-    [[nodiscard]] std::string site(std::string_view name);
-    /// Returns an instant from a date YYYY/MM/DD or YYYY-MM-DD and a time hh:mm:ss.
+    /// Returns a cell; empty if it is not given.
+    [[nodiscard]] std::string_view text(std::string_view field) const;
+    /// Returns a number in the unit of its field; absent if it is not given.
+    [[nodiscard]] std::optional<double> number(std::string_view field) const;
+    /// Returns the instant of the fields date and time; if there is none it is 1970 and a trouble.
     /// @param utc_minus_local  to be added to the time of the file.
-    [[nodiscard]] UtcTime time(std::string_view date, std::string_view time,
-                               std::chrono::minutes utc_minus_local = {});
-    /// Returns true if a cell has something other than dashes.
-    [[nodiscard]] bool is_given(std::string_view name);
+    /// @param allows_month_first  true: MM/DD/YYYY is a date too.
+    [[nodiscard]] UtcTime time(std::chrono::minutes utc_minus_local = {},
+                               bool allows_month_first = false);
+
+    /// Returns a reading with site, value, tide correction, dial, height, position and kept columns,
+    /// as far as the line has them.  To be called without trouble.
+    [[nodiscard]] Reading reading() const;
 
 private:
-    void refuse(std::string_view name, std::string_view cell, std::string_view reason);
+    struct Cell {
+        const Layout::Place* place = nullptr;
+        std::string_view text;  ///< Empty: not given.
+        std::optional<double> number;
+    };
 
-    std::vector<std::string_view> cells_;
-    const std::vector<std::string_view>& names_;
+    void check(Cell& cell);
+    void refuse(std::string_view name, std::string_view cell, std::string_view reason);
+    [[nodiscard]] const Cell* find(std::string_view field) const;
+    [[nodiscard]] std::optional<Position> position(std::string_view prefix) const;
+
+    std::vector<Cell> cells_;
     std::string trouble_;
 };
 

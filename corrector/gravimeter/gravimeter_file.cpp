@@ -39,11 +39,13 @@ GravimeterFile read_gravimeter_file(const std::filesystem::path& path) {
         throw InputError(path.string() +
                          ": not a file of a gravimeter; allowed: Scintrex CG-5, Scintrex CG-6, ZLS "
                          "Burris");
-    GravimeterFile file{path, std::string(format->name), {}, 0, {}};
-    const LineReader read = format->make_reader();
+    GravimeterFile file;
+    file.path = path;
+    file.format = format->name;
+    const auto reader = format->make_reader();
     for (std::size_t number = 1; !text.empty(); ++number) {
         const bool is_cut = text.find('\n') == std::string_view::npos;
-        Line line = read(next_line(text));
+        Line line = reader->read(next_line(text));
         if (is_cut) line = Refusal{"the last line has no end, the file may be cut off"};
         if (auto* const refusal = std::get_if<Refusal>(&line)) {
             file.refused.push_back({number, std::move(refusal->reason)});
@@ -54,6 +56,7 @@ GravimeterFile read_gravimeter_file(const std::filesystem::path& path) {
             ++file.comment_count;
         }
     }
+    file.layout = reader->layout();
     if (file.readings.empty())
         throw InputError(path.string() + ": no reading of a " + file.format +
                          "; allowed: at least one");

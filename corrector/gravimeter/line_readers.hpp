@@ -1,12 +1,11 @@
 #pragma once
 /// @file
-/// The three formats, line by line.
+/// The formats, line by line.
 ///
 /// A format has a function that recognises its first significant line, and one that makes a
-/// LineReader.  The LineReader takes the lines of a file in order, without their ends, and keeps what
-/// a header says about the readings after it.
+/// LineReader.
 
-#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -25,21 +24,30 @@ struct Refusal {
 
 /// A line of a file; the number of a reading's line is not set.
 using Line = std::variant<Comment, Reading, Refusal>;
-using LineReader = std::function<Line(std::string_view)>;
+
+/// Takes the lines of a file in order, without their ends, and keeps what a header says about the
+/// readings after it.
+class LineReader {
+public:
+    virtual ~LineReader() = default;
+    [[nodiscard]] virtual Line read(std::string_view line) = 0;
+    /// Returns which layout the last reading had, for people.
+    [[nodiscard]] virtual std::string layout() const = 0;
+};
 
 /// A format: its name, the line by which it is known, and its reader.
 struct Format {
     std::string_view name;
     bool (*begins_with)(std::string_view line);
-    LineReader (*make_reader)();
+    std::unique_ptr<LineReader> (*make_reader)();
 };
 
-/// Scintrex CG-5: headers that begin with `/`, then readings of 15 columns between blanks.
+/// Scintrex CG-5: headers that begin with `/`, then readings between blanks.
 [[nodiscard]] Format cg5_format();
 /// Scintrex CG-6: headers that begin with `/`, the last with the names of the columns, then readings
 /// between tabs.
 [[nodiscard]] Format cg6_format();
-/// ZLS Burris: no header; readings of 16 columns between blanks or commas.
+/// ZLS Burris: readings between tabs, commas or blanks, with or without a line of names.
 [[nodiscard]] Format burris_format();
 
 }  // namespace a351::corrector::gravimeter

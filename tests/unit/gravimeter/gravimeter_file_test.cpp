@@ -79,6 +79,98 @@ TEST_CASE("a Burris is read with blanks or commas", "[gravimeter]") {
     CHECK(kept(file.readings[0], "tilt_correction_mgal") == "0.005");
 }
 
+TEST_CASE("a Burris is read with 15 columns, with a note, and with the month first",
+          "[gravimeter]") {
+    const auto [line, layout] = GENERATE(table<std::string, std::string>({
+        {"a B44 2017/12/05 10:00:00 2769.695 2800 0.482 -0.103 0.005 -0.033 -0.002 0.1 1600 35.1 "
+         "-106.6",
+         "15 columns in the usual order, without a line of names"},
+        {"a b,o,B44,2017/12/05,10:00:00,2769.695,2800,0.482,-0.103,0.005,-0.033,-0.002,0.1,1600,"
+         "35.1,-106.6,96,0.003,120,wind, then rain",
+         "20 columns in the usual order, without a line of names"},
+        {"a\t\tB44\t12/5/2017\t10:00:00\t2769.695\t2800\t0.482\t-0.103\t0.005\t-0.033\t-0.002\t"
+         "0.1\t1600\t35.1\t-106.6",
+         "16 columns in the usual order, without a line of names, dates read as month/day/year"},
+    }));
+    const auto file = read(line + "\n" + line + "\n");
+    CHECK(file.layout == layout);
+    REQUIRE(file.readings.size() == 2);
+    CHECK(file.readings[0].instrument == "B44");
+    CHECK(file.readings[0].value == MilliGal(2769.695));
+    CHECK(file.readings[0].position->longitude == Degrees(-106.6));
+    CHECK(to_rfc3339(file.readings[0].time) == "2017-12-05T10:00:00Z");
+}
+
+TEST_CASE("a line of names with columns that nobody knows is refused with their names",
+          "[gravimeter]") {
+    std::string cg6 = cg6_header();
+    cg6.replace(cg6.find("TideCorr"), 8, "SeaLevel");
+    const auto [content, line,
+                reason] = GENERATE_COPY(table<std::string, std::size_t, std::string>({
+        {cg6 + cg6_reading("A", "10:00:00") + cg6_header() + cg6_reading("A", "10:00:00"), 4,
+         "unknown columns: SeaLevel; missing columns: TideCorr"},
+        {cg5_header("0.0") + "/---LINE---LAT---ALT.---GRAV.---TIDE---TIME---DATE\r\n" +
+             cg5_header("0.0") + cg5_reading("1", "10:00:00"),
+         9, "missing columns: STATION"},
+        {"Station ID,Serial Number,Date,Time,ObsG,Dial,Dial,Wind\n" +
+             burris_reading("a", "10:00:00"),
+         1, "unknown columns: Wind; repeated columns: Dial; missing columns: Earthtide Correction"},
+    }));
+    GravimeterFile file;
+    try {
+        file = read(content);
+    } catch (const InputError& error) {  // the Burris has no other line
+        CHECK_THAT(error.what(), ContainsSubstring("no reading"));
+        return;
+    }
+    CHECK(file.readings.size() == 1);
+    REQUIRE_FALSE(file.refused.empty());
+    CHECK(file.refused[0].line == line);
+    CHECK_THAT(file.refused[0].reason, ContainsSubstring(reason));
+}
+
+TEST_CASE("a CG-5 without a line of names is known to begin with coordinates by its header",
+          "[gravimeter]") {
+    const std::string reading = cg5_reading("1", "10:00:00");
+    const auto at = [&](std::string line, const std::string& one, const std::string& two) {
+        return line.replace(0, line.find(" 12.5"), one + " " + two);
+    };
+    const std::string header = cg5_header("0.0"), note = "/\tNote:   \tB-7 46.5 46.2\r\n";
+    const auto by_note = read(header + note + at(reading, "-33.2", "-70.6"));
+    CHECK(by_note.readings.front().site == "B-7");
+    CHECK(by_note.readings.front().position->longitude == Degrees(-70.6));
+    CHECK(read(header + note + at(reading, "0.0", "2.0000000")).readings.front().site == "2");
+    const auto without_note = read(header + at(reading, "0.0", "3.5000000"));
+    CHECK(without_note.readings.front().site == "3.5");
+}
+
+TEST_CASE("a CG-5 can have its options before the survey, and lines switched off", "[gravimeter]") {
+    std::string header = cg5_header("0.0");
+    const std::string options = "/\tTide Correction:    YES\r\n";
+    header.erase(header.find(options), options.size());
+    const auto file =
+        read(options + "#" + cg5_reading("1", "10:00:00") + header + cg5_reading("1", "10:00:00"));
+    CHECK(file.readings.size() == 1);
+    CHECK(file.refused.empty());
+    CHECK_THAT(read(options + header + cg5_reading("1", "10:00:00") + header +
+                    cg5_reading("1", "10:01:00"))
+                   .refused.front()
+                   .reason,
+               ContainsSubstring("no header with Tide Correction"));
+}
+
+TEST_CASE("a CG-6 keeps a reading whose standard deviation is too wide for its column",
+          "[gravimeter]") {
+    std::string line = cg6_reading("A", "10:00:00");
+    line.replace(line.find("0.0128"), 6, "****");
+    const auto file = read(cg6_header() + line);
+    REQUIRE(file.readings.size() == 1);
+    CHECK(kept(file.readings[0], "sd_mgal").empty());
+    line.replace(line.find("****"), 4, "0.x1");
+    CHECK_THAT(read(cg6_header() + line + cg6_reading("A", "10:01:00")).refused.front().reason,
+               ContainsSubstring("StdDev = 0.x1: not a number"));
+}
+
 TEST_CASE("damaged and foreign lines are refused with number and reason, and the others are read",
           "[gravimeter]") {
     const auto [content, line, reason] = GENERATE(table<std::string, std::size_t, std::string>({

@@ -1,0 +1,56 @@
+// Files as other people bring them: tests/golden/foreign/README.md.
+#include "tests/support/catch.hpp"
+
+#include "corrector/gravimeter/stays.hpp"
+#include "protocol/core/input_error.hpp"
+
+using namespace a351;
+using namespace a351::corrector::gravimeter;
+
+namespace {
+
+GravimeterFile read(const std::string& file) {
+    return read_gravimeter_file(A351_GOLDEN "/foreign/" + file);
+}
+
+/// Returns the stays of a file as "site occupation readings; ".
+std::string stays_of(const std::string& file) {
+    std::vector<GravimeterFile> files{read(file)};
+    std::string text;
+    for (const Stay& stay : find_stays(files))
+        text += stay.site + " " + std::to_string(stay.occupation) + " " +
+                std::to_string(stay.readings.size()) + "; ";
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("a Burris file of the Android program is read by the names of its columns",
+          "[golden][foreign]") {
+    const GravimeterFile file = read("burris-android-20-columns/burris.csv");
+    CHECK(file.format == "ZLS Burris");
+    CHECK(file.layout == "20 columns, by name");
+    CHECK(file.refused.empty());
+    CHECK(file.readings.front().instrument == "B-77");
+    CHECK(file.readings.front().dial == "2800");
+    CHECK(file.readings.front().tide_correction == MilliGal(-0.011));
+    CHECK(stays_of("burris-android-20-columns/burris.csv") == "K1 1 4; K2 1 4; K3 1 4; K1 2 4; ");
+}
+
+TEST_CASE("a damaged dial is refused and opens no loop", "[golden][foreign]") {
+    std::vector<GravimeterFile> files{read("burris-damaged-dial/burris.txt")};
+    const auto stays = find_stays(files);
+    REQUIRE(files[0].refused.size() == 1);
+    CHECK(files[0].refused[0].line == 4);
+    CHECK_THAT(files[0].refused[0].reason, ContainsSubstring("Dial = abcd: not a number"));
+    REQUIRE(stays.size() == 1);
+    CHECK(stays[0].readings.size() == 7);
+}
+
+TEST_CASE("a CG-5 whose lines begin with LAT and LONG has its stations in the notes",
+          "[golden][foreign]") {
+    const GravimeterFile file = read("cg5-latlong-station-in-note/cg5.txt");
+    CHECK_THAT(file.layout, ContainsSubstring("station from the first word of the line Note:"));
+    CHECK(file.readings.front().position->latitude == Degrees(47.2456627));
+    CHECK(stays_of("cg5-latlong-station-in-note/cg5.txt") == "A 1 3; B 1 3; A 2 3; C 1 3; A 3 3; ");
+}
