@@ -8,34 +8,14 @@
 namespace a351::corrector::gravimeter {
 namespace {
 
-/// Names of the Android program, which are the order of the older forms too: with 16 columns they
-/// end with the longitude, and with 15 the observer is missing.
-const std::vector<std::string_view> kNames{"Station ID",
-                                           "Observer ID",
-                                           "Serial Number",
-                                           "Date",
-                                           "Time",
-                                           "ObsG",
-                                           "Dial",
-                                           "Feedback Correction",
-                                           "Earthtide Correction",
-                                           "Level Correction",
-                                           "Temperature Correction",
-                                           "Beam Error",
-                                           "Height",
-                                           "Elevation",
-                                           "Latitude",
-                                           "Longitude",
-                                           "Elapsed Time",
-                                           "Standard Deviation",
-                                           "Temperature Frequency",
-                                           "Note"};
+/// Columns of the older programs: those of the Android program up to the longitude, and one less
+/// if the observer is missing.
 constexpr std::size_t kWithoutNames = 16;
 
 /// Returns the usual layout of lines with so many columns; without places if there is none.  A note
 /// can have separators in it.
 Layout layout_of_width(std::size_t width) {
-    std::vector<std::string_view> names = kNames;
+    auto names = usual_names(Form::burris);
     if (width >= names.size()) return usual_layout(Form::burris, names);
     names.resize(kWithoutNames);
     if (width == kWithoutNames - 1) names.erase(names.begin() + 1);
@@ -102,7 +82,7 @@ private:
 }  // namespace
 
 Format burris_format() {
-    return {"ZLS Burris",
+    return {"ZLS Burris", "15, 16 or 20 columns",
             [](std::string_view line) {
                 return !trimmed(line).empty() &&
                        (is_names(split(trimmed(line))) ||

@@ -15,11 +15,6 @@ namespace {
 
 constexpr std::string_view kCg5Title = "CG-5 SURVEY";
 
-/// The usual columns, and those of an instrument that names its stations by their coordinates.
-const std::vector<std::string_view> kByStation{
-    "LINE", "STATION", "ALT.", "GRAV.", "SD.",           "TILTX",   "TILTY", "TEMP",
-    "TIDE", "DUR",     "REJ",  "TIME",  "DEC.TIME+DATE", "TERRAIN", "DATE"};
-
 /// Largest distance of a station from the coordinates in the header, by which a line without names
 /// is known to begin with coordinates.  Reason: more than a day's drive, and a line and a station
 /// with such numbers by chance are hardly possible.
@@ -88,13 +83,14 @@ private:
         };
         is_by_note_ = !note_.empty() && cells.size() > 2 && is_near(cells[0], survey_.latitude) &&
                       is_near(cells[1], survey_.longitude);
-        std::vector<std::string_view> names = kByStation;
-        if (is_by_note_) std::tie(names[0], names[1]) = std::pair("LAT", "LONG");
-        layout_ =
-            is_by_note_ ? named_layout(Form::cg5, names, {"site"}) : named_layout(Form::cg5, names);
-        layout_.description =
-            fmt::format("{} columns in the usual order, without a line of names{}", names.size(),
-                        is_by_note_ ? ", LAT and LONG known from the header" : "");
+        auto names = usual_names(Form::cg5);
+        if (!is_by_note_) {
+            layout_ = usual_layout(Form::cg5, names);
+            return;
+        }
+        std::tie(names[0], names[1]) = std::pair("LAT", "LONG");
+        layout_ = usual_layout(Form::cg5, names, {"site"});
+        layout_.description += ", LAT and LONG known from the header";
     }
 
     Line header_line(std::string_view line) {
@@ -178,7 +174,7 @@ private:
 }  // namespace
 
 Format cg5_format() {
-    return {"Scintrex CG-5",
+    return {"Scintrex CG-5", "of the instrument",
             [](std::string_view line) {
                 return line.starts_with('/') && trimmed(line.substr(1)) == kCg5Title;
             },

@@ -68,7 +68,7 @@ private:
 }  // namespace
 
 Format cg6_format() {
-    return {"Scintrex CG-6",
+    return {"Scintrex CG-6", "of the instrument",
             [](std::string_view line) {
                 return line.starts_with('/') && trimmed(line.substr(1)) == kCg6Title;
             },

@@ -211,8 +211,88 @@ Layout named_layout(Form form, const std::vector<std::string_view>& names,
     return layout;
 }
 
-Layout usual_layout(Form form, const std::vector<std::string_view>& names) {
-    Layout layout = named_layout(form, names);
+std::vector<std::string_view> usual_names(Form form) {
+    switch (form) {
+        case cg5:
+            return {"LINE", "STATION", "ALT.", "GRAV.", "SD.",           "TILTX",   "TILTY", "TEMP",
+                    "TIDE", "DUR",     "REJ",  "TIME",  "DEC.TIME+DATE", "TERRAIN", "DATE"};
+        case cg6:
+            return {
+                "Station",     "Date",     "Time",       "CorrGrav",
+                "Line",        "StdDev",   "StdErr",     "RawGrav",
+                "X",           "Y",        "SensorTemp", "TideCorr",
+                "TiltCorr",    "TempCorr", "DriftCorr",  "MeasurDur",
+                "InstrHeight", "LatUser",  "LonUser",    "ElevUser",
+                "LatGPS",      "LonGPS",   "ElevGPS",    "Corrections[drift-temp-na-tide-tilt]"};
+        case burris:
+            return {"Station ID",
+                    "Observer ID",
+                    "Serial Number",
+                    "Date",
+                    "Time",
+                    "ObsG",
+                    "Dial",
+                    "Feedback Correction",
+                    "Earthtide Correction",
+                    "Level Correction",
+                    "Temperature Correction",
+                    "Beam Error",
+                    "Height",
+                    "Elevation",
+                    "Latitude",
+                    "Longitude",
+                    "Elapsed Time",
+                    "Standard Deviation",
+                    "Temperature Frequency",
+                    "Note"};
+        case gcym:
+            return {"meter",   "network",  "YYMMDDhhmm",     "station",
+                    "reading", "pressure", "air temperature"};
+        case cg6_tsoft:
+            break;  // it always has names
+        case cg6_lynx:
+            return {"Year",
+                    "Month",
+                    "DayOfMonth",
+                    "Hour",
+                    "Minute",
+                    "Second",
+                    "MilliSec",
+                    "Survey",
+                    "Station",
+                    "Occupation",
+                    "Line",
+                    "Latitude(DD)",
+                    "Longitude(DD)",
+                    "Elevation(m)",
+                    "CorrGravity(mGals)",
+                    "StdErr(mGals)",
+                    "StdDev(mGals)",
+                    "XLevel(arcsecs)",
+                    "YLevel(arcsec)",
+                    "SensorTemp(dT, mK)",
+                    "LevelCorr(mGals)",
+                    "TidalCorr(mGals)",
+                    "LoadCorr(mGals)",
+                    "TempCorr(mGals)",
+                    "DriftCorr(mGals)",
+                    "GPSLat(DD)",
+                    "GPSLong(DD)",
+                    "GPSFixQuality",
+                    "GPSSatellites",
+                    "GPSHDOP",
+                    "GPSOrthHgt(m)",
+                    "Duration",
+                    "Rejected",
+                    "InstHeight(m)",
+                    "Gradient(mGals/cm)"};
+    }
+    return {};
+}
+
+Layout usual_layout(Form form, const std::vector<std::string_view>& names,
+                    const std::vector<std::string_view>& absent) {
+    Layout layout = named_layout(form, names, absent);
     layout.description =
         fmt::format("{} columns in the usual order, without a line of names", names.size());
     return layout;

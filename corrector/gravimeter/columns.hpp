@@ -59,7 +59,11 @@ struct Layout {
 [[nodiscard]] Layout named_layout(Form form, const std::vector<std::string_view>& names,
                                   const std::vector<std::string_view>& absent = {});
 
-/// Returns the layout of a file without names, from the names in the maker's usual order.
-[[nodiscard]] Layout usual_layout(Form form, const std::vector<std::string_view>& names);
+/// Returns the names of a form in its usual order.
+[[nodiscard]] std::vector<std::string_view> usual_names(Form form);
+
+/// Returns the layout of a file without names, which has these in its usual order.
+[[nodiscard]] Layout usual_layout(Form form, const std::vector<std::string_view>& names,
+                                  const std::vector<std::string_view>& absent = {});
 
 }  // namespace a351::corrector::gravimeter

@@ -1,7 +1,8 @@
 #include "corrector/gravimeter/gravimeter_file.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 
 #include "corrector/gravimeter/line_readers.hpp"
 #include "protocol/core/input_error.hpp"
@@ -19,14 +20,26 @@ std::string_view next_line(std::string_view& text) {
     return line;
 }
 
-std::optional<Format> format_of(std::string_view text) {
-    const std::array formats{cg5_format(), cg6_format(), burris_format()};
+const std::vector<Format>& formats() {
+    static const std::vector<Format> list{cg5_format(), cg6_format(), burris_format()};
+    return list;
+}
+
+/// Returns the format of a file.
+/// @throws InputError  there is none; it names a form that is known and not read.
+const Format& format_of(std::string_view text, const std::filesystem::path& path) {
+    std::string unread;
     while (!text.empty()) {
         const std::string_view line = next_line(text);
-        for (const Format& format : formats)
+        for (const Format& format : formats())
             if (format.begins_with(line)) return format;
+        if (unread.empty()) unread = unread_form(line);
     }
-    return std::nullopt;
+    std::string names;
+    for (const Format& format : formats())
+        names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", format.name, format.forms);
+    throw InputError(fmt::format("{}: {}; allowed: {}", path.string(),
+                                 unread.empty() ? "not a file of a gravimeter" : unread, names));
 }
 
 }  // namespace
@@ -34,15 +47,11 @@ std::optional<Format> format_of(std::string_view text) {
 GravimeterFile read_gravimeter_file(const std::filesystem::path& path) {
     const std::string content = text::read_text_file(path);
     std::string_view text = content;
-    const auto format = format_of(text);
-    if (!format)
-        throw InputError(path.string() +
-                         ": not a file of a gravimeter; allowed: Scintrex CG-5, Scintrex CG-6, ZLS "
-                         "Burris");
+    const Format& format = format_of(text, path);
     GravimeterFile file;
     file.path = path;
-    file.format = format->name;
-    const auto reader = format->make_reader();
+    file.format = format.name;
+    const auto reader = format.make_reader();
     for (std::size_t number = 1; !text.empty(); ++number) {
         const bool is_cut = text.find('\n') == std::string_view::npos;
         Line line = reader->read(next_line(text));
@@ -57,9 +66,13 @@ GravimeterFile read_gravimeter_file(const std::filesystem::path& path) {
         }
     }
     file.layout = reader->layout();
+    if (file.readings.empty() && file.refused.empty())
+        throw InputError(fmt::format("{}: no reading of a {}; allowed: at least one", path.string(),
+                                     file.format));
     if (file.readings.empty())
-        throw InputError(path.string() + ": no reading of a " + file.format +
-                         "; allowed: at least one");
+        throw InputError(fmt::format("{}:{}: {}; no reading of a {} is left, {} lines are refused",
+                                     path.string(), file.refused[0].line, file.refused[0].reason,
+                                     file.format, file.refused.size()));
     return file;
 }
 

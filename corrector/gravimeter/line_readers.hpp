@@ -38,9 +38,13 @@ public:
 /// A format: its name, the line by which it is known, and its reader.
 struct Format {
     std::string_view name;
+    std::string_view forms;  ///< Forms of its files that are read, for people.
     bool (*begins_with)(std::string_view line);
     std::unique_ptr<LineReader> (*make_reader)();
 };
+
+/// Returns which known form, not read, a line belongs to, and the remedy; empty if none.
+[[nodiscard]] std::string unread_form(std::string_view line);
 
 /// Scintrex CG-5: headers that begin with `/`, then readings between blanks.
 [[nodiscard]] Format cg5_format();

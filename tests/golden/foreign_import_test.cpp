@@ -54,3 +54,11 @@ TEST_CASE("a CG-5 whose lines begin with LAT and LONG has its stations in the no
     CHECK(file.readings.front().position->latitude == Degrees(47.2456627));
     CHECK(stays_of("cg5-latlong-station-in-note/cg5.txt") == "A 1 3; B 1 3; A 2 3; C 1 3; A 3 3; ");
 }
+
+TEST_CASE("a file whose readings are all refused is refused with the first of them",
+          "[golden][foreign]") {
+    CHECK_THROWS_WITH(
+        read("cg6-us-date/cg6.dat"),
+        ContainsSubstring("cg6.dat:13: Date Time = 06/12/2024 20:00:30: not an instant") &&
+            ContainsSubstring("9 lines are refused"));
+}

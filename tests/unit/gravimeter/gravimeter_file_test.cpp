@@ -204,6 +204,21 @@ TEST_CASE("a file of no known format, or without a reading, is refused in one li
         {"site,gravity\nA,979800\n", "not a file of a gravimeter"},
         {cg5_header("0.0"), "no reading of a Scintrex CG-5"},
         {cg6_header(), "no reading of a Scintrex CG-6"},
+        {"a",
+         "allowed: Scintrex CG-5 (of the instrument), Scintrex CG-6 (of the instrument), ZLS "
+         "Burris (15, 16 or 20 columns)"},
+        {cg5_reading("1", "10:00:00"), "readings of a Scintrex CG-5 without its header"},
+        {"A\t2023-05-04\t09:11:22\t2000.85\t0\t0.01\t0.00\t1983.47\t-5.6\t-0.8\t0.43\t-0.06\t0.00\t"
+         "0.05\t17.38\t60\t0.31\t1.3\t103.6\t100.0\t1.4\t103.8\t25.9\t11011\n",
+         "readings of a Scintrex CG-6 without its header"},
+        {"| SCINTREX V5.2 AUTOGRAV / Field Mode R5.21\n", "a file of a Scintrex CG-3"},
+        {"[TSF-file] v01.0\n", "a series for Tsoft"},
+        {"BM,LAT,LONG,ALT.,GRAV.,SD.,TILTX,TILTY,TEMP,TIDE,DUR,REJ,TIME,DEC.TIME+DATE,TERRAIN,"
+         "DATE\n",
+         "a table for GSadjust"},
+        {" 1 2639.321 0.009 60 1 0.1 1.8 -2.32 0.040 258 339.000 150913 053922 0 0.0 -0.006 0\n",
+         "readings prepared by pyGrav"},
+        {"Micro-g LaCoste g Processing Report\n", "a report of an absolute gravimeter"},
     }));
     try {
         (void)read(content);
