@@ -7,21 +7,33 @@
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
 #include "corrector/gravimeter/survey_tables.hpp"
+#include "protocol/core/input_error.hpp"
+#include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector::command {
 namespace {
 
 struct ImportOptions {
     std::vector<std::string> files;
-    std::string out, average = "median", tide = "keep";
+    std::string out, average = "median", tide = "keep", zone;
     std::size_t last = gravimeter::AverageOptions().last;
 };
+
+/// Returns local time minus UTC from +hh:mm, -hh:mm or Z; absent if there is no text.
+std::optional<std::chrono::minutes> zone_of(const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    const std::string noon = "2000-01-01T12:00:00";
+    const auto there = parse_rfc3339(noon + text), here = parse_rfc3339(noon + "Z");
+    if (!there)
+        throw InputError(fmt::format("--zone = {}: not a zone; allowed: +hh:mm, -hh:mm, Z", text));
+    return std::chrono::duration_cast<std::chrono::minutes>(*here - *there);
+}
 
 void import_files(const ImportOptions& options) {
     require_folder_option("--out", options.out);
     std::vector<gravimeter::GravimeterFile> files;
     for (const std::string& file : options.files)
-        files.push_back(gravimeter::read_gravimeter_file(file));
+        files.push_back(gravimeter::read_gravimeter_file(file, {zone_of(options.zone)}));
     const std::vector<gravimeter::Stay> stays = gravimeter::find_stays(files);
     text::write_together(
         options.out,
@@ -53,7 +65,7 @@ void add_import_command(CLI::App& program) {
         "import", "Reads files of gravimeters and writes the tables for the command table.");
     const auto options = std::make_shared<ImportOptions>();
     add_required(command, "FILE", "", options->files,
-                 "Files of Scintrex CG-5, Scintrex CG-6 or ZLS Burris");
+                 "Files of Scintrex CG-5, Scintrex CG-6 or ZLS Burris, or GCYM tables");
     add_required(command, "--out", "DIR", options->out,
                  "Folder for observations.csv, sites.csv and readings.csv");
     add_with_default(command, "--last", "N", options->last,
@@ -66,6 +78,8 @@ void add_import_command(CLI::App& program) {
                      "keep: earth_tide_mgal has the tide that the instrument removed; remove: "
                      "without this column, so that the command table computes the tide")
         ->check(CLI::IsMember({"keep", "remove"}));
+    add_with_default(command, "--zone", "ZONE", options->zone,
+                     "Zone of the times in files that do not say it: +hh:mm, -hh:mm or Z");
     command.callback([options] { import_files(*options); });
 }
 

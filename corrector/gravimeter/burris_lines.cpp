@@ -88,7 +88,9 @@ Format burris_format() {
                        (is_names(split(trimmed(line))) ||
                         std::holds_alternative<Reading>(BurrisLines().read(line)));
             },
-            []() -> std::unique_ptr<LineReader> { return std::make_unique<BurrisLines>(); }};
+            [](const ReadOptions&) -> std::unique_ptr<LineReader> {
+                return std::make_unique<BurrisLines>();
+            }};
 }
 
 }  // namespace a351::corrector::gravimeter

@@ -178,7 +178,9 @@ Format cg5_format() {
             [](std::string_view line) {
                 return line.starts_with('/') && trimmed(line.substr(1)) == kCg5Title;
             },
-            []() -> std::unique_ptr<LineReader> { return std::make_unique<Cg5Lines>(); }};
+            [](const ReadOptions&) -> std::unique_ptr<LineReader> {
+                return std::make_unique<Cg5Lines>();
+            }};
 }
 
 }  // namespace a351::corrector::gravimeter

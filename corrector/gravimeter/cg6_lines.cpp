@@ -72,7 +72,9 @@ Format cg6_format() {
             [](std::string_view line) {
                 return line.starts_with('/') && trimmed(line.substr(1)) == kCg6Title;
             },
-            []() -> std::unique_ptr<LineReader> { return std::make_unique<Cg6Lines>(); }};
+            [](const ReadOptions&) -> std::unique_ptr<LineReader> {
+                return std::make_unique<Cg6Lines>();
+            }};
 }
 
 }  // namespace a351::corrector::gravimeter

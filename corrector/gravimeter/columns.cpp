@@ -104,7 +104,6 @@ std::vector<Column> table() {
                {{cg6, "LonGPS"}, {cg6_tsoft, "GPSLong(DD)"}, {cg6_lynx, "GPSLong(DD)"}}),
         number("receiver_altitude_m", -500, 9000,
                {{cg6, "ElevGPS"}, {cg6_tsoft, "GPSOrthHgt(m)"}, {cg6_lynx, "GPSOrthHgt(m)"}}),
-        number("pressure_hpa", 300, 1100, {{gcym, "pressure"}}),
 
         kept("sd_mgal", {{cg5, "SD."},
                          {cg6, "StdDev"},
@@ -143,6 +142,7 @@ std::vector<Column> table() {
         kept("beam_error", {{burris, "Beam Error"}}),
         kept("elapsed_time", {{burris, "Elapsed Time"}}),
         kept("temperature_frequency", {{burris, "Temperature Frequency"}}),
+        kept("pressure_hpa", {{gcym, "pressure"}}),
         kept("air_temperature_degc", {{gcym, "air temperature"}}),
         kept_text("note", {{burris, "Note"}}),
 

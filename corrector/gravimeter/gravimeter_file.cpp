@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "corrector/gravimeter/fields.hpp"
 #include "corrector/gravimeter/line_readers.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/text_file.hpp"
@@ -21,7 +22,8 @@ std::string_view next_line(std::string_view& text) {
 }
 
 const std::vector<Format>& formats() {
-    static const std::vector<Format> list{cg5_format(), cg6_format(), burris_format()};
+    static const std::vector<Format> list{cg5_format(), cg6_format(), cg6_export_format(),
+                                          burris_format(), gcym_format()};
     return list;
 }
 
@@ -44,16 +46,22 @@ const Format& format_of(std::string_view text, const std::filesystem::path& path
 
 }  // namespace
 
-GravimeterFile read_gravimeter_file(const std::filesystem::path& path) {
+GravimeterFile read_gravimeter_file(const std::filesystem::path& path, const ReadOptions& options) {
     const std::string content = text::read_text_file(path);
     std::string_view text = content;
     const Format& format = format_of(text, path);
     GravimeterFile file;
     file.path = path;
     file.format = format.name;
-    const auto reader = format.make_reader();
+    const auto reader = format.make_reader(options);
+    if (!reader)
+        throw InputError(fmt::format(
+            "{}: a {} does not say the zone of its times; allowed: --zone +hh:mm, for example "
+            "--zone +08:00 for Beijing time",
+            path.string(), format.name));
     for (std::size_t number = 1; !text.empty(); ++number) {
-        const bool is_cut = text.find('\n') == std::string_view::npos;
+        // 99999 is the end of a GCYM table, so that nothing of it can be missing.
+        const bool is_cut = text.find('\n') == std::string_view::npos && trimmed(text) != "99999";
         Line line = reader->read(next_line(text));
         if (is_cut) line = Refusal{"the last line has no end, the file may be cut off"};
         if (auto* const refusal = std::get_if<Refusal>(&line)) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A file of a spring gravimeter: Scintrex CG-5, Scintrex CG-6 or ZLS Burris.
+/// A file of a spring gravimeter: Scintrex CG-5, Scintrex CG-6, ZLS Burris, or a table of readings.
 ///
 ///     const GravimeterFile file = read_gravimeter_file("survey.txt");
 ///     for (const Reading& reading : file.readings) use(reading.time, reading.value);
@@ -11,6 +11,7 @@
 /// Sign: an instrument adds its tide correction to the reading.  The effect of the tide on gravity is
 /// the negative of this correction.
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -42,6 +43,7 @@ struct Reading {
     /// Tide correction that `value` contains; absent if the instrument applied none.
     std::optional<MilliGal> tide_correction;
     std::string dial;                  ///< Setting of the dial; empty if there is none.
+    int loop = 0;                      ///< Number of its loop, if the file marks their ends.
     std::optional<Metres> height;      ///< Height of the instrument above the mark.
     std::optional<Position> position;  ///< Absent: unknown.
     /// Further columns: name with its unit, and the text of the file.
@@ -64,8 +66,14 @@ struct GravimeterFile {
     std::vector<RefusedLine> refused;  ///< In the order of the file.
 };
 
+/// Facts that a file does not have itself.
+struct ReadOptions {
+    std::optional<std::chrono::minutes> zone;  ///< Local time minus UTC.
+};
+
 /// Reads a file.  A last line without a line end is refused, because the file may be cut off there.
-/// @throws InputError  the file cannot be read, has no known format or no reading.
-[[nodiscard]] GravimeterFile read_gravimeter_file(const std::filesystem::path& path);
+/// @throws InputError  the file cannot be read, has no known format or no reading, or needs an option.
+[[nodiscard]] GravimeterFile read_gravimeter_file(const std::filesystem::path& path,
+                                                  const ReadOptions& options = {});
 
 }  // namespace a351::corrector::gravimeter

@@ -40,7 +40,8 @@ struct Format {
     std::string_view name;
     std::string_view forms;  ///< Forms of its files that are read, for people.
     bool (*begins_with)(std::string_view line);
-    std::unique_ptr<LineReader> (*make_reader)();
+    /// Returns null if the files of this format do not say what an option has to say.
+    std::unique_ptr<LineReader> (*make_reader)(const ReadOptions& options);
 };
 
 /// Returns which known form, not read, a line belongs to, and the remedy; empty if none.
@@ -51,6 +52,11 @@ struct Format {
 /// Scintrex CG-6: headers that begin with `/`, the last with the names of the columns, then readings
 /// between tabs.
 [[nodiscard]] Format cg6_format();
+/// The files of Lynx LG, the program of the CG-6: headers that begin with `/`, then readings between
+/// blanks.
+[[nodiscard]] Format cg6_export_format();
+/// Tables of readings in a zone that the file does not say.
+[[nodiscard]] Format gcym_format();
 /// ZLS Burris: readings between tabs, commas or blanks, with or without a line of names.
 [[nodiscard]] Format burris_format();
 

@@ -25,9 +25,13 @@ void refuse_repeats(std::vector<GravimeterFile>& files) {
     }
 }
 
+bool begins_loop(const Reading& last, const Reading& next) {
+    return last.dial != next.dial || last.loop != next.loop;
+}
+
 bool continues(const Stay& stay, const Reading& next) {
     const Reading& last = *stay.readings.back();
-    return last.site == next.site && last.dial == next.dial &&
+    return last.site == next.site && !begins_loop(last, next) &&
            next.time - last.time <= kLongestPause;
 }
 
@@ -59,7 +63,7 @@ std::vector<Stay> find_stays(std::vector<GravimeterFile>& files) {
         int loop = 1;
         const Reading* last = nullptr;
         for (const Reading* const reading : readings) {
-            if (last != nullptr && last->dial != reading->dial) ++loop;
+            if (last != nullptr && begins_loop(*last, *reading)) ++loop;
             if (last == nullptr || !continues(stays.back(), *reading))
                 stays.push_back({instrument, reading->site, 1, loop, {}});
             stays.back().readings.push_back(reading);

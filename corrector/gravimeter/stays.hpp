@@ -8,7 +8,7 @@
 ///
 /// A stay is a run of readings of one instrument at one station, at one setting of the dial and
 /// without a pause of more than kLongestPause.  Setting the dial begins another loop, because the
-/// constant of the instrument changes.
+/// constant of the instrument changes, and so does the end of a loop in a file that marks it.
 
 #include <chrono>
 #include <optional>

@@ -1,6 +1,4 @@
 // A real campaign of two gravimeters beside the solution published with it: tests/golden/igp/README.md.
-#include <fmt/core.h>
-
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -9,6 +7,7 @@
 #include <sstream>
 #include "tests/support/catch.hpp"
 
+#include "corrector/gravimeter/gravimeter_file.hpp"
 #include "corrector/judgement/survey_findings.hpp"
 #include "corrector/tide/tide_choice.hpp"
 #include "protocol/text/doubtful_site.hpp"
@@ -56,20 +55,16 @@ std::vector<reading::SurveyRow> rows(const std::vector<std::string>& held) {
     std::vector<reading::SurveyRow> list;
     for (const auto& [file, scale] : std::map<std::string, double>{{"QSCW201508p.098", 1.00009},
                                                                    {"QSCW201508p.099", 1.000637}}) {
-        int loop = 1;
-        for (const auto& words : words_of(file)) {
-            if (!words.empty() && words[0] == "55555") ++loop;
-            if (words.size() < 7 || words[1] != "GCYM") continue;
+        const auto readings =
+            gravimeter::read_gravimeter_file(A351_GOLDEN "/igp/" + file, {std::chrono::hours(8)})
+                .readings;
+        for (const gravimeter::Reading& reading : readings) {
             reading::SurveyRow row;
-            const std::string& t = words[2];
-            row.time = parse_rfc3339(fmt::format("20{}-{}-{}T{}:{}:00+08:00", t.substr(0, 2),
-                                                 t.substr(2, 2), t.substr(4, 2), t.substr(6, 2),
-                                                 t.substr(8, 2)))
-                           .value();
-            row.instrument = words[0];
-            row.loop = loop;
-            row.site = words[3];
-            row.acceleration = MilliGal(scale * std::stod(words[4]));
+            row.time = reading.time;
+            row.instrument = reading.instrument;
+            row.loop = reading.loop;
+            row.site = reading.site;
+            row.acceleration = MilliGal(scale * reading.value.value());
             row.has_temperature = false;
             if (std::ranges::find(held, row.site) != held.end()) {
                 row.reference = MilliGal(kConstant_mgal + kAbsolute.at(row.site));

@@ -1,4 +1,6 @@
 #include "corrector/gravimeter/gravimeter_file.hpp"
+#include "corrector/gravimeter/columns.hpp"
+#include "corrector/gravimeter/stays.hpp"
 
 #include "tests/support/catch.hpp"
 
@@ -171,6 +173,100 @@ TEST_CASE("a CG-6 keeps a reading whose standard deviation is too wide for its c
                ContainsSubstring("StdDev = 0.x1: not a number"));
 }
 
+TEST_CASE("a file of Lynx LG has its stations in the lines, and an empty occupation or line",
+          "[gravimeter]") {
+    const std::string header =
+        "/ CG-6 Gravity Survey\n/ Software Version: 2.1\n/ Meter: 042\n/ Tidal Correction: "
+        "Enabled\n";
+    const auto reading = [](const std::string& stay, const std::string& minute) {
+        return "2024  6 12  9 " + minute + "  5   0 north P1 " + stay +
+               " 47.2456627 10.7404137 812.4 2801.5012 0.0013 0.0102 -1.1 0.5 1.4 0.0004 -0.0312 "
+               "0.0002 0.1800 -2.3870 47.2456 10.7404  1 12 0.87 861.5  60  3 0.213 0.0\n";
+    };
+    const auto [stay, stay_number, line_name, note] =
+        GENERATE(table<std::string, std::string, std::string, std::string>({
+            {"2 7", "2", "7", ""},
+            {" 7", "", "7", ""},
+            {"2 ", "2", "", ""},
+            {" ", "", "", "/ Notes: wind\n"},
+        }));
+    const auto file = read(header + note + reading(stay, "10") + reading(stay, "11"));
+    CHECK(file.format == "Scintrex CG-6");
+    CHECK(file.layout ==
+          std::string("Lynx LG, 35 columns in the usual order, without a line of names") +
+              (note.empty() ? "" : ", with notes"));
+    REQUIRE(file.readings.size() == 2);
+    const Reading& first = file.readings[0];
+    CHECK(first.instrument == "CG-6 042");
+    CHECK(first.site == "P1");
+    CHECK(to_rfc3339(first.time, 3) == "2024-06-12T09:10:05.000Z");
+    CHECK(first.value == MilliGal(2801.5012));
+    CHECK(first.tide_correction == MilliGal(-0.0312));
+    CHECK(first.height == Metres(0.213));
+    CHECK(kept(first, "sd_mgal") == "0.0102");
+    CHECK(kept(first, "stay_number") == stay_number);
+    CHECK(kept(first, "line_name") == line_name);
+    CHECK(kept(first, "note") == (note.empty() ? "not kept" : "wind"));
+
+    std::string names = "/ Column Headers:\n";
+    for (const auto name : usual_names(Form::cg6_lynx)) names += "/ " + std::string(name) + "\n";
+    CHECK(read(header + names + "/ \n" + reading(stay, "10"))
+              .layout.starts_with("Lynx LG, 35 columns, by name"));
+    names.replace(names.find("StdErr(mGals)"), 13, "Err");
+    CHECK(read(header + names + "/ \n" + reading(stay, "10"))
+              .layout.starts_with("Lynx LG, 35 columns, by their order"));
+    names.replace(names.find("/ Err\n/ StdDev(mGals)"), 21, "/ StdDev(mGals)\n/ Err");
+    CHECK_THROWS_WITH(read(header + names + "/ \n" + reading(stay, "10")),
+                      ContainsSubstring("unknown columns: Err"));
+}
+
+TEST_CASE("a CG-6 export for Tsoft has its station in the header, and is read by name",
+          "[gravimeter]") {
+    const std::string header =
+        "/ CG-6 Gravity Survey\n/ Software Version: 1.2\n/ Meter: 007\n/ Tidal Correction: "
+        "Disabled\n/ Station: s 1\n/ Occupation: 4\n/ \n/ Column Headers:\n/ Year\n/ Month\n"
+        "/ DayOfMonth\n/ Hour\n/ Minute\n/ Second\n/ MilliSec\n/ CorrGravity(mGals)\n"
+        "/ TidalCorr(mGals)\n/ InstHeight(cm)\n/ \n";
+    const auto file = read(header + "2017  7 24  0  9 36 250 1578.474 -0.0374 21.5\n" +
+                           "/ Software Version: 1.2\n/ Station: s2\n" +
+                           "2017  2 30  0 19 36 250 1578.474 -0.0374 21.5\n" +
+                           "2017  7 24  0 19 36 250 1578.474 -0.0374 21.5\n");
+    CHECK(file.layout == "export for Tsoft, 10 columns, by name");
+    REQUIRE(file.readings.size() == 2);
+    CHECK(file.readings[0].instrument == "CG-6 007");
+    CHECK(file.readings[0].site == "s 1");
+    CHECK(file.readings[1].site == "s2");
+    CHECK(to_rfc3339(file.readings[0].time, 3) == "2017-07-24T00:09:36.250Z");
+    CHECK_FALSE(file.readings[0].tide_correction.has_value());
+    CHECK(file.readings[0].height->value() == Approx(0.215));
+    CHECK(kept(file.readings[0], "stay_number") == "4");
+    REQUIRE(file.refused.size() == 1);
+    CHECK_THAT(file.refused[0].reason, ContainsSubstring("Year to MilliSec: not an instant"));
+}
+
+TEST_CASE("a GCYM table is read in the zone that is given, and marks its loops", "[gravimeter]") {
+    const test::TemporaryDirectory folder;
+    const auto path =
+        folder.write("q",
+                     "   ai   CAR\n  C098 GCYM 1508211134 13064422 4424.250 1000.0 29.0\n44444\n"
+                     "  C098 GCYM 1508211246 13064524 4434.741 1000.0 30.0\n55555\n"
+                     "  C098 GCYM 1508211346 13064524 4434.741 1000.0 30.0\n"
+                     "  C098 GCYM 1513211346 13064524 4434.741 1000.0 30.0\n99999");
+    CHECK_THROWS_WITH(read_gravimeter_file(path), ContainsSubstring("allowed: --zone +hh:mm"));
+    std::vector<GravimeterFile> files{read_gravimeter_file(path, {std::chrono::hours(8)})};
+    CHECK_THAT(files[0].layout, ContainsSubstring("times in the zone +08:00"));
+    REQUIRE(files[0].readings.size() == 3);
+    CHECK(to_rfc3339(files[0].readings[0].time) == "2015-08-21T03:34:00Z");
+    CHECK_FALSE(files[0].readings[0].tide_correction.has_value());
+    CHECK(kept(files[0].readings[0], "pressure_hpa") == "1000.0");
+    REQUIRE(files[0].refused.size() == 1);
+    CHECK_THAT(files[0].refused[0].reason, ContainsSubstring("YYMMDDhhmm = 1513211346"));
+    const auto stays = find_stays(files);
+    REQUIRE(stays.size() == 3);  // the loop ends a stay too
+    CHECK(stays[1].loop == 1);
+    CHECK(stays[2].loop == 2);
+}
+
 TEST_CASE("damaged and foreign lines are refused with number and reason, and the others are read",
           "[gravimeter]") {
     const auto [content, line, reason] = GENERATE(table<std::string, std::size_t, std::string>({
@@ -205,8 +301,9 @@ TEST_CASE("a file of no known format, or without a reading, is refused in one li
         {cg5_header("0.0"), "no reading of a Scintrex CG-5"},
         {cg6_header(), "no reading of a Scintrex CG-6"},
         {"a",
-         "allowed: Scintrex CG-5 (of the instrument), Scintrex CG-6 (of the instrument), ZLS "
-         "Burris (15, 16 or 20 columns)"},
+         "allowed: Scintrex CG-5 (of the instrument), Scintrex CG-6 (of the instrument), Scintrex "
+         "CG-6 (of Lynx LG, with or without notes, or its export for Tsoft), ZLS Burris (15, 16 or "
+         "20 columns), GCYM table"},
         {cg5_reading("1", "10:00:00"), "readings of a Scintrex CG-5 without its header"},
         {"A\t2023-05-04\t09:11:22\t2000.85\t0\t0.01\t0.00\t1983.47\t-5.6\t-0.8\t0.43\t-0.06\t0.00\t"
          "0.05\t17.38\t60\t0.31\t1.3\t103.6\t100.0\t1.4\t103.8\t25.9\t11011\n",
