@@ -6,7 +6,9 @@
 
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
+#include "corrector/gravimeter/contradictions.hpp"
 #include "corrector/gravimeter/survey_tables.hpp"
+#include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/utc_time.hpp"
 
@@ -29,12 +31,18 @@ std::optional<std::chrono::minutes> zone_of(const std::string& text) {
     return std::chrono::duration_cast<std::chrono::minutes>(*here - *there);
 }
 
+MilliGal computed_tide(UtcTime time, const gravimeter::Position& at) {
+    return tide::direct_tide(time, {at.latitude, at.longitude, at.altitude});
+}
+
 void import_files(const ImportOptions& options) {
     require_folder_option("--out", options.out);
     std::vector<gravimeter::GravimeterFile> files;
     for (const std::string& file : options.files)
         files.push_back(gravimeter::read_gravimeter_file(file, {zone_of(options.zone)}));
     const std::vector<gravimeter::Stay> stays = gravimeter::find_stays(files);
+    for (const gravimeter::GravimeterFile& file : files)
+        print_warnings(gravimeter::contradictions(file, computed_tide), file.path.string() + ": ");
     text::write_together(
         options.out,
         gravimeter::survey_tables(

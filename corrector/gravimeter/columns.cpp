@@ -14,9 +14,11 @@ using enum Form;
 /// Limits, in the unit of the field.  Reason: the range of a gravimeter for the whole Earth is
 /// 8000 mGal, and no solid-Earth tide exceeds 0.3 mGal; a mark is within 10 m of the instrument.
 constexpr double kReading_mgal = 20e3, kTide_mgal = 1.0, kHeight_m = 10.0;
+/// Limit of a dial, without unit: real ones are below 10 000, and synthetic files have 50 000.
+constexpr double kDial = 99999.0;
 /// Limit of numbers that are only kept.  Reason: none of the real files exceeds it, and a cell that
 /// ran into the next one does.
-constexpr double kKept = 1e7;
+constexpr double kKept = 9999999.0;
 
 Column number(std::string_view field, double low, double high, std::vector<ColumnName> names,
               bool is_required = false) {
@@ -74,7 +76,7 @@ std::vector<Column> table() {
                 {burris, "Earthtide Correction"}},
                true),
         required("applied", CellType::flags, {{cg6, "Corrections[drift-temp-na-tide-tilt]"}}),
-        number("dial", -kKept, kKept, {{burris, "Dial"}}, true),
+        number("dial", 0, kDial, {{burris, "Dial"}}, true),
         number("instrument_height_m", -kHeight_m, kHeight_m,
                {{cg6, "InstrHeight"},
                 {cg6_tsoft, "InstHeight(cm)", 0.01},

@@ -31,7 +31,9 @@ bool begins_loop(const Reading& last, const Reading& next) {
 
 bool continues(const Stay& stay, const Reading& next) {
     const Reading& last = *stay.readings.back();
+    // An average cannot be of readings with and without the tide.
     return last.site == next.site && !begins_loop(last, next) &&
+           last.tide_correction.has_value() == next.tide_correction.has_value() &&
            next.time - last.time <= kLongestPause;
 }
 

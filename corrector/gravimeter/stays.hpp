@@ -6,7 +6,8 @@
 ///     const std::vector<Stay> stays = find_stays(files);
 ///     const StayAverage average = average_of(stays.front(), {});
 ///
-/// A stay is a run of readings of one instrument at one station, at one setting of the dial and
+/// A stay is a run of readings of one instrument at one station, at one setting of the dial, with or
+/// without the tide correction, and
 /// without a pause of more than kLongestPause.  Setting the dial begins another loop, because the
 /// constant of the instrument changes, and so does the end of a loop in a file that marks it.
 

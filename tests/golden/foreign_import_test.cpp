@@ -1,7 +1,9 @@
 // Files as other people bring them: tests/golden/foreign/README.md.
 #include "tests/support/catch.hpp"
 
+#include "corrector/gravimeter/contradictions.hpp"
 #include "corrector/gravimeter/stays.hpp"
+#include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/input_error.hpp"
 
 using namespace a351;
@@ -21,6 +23,12 @@ std::string stays_of(const std::string& file) {
         text += stay.site + " " + std::to_string(stay.occupation) + " " +
                 std::to_string(stay.readings.size()) + "; ";
     return text;
+}
+
+std::vector<std::string> remarks(const GravimeterFile& file) {
+    return text::in_english(contradictions(file, [](UtcTime time, const Position& at) {
+        return corrector::tide::direct_tide(time, {at.latitude, at.longitude, at.altitude});
+    }));
 }
 
 }  // namespace
@@ -61,4 +69,25 @@ TEST_CASE("a file whose readings are all refused is refused with the first of th
         read("cg6-us-date/cg6.dat"),
         ContainsSubstring("cg6.dat:13: Date Time = 06/12/2024 20:00:30: not an instant") &&
             ContainsSubstring("9 lines are refused"));
+}
+
+TEST_CASE("a wrong GMT DIFF. is seen from the tide in the file, with the hours that are missing",
+          "[golden][foreign]") {
+    CHECK(remarks(read("cg5-wrong-gmt-diff/right.txt")).empty());
+    const auto found = remarks(read("cg5-wrong-gmt-diff/wrong.txt"));
+    REQUIRE(found.size() == 1);
+    CHECK_THAT(found[0],
+               ContainsSubstring("the tide in the file is that of another time or place") &&
+                   ContainsSubstring("by up to 0.25") &&
+                   ContainsSubstring("it fits if -18.0 h are added to the times") &&
+                   ContainsSubstring("GMT DIFF., LONG and LAT"));
+}
+
+TEST_CASE("the files of real instruments contradict themselves nowhere", "[golden][foreign]") {
+    for (const std::string file : {"B44_2017-12-05.txt", "B44_2018-02-27.txt",
+                                   "B108_2017-12-05.txt", "cg5_excerpt.txt", "CG-6_TestData.dat"}) {
+        INFO(file);
+        const auto found = remarks(read_gravimeter_file(A351_GOLDEN "/usgs/" + file));
+        CHECK(found == std::vector<std::string>());
+    }
 }

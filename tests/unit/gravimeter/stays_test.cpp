@@ -45,6 +45,12 @@ TEST_CASE(
     CHECK(text == "a1 loop 1 n 2; b1 loop 1 n 1; b2 loop 1 n 1; b3 loop 2 n 1; a2 loop 2 n 1; ");
 }
 
+TEST_CASE("a stay ends where the tide correction is switched", "[gravimeter]") {
+    auto files = read_files(
+        {cg6_header() + cg6_reading("A", "10:00:00") + cg6_reading("A", "10:01:00", "11001")});
+    CHECK(find_stays(files).size() == 2);
+}
+
 TEST_CASE("several instruments have stays of their own, numbered together at each site",
           "[gravimeter]") {
     auto files = read_files({burris_reading("a", "10:00:00") + burris_reading("b", "10:20:00"),

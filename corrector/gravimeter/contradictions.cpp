@@ -1,0 +1,183 @@
+#include "corrector/gravimeter/contradictions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "protocol/core/normal_gravity.hpp"
+#include "protocol/text/sites.hpp"
+
+namespace a351::corrector::gravimeter {
+namespace {
+
+using Readings = std::vector<const Reading*>;
+
+/// Returns the tide of the file minus the computed one.
+double tide_difference_mgal(const Reading& reading, const TideOf& tide_of,
+                            std::chrono::minutes shift = {}, double latitude_sign = 1.0,
+                            double longitude_sign = 1.0) {
+    Position at = *reading.position;
+    at.latitude = Degrees(latitude_sign * at.latitude.value());
+    at.longitude = Degrees(longitude_sign * at.longitude.value());
+    return (-*reading.tide_correction - tide_of(reading.time + shift, at)).value();
+}
+
+/// Returns what would make the tides agree; empty if nothing that is tried does, or too much.
+text::Message tide_hint(const Readings& readings, const TideOf& tide_of) {
+    // A hundred readings are enough for a curve of half days.
+    constexpr std::size_t kMost = 100;
+    const std::size_t step = readings.size() / kMost + 1;
+    const auto fits = [&](std::chrono::minutes shift, double latitude_sign, double longitude_sign) {
+        for (std::size_t i = 0; i < readings.size(); i += step)
+            if (std::abs(tide_difference_mgal(*readings[i], tide_of, shift, latitude_sign,
+                                              longitude_sign)) > kGreatestTideDifference_mgal)
+                return false;
+        return true;
+    };
+    constexpr std::chrono::minutes kStep{30}, kDay{24 * 60};
+    std::vector<std::chrono::minutes> shifts;
+    for (auto shift = -kDay; shift <= kDay; shift += kStep)
+        if (fits(shift, 1.0, 1.0)) shifts.push_back(shift);
+    if (shifts.size() == 1)
+        return text::message("; it fits if {:+.1f} h are added to the times",
+                             static_cast<double>(shifts[0].count()) / 60.0);
+    if (!shifts.empty()) return {};
+    if (fits({}, 1.0, -1.0)) return text::message("; it fits the other sign of the longitude");
+    if (fits({}, -1.0, 1.0)) return text::message("; it fits the other sign of the latitude");
+    return {};
+}
+
+text::Message tide_remark(const GravimeterFile& file, const TideOf& tide_of) {
+    Readings readings;
+    const Reading* worst = nullptr;
+    double largest = kGreatestTideDifference_mgal;
+    for (const Reading& reading : file.readings) {
+        if (!reading.tide_correction || !reading.position) continue;
+        readings.push_back(&reading);
+        const double size = std::abs(tide_difference_mgal(reading, tide_of));
+        if (size > largest) {
+            largest = size;
+            worst = &reading;
+        }
+    }
+    if (worst == nullptr) return {};
+    if (std::ranges::all_of(readings, [](const Reading* reading) {
+            return *reading->tide_correction == MilliGal(0.0);
+        }))
+        return text::message(
+            "the tide correction is 0 in all readings, where the tide is up to {:.3f} mGal "
+            "(line {}): it is still in them. Use --tide remove, so that the tide is computed "
+            "later",
+            largest, worst->line);
+    return text::message(
+        "the tide in the file is that of another time or place, by up to {:.3f} mGal (line "
+        "{}){}: check {}. Times and positions are used as they are",
+        largest, worst->line, tide_hint(readings, tide_of),
+        file.format == "Scintrex CG-5" ? text::message("GMT DIFF., LONG and LAT")
+                                       : text::message("the clock and the position"));
+}
+
+/// Two readings that contradict each other.
+struct Pair {
+    const Reading *first = nullptr, *second = nullptr;
+    double size = 0.0;
+};
+
+text::Message position_remark(const GravimeterFile& file) {
+    std::map<std::string, const Reading*> first_at;
+    std::map<std::string, Pair> far;  // the worst of each station
+    for (const Reading& reading : file.readings) {
+        if (!reading.position) continue;
+        const Reading& first = *first_at.try_emplace(reading.site, &reading).first->second;
+        text::Site site;
+        site.latitude = first.position->latitude;
+        site.longitude = first.position->longitude;
+        const double size = std::max(
+            text::distance(site, reading.position->latitude, reading.position->longitude).value() /
+                kGreatestDistance_m,
+            std::abs((reading.position->altitude - first.position->altitude).value()) /
+                kGreatestHeightDifference_m);
+        Pair& pair = far[reading.site];
+        if (size > std::max(1.0, pair.size)) pair = {&first, &reading, size};
+    }
+    Pair worst;
+    std::size_t count = 0;
+    for (const auto& [site, pair] : far) {
+        if (pair.size > 0.0) ++count;
+        if (pair.size > worst.size) worst = pair;
+    }
+    if (count == 0) return {};
+    const Position &one = *worst.first->position, &other = *worst.second->position;
+    text::Site site;
+    site.latitude = one.latitude;
+    site.longitude = one.longitude;
+    return text::message(
+        "positions of one station differ (stations: {}), the most at {}: {:.0f} m, and {:+.0f} "
+        "m of height (lines {} and {}), {:+.2f} mGal of normal gravity. The first position of a "
+        "station is used",
+        count, worst.first->site, text::distance(site, other.latitude, other.longitude).value(),
+        (other.altitude - one.altitude).value(), worst.first->line, worst.second->line,
+        (normal_gravity(other.latitude, other.altitude) -
+         normal_gravity(one.latitude, one.altitude))
+            .value());
+}
+
+text::Message stay_number_remark(const GravimeterFile& file) {
+    const auto number_of = [](const Reading& reading) -> std::string_view {
+        for (const auto& [name, text] : reading.kept)
+            if (name == "stay_number") return text;
+        return {};
+    };
+    std::map<std::pair<std::string, std::string_view>, const Reading*> last_of;
+    const Reading* last = nullptr;
+    Pair longest;
+    std::size_t count = 0;
+    for (const Reading& reading : file.readings) {
+        const auto number = number_of(reading);
+        const Reading*& before = last_of[{reading.site, number}];
+        if (!number.empty() && before != nullptr && last->site != reading.site) {
+            ++count;
+            const double size = std::abs(seconds_between(before->time, reading.time));
+            if (size >= longest.size) longest = {before, &reading, size};
+        }
+        last = before = &reading;
+    }
+    if (count == 0) return {};
+    constexpr double kHour_s = 3600.0;
+    return text::message(
+        "stay numbers come back after other stations ({}); the longest pause is {:.1f} h, at {} "
+        "with number {} (lines {} and {}), where the reading changes by {:+.3f} mGal. A new "
+        "stay begins each time",
+        count, longest.size / kHour_s, longest.first->site, number_of(*longest.first),
+        longest.first->line, longest.second->line,
+        (longest.second->value - longest.first->value).value());
+}
+
+text::Message tide_switch_remark(const GravimeterFile& file, const TideOf& tide_of) {
+    const Reading* first = nullptr;
+    std::size_t count = 0;
+    double largest = 0.0;
+    for (const Reading& reading : file.readings) {
+        if (reading.tide_correction) continue;
+        if (++count == 1) first = &reading;
+        if (reading.position)
+            largest = std::max(largest, std::abs(tide_of(reading.time, *reading.position).value()));
+    }
+    if (count == 0 || count == file.readings.size()) return {};
+    return text::message(
+        "the tide correction is off in {} of {} readings, the first at line {}, where the tide "
+        "is up to {:.3f} mGal. Each reading is used as its header or flag says",
+        count, file.readings.size(), first->line, largest);
+}
+
+}  // namespace
+
+std::vector<text::Message> contradictions(const GravimeterFile& file, const TideOf& tide_of) {
+    std::vector<text::Message> remarks;
+    for (text::Message remark : {tide_remark(file, tide_of), position_remark(file),
+                                 stay_number_remark(file), tide_switch_remark(file, tide_of)})
+        if (!remark.empty()) remarks.push_back(std::move(remark));
+    return remarks;
+}
+
+}  // namespace a351::corrector::gravimeter
