@@ -7,6 +7,7 @@
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
 #include "corrector/gravimeter/contradictions.hpp"
+#include "corrector/gravimeter/site_names.hpp"
 #include "corrector/gravimeter/survey_tables.hpp"
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/input_error.hpp"
@@ -40,6 +41,7 @@ void import_files(const ImportOptions& options) {
     std::vector<gravimeter::GravimeterFile> files;
     for (const std::string& file : options.files)
         files.push_back(gravimeter::read_gravimeter_file(file, {zone_of(options.zone)}));
+    print_warnings(gravimeter::make_table_names(files));
     const std::vector<gravimeter::Stay> stays = gravimeter::find_stays(files);
     for (const gravimeter::GravimeterFile& file : files)
         print_warnings(gravimeter::contradictions(file, computed_tide), file.path.string() + ": ");

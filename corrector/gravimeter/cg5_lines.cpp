@@ -6,6 +6,7 @@
 
 #include "corrector/gravimeter/fields.hpp"
 #include "corrector/gravimeter/line_readers.hpp"
+#include "corrector/gravimeter/site_names.hpp"
 #include "protocol/text/csv_reader.hpp"
 #include "protocol/text/echo.hpp"
 #include "protocol/text/sites.hpp"
@@ -146,7 +147,8 @@ private:
         reading.instrument = survey_.instrument;
         reading.time = time;
         reading.site = is_by_note_ ? note_ : station_name(reading.site);
-        if (const auto trouble = text::trouble_with_site_name(reading.site); !trouble.empty())
+        if (const auto trouble = text::trouble_with_site_name(table_name(reading.site));
+            !trouble.empty())
             return Refusal{fmt::format("Note = {}: {}", text::echoed(note_), trouble)};
         if (!*survey_.has_tide) reading.tide_correction.reset();
         are_options_used_ = true;

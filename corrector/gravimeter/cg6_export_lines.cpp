@@ -5,6 +5,7 @@
 
 #include "corrector/gravimeter/fields.hpp"
 #include "corrector/gravimeter/line_readers.hpp"
+#include "corrector/gravimeter/site_names.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::gravimeter {
@@ -129,7 +130,8 @@ private:
         if (!*has_tide_) reading.tide_correction.reset();
         if (!is_lynx_) {
             reading.site = site_;
-            if (const auto trouble = text::trouble_with_site_name(site_); !trouble.empty())
+            if (const auto trouble = text::trouble_with_site_name(table_name(site_));
+                !trouble.empty())
                 return Refusal{fmt::format("Station in the header: {}", trouble)};
             reading.kept.emplace_back("stay_number", stay_number_);
         }

@@ -49,7 +49,7 @@ std::vector<Column> table() {
                   {cg6_lynx, "Station"},
                   {burris, "Station ID"},
                   {gcym, "station"}}),
-        required("instrument", CellType::site, {{burris, "Serial Number"}, {gcym, "meter"}}),
+        required("instrument", CellType::instrument, {{burris, "Serial Number"}, {gcym, "meter"}}),
         required("date", CellType::date, {{cg5, "DATE"}, {cg6, "Date"}, {burris, "Date"}}),
         required("time", CellType::time, {{cg5, "TIME"}, {cg6, "Time"}, {burris, "Time"}}),
         required("minute_of_time", CellType::text, {{gcym, "YYMMDDhhmm"}}),

@@ -19,7 +19,7 @@ namespace a351::corrector::gravimeter {
 enum class Form { cg5, cg6, cg6_tsoft, cg6_lynx, burris, gcym };
 
 /// Kind of a cell.
-enum class CellType { text, site, number, date, time, flags };
+enum class CellType { text, site, instrument, number, date, time, flags };
 
 /// Name of a column in one form.
 struct ColumnName {

@@ -5,24 +5,16 @@
 #include <algorithm>
 #include <tuple>
 
+#include "corrector/gravimeter/site_names.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
+#include "protocol/text/echo.hpp"
 #include "protocol/text/sites.hpp"
 
 namespace a351::corrector::gravimeter {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f\r";
-
-/// Returns the beginning of a cell in printable ASCII, for a message.
-std::string shown(std::string_view cell) {
-    constexpr std::size_t kMostShown = 24;
-    std::string text(cell.substr(0, kMostShown));
-    for (char& letter : text)
-        if (letter < ' ' || letter > '~') letter = '?';
-    if (cell.size() > kMostShown) text += "...";
-    return text;
-}
 
 }  // namespace
 
@@ -91,10 +83,14 @@ void Fields::check(Cell& cell) {
         case CellType::text:
             break;
         case CellType::site:
-            if (const std::string trouble = text::trouble_with_site_name(cell.text);
+        case CellType::instrument: {
+            const bool is_site = column->type == CellType::site;
+            if (const std::string trouble = text::trouble_with_site_name(
+                    is_site ? table_name(cell.text) : std::string(cell.text));
                 !trouble.empty())
                 refuse(name, cell.text, trouble);
             break;
+        }
         case CellType::number: {
             const auto value = text::parse_number(cell.text);
             if (value) cell.number = *value * factor;
@@ -118,7 +114,7 @@ void Fields::check(Cell& cell) {
 }
 
 void Fields::refuse(std::string_view name, std::string_view cell, std::string_view reason) {
-    if (trouble_.empty()) trouble_ = fmt::format("{} = {}: {}", name, shown(cell), reason);
+    if (trouble_.empty()) trouble_ = fmt::format("{} = {}: {}", name, text::echoed(cell), reason);
 }
 
 const Fields::Cell* Fields::find(std::string_view field) const {

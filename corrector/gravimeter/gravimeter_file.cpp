@@ -49,6 +49,8 @@ const Format& format_of(std::string_view text, const std::filesystem::path& path
 GravimeterFile read_gravimeter_file(const std::filesystem::path& path, const ReadOptions& options) {
     const std::string content = text::read_text_file(path);
     std::string_view text = content;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     const Format& format = format_of(text, path);
     GravimeterFile file;
     file.path = path;

@@ -8,6 +8,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/echo.hpp"
 
 namespace a351::corrector::gravimeter {
 namespace {
@@ -27,9 +28,11 @@ std::string exact_cell(const std::optional<Metres>& value) {
 /// Returns text of the operator as a cell of a table without quotes.
 std::string safe_cell(std::string_view text) {
     std::string safe(text);
+    const bool is_utf8 = text::is_utf8(text);
     for (char& letter : safe) {
         if (letter == ',') letter = ';';
-        if (letter < ' ' || letter > '~') letter = '?';
+        const bool is_ascii = letter >= 0;
+        if (is_ascii ? letter < ' ' || letter > '~' : !is_utf8) letter = '?';
     }
     return safe;
 }

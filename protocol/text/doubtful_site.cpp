@@ -33,12 +33,32 @@ Doubt worst(const std::vector<const Site*>& sites, double limit,
     return found;
 }
 
-/// Returns a name in lower case and without blanks.
+/// Returns a name in lower case, without blanks and the zeros that do not change a number.
 std::string folded(std::string_view name) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     std::string text;
     for (const char c : name)
         if (c != ' ') text += c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
-    return text;
+    std::string short_text;
+    for (std::size_t i = 0; i < text.size();) {
+        std::size_t end = i;
+        while (end < text.size() && is_digit(text[end])) ++end;
+        if (end == i) {
+            short_text += text[i++];
+            continue;
+        }
+        std::string digits = text.substr(i, end - i);
+        const bool is_fraction = i >= 2 && text[i - 1] == '.' && is_digit(text[i - 2]);
+        if (!is_fraction) {
+            short_text += digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1));
+        } else if (digits.find_first_not_of('0') == std::string::npos) {
+            short_text.pop_back();  // the point
+        } else {
+            short_text += digits;
+        }
+        i = end;
+    }
+    return short_text;
 }
 
 double median(std::vector<double> values) {
@@ -49,6 +69,10 @@ double median(std::vector<double> values) {
 }
 
 }  // namespace
+
+bool differ_in_writing(std::string_view one, std::string_view other) {
+    return one != other && folded(one) == folded(other);
+}
 
 Message doubtful_site(const std::vector<Site>& sites) {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -100,8 +124,9 @@ Message doubtful_site(const std::vector<Site>& sites) {
     std::map<std::string, const Site*> names;
     for (const Site& site : sites)
         if (const auto [other, is_new] = names.try_emplace(folded(site.name), &site); !is_new)
-            return message("the names {} and {} differ only in capitals or blanks: use one of them",
-                           other->second->name, site.name);
+            return message(
+                "the names {} and {} differ only in capitals, blanks or zeros: use one of them",
+                other->second->name, site.name);
     return {};
 }
 

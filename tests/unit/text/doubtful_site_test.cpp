@@ -77,11 +77,32 @@ TEST_CASE("a reference that is not that of its place is named", "[text][sites]")
     CHECK(doubtful_site(list).empty());
 }
 
-TEST_CASE("two names that differ only in capitals or blanks are one doubt", "[text][sites]") {
+TEST_CASE("a name in another writing is like it, and another number is not", "[text][sites]") {
+    for (const auto& [one, other] : {std::pair("No.1", "no.1"),
+                                     {"No.1", "NO. 01"},
+                                     {"16", "0016"},
+                                     {"16", "16.0000000"},
+                                     {"P7", "P007"},
+                                     {"0", "000"},
+                                     {"測点1", "測点 01"}})
+        CHECK(differ_in_writing(one, other));
+    for (const auto& [one, other] : {std::pair("16", "16"),
+                                     {"1.1", "1.10"},
+                                     {"1.1", "1.01"},
+                                     {"16", "160"},
+                                     {"0", "1"},
+                                     {"S-1", "S1"},
+                                     {"10", "100"},
+                                     {"測点1", "測点2"}})
+        CHECK_FALSE(differ_in_writing(one, other));
+}
+
+TEST_CASE("two names that differ only in capitals, blanks or zeros are one doubt",
+          "[text][sites]") {
     auto list = good_list();
     list[3].name = "s 1";
     CHECK(doubtful_site(list) ==
-          "the names S1 and s 1 differ only in capitals or blanks: use one of them");
+          "the names S1 and s 1 differ only in capitals, blanks or zeros: use one of them");
     list[3].name = "S-1";
     CHECK(doubtful_site(list).empty());
 }
