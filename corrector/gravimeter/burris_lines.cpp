@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 #include "corrector/gravimeter/fields.hpp"
 #include "corrector/gravimeter/line_readers.hpp"
@@ -12,14 +13,21 @@ namespace {
 /// if the observer is missing.
 constexpr std::size_t kWithoutNames = 16;
 
+Layout layout_without_names(std::size_t width) {
+    auto names = usual_names(Form::burris);
+    if (width < names.size()) names.resize(kWithoutNames);
+    if (width < kWithoutNames) names.erase(names.begin() + 1);
+    return usual_layout(Form::burris, names);
+}
+
 /// Returns the usual layout of lines with so many columns; without places if there is none.  A note
 /// can have separators in it.
-Layout layout_of_width(std::size_t width) {
-    auto names = usual_names(Form::burris);
-    if (width >= names.size()) return usual_layout(Form::burris, names);
-    names.resize(kWithoutNames);
-    if (width == kWithoutNames - 1) names.erase(names.begin() + 1);
-    return width == names.size() ? usual_layout(Form::burris, names) : Layout();
+const Layout& layout_of_width(std::size_t width) {
+    static const Layout none, oldest = layout_without_names(15), old = layout_without_names(16),
+                              android = layout_without_names(20);
+    for (const Layout* const layout : {&oldest, &old})
+        if (width == layout->places.size()) return *layout;
+    return width >= android.places.size() ? android : none;
 }
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -28,10 +36,14 @@ std::vector<std::string_view> split(std::string_view line) {
     return split_at_blanks(line);
 }
 
-/// Returns true for a line of names: its first one, and the one of the meter.
+/// Returns true for a line of names, also with some that nobody knows.
 bool is_names(const std::vector<std::string_view>& cells) {
-    return cells.front().starts_with("Station") &&
-           std::ranges::find(cells, "Serial Number") != cells.end();
+    constexpr std::array<std::string_view, 5> kSeveral{"Serial Number", "Date", "Time", "ObsG",
+                                                       "Dial"};
+    const auto known = std::ranges::count_if(kSeveral, [&](std::string_view name) {
+        return std::ranges::find(cells, name) != cells.end();
+    });
+    return cells.front().starts_with("Station") && known >= 3;
 }
 
 class BurrisLines : public LineReader {

@@ -18,8 +18,10 @@ struct UnreadForm {
 };
 
 /// Returns true if a line is a reading with the usual columns of a form.
-bool is_reading(Form form, const Cells& cells) {
-    Fields fields(usual_layout(form, usual_names(form)), cells);
+template <Form form>
+bool is_reading(const Cells& cells) {
+    static const Layout layout = usual_layout(form, usual_names(form));
+    Fields fields(layout, cells);
     (void)fields.time();
     return fields.trouble().empty();
 }
@@ -28,11 +30,11 @@ bool is_number_of(std::string_view cell, std::size_t digits) {
     return cell.size() == digits && cell.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-const std::array<UnreadForm, 7> kForms{{
-    {[](std::string_view line) { return is_reading(Form::cg5, split_at_blanks(line)); },
+const std::array<UnreadForm, 9> kForms{{
+    {[](std::string_view line) { return is_reading<Form::cg5>(split_at_blanks(line)); },
      "readings of a Scintrex CG-5 without its header",
      "put the lines of the instrument from CG-5 SURVEY on before them"},
-    {[](std::string_view line) { return is_reading(Form::cg6, split_at(line, '\t')); },
+    {[](std::string_view line) { return is_reading<Form::cg6>(split_at(line, '\t')); },
      "readings of a Scintrex CG-6 without its header",
      "put the lines of the instrument from CG-6 Survey to the names of columns before them"},
     {[](std::string_view line) { return line.find("SCINTREX V") != std::string_view::npos; },
@@ -52,6 +54,12 @@ const std::array<UnreadForm, 7> kForms{{
                 is_number_of(cells[kDate + 1], 6);
      },
      "readings prepared by pyGrav for MCGravi", "give the file of the instrument"},
+    {[](std::string_view line) {
+         return line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF");
+     },
+     "a text in UTF-16", "save it as UTF-8"},
+    {[](std::string_view line) { return line.starts_with("PK\x03\x04"); },
+     "a spreadsheet or an archive (zip)", "save the table as text, or unpack the archive"},
     {[](std::string_view line) { return line.starts_with("Micro-g"); },
      "a report of an absolute gravimeter", "put its value into sites.csv as gravity_mgal"},
 }};

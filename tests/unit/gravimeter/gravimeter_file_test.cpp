@@ -315,6 +315,11 @@ TEST_CASE("a file of no known format, or without a reading, is refused in one li
          "a table for GSadjust"},
         {" 1 2639.321 0.009 60 1 0.1 1.8 -2.32 0.040 258 339.000 150913 053922 0 0.0 -0.006 0\n",
          "readings prepared by pyGrav"},
+        {"\xFF\xFE/\n", "a text in UTF-16"},
+        {"PK\x03\x04\n", "a spreadsheet or an archive"},
+        {"Station,Operator,Meter,Date,Time,Grav,Dial\n" + burris_reading("a", "10:00:00"),
+         "unknown columns: Station, Operator, Meter, Grav; missing columns: Station ID, Serial "
+         "Number, ObsG, Earthtide Correction"},
         {"Micro-g LaCoste g Processing Report\n", "a report of an absolute gravimeter"},
     }));
     try {
