@@ -20,7 +20,8 @@ constexpr std::string_view kBlanks = " \t\v\f\r";
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
+    // Also an empty text points into the line, because join_note() of a Burris asks where it is.
+    if (first == std::string_view::npos) return text.substr(text.size());
     return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 

@@ -17,7 +17,8 @@ GravimeterFile read(const std::string& file) {
 
 /// Returns the stays of a file as "site occupation readings; ".
 std::string stays_of(const std::string& file) {
-    std::vector<GravimeterFile> files{read(file)};
+    std::vector<GravimeterFile> files{
+        read_gravimeter_file(A351_GOLDEN "/foreign/" + file, {std::chrono::hours(8)})};
     std::string text;
     for (const Stay& stay : find_stays(files))
         text += stay.site + " " + std::to_string(stay.occupation) + " " +
@@ -90,4 +91,23 @@ TEST_CASE("the files of real instruments contradict themselves nowhere", "[golde
         const auto found = remarks(read_gravimeter_file(A351_GOLDEN "/usgs/" + file));
         CHECK(found == std::vector<std::string>());
     }
+}
+
+TEST_CASE("both forms of Lynx LG give the same stays, with the tide that is computed",
+          "[golden][foreign]") {
+    for (const std::string file : {"cg6-lynx-notes/cg6.dat", "cg6-tsoft/cg6.dat"}) {
+        INFO(file);
+        CHECK(read(file).refused.empty());
+        CHECK(stays_of(file) == "P1 1 3; P2 1 3; P1 2 3; ");
+    }
+    CHECK(remarks(read("cg6-lynx-notes/cg6.dat")).empty());
+    const auto found = remarks(read("cg6-tsoft/cg6.dat"));
+    REQUIRE(found.size() == 1);
+    CHECK_THAT(found[0], ContainsSubstring("stay numbers come back after other stations (1); the "
+                                           "longest pause is 1.0 h, at P1 with number 1"));
+}
+
+TEST_CASE("a GCYM table has its loops and its break of the day", "[golden][foreign]") {
+    CHECK(stays_of("gcym/day.098") ==
+          "90000001 1 1; 90000002 1 1; 90000002 2 1; 90000001 2 1; 90000001 3 1; ");
 }

@@ -90,6 +90,9 @@ TEST_CASE("a Burris is read with 15 columns, with a note, and with the month fir
         {"a b,o,B44,2017/12/05,10:00:00,2769.695,2800,0.482,-0.103,0.005,-0.033,-0.002,0.1,1600,"
          "35.1,-106.6,96,0.003,120,wind, then rain",
          "20 columns in the usual order, without a line of names"},
+        {"a b,o,B44,2017/12/05,10:00:00,2769.695,2800,0.482,-0.103,0.005,-0.033,-0.002,0.1,1600,"
+         "35.1,-106.6,96,0.003,120,,rain",
+         "20 columns in the usual order, without a line of names"},
         {"a\t\tB44\t12/5/2017\t10:00:00\t2769.695\t2800\t0.482\t-0.103\t0.005\t-0.033\t-0.002\t"
          "0.1\t1600\t35.1\t-106.6",
          "16 columns in the usual order, without a line of names, dates read as month/day/year"},
