@@ -32,15 +32,6 @@ std::optional<std::size_t> find_time(const std::vector<std::string>& columns) {
     return std::nullopt;
 }
 
-/// An instant, or a number of seconds since any zero.
-std::optional<Nanoseconds> parse_time(std::string_view text) {
-    if (const auto time = parse_rfc3339(text)) return time->time_since_epoch();
-    constexpr double kMostSeconds = 9e9;  // limit of from_seconds()
-    const std::optional<double> seconds = text::parse_number(text);
-    if (!seconds || std::abs(*seconds) >= kMostSeconds) return std::nullopt;
-    return from_seconds(*seconds);
-}
-
 double seconds_of(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 std::string in_seconds(Nanoseconds time) { return text::shortest(seconds_of(time)) + " s"; }
@@ -65,7 +56,7 @@ bool SampleColumn::read(std::vector<double>& samples) {
             samples.push_back(std::numeric_limits<double>::quiet_NaN());
             continue;
         }
-        const std::optional<double> value = text::parse_number(cell);
+        const std::optional<double> value = reader_.number(column_);
         if (!value || std::abs(*value) > reading::kLargestSample) {
             reader_.refuse(column_, value ? "out of range" : "not a finite number",
                            "a number with a decimal point, at most 1e150 in magnitude, or nothing "
@@ -84,10 +75,9 @@ std::size_t SampleColumn::bytes_read() {
 
 void SampleColumn::check_time() {
     const std::size_t column = *time_column_;
-    const std::optional<Nanoseconds> time = parse_time(reader_.cells()[column]);
-    if (!time) reader_.refuse(column, "not a time", "an instant (RFC 3339), or seconds");
+    const Nanoseconds time = reader_.instant(column).time_since_epoch();
     if (last_time_) {
-        const Nanoseconds step = *time - *last_time_;
+        const Nanoseconds step = time - *last_time_;
         if (step <= Nanoseconds(0))
             reader_.refuse(column, "not after the row before it", "times that ascend");
         // The first step may span a missing row, so each step is compared with the mean of all

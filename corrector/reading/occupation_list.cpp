@@ -9,6 +9,7 @@
 #include "protocol/events/occupations.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
+#include "protocol/text/plain_text.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -169,7 +170,9 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     for (const events::Occupation& occupation : occupations) {
         for (const events::Occupation::SetUp& set_up : occupation.set_ups) {
             list.windows.push_back(
-                {{occupation.site, occupation.number, occupation.key}, set_up.start, set_up.end});
+                {{text::plain_text(occupation.site), occupation.number, occupation.key},
+                 set_up.start,
+                 set_up.end});
             list.windows.back().not_moved_until = occupation.not_moved_until;
         }
         const bool is_last = occupation.key == last_key;

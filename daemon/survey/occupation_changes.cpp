@@ -4,6 +4,7 @@
 
 #include "daemon/survey/event_texts.hpp"
 #include "daemon/survey/occupations.hpp"
+#include "protocol/text/plain_text.hpp"
 
 namespace a351::daemon::survey {
 namespace {
@@ -108,13 +109,14 @@ Outcome Occupations::resume(const Named& stay, const Remark& remark) {
     return commit(std::move(event), text::message("resumed {}", one->text));
 }
 
-Outcome Occupations::rename(const Named& stay, std::string_view site, const Remark& remark) {
+Outcome Occupations::rename(const Named& stay, std::string_view entered, const Remark& remark) {
+    const std::string site = text::plain_text(entered);
     if (auto trouble = trouble_with_site(site)) return refused(*std::move(trouble));
     text::Message trouble;
     const auto one = found(stay, trouble);
     if (!one) return refused(trouble);
     if (one->site == site) return refused(text::message("{} is at {} already", one->text, site));
-    events::Event event = change_of("rename", {stay.key, std::string(site)}, remark);
+    events::Event event = change_of("rename", {stay.key, site}, remark);
     return commit(std::move(event), text::message("renamed {} to {}", one->text, site));
 }
 

@@ -12,6 +12,7 @@
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
 #include "protocol/text/doubtful_site.hpp"
+#include "protocol/text/plain_text.hpp"
 
 namespace a351::daemon::survey {
 namespace {
@@ -130,8 +131,9 @@ int Occupations::planned_set_ups() const noexcept {
                      : options_.planned_set_ups;
 }
 
-Outcome Occupations::start(std::string_view site, const Remark& remark, std::optional<UtcTime> at,
-                           std::optional<int> set_ups) {
+Outcome Occupations::start(std::string_view entered, const Remark& remark,
+                           std::optional<UtcTime> at, std::optional<int> set_ups) {
+    const std::string site = text::plain_text(entered);
     if (running()) {
         // An order to several boxes is repeated for those that did not answer.
         if (running()->site == site && is_at(at, running()->start))

@@ -83,7 +83,7 @@ public:
 
     /// @param set_ups  planned number of set-ups of this stay, 2 to 100, each kTestSetUp long;
     ///                 absent: as configured.  A placement test has 20.
-    Outcome start(std::string_view site, const Remark& remark, std::optional<UtcTime> at,
+    Outcome start(std::string_view entered, const Remark& remark, std::optional<UtcTime> at,
                   std::optional<int> set_ups = {});
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
     /// Begins a further set-up of the running occupation: the sensor was lifted and set down again.
@@ -96,8 +96,8 @@ public:
     Outcome restore(const Named& stay, const Remark& remark);
     /// Continues the last stay as if it had not been stopped, up to kLongestResume later.
     Outcome resume(const Named& stay, const Remark& remark);
-    /// @param site  the correct site.
-    Outcome rename(const Named& stay, std::string_view site, const Remark& remark);
+    /// @param entered  the correct site.
+    Outcome rename(const Named& stay, std::string_view entered, const Remark& remark);
     /// Moves the start (`from`), the end (`to`) or both.  Set-ups outside are left out.
     Outcome retime(const Named& stay, std::optional<UtcTime> from, std::optional<UtcTime> to,
                    const Remark& remark);

@@ -1,7 +1,8 @@
 #include "daemon/survey/site_list.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <span>
 #include <sstream>
@@ -51,10 +52,15 @@ std::string row_of(const text::Site& site, const std::string& list,
     std::istringstream in(list);
     std::vector<std::string> row;
     const text::CsvReader reader(in, file);
-    for (const std::string& column : reader.columns()) row.push_back(cells[column]);
-    std::string text = row.front();
-    for (std::size_t i = 1; i < row.size(); ++i) text += "," + row[i];
-    return text;
+    if (reader.is_utf16())
+        throw InputError(fmt::format("{}: UTF-16, to which no site can be added; allowed: UTF-8{}",
+                                     file.string(), text::kHowToSave));
+    const bool has_commas = text::CsvTable::parse(list, file).decimal_sign().sign() == ',';
+    for (const std::string& column : reader.columns()) {
+        row.push_back(cells[column]);
+        if (has_commas && column != "site") std::ranges::replace(row.back(), '.', ',');
+    }
+    return fmt::format("{}", fmt::join(row, std::string(1, reader.separator())));
 }
 
 }  // namespace

@@ -20,8 +20,11 @@ CsvTable CsvTable::parse(std::string_view text, std::filesystem::path origin) {
     CsvReader reader(in, table.origin_);
     table.columns_ = reader.columns();
     while (reader.next()) {
-        table.rows_.push_back({reader.line(), {reader.cells().begin(), reader.cells().end()}});
+        const auto& cells = reader.cells();
+        if (cells.size() > 1 && std::ranges::all_of(cells, &std::string_view::empty)) continue;
+        table.rows_.push_back({reader.line(), {cells.begin(), cells.end()}});
     }
+    table.decimal_sign_ = reader.decimal_sign();
     return table;
 }
 
@@ -34,7 +37,7 @@ const std::string& CsvTable::cell(std::size_t row, std::string_view column) cons
 }
 
 double CsvTable::number(std::size_t row, std::string_view column, double low, double high) const {
-    const std::optional<double> value = parse_number(cell(row, column));
+    const std::optional<double> value = decimal_sign_.number(cell(row, column));
     if (!value) refuse(row, column, "not a number", "a finite number with a decimal point");
     if (!(*value >= low && *value <= high))
         refuse(row, column, "out of range", shortest(low) + " to " + shortest(high));
@@ -61,9 +64,9 @@ std::vector<UtcTime> CsvTable::ascending_times(std::string_view column) const {
 
 void CsvTable::refuse(std::size_t row, std::string_view column, std::string_view trouble,
                       std::string_view allowed) const {
-    throw InputError(fmt::format("{}:{}: {} = {}: {}; allowed: {}", origin_.string(),
+    throw InputError(fmt::format("{}:{}: {} = {}: {}; allowed: {}{}", origin_.string(),
                                  rows_.at(row).line, column, echoed(cell(row, column)), trouble,
-                                 allowed));
+                                 allowed, DecimalSign::remedy(cell(row, column))));
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {

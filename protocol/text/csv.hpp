@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Comma-separated tables with a header line.  No quoting: a comma always separates.
+/// Tables of a spreadsheet with a header line: CSV, in any form that can be read in one way only.
 /// Each error is an InputError `file:line: column = value: trouble; allowed: ...`.
 ///
 /// Use CsvTable for short tables: it finds a cell by row and column name, and keeps the whole table
@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/decimal_sign.hpp"
 
 namespace a351::text {
 
@@ -33,11 +34,12 @@ namespace a351::text {
 /// searches the header.  Any number of threads may read a table.
 class CsvTable {
 public:
-    /// Reads a table; line ends and blank lines are treated as in CsvReader.
+    /// Reads a table as CsvReader does.  Empty rows are skipped, in a table of several columns.
     /// @param text    content of the file; it is copied.
     /// @param origin  file name shown in messages.
     /// @return a table that may have no rows: a header alone is valid.
-    /// @throws InputError  no header, a repeated column, a row of another width.
+    /// @throws InputError  no header, a repeated column, a row of another width, a form that
+    ///                     cannot be read.
     [[nodiscard]] static CsvTable parse(std::string_view text, std::filesystem::path origin);
 
     /// Returns the number of rows, without the header.
@@ -45,12 +47,15 @@ public:
     /// Returns true if the header has the column.  Ask before reading a column that may be absent.
     [[nodiscard]] bool has_column(std::string_view name) const;
 
-    /// Returns a cell without surrounding blanks.  The reference is valid until the table ends or
+    /// Sign of the numbers of the table.
+    [[nodiscard]] const DecimalSign& decimal_sign() const noexcept { return decimal_sign_; }
+
+    /// Returns a cell as plain_text() without surrounding blanks.  The reference is valid until the table ends or
     /// is assigned to.
     /// @throws InputError  there is no such column; names the existing ones.
     [[nodiscard]] const std::string& cell(std::size_t row, std::string_view column) const;
 
-    /// Returns the number in a cell: finite, a dot as decimal point, within [low, high].
+    /// Returns the number in a cell: finite, within [low, high].
     /// @param low, high  limits, both allowed; without them every finite number is.
     /// @throws InputError  the cell is not such a number.  An empty cell is not a number.
     [[nodiscard]] double number(std::size_t row, std::string_view column,
@@ -85,6 +90,7 @@ private:
     std::filesystem::path origin_;
     std::vector<std::string> columns_;
     std::vector<Row> rows_;
+    DecimalSign decimal_sign_;
 };
 
 /// Reads the table in a file.

@@ -14,106 +14,110 @@
 namespace a351::text {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\r";
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-void split(std::string_view line, std::vector<std::string_view>& cells) {
-    cells.clear();
-    while (true) {
-        const std::size_t comma = line.find(',');
-        cells.push_back(trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos) return;
-        line.remove_prefix(comma + 1);
-    }
-}
-
-/// Returns true if a line begins a miniSEED record: six digits and a mark of quality (SEED 2.4,
-/// chapter 8), or MS and the version (FDSN miniSEED 3).
-bool is_miniseed(std::string_view line) {
-    constexpr std::size_t kSequence = 6;
-    return line.starts_with("MS\x03") ||
-           (line.size() > kSequence + 1 && line.find_first_not_of("0123456789") == kSequence &&
-            std::string_view("DRQM").find(line[kSequence]) != std::string_view::npos &&
-            line[kSequence + 1] == ' ');
-}
-
-/// Returns why a header is not that of a table with commas, and what is allowed; empty if it may be.
-std::string trouble_with_header(std::string_view header) {
-    constexpr const char* kHow = "; in a spreadsheet: save as CSV UTF-8, with commas";
-    const auto has = [&](char c) { return header.find(c) != std::string_view::npos; };
-    if (has('\0')) return fmt::format("UTF-16, or no text; allowed: UTF-8{}", kHow);
-    if (!has(',') && has(';'))
-        return fmt::format("the columns are separated by semicolons; allowed: commas{}", kHow);
-    if (!has(',') && has('\t'))
-        return fmt::format("the columns are separated by tabs; allowed: commas{}", kHow);
-    if (has('"')) return "cells are in quotation marks; allowed: without them";
-    return {};
+/// Returns true for the columns whose cells are names or words, also where they look like numbers.
+bool is_text_column(std::string_view name) {
+    return name == "site" || name == "note" || name == "instrument";
 }
 
 }  // namespace
 
 CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
-    : in_(in), origin_(std::move(origin)) {
+    : lines_(in), origin_(std::move(origin)), line_(1) {
     if (!next_line())
         throw InputError(origin_.string() + ":1: no header line; allowed: column names");
-    if (is_miniseed(text_))
-        throw InputError(
-            origin_.string() +
-            ": a miniSEED file; allowed: a table (CSV), or miniSEED in the archive of a "
-            "data root with metadata/station.xml");
-    if (const std::string trouble = trouble_with_header(text_); !trouble.empty())
-        throw InputError(fmt::format("{}:{}: {}", origin_.string(), line_, trouble));
-    for (auto cell = cells_.begin(); cell != cells_.end(); ++cell) {
-        if (std::find(cells_.begin(), cell, *cell) != cell) {
-            throw InputError(fmt::format("{}:{}: column {} appears twice; allowed: once",
-                                         origin_.string(), line_, echoed(*cell)));
-        }
+    auto names = lines_.cells();
+    while (names.size() > 1 && names.back().empty()) names.pop_back();
+    for (auto name = names.begin(); name != names.end(); ++name) {
+        if (std::find(names.begin(), name, *name) != name)
+            refuse_line(fmt::format("column {} appears twice; allowed: once", echoed(*name)));
     }
-    columns_.assign(cells_.begin(), cells_.end());
+    if (names.size() == 1 && names.front().find_first_of(",;\t") != std::string_view::npos)
+        refuse_line(
+            fmt::format("the whole line is one cell in quotation marks; allowed: a cell "
+                        "for each column{}",
+                        kHowToSave));
+    columns_.assign(names.begin(), names.end());
+    decimal_sign_ = DecimalSign(lines_.separator());
 }
 
 bool CsvReader::next() {
-    if (!next_line()) return false;
-    if (cells_.size() != columns_.size()) {
-        const char* const hint = cells_.size() > columns_.size()
-                                     ? "; a comma always separates, and a number has a point"
-                                     : "";
-        throw InputError(fmt::format("{}:{}: {} cells; allowed: {} as in the header{}",
-                                     origin_.string(), line_, cells_.size(), columns_.size(),
-                                     hint));
+    if (empty_rows_ > 0) {
+        --empty_rows_;
+    } else {
+        while (true) {
+            if (!next_line()) {
+                empty_rows_ = 0;
+                return false;
+            }
+            check_width();
+            note_decimal_signs();
+            if (columns_.size() == 1 ||
+                !std::ranges::all_of(lines_.cells(), &std::string_view::empty))
+                break;
+            ++empty_rows_;
+        }
     }
+    cells_ = lines_.cells();
+    cells_.resize(columns_.size());
+    if (empty_rows_ > 0) cells_.assign(columns_.size(), {});
+    line_ = lines_.line() - empty_rows_;
     return true;
 }
 
-/// Reads the next line that is a row and splits it into cells.  In a table of one column, a blank
-/// line between rows is a missing cell; skipping it would shift all later rows.
 bool CsvReader::next_line() {
-    while (std::getline(in_, text_)) {
-        std::string_view content = text_;
-        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-        if (++line_ == 1 && content.starts_with(kByteOrderMark))
-            content.remove_prefix(kByteOrderMark.size());
-        if (trimmed(content).empty() &&
-            (columns_.size() != 1 || in_.eof() || in_.peek() == std::istream::traits_type::eof()))
-            continue;
-        split(content, cells_);
+    if (lines_.next(columns_.size() == 1)) {
+        line_ = lines_.line();
         return true;
     }
-    if (in_.bad()) {
+    if (!lines_.trouble().empty()) {
+        line_ = std::max<std::size_t>(lines_.line(), 1);
+        refuse_line(lines_.trouble());
+    }
+    if (lines_.is_broken()) {
         throw InputError(fmt::format("{}: cannot be read after line {}; allowed: a readable file",
                                      origin_.string(), line_));
     }
     return false;
 }
 
+/// Checks the width of a line.  A spreadsheet writes empty cells behind the last column where one
+/// was used once.
+void CsvReader::check_width() const {
+    const auto& cells = lines_.cells();
+    const std::size_t width = columns_.size();
+    if (cells.size() == width) return;
+    if (cells.size() > width &&
+        std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(width), cells.end(),
+                    [](std::string_view cell) { return cell.empty(); }))
+        return;
+    refuse_line(fmt::format(
+        "{} cells; allowed: {} as in the header{}", cells.size(), width,
+        cells.size() > width && lines_.separator() == ','
+            ? "; a comma outside quotation marks always separates, and a number has a point"
+            : ""));
+}
+
+/// Finds the decimal sign.  In a table with commas a cell has a comma only in quotation marks, so
+/// that after a number with a point the other lines need no look.
+void CsvReader::note_decimal_signs() {
+    if (decimal_sign_.sign() == '.' && lines_.separator() == ',' &&
+        lines_.text().find('"') == std::string_view::npos)
+        return;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        const std::string_view cell = lines_.cells()[i];
+        if (is_text_column(columns_[i]) || decimal_sign_.note(cell)) continue;
+        refuse_line(
+            fmt::format("{} = {}: other numbers of this table have a decimal {}; allowed: "
+                        "one sign in a table{}",
+                        echoed(columns_[i]), echoed(cell),
+                        decimal_sign_.sign() == ',' ? "comma" : "point", kHowToSave));
+    }
+}
+
 UtcTime CsvReader::instant(std::size_t column) const {
     constexpr double kMostSeconds = 9e9;  // limit of from_seconds()
     if (const auto instant = parse_rfc3339(cells_[column])) return *instant;
-    const auto seconds = parse_number(cells_[column]);
+    const auto seconds = number(column);
     if (!seconds || std::abs(*seconds) >= kMostSeconds)
         refuse(column, "not a time", "an RFC 3339 time, or seconds");
     return UtcTime(from_seconds(*seconds));
@@ -121,18 +125,22 @@ UtcTime CsvReader::instant(std::size_t column) const {
 
 double CsvReader::sample(std::size_t column, double largest) const {
     if (cells_[column].empty()) return std::numeric_limits<double>::quiet_NaN();
-    const auto number = parse_number(cells_[column]);
-    if (!number || std::abs(*number) > largest)
-        refuse(column, number ? "out of range" : "not a finite number",
+    const auto value = number(column);
+    if (!value || std::abs(*value) > largest)
+        refuse(column, value ? "out of range" : "not a finite number",
                "a number with a decimal point, or nothing for a missing sample");
-    return *number;
+    return *value;
 }
 
 void CsvReader::refuse(std::size_t column, std::string_view trouble,
                        std::string_view allowed) const {
-    throw InputError(fmt::format("{}:{}: {} = {}: {}; allowed: {}", origin_.string(), line_,
-                                 echoed(columns_.at(column)), echoed(cells_.at(column)), trouble,
-                                 allowed));
+    refuse_line(fmt::format("{} = {}: {}; allowed: {}{}", echoed(columns_.at(column)),
+                            echoed(cells_.at(column)), trouble, allowed,
+                            DecimalSign::remedy(cells_.at(column))));
+}
+
+void CsvReader::refuse_line(std::string_view trouble) const {
+    throw InputError(fmt::format("{}:{}: {}", origin_.string(), line_, trouble));
 }
 
 std::size_t column_index(const std::vector<std::string>& columns, std::string_view column,

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Comma-separated tables, read row by row.  No quoting: a comma always separates.
+/// Tables of a spreadsheet, read row by row: CSV, in any form that can be read in one way only.
 /// Each error is an InputError `file:line: column = value: trouble; allowed: ...`.
 ///
 /// Use CsvReader for long records: it keeps one line in memory.  For short tables CsvTable of
@@ -10,7 +10,7 @@
 ///     CsvReader reader(in, file);
 ///     const std::size_t column = column_index(reader.columns(), "tide_mgal", file);
 ///     while (reader.next()) {
-///         const std::optional<double> tide_mgal = parse_number(reader.cells()[column]);
+///         const std::optional<double> tide_mgal = reader.number(column);
 ///         if (!tide_mgal) reader.refuse(column, "not a number", "a finite number");
 ///     }
 
@@ -22,21 +22,24 @@
 #include <vector>
 
 #include "protocol/core/utc_time.hpp"
+#include "protocol/text/csv_lines.hpp"
+#include "protocol/text/decimal_sign.hpp"
 
 namespace a351::text {
 
 /// Reads one row at a time.  Lines end with LF or CRLF; a byte-order mark and blank lines are
-/// skipped.  In a table of one column a blank line is a row with an empty cell, except at the end
-/// of the file.
+/// skipped.  In a table of one column a blank line is a row with an empty cell.  Empty rows at the
+/// end of the file, and empty cells behind the last column, are skipped.
 ///
-/// Quotation marks are part of the cell.  Do not copy a reader: both would take lines from the same
-/// stream, and cells() of the copy refer to the line of the original.
+/// CsvLines splits the lines, DecimalSign reads the numbers.  What can be read in two ways is
+/// refused with what to do in the spreadsheet.  Do not copy a reader: both would take lines from
+/// the same stream, and cells() of the copy refer to the line of the original.
 class CsvReader {
 public:
     /// Reads the header line.  Blank lines before it are skipped.
     /// @param in      stream at the beginning of the table; it must outlive the reader.
     /// @param origin  file name shown in messages.
-    /// @throws InputError  no header, a repeated column.
+    /// @throws InputError  no header, a repeated column, a form that cannot be read.
     CsvReader(std::istream& in, std::filesystem::path origin);
 
     /// Returns the names in the header, in order, without surrounding blanks.  Use column_index()
@@ -51,10 +54,21 @@ public:
     /// count.
     [[nodiscard]] std::size_t line() const noexcept { return line_; }
 
-    /// Returns the cells of the current row without surrounding blanks; valid until the next call
-    /// of next().  Call it only after next() has returned true: there are then as many cells as
+    /// Returns the cells of the current row as plain_text() without surrounding blanks; valid until
+    /// the next call of next().  Call it only after next() has returned true: there are then as many cells as
     /// columns.
     [[nodiscard]] const std::vector<std::string_view>& cells() const noexcept { return cells_; }
+
+    /// Returns the finite number in a cell of the current row; std::nullopt for any other text.
+    [[nodiscard]] std::optional<double> number(std::size_t column) const {
+        return decimal_sign_.number(cells_[column]);
+    }
+
+    /// Sign of the numbers so far, and separator of the cells.
+    [[nodiscard]] const DecimalSign& decimal_sign() const noexcept { return decimal_sign_; }
+    [[nodiscard]] char separator() const noexcept { return lines_.separator(); }
+    /// Returns true for UTF-16, in which no line can be added by appending UTF-8.
+    [[nodiscard]] bool is_utf16() const noexcept { return lines_.is_utf16(); }
 
     /// Returns the instant in a cell of the current row: RFC 3339 with zone, or seconds since 1970,
     /// below 9e9 in magnitude.
@@ -76,13 +90,17 @@ public:
 
 private:
     [[nodiscard]] bool next_line();
+    void check_width() const;
+    void note_decimal_signs();
+    [[noreturn]] void refuse_line(std::string_view trouble) const;
 
-    std::istream& in_;
+    CsvLines lines_;
     std::filesystem::path origin_;
     std::vector<std::string> columns_;
-    std::size_t line_ = 0;
-    std::string text_;
+    DecimalSign decimal_sign_;
+    std::size_t line_;
     std::vector<std::string_view> cells_;
+    std::size_t empty_rows_ = 0;  ///< Empty rows that come before the line that was read.
 };
 
 /// Returns the position of a column in the header of the table `origin`, counted from 0.  Call it

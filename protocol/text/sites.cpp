@@ -10,6 +10,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/echo.hpp"
+#include "protocol/text/plain_text.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::text {
@@ -58,7 +59,7 @@ Trouble trouble_with_characters(std::string_view name) {
     if (has_hidden_character(name))
         return {"has a hidden character", "visible characters, and usual blanks between them"};
     if (name.find(',') != std::string_view::npos)
-        return {"has a comma, which separates the columns", "no comma"};
+        return {"has a comma, which separates the columns of the results", "no comma"};
     if (name.find('"') != std::string_view::npos)
         return {"has a quotation mark, which programs read differently", "no \""};
     return {};
@@ -147,7 +148,7 @@ Metres distance(const Site& site, Degrees latitude, Degrees longitude) {
 }
 
 const Site* find_site(const std::vector<Site>& sites, std::string_view name) {
-    const auto found = std::ranges::find(sites, name, &Site::name);
+    const auto found = std::ranges::find(sites, plain_text(name), &Site::name);
     return found == sites.end() ? nullptr : &*found;
 }
 
@@ -158,7 +159,7 @@ const Site& required_site(const std::vector<Site>& sites, const std::string& nam
 
 const Site* similar_site(const std::vector<Site>& sites, std::string_view name) {
     const Site* similar = nullptr;
-    const std::string wanted = bare(name);
+    const std::string wanted = bare(plain_text(name));
     if (wanted.empty()) return nullptr;
     for (const Site& site : sites) {
         if (bare(site.name) != wanted) continue;

@@ -28,7 +28,7 @@ inline constexpr double kLeastAltitude_m = -500.0, kGreatestAltitude_m = 9000.0;
 /// Benchmark, a row of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal, and if
 /// known u_gravity_mgal.
 struct Site {
-    /// Name, not empty and unique in its table.  Upper and lower case are different.
+    /// Name as plain_text(), not empty and unique in its table.  Upper and lower case are different.
     std::string name;
     Degrees longitude;                ///< East, -180 to 360.
     Degrees latitude;                 ///< Geodetic, north.
@@ -66,7 +66,7 @@ struct Site {
 [[nodiscard]] std::string trouble_with_site_name(std::string_view name);
 
 /// Returns the site of that name, or null.  The pointer is into `sites` and valid as long as the
-/// list does not change.  The names are compared in turn, exactly.
+/// list does not change.  The names are compared in turn, as plain_text().
 [[nodiscard]] const Site* find_site(const std::vector<Site>& sites, std::string_view name);
 
 /// Returns the distance of a site from a point, by the haversine formula on a sphere of 6371 km:

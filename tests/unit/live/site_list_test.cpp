@@ -51,6 +51,16 @@ TEST_CASE("a new site is one further row, and all other bytes of the list are ke
     CHECK(list.content().ends_with("\nD,140.125,36.25,12.5,979801.123\n"));
 }
 
+TEST_CASE("the row has the separator and the decimal sign of its list", "[sites]") {
+    const std::string old =
+        "site;longitude_deg;latitude_deg;altitude_m;gravity_mgal\nA.1;140,5;36;10;\n;;;;\n";
+    List list(old);
+    CHECK(list.append(new_site("B.2")).size() == 2);
+    CHECK(list.content() == old + "B.2;140,125;36,25;;\n");
+    List wide(std::string("\xFF\xFEs\0", 4));
+    CHECK_THROWS_AS(wide.append(new_site("B")), InputError);
+}
+
 TEST_CASE("the row has the columns and the line ends of its list", "[sites]") {
     List list(
         "\xEF\xBB\xBFgravity_mgal,remark,site,latitude_deg,longitude_deg,altitude_m\r\n"

@@ -54,26 +54,6 @@ TEST_CASE("an error in a CSV file names file, line, column, value and what is al
     CHECK_THROWS_AS(read_csv("/nowhere/t.csv"), InputError);
 }
 
-TEST_CASE("a table of another form than CSV with commas is refused with the remedy",
-          "[text][csv]") {
-    const auto parse = [](std::string_view text) { return CsvTable::parse(text, "t.csv"); };
-    const std::string how = "; in a spreadsheet: save as CSV UTF-8, with commas";
-    CHECK_THROWS_WITH(parse("site;latitude_deg\nA;36,2\n"),
-                      "t.csv:1: the columns are separated by semicolons; allowed: commas" + how);
-    CHECK_THROWS_WITH(parse("site\tlatitude_deg\nA\t36.2\n"),
-                      "t.csv:1: the columns are separated by tabs; allowed: commas" + how);
-    CHECK_THROWS_WITH(parse(std::string_view("\xFF\xFEs\0,\0t\0\n\0", 10)),
-                      "t.csv:1: UTF-16, or no text; allowed: UTF-8" + how);
-    CHECK_THROWS_WITH(parse("\"site\",\"latitude_deg\"\n"),
-                      "t.csv:1: cells are in quotation marks; allowed: without them");
-    CHECK_THROWS_WITH(
-        parse("site,latitude_deg\nA,36,2\n"),
-        "t.csv:2: 3 cells; allowed: 2 as in the header; a comma always separates, and "
-        "a number has a point");
-    CHECK_THROWS_WITH(parse("site,latitude_deg\nA\n"),
-                      "t.csv:2: 1 cells; allowed: 2 as in the header");
-}
-
 TEST_CASE("a miniSEED file is named as such, not read as a table", "[text][csv]") {
     CHECK_THROWS_WITH(
         (void)read_csv(A351_GOLDEN "/miniseed/XX.A351.00.BNZ_steim2_blockette100.mseed"),
