@@ -86,6 +86,9 @@ std::vector<archive::AbsentFile> absent_files(const std::filesystem::path& root,
 }
 
 text::Message to_message(const archive::AbsentFile& absent) {
+    if (!absent.compressed.empty())
+        return text::message("{} of {} is compressed and not read: unpack {}", absent.channel,
+                             to_rfc3339(absent.day).substr(0, 10), absent.compressed.string());
     return text::message(
         "{} has no day file of {}, but another channel has one: copy the archive again, or write "
         "it again with retime",

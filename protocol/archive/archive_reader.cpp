@@ -7,6 +7,7 @@
 #include <chrono>
 #include <map>
 #include <set>
+#include <span>
 
 #include "protocol/archive/record_joiner.hpp"
 #include "protocol/archive/sds.hpp"
@@ -25,6 +26,34 @@ bool continues(const ChannelData& data, UtcTime start, double rate_hz) {
     return std::chrono::abs(start - last.time_of(last.counts.size())) <=
            from_seconds(0.5 / rate_hz);
 }
+
+/// The records of a day file so far, to find those that are there twice.
+class RecordsSeen {
+public:
+    explicit RecordsSeen(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    /// Returns false if the record at `offset` was seen before, maybe with another number.
+    [[nodiscard]] bool is_new(UtcTime start, std::size_t offset) {
+        constexpr std::size_t kNumber = 6;  // digits of the record's number, which begin it
+        const auto body = [this](std::size_t at) {
+            return bytes_.subspan(at + kNumber, kRecordSize - kNumber);
+        };
+        // In a file of one recorder the times ascend, and nothing is compared.
+        const auto [first, last] = std::ranges::equal_range(seen_, start, {}, &Seen::start);
+        for (const Seen& one : std::ranges::subrange(first, last))
+            if (std::ranges::equal(body(one.offset), body(offset))) return false;
+        seen_.insert(last, {start, offset});
+        return true;
+    }
+
+private:
+    struct Seen {
+        UtcTime start;
+        std::size_t offset = 0;
+    };
+    std::span<const std::byte> bytes_;
+    std::vector<Seen> seen_;  ///< Ascending.
+};
 
 bool is_of(const journal::StationCodes& codes, const RecordHeader& header) {
     return header.network == codes.network && header.station == codes.station &&
@@ -77,6 +106,7 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
     for (const auto& file :
          day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
         const auto bytes = files::read_bytes(file);
+        RecordsSeen seen(bytes);
         for (std::size_t at = 0; at < bytes.size();) {
             const std::size_t unread = at;
             const auto record = next_record(bytes, channel, at);
@@ -84,7 +114,7 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
             if (found > unread) data.damage.push_back({file, unread, found - unread});
             if (record && !is_of(codes, record->header))
                 data.damage.push_back({file, found, kRecordSize, true});
-            else if (record)
+            else if (record && seen.is_new(record->header.start, found))
                 joiner.take(*record);
         }
     }
@@ -102,6 +132,13 @@ std::vector<AbsentFile> absent_day_files(const fs::path& archive,
         for (const auto& file : day_files(archive, codes, channel, from, to))
             present[day_of(file)].insert(channel);
     std::vector<AbsentFile> absent;
+    for (const std::string& channel : channels) {
+        for (const auto& file : compressed_day_files(archive, codes, channel, from, to)) {
+            const UtcTime day = day_of(file.parent_path() / file.stem());
+            present[day].insert(channel);
+            absent.push_back({channel, day, file});
+        }
+    }
     for (const auto& [day, there] : present) {
         const auto is_long = [&](const std::string& channel) {
             const auto data =
@@ -115,6 +152,7 @@ std::vector<AbsentFile> absent_day_files(const fs::path& archive,
         for (const std::string& channel : channels)
             if (!there.contains(channel)) absent.push_back({channel, day});
     }
+    std::ranges::stable_sort(absent, {}, &AbsentFile::day);
     return absent;
 }
 

@@ -65,6 +65,8 @@ struct Damage {
 struct AbsentFile {
     std::string channel;
     UtcTime day;  ///< Begin of the day.
+    /// The file compressed, beside its place; empty: there is none.
+    std::filesystem::path compressed = {};
 
     bool operator==(const AbsentFile&) const = default;
 };
@@ -79,6 +81,9 @@ struct ChannelData {
 /// Reads the samples of one channel whose times lie within [from, to), from
 /// `<archive>/YEAR/NET/STA/CHAN.D/...`.  A day without a file is a gap.  Damage is skipped up to
 /// the next record, at any offset.
+///
+/// A record that is in its file twice, as in a merged copy, counts once: its number (the first six
+/// bytes) may differ.
 ///
 /// A gap or an overlap of more than half a sample begins a new segment, and another rate too.
 /// After the host's clock was set back, segments may overlap; nothing is removed.  Gaps, overlaps,
@@ -99,7 +104,8 @@ struct ChannelData {
 /// time: they were lost, as by a copy that is not complete.
 ///
 /// On a running day one channel has its first record before another.  So a day counts when a channel
-/// has twice journal::kLongestRecordAge of it.
+/// has twice journal::kLongestRecordAge of it.  A file that is there in compressed form always
+/// counts.
 /// @throws std::system_error  a file cannot be read.
 [[nodiscard]] std::vector<AbsentFile> absent_day_files(const std::filesystem::path& archive,
                                                        const journal::StationCodes& codes,

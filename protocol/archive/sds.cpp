@@ -59,8 +59,11 @@ std::vector<std::string> channels_in(const fs::path& archive, const journal::Sta
     return {channels.begin(), channels.end()};
 }
 
-std::vector<fs::path> day_files(const fs::path& archive, const journal::StationCodes& codes,
-                                const std::string& channel) {
+namespace {
+
+/// Returns the files of a channel that are named as a day file and `ending`.
+std::vector<fs::path> files_ending(const fs::path& archive, const journal::StationCodes& codes,
+                                   const std::string& channel, const std::string& ending) {
     const std::string stem = name_stem(codes, channel);
     std::vector<fs::path> files;
     for (const auto& station : station_directories(archive, codes)) {
@@ -69,8 +72,32 @@ std::vector<fs::path> day_files(const fs::path& archive, const journal::StationC
         for (const auto& entry : fs::directory_iterator(directory)) {
             const std::string name = entry.path().filename().string();
             if (name.starts_with(stem) &&
-                files::has_shape(std::string_view(name).substr(stem.size()), "####.###"))
+                files::has_shape(std::string_view(name).substr(stem.size()), "####.###" + ending))
                 files.push_back(entry.path());
+        }
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+}  // namespace
+
+std::vector<fs::path> day_files(const fs::path& archive, const journal::StationCodes& codes,
+                                const std::string& channel) {
+    return files_ending(archive, codes, channel, "");
+}
+
+std::vector<fs::path> compressed_day_files(const fs::path& archive,
+                                           const journal::StationCodes& codes,
+                                           const std::string& channel, UtcTime from, UtcTime to) {
+    const auto first = sds_file(archive, codes, channel, from).filename();
+    const auto last = sds_file(archive, codes, channel, to - Nanoseconds(1)).filename();
+    std::vector<fs::path> files;
+    for (const char* ending : {".gz", ".bz2", ".xz", ".zst", ".zip"}) {
+        for (const fs::path& file : files_ending(archive, codes, channel, ending)) {
+            const auto name = file.stem();
+            if (name >= first && name <= last && !fs::exists(file.parent_path() / name))
+                files.push_back(file);
         }
     }
     std::ranges::sort(files);

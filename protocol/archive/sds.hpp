@@ -51,6 +51,12 @@ namespace a351::archive {
                                                            const std::string& channel, UtcTime from,
                                                            UtcTime to);
 
+/// Returns the day files of a channel in [from, to) that a tool has compressed, such as NAME.gz, and
+/// that are not there uncompressed too, sorted by day.  They are not read.
+[[nodiscard]] std::vector<std::filesystem::path> compressed_day_files(
+    const std::filesystem::path& archive, const journal::StationCodes& codes,
+    const std::string& channel, UtcTime from, UtcTime to);
+
 /// Returns the begin of the day of a day file, by its name.
 /// @param file  from day_files().
 [[nodiscard]] UtcTime day_of(const std::filesystem::path& file);

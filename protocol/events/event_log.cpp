@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <system_error>
+#include <unordered_set>
 #include <utility>
 
 namespace a351::events {
@@ -40,6 +41,26 @@ void take_back(files::FileLayer& files, const fs::path& file, std::uint64_t size
         // The first error is the one to report.
     }
 }
+
+/// Finds the lines that a merged copy of a data root has twice.
+///
+/// The recorder never logs two equal starts, stops or set-ups.  Equal changes of a stay are possible,
+/// as discard, restore, discard without a sensor: such a line counts as repeated only directly after
+/// another one.
+class RepeatedLines {
+public:
+    /// Returns true if the line is a repeated one.
+    [[nodiscard]] bool take(const std::string& line, const std::string& type) {
+        const bool is_known = !seen_.insert(line).second;
+        const bool is_unique = type == "start" || type == "stop" || type == "setup";
+        is_within_copy_ = is_known && (is_unique || is_within_copy_);
+        return is_within_copy_;
+    }
+
+private:
+    std::unordered_set<std::string> seen_;
+    bool is_within_copy_ = false;
+};
 
 }  // namespace
 
@@ -116,8 +137,10 @@ EventLog read_events(const fs::path& directory) {
         std::ifstream in(month, std::ios::binary);
         if (!in) throw std::system_error(errno, std::generic_category(), "open " + month.string());
         std::string line;
+        RepeatedLines repeated;
         for (std::size_t number = 1; std::getline(in, line); ++number) {
             auto event = parse_event(line);
+            if (event && repeated.take(line, event->type)) continue;
             if (event) log.events.push_back(std::move(*event));
             if (!event) log.damage.push_back({month, number});
         }

@@ -23,7 +23,7 @@ namespace a351::station {
 
 /// Reads a file and checks its channels, those of ended epochs too.
 ///
-/// The document has at least one station afterwards.  Each channel has a response with a unit, and
+/// The document has at least one station afterwards, and no prefix of a namespace.  Each channel has a response with a unit, and
 /// dates that are absent or valid.  The codes and the number of channels are not checked.
 /// @return the whole document, elements included that this project does not use.
 /// @throws InputError  the file is missing or is not StationXML, or a channel lacks data that
@@ -33,7 +33,8 @@ namespace a351::station {
 /// Returns the instant in an attribute of a node; std::nullopt if the node does not have it or it
 /// is empty.
 /// @param file       named in the message of an error; it is not read.
-/// @param attribute  "startDate" or "endDate"; its text is RFC 3339 with a zone.
+/// @param attribute  "startDate" or "endDate"; its text is RFC 3339, in UTC without a zone.  A year
+///                   after 2261 means that there is no date.
 /// @throws InputError  the attribute is not an instant.
 [[nodiscard]] std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node node,
                                              const char* attribute);

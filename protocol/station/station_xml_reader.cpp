@@ -28,6 +28,38 @@ double number_in(const std::filesystem::path& file, const std::string& channel,
     return value;
 }
 
+/// Returns the unit as this project writes it.  SEED writes capital letters; other programs write the
+/// power in other ways.
+std::string usual_unit(std::string_view name) {
+    std::string lower(name);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c | 0x20);
+    if (lower == "m/s**2" || lower == "m/s^2" || lower == "m/s/s" || lower == "m/s2")
+        return "m/s**2";
+    return lower == "degc" ? "degC" : lower == "s" ? "s" : std::string(name);
+}
+
+/// Takes the prefix of a namespace from the names of all elements below a node.
+void remove_prefix(pugi::xml_node node, const std::string& prefix) {
+    for (pugi::xml_node child : node.children()) {
+        const std::string_view name = child.name();
+        if (name.starts_with(prefix))
+            child.set_name(std::string(name.substr(prefix.size())).c_str());
+        remove_prefix(child, prefix);
+    }
+}
+
+/// Gives elements with the prefix of the root, as in <fsx:FDSNStationXML>, their usual names.
+void remove_prefix_of_root(pugi::xml_document& document) {
+    const std::string name = document.document_element().name();
+    const std::size_t colon = name.find(':');
+    if (colon == std::string::npos) return;
+    document.document_element()
+        .attribute(("xmlns:" + name.substr(0, colon)).c_str())
+        .set_name("xmlns");
+    remove_prefix(document, name.substr(0, colon + 1));
+}
+
 ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channel) {
     ChannelScale scale;
     scale.code = channel.attribute("code").value();
@@ -36,7 +68,7 @@ ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channe
     const auto sensitivity = response.child("InstrumentSensitivity");
     const auto polynomial = response.child("InstrumentPolynomial");
     const auto described = sensitivity ? sensitivity : polynomial;
-    scale.unit = described.child("InputUnits").child("Name").text().get();
+    scale.unit = usual_unit(described.child("InputUnits").child("Name").text().get());
     if (scale.unit.empty()) refuse(file, "channel " + scale.code + ": no response with a unit");
     if (sensitivity) {
         const double gain = number_in(file, scale.code, sensitivity.child("Value"));
@@ -113,8 +145,13 @@ Metadata metadata_at(const std::filesystem::path& file, const pugi::xml_document
 std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node node,
                                const char* attribute) {
     const std::string text = node.attribute(attribute).value();
-    if (text.empty()) return std::nullopt;
-    const auto date = parse_rfc3339(text);
+    // Open epochs often end at 2599-12-31T23:59:59, later than an UtcTime can be.
+    int year = 0;
+    constexpr int kLastYear = 2261;
+    const auto end_of_year = std::from_chars(text.data(), text.data() + text.size(), year).ptr;
+    if (text.empty() || (*end_of_year == '-' && year > kLastYear)) return std::nullopt;
+    // Dates of StationXML (xs:dateTime) are UTC if they have no zone.
+    const auto date = parse_rfc3339_in_zone(text, std::chrono::minutes(0));
     if (!date) {
         refuse(file, fmt::format("{} {}: {} = {}: not an instant", node.name(),
                                  node.attribute("code").value(), attribute, text));
@@ -134,6 +171,7 @@ pugi::xml_document load_station_document(const std::filesystem::path& file) {
     pugi::xml_document document;
     const auto result = document.load_file(file.c_str());
     if (!result) refuse(file, std::string("cannot be read as XML: ") + result.description());
+    remove_prefix_of_root(document);
     if (!document.child("FDSNStationXML").child("Network").child("Station"))
         refuse(file, "not StationXML: no FDSNStationXML/Network/Station");
     for (const auto network : document.child("FDSNStationXML").children("Network")) {

@@ -77,9 +77,10 @@ TEST_CASE("a day file that one channel lacks is named, once the day is longer th
     Archive archive;
     const auto absent = [&] {
         std::string text;
-        for (const auto& [channel, day] : absent_day_files(
+        for (const auto& [channel, day, compressed] : absent_day_files(
                  archive.path(), StationCodes{}, {"BN1", "BN2", "BNZ"}, kBegin - 48h, kBegin + 48h))
-            text += channel + " " + to_rfc3339(day).substr(0, 10) + "; ";
+            text += channel + " " + to_rfc3339(day).substr(0, 10) +
+                    compressed.extension().string() + "; ";
         return text;
     };
     CHECK(absent() == "");
@@ -89,6 +90,9 @@ TEST_CASE("a day file that one channel lacks is named, once the day is longer th
     CHECK(absent() == "BN2 2026-03-01; ");
     for (const UtcTime at : {kBegin - 3s, kBegin + 130s}) archive.add(at - 24h, 0, "BN2");
     CHECK(absent() == "BNZ 2026-02-28; BN2 2026-03-01; ");
+    for (const auto& file : day_files(archive.path(), StationCodes{}, "BN1", kBegin, kBegin + 1h))
+        std::filesystem::rename(file, file.string() + ".gz");
+    CHECK(absent() == "BNZ 2026-02-28; BN1 2026-03-01.gz; ");
 }
 
 TEST_CASE("records without a gap between them form one segment", "[record][archive_reader]") {
@@ -105,6 +109,36 @@ TEST_CASE("records without a gap between them form one segment", "[record][archi
         CHECK(segment.counts[std::size_t(i)] == i);
         CHECK(segment.time_of(std::size_t(i)) == kBegin + i * kStep);
     }
+}
+
+TEST_CASE("records that a merged copy has twice count once", "[record][archive_reader]") {
+    Archive archive;
+    for (int i = 0; i < 5; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
+    archive.add(kBegin, 7);  // other samples at a known time: the clock was set back
+    const auto once = test::read_bytes(archive.day_file());
+    auto twice = once;
+    twice.insert(twice.end(), once.begin(), once.end());
+    twice.insert(twice.end(), once.begin() + kRecordSize, once.begin() + 2 * kRecordSize);
+    twice[twice.size() - kRecordSize] = std::byte{'9'};  // numbered again
+    test::write_bytes(archive.day_file(), twice);
+    const auto data = archive.read();
+    CHECK(data.damage.empty());
+    REQUIRE(data.segments.size() == 2);
+    CHECK(data.segments[0].counts.size() == 500);
+    CHECK(data.segments[1].counts.size() == 100);
+}
+
+TEST_CASE("a record that begins in second 60 is read", "[record][archive_reader]") {
+    constexpr std::size_t kSecondAt = 26;  // SEED 2.4, fixed section of the header
+    Archive archive;
+    archive.add(*parse_rfc3339("2026-03-01T12:00:59Z"), 0);
+    auto bytes = test::read_bytes(archive.day_file());
+    REQUIRE(bytes[kSecondAt] == std::byte{59});
+    bytes[kSecondAt] = std::byte{60};
+    test::write_bytes(archive.day_file(), bytes);
+    const auto data = archive.read();
+    REQUIRE(data.segments.size() == 1);
+    CHECK(data.segments[0].time_of(0) == *parse_rfc3339("2026-03-01T12:01:00Z"));
 }
 
 TEST_CASE("each record keeps its own start time", "[record][archive_reader]") {

@@ -79,6 +79,27 @@ TEST_CASE("events are written to the file of their month and read back in order"
     CHECK(read_events(directory.path() / "absent").events.empty());
 }
 
+TEST_CASE("lines that a merged copy has twice count once", "[record][event_log]") {
+    test::TemporaryDirectory directory;
+    const auto line = [](const char* type, const char* minute) {
+        return std::string("{\"type\":\"") + type + "\",\"utc\":\"2026-03-01T09:" + minute +
+               ":00Z\"}\n";
+    };
+    const auto types = [&](const std::string& log) {
+        test::write_bytes(directory.path() / "2026-03.jsonl", test::bytes_of(log));
+        std::string all;
+        for (const Event& event : read_events(directory.path()).events) all += event.type + " ";
+        return all;
+    };
+    const std::string morning = line("start", "00") + line("stop", "10") + line("discard", "10") +
+                                line("restore", "10") + line("discard", "10");
+    const std::string expected = "start stop discard restore discard ";
+    CHECK(types(morning) == expected);
+    CHECK(types(morning + morning) == expected);
+    CHECK(types(morning + morning + line("start", "20")) == expected + "start ");
+    CHECK(types(line("start", "00") + line("start", "00") + line("start", "01")) == "start start ");
+}
+
 TEST_CASE("a line torn at any byte is reported and does not damage the next one",
           "[record][event_log]") {
     const test::TemporaryDirectory directory;

@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/station/station_document.hpp"
 #include "tests/unit/station/station_files.hpp"
 
 using namespace a351::journal;
@@ -148,6 +149,36 @@ TEST_CASE("an unknown profile is refused as an error of the caller", "[record][s
     auto station = description();
     station.profile = "A999";
     CHECK_THROWS_AS(to_station_xml(station), std::invalid_argument);
+}
+
+TEST_CASE("metadata as other programs write them are the same metadata", "[record][station_xml]") {
+    // After obspy/core/tests/data/AU.MEEK.xml, IU_ANMO_00_BHZ.xml and GeoNet/delta #134.
+    const auto all = [](std::string text, const std::string& from, const std::string& to) {
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+            text.replace(at, from.size(), to);
+        return text;
+    };
+    const auto whole = to_station_xml(description());
+    std::string prefixed = all(all(whole, "</", "</fsx:"), "<", "<fsx:");
+    prefixed =
+        all(all(all(prefixed, "<fsx:/fsx:", "</fsx:"), "<fsx:?", "<?"), "xmlns=", "xmlns:fsx=");
+    const std::string text =
+        GENERATE_COPY(std::string(whole), all(whole, "12:00:00.000000Z\"", "12:00:00\""),
+                      all(whole, "startDate=\"2026-03-01T12:00:00",
+                          "endDate=\"2599-12-31T23:59:59\" startDate=\"2026-03-01T12:00:00"),
+                      all(whole, "m/s**2", "M/S**2"), all(whole, "m/s**2", "m/s^2"), prefixed);
+    CAPTURE(text.substr(0, 600));
+    const Metadata expected = File(whole).read();
+    const File file(text);
+    for (const auto& at : {std::optional<UtcTime>(), std::optional(description().start)}) {
+        const Metadata read = file.read(at);
+        REQUIRE(read.channels.size() == expected.channels.size());
+        CHECK(read.channels[0].unit == "m/s**2");
+        CHECK(read.channels[0].gain == expected.channels[0].gain);
+        CHECK(read.codes.station == "A351");
+        CHECK(read.position.has_value());
+    }
+    CHECK(xml_text(load_station_document(file.path())).find("<fsx:") == std::string::npos);
 }
 
 TEST_CASE("metadata that cannot be used are refused with the file's name",
