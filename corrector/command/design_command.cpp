@@ -16,7 +16,7 @@ namespace {
 struct DesignOptions {
     std::string plan, sites, unit;
     std::string out = "design";
-    std::vector<std::string> figures;
+    figure::FigureOptions figures;
     bool is_json = false;
 };
 
@@ -32,8 +32,9 @@ void design_survey(const DesignOptions& options) {
 
     const design::Design design = design::make_design(plan, sites, unit);
     std::vector<text::NamedText> files = design::design_files(design, inputs);
-    const std::vector<figure::Figure> figures{figure::design_figure(design.errors)};
-    figure::Drawing drawing = figure::draw(figures, options.figures);
+    const std::vector<figure::Figure> figures{
+        figure::design_figure(design.errors, options.figures.print)};
+    figure::Drawing drawing = figure::draw(figures, options.figures.formats);
     report::add_figure_files(files, figures, drawing);
     text::write_together(options.out, files);
     const std::vector<std::string> missing = report::missing_lines(drawing.troubles);
@@ -61,7 +62,7 @@ void add_design_command(CLI::App& program) {
                "day corrected with the model day (default: a usual unit)");
     add_with_default(command, "--out", "DIR", options->out, "Folder of the result");
     command.add_flag("--json", options->is_json, "Print design.json instead of the tables");
-    add_figures_option(command, options->figures);
+    add_figure_options(command, options->figures);
     command.callback([options] { design_survey(*options); });
 }
 

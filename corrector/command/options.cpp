@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <iostream>
+#include <map>
 
-#include "corrector/figure/drawing.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
 
@@ -36,11 +36,25 @@ void add_column_options(CLI::App& command, std::string& input, std::string& colu
                  "Column to read; an empty cell is a missing sample");
 }
 
-void add_figures_option(CLI::App& command, std::vector<std::string>& formats) {
-    add_option(command, "--figures", "FORMAT", formats,
+void add_figure_options(CLI::App& command, figure::FigureOptions& options) {
+    add_option(command, "--figures", "FORMAT", options.formats,
                "Also write the figures in this format, besides SVG; may be repeated")
         ->allow_extra_args(false)
         ->check(CLI::IsMember(figure::picture_formats()));
+    const std::map<std::string, double> widths{
+        {fmt::format("{:.0f}mm", figure::kColumn_mm), figure::kColumn_mm},
+        {fmt::format("{:.0f}mm", figure::kPage_mm), figure::kPage_mm}};
+    command
+        .add_option_function<std::string>(
+            "--figure-width",
+            [&options, widths](const std::string& width) {
+                options.print.width_mm = widths.at(width);
+            },
+            "Width of every figure in print, for one column or a page: 84mm or 170mm. Default: "
+            "small "
+            "figures 84mm, others 170mm")
+        ->type_name("WIDTH")
+        ->check(CLI::IsMember(widths));
 }
 
 void add_verbose_flag(CLI::App& command, bool& is_verbose) {

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "corrector/figure/drawing.hpp"
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/message.hpp"
@@ -53,8 +54,9 @@ CLI::Option* add_with_default(CLI::App& command, const std::string& name, const 
 /// Adds --input and --column, a column for SampleColumn.  Both must be given.
 void add_column_options(CLI::App& command, std::string& input, std::string& column);
 
-/// Adds --figures, which may be repeated.  Only picture_formats() are accepted.
-void add_figures_option(CLI::App& command, std::vector<std::string>& formats);
+/// Adds --figures, which may be repeated, and --figure-width.  Only picture_formats() and the widths
+/// of a column and a page are accepted.
+void add_figure_options(CLI::App& command, figure::FigureOptions& options);
 
 /// Adds --verbose, for survey_text().
 void add_verbose_flag(CLI::App& command, bool& is_verbose);

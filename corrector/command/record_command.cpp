@@ -27,7 +27,7 @@ struct RecordCommandOptions {
     std::string from, to, apply;
     std::string out = "result";
     long_record::RecordAnalysisOptions analysis;
-    std::vector<std::string> figures;
+    figure::FigureOptions figures;
 };
 
 long_record::LongRecord read_record(const RecordCommandOptions& options) {
@@ -156,7 +156,7 @@ void add_record_command(CLI::App& program) {
     add_with_default(command, "--ensemble", "N", options->analysis.ensemble_size,
                      "Number of noise realisations that are averaged");
     add_with_default(command, "--seed", "N", options->analysis.seed, "Seed of the noise generator");
-    add_figures_option(command, options->figures);
+    add_figure_options(command, options->figures);
     command.callback([options] { analyse(*options); });
 }
 

@@ -48,7 +48,7 @@ struct SurveyCommandOptions {
     std::string trend;
     std::string calibration;
     std::string from, to;
-    std::vector<std::string> figures;
+    figure::FigureOptions figures;
     std::string sites;
     bool is_json = false;
     bool is_verbose = false;
@@ -128,7 +128,7 @@ std::string folder_name(std::string name) {
     return name;
 }
 
-Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& picture_formats) {
+Day correct_day(const job::SurveyFile& survey, const figure::FigureOptions& figures) {
     text::ProgressBar bar(survey.name);
     reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
     Day day{survey.name, job::correct_survey_day(survey, read)};
@@ -143,7 +143,7 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
     const report::Report report = report::make_report(
         result, settings,
         {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
-         std::move(read.signal), read.inputs, read.warnings, picture_formats});
+         std::move(read.signal), read.inputs, read.warnings, figures});
     day.files.insert(day.files.end(), report.files.begin(), report.files.end());
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     print_warnings(read.warnings, survey.name + ": ");
@@ -152,7 +152,7 @@ Day correct_day(const job::SurveyFile& survey, const std::vector<std::string>& p
 
 /// Writes and prints what the corrected days have together.  The order of the days has no effect.
 void write_joint(std::vector<Day> days, const std::filesystem::path& out,
-                 const std::vector<std::string>& picture_formats) {
+                 const figure::FigureOptions& figures) {
     std::ranges::sort(days, {}, [](const Day& day) {
         return std::tuple(day.result ? day.result->rows.front().row.time : UtcTime::max(),
                           day.serial_number, day.name);
@@ -177,7 +177,7 @@ void write_joint(std::vector<Day> days, const std::filesystem::path& out,
         {"joint.json", result::joint_json(joint, tables)},
         {"history.csv", result::csv_table(result::unit_day_columns(), units)},
         {"terms.csv", result::csv_table(result::term_summary_columns(), result::summarise(units))}};
-    report::Report page = report::make_joint_page(pages, joint, units, picture_formats);
+    report::Report page = report::make_joint_page(pages, joint, units, figures);
     files.insert(files.end(), page.files.begin(), page.files.end());
     text::write_together(out, files);
     print_warnings({page.warnings.begin(), page.warnings.end()});
@@ -281,7 +281,7 @@ void add_survey_command(CLI::App& program) {
     add_option(
         command, "--to", "UTC", options->to,
         "Use occupations that start before this instant (RFC 3339). Default: the end of the log");
-    add_figures_option(command, options->figures);
+    add_figure_options(command, options->figures);
     add_verbose_flag(command, options->is_verbose);
     command.callback([options] { correct_days(*options); });
 }

@@ -29,7 +29,7 @@ struct TableOptions {
     std::string tide;  ///< Empty: given if the column exists, else direct.
     std::vector<std::tuple<std::string, double, double>> priors;
     std::string out = "result";
-    std::vector<std::string> figures;
+    figure::FigureOptions figures;
     bool is_verbose = false;
 };
 
@@ -82,7 +82,7 @@ void correct_table(TableOptions options) {
         if (!file.empty()) sources.inputs.push_back(text::describe_input(role, file));
     sources.warnings = reading::position_warnings(rows, sites);
     sources.warnings.insert(sources.warnings.end(), reduced.begin(), reduced.end());
-    sources.picture_formats = options.figures;
+    sources.figures = options.figures;
     nlohmann::ordered_json settings;
     settings["command"] = "table";
     job::describe_correction(settings, survey, result.options.base);
@@ -149,7 +149,7 @@ void add_table_command(CLI::App& program) {
                      "network: degree of the polynomial in time that describes the drift, 0-3")
         ->check(CLI::Range(0, model::kGreatestDriftDegree));
     add_with_default(command, "--out", "DIR", options->out, "Folder of the result");
-    add_figures_option(command, options->figures);
+    add_figure_options(command, options->figures);
     add_verbose_flag(command, options->is_verbose);
     command.callback([options] { correct_table(*options); });
 }

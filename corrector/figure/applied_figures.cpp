@@ -28,18 +28,19 @@ std::string mean_lines(const std::vector<double>& values, double step_s) {
     return lines;
 }
 
-Figure series_figure(const long_record::RecordResult& result) {
+Figure series_figure(const long_record::RecordResult& result, const Print& print) {
     const std::vector<double>& before = result.segment().acceleration_mgal;
     const double low = std::ranges::min(before), high = std::ranges::max(before),
                  mean = signal::mean_of(before);
     Figure figure{"before-after",
                   tr("The record minus its mean, before and after the correction by each of two "
                      "methods."),
-                  900, 640};
+                  print.wide_mm()};
     const auto add = [&](const char* title, const std::vector<double>& values, Colour colour) {
         figure.panels.push_back(
             {.y = {std::string(text::translated(title, text::language())) + " (mGal)",
-                   {low - mean - 1.0, high - mean + 1.0}}});
+                   {low - mean - 1.0, high - mean + 1.0}},
+             .height_mm = kStackedPanel_mm});
         figure.plot(fmt::format("hours {} (mGal)", title), mean_lines(values, result.record.step_s),
                     {Look::line, colour}, figure.panels.size() - 1);
     };
@@ -50,11 +51,11 @@ Figure series_figure(const long_record::RecordResult& result) {
     return figure;
 }
 
-Figure allan_figure(const long_record::RecordResult& result) {
+Figure allan_figure(const long_record::RecordResult& result, const Print& print) {
     Figure figure{
         "allan",
         tr("Allan deviation before and after the correction: scatter of averages over this time."),
-        900, 400};
+        print.small_mm()};
     std::string lines;
     for (const auto& [averaging_s, deviation] : result.applied->allan)
         lines += data_line(
@@ -64,15 +65,15 @@ Figure allan_figure(const long_record::RecordResult& result) {
         {{.label = tr("Averaging (s)"), .scale = Scale::logarithmic},
          {.label = tr("Allan deviation (mGal)"), .scale = Scale::logarithmic},
          {{Look::linked_discs, Colour::grey, tr("before"), {{1}, {2}}, source},
-          {Look::linked_discs, Colour::blue, tr("parametric"), {{1}, {3}}, source},
-          {Look::linked_discs, Colour::vermilion, tr("by modes"), {{1}, {4}}, source}}}};
+          {Look::linked_triangles, Colour::blue, tr("parametric"), {{1}, {3}}, source},
+          {Look::linked_squares, Colour::vermilion, tr("by modes"), {{1}, {4}}, source}}}};
     return figure;
 }
 
 }  // namespace
 
-std::vector<Figure> applied_figures(const long_record::RecordResult& result) {
-    return {series_figure(result), allan_figure(result)};
+std::vector<Figure> applied_figures(const long_record::RecordResult& result, const Print& print) {
+    return {series_figure(result, print), allan_figure(result, print)};
 }
 
 }  // namespace a351::corrector::figure

@@ -8,6 +8,7 @@
 #include "corrector/figure/record_figures.hpp"
 #include "corrector/figure/row_marks.hpp"
 #include "corrector/judgement/reading_grade.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
@@ -15,16 +16,12 @@ namespace {
 
 using text::tr;
 
-/// The time from the start of a stay to its end, with its name.
+/// The time from the start of a stay to its end, with its site.
 struct Stay {
     UtcTime start, end;
     std::string name;
     Colour colour = Colour::stay;
 };
-
-std::string stay_name(const std::string& site, int occupation) {
-    return fmt::format("{} ({})", short_label(site), occupation);
-}
 
 /// Returns the stays with a value, whose set-ups are one band, then those without.  Without records
 /// a stay is an instant.
@@ -34,8 +31,7 @@ std::vector<Stay> stays_of(const model::SurveyCorrection& result,
     auto record = records.begin();
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const reading::SurveyRow& row = result.rows[i].row;
-        Stay stay{row.start.value_or(row.time), row.end.value_or(row.time),
-                  stay_name(row.site, row.occupation)};
+        Stay stay{row.start.value_or(row.time), row.end.value_or(row.time), short_label(row.site)};
         if (record != records.end() && record->row == i) {
             const auto& series = record->value->series;
             stay.start = std::min(stay.start, series.start());
@@ -50,8 +46,7 @@ std::vector<Stay> stays_of(const model::SurveyCorrection& result,
             stays.push_back(stay);
     }
     for (const reading::LeftOut& stay : result.left_out)
-        stays.push_back(
-            {stay.start, stay.end, stay_name(stay.site, stay.occupation), Colour::lost_stay});
+        stays.push_back({stay.start, stay.end, short_label(stay.site), Colour::lost_stay});
     return stays;
 }
 
@@ -88,7 +83,7 @@ void plot_errors(Figure& figure, const model::SurveyCorrection& result) {
         });
     std::vector<Series>& series = figure.panels.front().series;
     if (series.empty()) return;
-    std::vector<Series> below{{.look = Look::firm_line, .colour = Colour::grey, .source = kZero}};
+    std::vector<Series> below{{.look = Look::line, .colour = Colour::grey, .source = kZero}};
     for (const Series& marks : series)
         below.push_back({Look::bars, Colour::bar_grey, "", {{1}, {2}, {3}}, marks.source});
     series.insert(series.begin(), below.begin(), below.end());
@@ -127,11 +122,12 @@ void plot_temperatures(Figure& figure, const model::SurveyCorrection& result,
                              data_line("4", {row.temperature.value()}, comment(result, i));
     }
     figure.plot("means of a minute: time_utc temperature_degc", course_lines,
-                {Look::firm_line, Colour::vermilion}, 2);
+                {Look::line, Colour::vermilion}, 2);
     figure.plot("readings: time_utc temperature_degc", reading_lines, {Look::small_discs}, 2);
 }
 
-/// Adds the signal as a band, with its words as key.
+/// Adds the signal as a band, with its words as key.  Each word has its own height, so that words
+/// can be distinguished in grey.
 void plot_signal(Figure& figure, const std::vector<reading::SignalSpan>& signal) {
     struct Word {
         const char* code;
@@ -144,11 +140,13 @@ void plot_signal(Figure& figure, const std::vector<reading::SignalSpan>& signal)
                                           {"look", text::marked("LOOK"), Colour::vermilion},
                                           {"warming_up", text::marked("WARMING UP"), Colour::sky},
                                           {"no_data", text::marked("NO DATA"), Colour::grey}}};
+    double height = 1.0;
     for (const auto& [word, name, colour] : kWords) {
         std::string lines;
+        height -= 1.0 / static_cast<double>(kWords.size() + 1);
         for (const reading::SignalSpan& span : signal)
             if (span.word == word)
-                lines += fmt::format("{} 0.25\n{} 0.25\n\n", to_rfc3339(span.start),
+                lines += fmt::format("{0} {1:.2f}\n{2} {1:.2f}\n\n", to_rfc3339(span.start), height,
                                      to_rfc3339(span.end));
         figure.plot(fmt::format("signal {}: time_utc height", word), lines,
                     {Look::ribbon, colour, std::string(text::translated(name, text::language()))},
@@ -157,15 +155,22 @@ void plot_signal(Figure& figure, const std::vector<reading::SignalSpan>& signal)
 }
 
 /// Returns the axis from the first to the last instant, with a margin.
-Axis time_axis(UtcTime first, UtcTime last) {
+Axis time_axis(UtcTime first, UtcTime last, const Print& print) {
     // Longest survey whose axis shows only hours; a longer one needs the date too.
     constexpr std::chrono::hours kLongestDay(36);
     const std::string first_date = to_rfc3339(first).substr(0, 10);
     const std::string last_date = to_rfc3339(last).substr(0, 10);
     const auto margin = (last - first) / 50 + std::chrono::minutes(1);
+    // Whole hours, so that their numbers have room.
+    const double hours = seconds_between(first, last) / kSecondsPerHour;
+    const double most = print.is_narrow() ? 7.0 : 14.0;
+    double step_h = 1.0;
+    for (const double longer : {2.0, 3.0, 6.0, 12.0, 24.0, 48.0, 96.0})
+        if (hours / step_h > most) step_h = longer;
     return {.label = fmt::format("UTC, {}{}", first_date,
                                  first_date == last_date ? "" : " to " + last_date),
             .range = {instant(first - margin), instant(last + margin)},
+            .step = step_h * kSecondsPerHour,
             .format = last - first > kLongestDay ? "%H:%M\n%m-%d" : "%H:%M",
             .scale = Scale::time};
 }
@@ -174,46 +179,40 @@ Axis time_axis(UtcTime first, UtcTime last) {
 
 Figure day_figure(const model::SurveyCorrection& result, const std::vector<ReadingRecord>& records,
                   const std::vector<archive_series::MinuteTemperature>& course,
-                  const std::vector<reading::SignalSpan>& signal) {
+                  const std::vector<reading::SignalSpan>& signal, const Print& print) {
     const std::vector<Stay> stays = stays_of(result, records);
     UtcTime first = stays.front().start, last = first;
     std::vector<Span> spans;
-    std::vector<Text> names;
-    std::size_t longest = 0;
+    std::vector<std::pair<double, std::string>> names;
     for (const Stay& stay : stays) {
         first = std::min(first, stay.start);
         last = std::max(last, stay.end);
-        longest = std::max(longest, stay.name.size());
         spans.push_back({instant(stay.start), instant(stay.end), stay.colour});
-        names.push_back(
-            {stay.name, {instant(stay.start), 1.04, true}, "left", Letters::tiny, true});
+        names.emplace_back(0.5 * (instant(stay.start) + instant(stay.end)), stay.name);
     }
+    std::ranges::stable_sort(names, {}, &std::pair<double, std::string>::first);
     for (const model::CorrectedRow& row : result.rows)
         if (row.row.start && row.row.end)
             spans.push_back({instant(*row.row.start), instant(*row.row.end), Colour::averaged});
 
-    constexpr double kKey_px = 24.0, kLetter_px = 6.0;  // height of the key, width of a tiny letter
-    Figure figure{
-        "day",
-        caption_of(result, !records.empty(), !course.empty(), !signal.empty()),
-        960,
-        0,
-        {{.y = {tr("Value - reference (mGal)")}, .key = Key::top_of_figure, .height_px = 210.0},
-         {.y = {tr("Samples - mean (mGal)")}, .height_px = 150.0},
-         {.y = {tr("Temperature (°C)")}, .height_px = 170.0},
-         {.y = {.range = {0.0, 1.0}, .is_shown = false}, .key = Key::in_line, .height_px = 46.0}}};
+    Figure figure{"day",
+                  caption_of(result, !records.empty(), !course.empty(), !signal.empty()),
+                  print.wide_mm(),
+                  {{.y = {.label = tr("Value - reference (mGal)")}, .height_mm = kStackedPanel_mm},
+                   {.y = {tr("Samples - mean (mGal)")}, .height_mm = kStackedPanel_mm},
+                   {.y = {tr("Temperature (°C)")}, .height_mm = kStackedPanel_mm},
+                   {.y = {.label = tr("Signal"), .range = {0.0, 1.0}, .is_shown = false},
+                    .height_mm = 12.0}}};
     plot_errors(figure, result);
     plot_samples(figure.panels.at(1), result, records);
     plot_temperatures(figure, result, course);
     plot_signal(figure, signal);
     std::erase_if(figure.panels, [](const Panel& panel) { return panel.series.empty(); });
     for (Panel& panel : figure.panels) {
-        panel.x = time_axis(first, last);
+        panel.x = time_axis(first, last, print);
         panel.spans = spans;
     }
-    if (!figure.panels.empty()) figure.panels.front().texts = names;
-    figure.frame = {96.0, 14.4, kKey_px + 10.0 + kLetter_px * static_cast<double>(longest),
-                    54.0, 0.0,  14.0};
+    if (!figure.panels.empty()) figure.panels.front().names = names;
     return figure;
 }
 

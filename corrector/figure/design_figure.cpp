@@ -8,7 +8,7 @@
 
 namespace a351::corrector::figure {
 
-Figure design_figure(const design::ExpectedErrors& errors) {
+Figure design_figure(const design::ExpectedErrors& errors, const Print& print) {
     // Sources in the order of whole_day::ErrorSource.
     constexpr std::array<std::pair<const char*, Colour>, whole_day::kErrorSources> kParts{
         {{"placement", Colour::blue},
@@ -19,13 +19,14 @@ Figure design_figure(const design::ExpectedErrors& errors) {
          {"drift", Colour::orange},
          {"datum", Colour::green},
          {"scale", Colour::black}}};
-    Figure figure{
-        "design",
-        "Expected variance of the unknown stations and its sources; above each bar: "
-        "standard uncertainty in mGal.",
-        900,
-        430,
-        {{.x = {.slope = 1}, .y = {"Variance (mGal²)", {0.0, kFromData}}, .has_margin = true}}};
+    Figure figure{"design",
+                  "Expected variance of the unknown stations and its sources; above each bar: "
+                  "station and standard uncertainty in mGal.",
+                  print.wide_mm(),
+                  {{.x = {.is_shown = false},
+                    .y = {"Variance (mGal²)", {0.0, kFromData}},
+                    .has_margin = true,
+                    .height_mm = kWidePanel_mm}}};
     Panel& panel = figure.panels.front();
     std::string lines;
     double place = 0.0;
@@ -37,9 +38,8 @@ Figure design_figure(const design::ExpectedErrors& errors) {
         for (const double part : station.parts_mgal)
             lines += data_line("4", {sum += part * part}, "");
         lines += "# " + clean_utf8(station.site) + '\n';
-        panel.x.names.emplace_back(place, short_label(station.site));
-        panel.texts.push_back(
-            {text::fixed(station.u.value(), 2), {place, sum, true, true}, "center"});
+        panel.names.emplace_back(
+            place, short_label(station.site) + ' ' + text::fixed(station.u.value(), 2));
         place += 1.0;
     }
     panel.x.range = {-0.6, place - 0.4};

@@ -21,6 +21,12 @@ namespace a351::corrector::figure {
 /// three times as wide and as high as the SVG in pixels.  The list lives as long as the program.
 [[nodiscard]] const std::vector<std::string>& picture_formats();
 
+/// How figures are wanted: formats besides SVG, from picture_formats(), and their width.
+struct FigureOptions {
+    std::vector<std::string> formats = {};
+    Print print = {};
+};
+
 /// The pictures that could be drawn.  SVG is first, then the other formats in the order asked for.
 ///
 /// No troubles: every figure has every format.  A trouble of one figure begins with its

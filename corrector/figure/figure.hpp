@@ -2,23 +2,23 @@
 /// @file
 /// A figure as data: panels with axes, series, spans, lines and texts.
 ///
-///     Figure figure{"residuals", "Residuals in time.", 640, 440};
+///     Figure figure{"residuals", "Residuals in time.", print.wide_mm()};
 ///     figure.panels = {{.x = {"Hours"}, .y = {"Residual (mGal)"}}};
 ///     figure.plot("hours residual_mgal", data_line("11", {1.0, 0.3}), {Look::discs});
 ///
-/// It says what is shown.  Letters, line widths and places are decided in gnuplot_script.cpp, which
-/// writes the script, and draw() of drawing.hpp makes the pictures.
+/// It says what is shown.  print_style.hpp has the sizes of letters and lines, layout.hpp decides the
+/// places, gnuplot_script.hpp writes the script, and draw() of drawing.hpp makes the pictures.
 
 #include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "corrector/figure/print_style.hpp"
 #include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector::figure {
@@ -37,11 +37,13 @@ enum class Colour {
 /// - bars and the looks with bars: x, y and u, or x, y, low and high;
 /// - area: x, low and high.
 ///
-/// Lines are interrupted by an empty line of the data.  Boxes are from 0 to y.
+/// Lines are interrupted by an empty line of the data.  Boxes are from 0 to y.  Curves of one panel
+/// differ in look too, so that they can be distinguished in grey.
 enum class Look {
-    line, thin_line, firm_line, strong_line, thick_line, heavy_line, ribbon, area, boxes, bars,
+    line, thin_line, strong_line, dashed_line, dotted_line, ribbon, area, boxes, bars,
     dots, discs, small_discs, crosses, diamonds, open_diamonds, large_discs, triangles,
-    linked_discs, discs_with_bars, circles_with_bars
+    linked_discs, linked_triangles, linked_squares,
+    discs_with_bars, circles_with_bars, triangles_with_bars, diamonds_with_bars
 };
 // clang-format on
 
@@ -72,33 +74,29 @@ struct Axis {
     std::string label = {};
     std::array<double, 2> range = {kFromData, kFromData};
     double step = 0.0;           ///< Distance of the ticks; 0: a round number.
-    double last_tick = 0.0;      ///< Ticks are between minus and plus this value; 0: everywhere.
     std::string format = "% h";  ///< Of the numbers at the ticks, as of printf.
     Scale scale = Scale::linear;
     std::vector<std::pair<double, std::string>> names = {};  ///< Ticks with names instead.
-    int slope = 0;         ///< Texts at the ticks rise (1), fall (-1) or are level (0).
-    bool is_shown = true;  ///< It has ticks.
+    bool is_shown = true;                                    ///< It has ticks.
 };
 
-/// A place: shares of the panel's width and height, or values of its axes.
+/// A place: shares of the panel's width and height; x may be a value of its axis instead.
 struct Place {
     double x = 0.0, y = 0.0;
-    bool is_x_value = false, is_y_value = false;
+    bool is_x_value = false;
 };
-
-enum class Letters { normal, small, tiny };
 
 struct Text {
     std::string text;  ///< May have several lines.
     Place place;
     std::string side = "left";  ///< Its end at the place: left, center, right.
-    Letters letters = Letters::small;
-    bool is_upright = false;  ///< Turned by 90 degrees.
 };
+
+enum class Stroke { dashed, scale_bar, pointer };
 
 struct Line {
     Place from, to;
-    bool is_scale_bar = false;  ///< Otherwise it is dashed.
+    Stroke stroke = Stroke::dashed;
 };
 
 /// A shaded part of the x axis.
@@ -107,8 +105,9 @@ struct Span {
     Colour colour = Colour::stay;
 };
 
-enum class Key { above, above_small, in_corner, in_line, top_of_figure };
-
+/// A panel.  Nothing is turned and nothing is drawn over a curve: the label of the y axis is the
+/// heading at the left above the panel, that of the right axis or of the colours the one at the
+/// right, and the key is below them.
 struct Panel {
     Axis x = {}, y = {};
     std::vector<Series> series = {};
@@ -116,18 +115,12 @@ struct Panel {
     std::vector<Span> spans = {};
     std::vector<Line> lines = {};
     std::vector<Text> texts = {};
-    Key key = Key::above;
-    std::string title = {};
-    bool has_margin = false;  ///< There is room between the outer points and the border.
-    double height_px = 0.0;   ///< In a frame.
-};
-
-/// Places of the panels in px of the picture.  They share their axes: numbers and labels are at the
-/// left and lower border only.
-struct Frame {
-    double left = 0.0, right = 0.0, above = 0.0, below = 0.0;  ///< Borders.
-    double between_x = 0.0, between_y = 0.0;
-    std::size_t columns = 1;
+    /// Names above places of the x axis, whose range must be known, in ascending order.
+    std::vector<std::pair<double, std::string>> names = {};
+    std::string heading = {};  ///< At the left, in a figure of several columns.
+    std::string note = {};     ///< At the right, without a right axis and colours.
+    bool has_margin = false;   ///< There is room between the outer points and the border.
+    double height_mm = kSmallPanel_mm;
 };
 
 /// A figure.  In the folder with its data, `gnuplot NAME.gp` writes NAME.svg, and
@@ -136,13 +129,13 @@ struct Frame {
 /// A figure without data plots blocks of others, so that its script needs their NAME.dat in the
 /// same folder.
 struct Figure {
-    std::string name;                     ///< Stem of its files: small letters, digits, '-'.
-    std::string caption = {};             ///< Plain text.
-    int width_px = 900, height_px = 480;  ///< Size at 96 per inch; a frame has its own height.
-    std::vector<Panel> panels = {};       ///< One below another, or as in the frame.
-    std::optional<Frame> frame = {};      ///< Absent: gnuplot places the panels.
-    std::string data = {};                ///< Content of NAME.dat.
-    std::size_t block_count = 0;          ///< Blocks in it.
+    std::string name;          ///< Stem of its files: small letters, digits, '-'.
+    std::string caption = {};  ///< Plain text.
+    double width_mm = kPage_mm;
+    std::vector<Panel> panels = {};
+    std::size_t columns = 1;      ///< Panels side by side; they share their y axis.
+    std::string data = {};        ///< Content of NAME.dat.
+    std::size_t block_count = 0;  ///< Blocks in it.
 
     /// Adds a block to the data.
     /// @param title  comment that names the columns; one line.
@@ -156,7 +149,7 @@ struct Figure {
               std::size_t panel = 0);
 
     /// Returns true if two such figures fit side by side on a page.
-    [[nodiscard]] bool is_small() const { return width_px <= 480; }
+    [[nodiscard]] bool is_small() const { return width_mm <= kColumn_mm; }
 };
 
 /// Returns the source of a series that plots a block of a figure's data.

@@ -2,11 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 
 #include "corrector/figure/escaping.hpp"
+#include "corrector/figure/layout.hpp"
+#include "corrector/figure/print_style.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::figure {
@@ -17,22 +20,35 @@ namespace {
 constexpr std::array kColours{
     "#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7", "#000000", "#888888",
     "#999999", "#aaaaaa", "#bbbbbb", "#e4e4e4", "#eeeeee", "#f7dccb", "#cfe6f4"};
-constexpr std::array kLooks{
-    "lines", "lines lw 0.7", "lines lw 1.2", "lines lw 1.5", "lines lw 2", "lines lw 2.5", "lines lw 9",
-    "filledcurves", "boxes fs solid", "yerrorbars pt 0 lw 0.8", "points pt 7 ps 0.2",
-    "points pt 7 ps 0.6", "points pt 7 ps 0.5",
-    "points pt 2 ps 0.7 lw 1.5", "points pt 13 ps 0.8", "points pt 12 ps 0.6",
-    "points pt 7 ps 0.9", "points pt 9 ps 1.1", "linespoints pt 7 ps 0.5",
-    "yerrorbars pt 7 ps 0.6", "yerrorbars pt 6 ps 0.8 lw 1.2"};
+/// A look in gnuplot's words, before and after the width of its lines.
+struct Style {
+    const char* before;
+    double line_pt = 0.0;  ///< 0: no lines.
+    const char* after = "";
+};
+constexpr std::array<Style, 24> kLooks{{
+    {"lines", kLine_pt}, {"lines", kThinLine_pt}, {"lines", kStrongLine_pt},
+    {"lines", kStrongLine_pt, " dt (8,3)"}, {"lines", kStrongLine_pt, " dt (1,2)"},
+    {"lines", 3.0}, {"filledcurves"}, {"boxes fs solid border lc black", kThinLine_pt},
+    {"yerrorbars pt 0", kThinLine_pt}, {"points pt 7 ps 0.12"}, {"points pt 7 ps 0.45"},
+    {"points pt 7 ps 0.35"}, {"points pt 2 ps 0.5", kLine_pt}, {"points pt 13 ps 0.6"},
+    {"points pt 12 ps 0.45", kThinLine_pt}, {"points pt 7 ps 0.7"}, {"points pt 9 ps 0.8"},
+    {"linespoints pt 7 ps 0.4", kLine_pt}, {"linespoints pt 8 ps 0.5", kLine_pt},
+    {"linespoints pt 4 ps 0.4", kLine_pt}, {"yerrorbars pt 7 ps 0.45", kThinLine_pt},
+    {"yerrorbars pt 6 ps 0.6", kThinLine_pt}, {"yerrorbars pt 9 ps 0.6", kThinLine_pt},
+    {"yerrorbars pt 12 ps 0.6", kThinLine_pt}}};
 // clang-format on
 static_assert(kColours.size() == static_cast<std::size_t>(Colour::by_value));
-static_assert(kLooks.size() == static_cast<std::size_t>(Look::circles_with_bars) + 1);
-constexpr std::array kLetters{"", " font ',11'", " font ',10'"};
-constexpr std::array kKeys{"tmargin left vertical maxrows 3 reverse Left samplen 2",
-                           "tmargin center horizontal samplen 1.5 font ',11'",
-                           "inside bottom right",
-                           "inside left top horizontal maxrows 1 samplen 1.5",
-                           "at screen 0.1,0.995 left top horizontal maxrows 1"};
+static_assert(kLooks.size() == static_cast<std::size_t>(Look::diamonds_with_bars) + 1);
+
+/// Points of a line of width 1 in a script, whatever the format.
+constexpr double kUnitLine_pt = 0.5;
+constexpr double kPixelsPerInch = 96.0;  // of SVG and CSS
+
+// In the order of the enumeration; widths are in units of kUnitLine_pt.
+constexpr std::array kStrokes{"nohead dt (6,4) lw 1 lc rgb '#D55E00'",
+                              "heads size graph 0.008,90 lw 2 front",
+                              "nohead lw 1 lc rgb '#888888'"};
 
 template <class Table, class Entry>
 auto entry_of(const Table& table, Entry entry) {
@@ -40,6 +56,19 @@ auto entry_of(const Table& table, Entry entry) {
 }
 
 std::string number(double value) { return std::isnan(value) ? "*" : fmt::format("{:.10g}", value); }
+
+/// Returns " lw W" for a width in points.
+std::string line_width(double points) {
+    return points > 0.0 ? " lw " + number(points / kUnitLine_pt) : "";
+}
+
+std::string look_of(Look look) {
+    const Style& style = entry_of(kLooks, look);
+    return style.before + line_width(style.line_pt) + style.after;
+}
+
+/// Returns points in px of a screen, the unit of SVG.
+double pixels(double points) { return points * kPixelsPerInch / kPointsPerInch; }
 
 /// Returns a text of several lines as an expression of gnuplot.
 std::string expression(std::string_view text) {
@@ -54,9 +83,9 @@ std::string value_on(const Axis& axis, double value) {
 }
 
 std::string place_in(const Panel& panel, const Place& place) {
-    return fmt::format("{} {},{} {}", place.is_x_value ? "first" : "graph",
+    return fmt::format("{} {},graph {}", place.is_x_value ? "first" : "graph",
                        place.is_x_value ? value_on(panel.x, place.x) : number(place.x),
-                       place.is_y_value ? "first" : "graph", number(place.y));
+                       number(place.y));
 }
 
 std::string ticks_of(const Axis& axis) {
@@ -65,28 +94,21 @@ std::string ticks_of(const Axis& axis) {
         names.push_back(expression(text) + ' ' + number(value));
     if (!names.empty()) return '(' + text::joined(names) + ')';
     if (axis.step == 0.0) return "autofreq";
-    if (axis.last_tick == 0.0) return number(axis.step);
-    return fmt::format("{},{},{}", number(-axis.last_tick), number(axis.step),
-                       number(axis.last_tick));
+    return number(axis.step);
 }
 
 /// Adds the commands of an axis: the same number for every axis.
 void add_axis(std::vector<std::string>& commands, const std::string& name, const Axis& axis,
               bool is_mirrored) {
     const bool is_time = axis.scale == Scale::time;
-    commands.push_back(fmt::format("set {}label {}{}", name, expression(axis.label),
-                                   is_time ? " offset 0,0.8" : ""));
     commands.push_back(fmt::format("set {}data{}", name, is_time ? " time" : ""));
     commands.push_back(fmt::format("set {}range [{}:{}]", name, value_on(axis, axis.range[0]),
                                    value_on(axis, axis.range[1])));
     commands.push_back(
         fmt::format("{} logscale {}", axis.scale == Scale::logarithmic ? "set" : "unset", name));
-    const char* const turn = axis.slope == 0  ? "norotate"
-                             : axis.slope > 0 ? "rotate by 45 right"
-                                              : "rotate by -30 left";
     commands.push_back(axis.is_shown
-                           ? fmt::format("set {}tics {} {} {}", name,
-                                         is_mirrored ? "mirror" : "nomirror", turn, ticks_of(axis))
+                           ? fmt::format("set {}tics {} norotate {}", name,
+                                         is_mirrored ? "mirror" : "nomirror", ticks_of(axis))
                            : fmt::format("unset {}tics", name));
     commands.push_back(fmt::format("set format {} {}", name, expression(axis.format)));
 }
@@ -99,8 +121,6 @@ std::vector<std::string> settings_of(const Panel& panel) {
     add_axis(commands, "y", panel.y, !panel.right.is_shown);
     add_axis(commands, "y2", panel.right, false);
     add_axis(commands, "cb", panel.colours, true);
-    commands.push_back("set title " + expression(panel.title));
-    commands.push_back(fmt::format("set key {}", entry_of(kKeys, panel.key)));
     commands.push_back(fmt::format("set grid {}xtics", panel.x.names.empty() ? "" : "no"));
     const auto margin = [&panel](const Axis& axis, double share) {
         return panel.has_margin && std::isnan(axis.range[0]) ? share : 0.0;
@@ -108,8 +128,6 @@ std::vector<std::string> settings_of(const Panel& panel) {
     commands.push_back(fmt::format("set offsets graph {0}, graph {0}, graph {1}, graph {2}",
                                    margin(panel.x, 0.03), panel.has_margin ? 0.05 : 0.0,
                                    margin(panel.y, 0.05)));
-    // The last of the turned texts reaches to the right.
-    commands.emplace_back(panel.x.slope < 0 ? "set rmargin 5" : "set rmargin");
     std::string spans = "unset object", lines = "unset arrow", texts = "unset label";
     for (const Span& span : panel.spans)
         spans += fmt::format(
@@ -119,14 +137,11 @@ std::vector<std::string> settings_of(const Panel& panel) {
             entry_of(kColours, span.colour));
     for (const Line& line : panel.lines)
         lines += fmt::format("\nset arrow from {} to {} {}", place_in(panel, line.from),
-                             place_in(panel, line.to),
-                             line.is_scale_bar ? "heads size graph 0.008,90 lw 1.5 front"
-                                               : "nohead dt 2 lw 1 lc rgb '#D55E00'");
+                             place_in(panel, line.to), entry_of(kStrokes, line.stroke));
     for (const Text& text : panel.texts)
-        texts += fmt::format(
-            "\nset label {} at {} {}{}{}{} front", expression(text.text),
-            place_in(panel, text.place), text.side, text.is_upright ? " rotate by 90" : "",
-            text.place.is_y_value ? " offset 0,0.7" : "", entry_of(kLetters, text.letters));
+        texts +=
+            fmt::format("\nset label {} at {} {} font ',{}' front", expression(text.text),
+                        place_in(panel, text.place), text.side, number(pixels(kSmallLetters_pt)));
     commands.insert(commands.end(), {spans, lines, texts});
     return commands;
 }
@@ -141,7 +156,7 @@ std::string clause_of(const Series& series) {
     const bool has_data = series.source != kZero;
     return fmt::format("{}{}{} with {} {} {}", series.source,
                        has_data ? " using " + text::joined(columns, ":") : "",
-                       series.is_right ? " axes x1y2" : "", entry_of(kLooks, series.look),
+                       series.is_right ? " axes x1y2" : "", look_of(series.look),
                        series.colour == Colour::by_value
                            ? "palette"
                            : fmt::format("lc rgb '{}'", entry_of(kColours, series.colour)),
@@ -156,91 +171,111 @@ std::string plot_of(const Panel& panel) {
 }
 
 /// Returns the commands that choose format, size and common style.
-std::string head_of(const Figure& figure, int height_px) {
-    constexpr double kPixelsPerInch = 96.0;
-    // PNG has three times the size.  The scales make letters and marks of all formats look alike.
+std::string head_of(const Figure& figure, double height_mm) {
+    const double letters = pixels(kLetters_pt), line = pixels(kUnitLine_pt);
+    const double png = kPngDotsPerInch / kPixelsPerInch;  // pixels of PNG per px
+    const auto inches = [](double mm) { return mm / kMmPerInch; };
+    // pointintervalbox: error bars reach their marks (gnuplot ignores 0).
+    // cairo takes a font of size n as 4/3 n px, or n pt; its unit line is 0.5 pt in a PDF and 1
+    // pixel in a PNG.  The scales of the points make marks of all formats look alike.
     return fmt::format(
         "# gnuplot {0}.gp writes {0}.svg; gnuplot -e \"format='pdf'\" {0}.gp a PDF (or 'png')\n"
+        "# Width {1} mm, height {2} mm; letters {3} pt; a line of width 1 has {4} pt.\n"
         "reset\n"
         "if (!exists('format')) format = 'svg'\n"
-        "if (format eq 'svg') set terminal svg noenhanced size {1},{2} font 'sans-serif,13'\n"
-        "if (format eq 'pdf') set terminal pdfcairo noenhanced size {3}in,{4}in font "
-        "'sans-serif,13' fontscale 0.56 pointscale 1.05\n"
-        "if (format eq 'png') set terminal pngcairo noenhanced size {5},{6} font "
-        "'sans-serif,13' fontscale 2.25 linewidth 3 pointscale 4.2\n"
+        "if (format eq 'svg') set terminal svg noenhanced size {5:.0f},{6:.0f} font "
+        "'sans-serif,{7}' linewidth {8:.4g}\n"
+        "if (format eq 'pdf') set terminal pdfcairo noenhanced size {9:.3f}in,{10:.3f}in font "
+        "'sans-serif,{7}' fontscale {11:.5g} pointscale 1.05\n"
+        "if (format eq 'png') set terminal pngcairo noenhanced size {12:.0f},{13:.0f} font "
+        "'sans-serif,{7}' fontscale {14:.5g} linewidth {15:.4g} pointscale {16:.4g}\n"
         "set encoding utf8\n"
+        "set minussign\n"
         "set output '{0}.'.format\n"
-        "set border 15 lw 0.8\n"
-        "set tics in scale 0.6\n"
-        "set key {7}\n"
-        "set grid lc rgb '#dddddd' lt 1 lw 0.6\n"
+        "set border 15 lw 1\n"
+        "set tics in scale 0.5\n"
+        "set grid lc rgb '#dddddd' lt 1 lw 1\n"
         "set boxwidth 0.7\n"
+        "set errorbars small\n"
+        "set pointintervalbox 0.001\n"
         "set timefmt '%Y-%m-%dT%H:%M:%SZ'\n"
         "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n",
-        figure.name, figure.width_px, height_px, text::fixed(figure.width_px / kPixelsPerInch, 3),
-        text::fixed(height_px / kPixelsPerInch, 3), 3 * figure.width_px, 3 * height_px,
-        kKeys.front());
+        figure.name, number(figure.width_mm), number(std::round(height_mm)), number(kLetters_pt),
+        number(kUnitLine_pt), inches(figure.width_mm) * kPixelsPerInch,
+        inches(height_mm) * kPixelsPerInch, number(letters), line, inches(figure.width_mm),
+        inches(height_mm), 0.75 * 0.75, inches(figure.width_mm) * kPngDotsPerInch,
+        inches(height_mm) * kPngDotsPerInch, 0.75 * png, line * png, 1.4 * png);
 }
 
-/// Returns the margins of a panel in a frame, and removes what only the outer panels show.
-/// @param top  distance of its row from the upper border.
-std::string place(Panel& panel, const Figure& figure, std::size_t index, double top,
-                  double height) {
-    const Frame& frame = *figure.frame;
-    const std::size_t column = index % frame.columns;
-    const auto columns = static_cast<double>(frame.columns);
-    const double width =
-        (figure.width_px - frame.left - frame.right - (columns - 1.0) * frame.between_x) / columns;
-    const double left = frame.left + static_cast<double>(column) * (width + frame.between_x);
-    if (index + frame.columns < figure.panels.size()) panel.x.format = panel.x.label = "";
-    if (column > 0) panel.y.format = "";
-    if (frame.columns > 1) {
-        panel.x.label = panel.y.label = "";
-        // The labels of two panels, one above the other, must not touch.
-        panel.y.last_tick = panel.y.step * std::floor(0.85 * panel.y.range[1] / panel.y.step);
-    }
-    return fmt::format(
-        "set lmargin at screen {:.5f}; set rmargin at screen {:.5f}; set tmargin at screen {:.5f}; "
-        "set bmargin at screen {:.5f}\n",
-        left / figure.width_px, (left + width) / figure.width_px, 1.0 - top / height,
-        1.0 - (top + panel.height_px) / height);
+double rightmost(const Layout& layout) {
+    double right = 0.0;
+    for (const PanelPlace& place : layout.panels) right = std::max(right, place.right);
+    return right;
 }
 
-/// Returns the labels of the axes that all panels share.
-std::string common_labels(const Panel& panel, int height_px) {
-    constexpr double kMinutes_px = 14.0;
-    return fmt::format(
-        "set label {} at screen 0.53,{:.4f} center\nset label {} at screen 0.014,0.53 center "
-        "rotate "
-        "by 90\n",
-        expression(panel.x.label), kMinutes_px / height_px, expression(panel.y.label));
+/// Returns the border of a panel, its key and the texts around it.
+std::string place_texts(const Figure& figure, const Layout& layout, std::size_t index) {
+    const PanelPlace& place = layout.panels[index];
+    const Panel& panel = figure.panels[index];
+    const auto across = [&](double mm) { return fmt::format("{:.5f}", mm / figure.width_mm); };
+    const auto up = [&](double mm) { return fmt::format("{:.5f}", 1.0 - mm / layout.height_mm); };
+    std::string commands = fmt::format(
+        "set lmargin at screen {}; set rmargin at screen {}; set tmargin at screen {}; "
+        "set bmargin at screen {}\n",
+        across(place.left), across(place.right), up(place.top), up(place.bottom));
+    // SVG has higher lines than the other formats.
+    commands += place.key_rows == 0
+                    ? "unset key\n"
+                    : fmt::format(
+                          "set key at screen {},{} left top vertical maxrows {} reverse "
+                          "Left samplen 2 spacing format eq 'svg' ? 0.85 : 1.1\n",
+                          across(place.left), up(place.key), place.key_rows);
+    const auto add = [&](const std::string& text, double x, double y, const std::string& side) {
+        if (!text.empty())
+            commands += fmt::format("set label {} at screen {},{} {}\n", expression(text),
+                                    across(x), up(y), side);
+    };
+    const std::string left = left_heading(figure, index);
+    constexpr double kBorder_mm = 1.0;
+    add(left, text_width_mm(left) < place.right - place.left ? place.left : kBorder_mm,
+        place.heading, "left");
+    add(right_heading(panel), place.right, place.note, "right");
+    if (index == 0 && figure.columns > 1)
+        add(panel.y.label, kBorder_mm, 0.5 * kTextLine_mm, "left");
+    if (index + 1 == figure.panels.size())
+        add(panel.x.label, 0.5 * (layout.panels.front().left + rightmost(layout)),
+            layout.height_mm - 0.5 * kTextLine_mm, "center");
+    for (std::size_t k = 0; k < panel.names.size(); ++k)
+        if (!std::isnan(place.names[k]))
+            commands += fmt::format("set label {} at first {}, screen {} center font ',{}'\n",
+                                    expression(panel.names[k].second),
+                                    value_on(panel.x, panel.names[k].first), up(place.names[k]),
+                                    number(pixels(kSmallLetters_pt)));
+    if (!panel.colours.label.empty())
+        commands +=
+            fmt::format("set colorbox user origin screen {},{} size screen {},{} front\n",
+                        across(place.right + 2.0), up(place.bottom), across(3.0),
+                        fmt::format("{:.5f}", (place.bottom - place.top) / layout.height_mm));
+    return commands;
 }
 
 }  // namespace
 
 std::string script_of(const Figure& figure) {
     const std::size_t count = figure.panels.size();
-    const Frame frame = figure.frame.value_or(Frame{});
-    std::vector<double> tops{frame.above};  // of the rows, then the lower border
-    for (std::size_t k = 0; k < count; k += frame.columns)
-        tops.push_back(tops.back() + figure.panels[k].height_px + frame.between_y);
-    const int height_px = figure.frame
-                              ? static_cast<int>(tops.back() - frame.between_y + frame.below)
-                              : figure.height_px;
-    std::string script = head_of(figure, height_px);
-    if (count > 1)
-        script += figure.frame ? "set multiplot\n"
-                               : fmt::format("set multiplot layout {},1\nset lmargin 12\n", count);
+    const Layout layout = layout_of(figure);
+    std::string script = head_of(figure, layout.height_mm);
+    if (count > 1) script += "set multiplot\n";
     std::vector<std::string> before = settings_of({});
     for (std::size_t k = 0; k < count; ++k) {
         Panel panel = figure.panels[k];
-        const std::string margins =
-            figure.frame ? place(panel, figure, k, tops.at(k / frame.columns), height_px) : "";
+        if (!layout.panels[k].has_x) panel.x.format = "";
+        if (!layout.panels[k].has_y) panel.y.format = "";
         std::vector<std::string> settings = settings_of(panel);
         for (std::size_t i = 0; i < settings.size(); ++i)
             if (settings[i] != before[i]) script += settings[i] + '\n';
-        if (k == 0 && frame.columns > 1) script += common_labels(figure.panels[k], height_px);
-        script += margins + plot_of(panel);
+        if (k > 0 && settings.back() == before.back()) script += settings.back() + '\n';
+        script += place_texts(figure, layout, k) + plot_of(panel);
         before = std::move(settings);
     }
     return script + (count > 1 ? "unset multiplot\n" : "") + "unset output\n";

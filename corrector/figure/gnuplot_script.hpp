@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The gnuplot script of a figure: the only place that knows sizes, letters, line widths, marks,
-/// colours and the language of gnuplot.
+/// The gnuplot script of a figure: the only place that knows marks, colours and the language of
+/// gnuplot.  Sizes are those of print_style.hpp, places those of layout.hpp.
 
 #include <string>
 

@@ -18,9 +18,9 @@ using text::tr;
 
 /// Most steps of a curve.  Reason: two to three per pixel.
 constexpr std::size_t kMostSteps = 1500;
-/// Length of the figure with both modes, h.  Reason: in a longer one the curves cannot be
-/// distinguished.
-constexpr double kOverlay_h = 12.0;
+/// Time per width of the figure with both modes, h/mm: 4 h in a column, 8 h on a page.  Reason: in
+/// a longer one the curves cannot be distinguished.
+constexpr double kOverlay_h_per_mm = 4.0 / kColumn_mm;
 
 /// A curve over hours: sample i is at first_h + i step_h and has factor * (value - offset).
 struct Curve {
@@ -58,13 +58,16 @@ std::string hours_after(UtcTime start) { return tr("Hours after {}", to_rfc3339(
 
 /// Returns a figure of the acceleration above the temperature.
 Figure two_panels(const std::string& name, const std::string& caption, UtcTime start,
-                  const std::string& y_label) {
-    const Panel above{.y = {y_label}}, below{{hours_after(start)}, {tr("Temperature (°C)")}};
-    return {name, caption, 900, 480, {above, below}};
+                  const std::string& y_label, const Print& print) {
+    const Panel above{.y = {y_label}, .height_mm = kStackedPanel_mm},
+        below{.x = {hours_after(start)},
+              .y = {tr("Temperature (°C)")},
+              .height_mm = kStackedPanel_mm};
+    return {name, caption, print.wide_mm(), {above, below}};
 }
 
 /// Returns the figure of the raw samples' ranges, in steps, of all stretches.
-Figure raw_figure(const RecordResult& result) {
+Figure raw_figure(const RecordResult& result, const Print& print) {
     using Range = RecordStretch::RawRange;
     const double reference = reference_of(result);
     const UtcTime start = result.record.stretches.front().times.front();
@@ -94,7 +97,7 @@ Figure raw_figure(const RecordResult& result) {
     Figure figure = two_panels("record-raw",
                                tr("Norm and temperature as sampled: range from the least to the "
                                   "greatest sample of each step."),
-                               start, above_reference(result));
+                               start, above_reference(result), print);
     const std::vector<Column> columns{{1}, {2}, {3}};
     figure.plot("hours acceleration: least, greatest (mGal)", acceleration,
                 {Look::area, Colour::blue, "", columns});
@@ -103,7 +106,7 @@ Figure raw_figure(const RecordResult& result) {
     return figure;
 }
 
-Figure samples_figure(const RecordResult& result) {
+Figure samples_figure(const RecordResult& result, const Print& print) {
     const UtcTime start = result.record.stretches.front().times.front();
     const double step_h = step_h_of(result);
     std::string acceleration, temperature;
@@ -116,7 +119,7 @@ Figure samples_figure(const RecordResult& result) {
     Figure figure = two_panels("record-20s",
                                tr("Norm and temperature decimated to 20 s, in the segments that "
                                   "can be analysed."),
-                               start, above_reference(result));
+                               start, above_reference(result), print);
     figure.plot("hours acceleration_mgal", acceleration, {});
     figure.plot("hours temperature_degc", temperature, {Look::line, Colour::vermilion}, 1);
     return figure;
@@ -124,15 +127,19 @@ Figure samples_figure(const RecordResult& result) {
 
 Figure scatter_figure(const std::string& name, const std::string& caption,
                       const std::vector<double>& x, const std::vector<double>& y,
-                      const signal::LineFit& fit, double offset, const std::string& y_label) {
+                      const signal::LineFit& fit, double offset, const std::string& y_label,
+                      const Print& print) {
     const std::size_t count = std::min(x.size(), y.size());
     std::string points, ends;
     for (std::size_t i = 0; i < count; i += (count + kMostPoints - 1) / kMostPoints)
         points += data_line("64", {x[i], y[i] - offset});
     for (const double at : {std::ranges::min(x), std::ranges::max(x)})
         ends += data_line("64", {at, fit.mean_y + fit.slope * (at - fit.mean_x) - offset});
-    const Axis temperature{.label = tr("Temperature (°C)"), .slope = -1};
-    Figure figure{name, caption, 480, 400, {{temperature, {y_label}}}};
+    const double step = round_step((std::ranges::max(x) - std::ranges::min(x)) / 2.0);
+    Figure figure{name,
+                  caption,
+                  print.small_mm(),
+                  {{.x = {.label = tr("Temperature (°C)"), .step = step}, .y = {y_label}}}};
     figure.plot("temperature_degc acceleration_mgal", points, {Look::dots});
     figure.plot(
         "line: temperature_degc acceleration_mgal", ends,
@@ -143,7 +150,7 @@ Figure scatter_figure(const std::string& name, const std::string& caption,
 
 /// Returns the figure of the acceleration, sign reversed and moved earlier, above the temperature,
 /// each with its residue.
-Figure trend_figure(const RecordResult& result) {
+Figure trend_figure(const RecordResult& result, const Print& print) {
     const long_record::RecordSegment& segment = result.segment();
     const double step_h = step_h_of(result), moved_h = -result.options.shift_s / kSecondsPerHour;
     const std::vector<double>&a = segment.acceleration_mgal, &t = segment.temperature_degc;
@@ -151,16 +158,17 @@ Figure trend_figure(const RecordResult& result) {
                                tr("Acceleration, sign reversed and moved {} s earlier, and "
                                   "temperature, each with the residue of its decomposition.",
                                   text::fixed(result.options.shift_s, 0)),
-                               segment.start, tr("- Acceleration (mGal)"));
+                               segment.start, tr("- Acceleration (mGal)"), print);
     const std::vector<double>& slow_a = result.analysis.acceleration.residue.values;
     const std::vector<double>& slow_t = result.analysis.temperature.residue.values;
     figure.plot("hours, moved; acceleration, sign reversed (mGal)",
                 curve_lines({a, step_h, moved_h, a.front(), -1.0}), {});
     figure.plot("its residue", curve_lines({slow_a, step_h, moved_h, 0.0, -1.0}),
-                {Look::heavy_line, Colour::black, tr("residue")});
+                {Look::strong_line, Colour::black, tr("residue")});
     figure.plot("hours temperature_degc", curve_lines({t, step_h}), {Look::line, Colour::vermilion},
                 1);
-    figure.plot("its residue", curve_lines({slow_t, step_h}), {Look::heavy_line, Colour::black}, 1);
+    figure.plot("its residue", curve_lines({slow_t, step_h}), {Look::strong_line, Colour::black},
+                1);
     for (Panel& panel : figure.panels)
         panel.x.range = {moved_h, step_h * static_cast<double>(segment.size())};
     return figure;
@@ -184,21 +192,21 @@ ModePair mode_pair(const RecordResult& result) {
     return pair;
 }
 
-Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
+Figure overlay_figure(const RecordResult& result, const ModePair& pair, const Print& print) {
     const double step_h = step_h_of(result);
     const std::size_t size = pair.turned.size();
-    const std::size_t count = std::min(size, static_cast<std::size_t>(kOverlay_h / step_h));
+    const std::size_t count =
+        std::min(size, static_cast<std::size_t>(kOverlay_h_per_mm * print.wide_mm() / step_h));
     const std::size_t first = (size - count) / 2;
     Figure figure{"modes",
                   tr("Modes of the cycle: acceleration, sign reversed and moved {} s earlier, and "
                      "temperature{}.",
                      text::fixed(result.options.shift_s, 0),
                      count < size ? tr("; the middle of the record") : ""),
-                  900, 360};
-    figure.panels.push_back({{hours_after(result.segment().start)},
-                             {tr("- Acceleration (mGal)")},
-                             {},
-                             {tr("Temperature (°C)")}});
+                  print.wide_mm()};
+    figure.panels.push_back({.x = {hours_after(result.segment().start)},
+                             .y = {tr("- Acceleration (mGal)")},
+                             .right = {tr("Temperature (°C)")}});
     const auto lines = [&](const std::vector<double>& mode) {
         return curve_lines(
             {std::span(mode).subspan(first, count), step_h, static_cast<double>(first) * step_h});
@@ -206,11 +214,14 @@ Figure overlay_figure(const RecordResult& result, const ModePair& pair) {
     figure.plot("hours; acceleration, sign reversed and moved (mGal)", lines(pair.turned),
                 {.label = tr("acceleration, sign reversed and moved")});
     figure.plot("hours temperature_degc", lines(pair.temperature),
-                {.colour = Colour::vermilion, .label = tr("temperature"), .is_right = true});
+                {.look = Look::dashed_line,
+                 .colour = Colour::vermilion,
+                 .label = tr("temperature"),
+                 .is_right = true});
     return figure;
 }
 
-Figure correlation_figure(const long_record::RecordAnalysis& analysis) {
+Figure correlation_figure(const long_record::RecordAnalysis& analysis, const Print& print) {
     const auto lines = [](const signal::CrossCorrelation& correlation) {
         std::string text;
         for (std::size_t i = 0; i < correlation.values.size(); ++i)
@@ -221,41 +232,41 @@ Figure correlation_figure(const long_record::RecordAnalysis& analysis) {
         "correlation",
         tr("Cross-correlation of the two modes, and of the band, against the delay of the "
            "acceleration."),
-        480, 400};
-    figure.panels.push_back({{tr("Delay of the acceleration (s)")},
+        print.small_mm()};
+    figure.panels.push_back({{.label = tr("Delay of the acceleration (s)"), .step = 500.0},
                              {tr("Correlation"), {-1.0, 1.0}},
-                             {{.colour = Colour::grey, .source = kZero}}});
+                             {{Look::thin_line, Colour::grey, "", {}, kZero}}});
     figure.plot("modes: delay_s correlation", lines(analysis.modes->correlation),
                 {Look::strong_line, Colour::blue, tr("modes")});
     figure.plot("band: delay_s correlation", lines(analysis.band.correlation),
-                {Look::strong_line, Colour::grey, tr("band")});
+                {Look::dashed_line, Colour::vermilion, tr("band")});
     return figure;
 }
 
 }  // namespace
 
-std::vector<Figure> long_record_figures(const RecordResult& result) {
+std::vector<Figure> long_record_figures(const RecordResult& result, const Print& print) {
     const long_record::RecordSegment& segment = result.segment();
     std::vector<Figure> figures;
     if (std::ranges::any_of(result.record.stretches,
                             [](const RecordStretch& one) { return !one.raw.empty(); }))
-        figures.push_back(raw_figure(result));
-    figures.push_back(samples_figure(result));
-    figures.push_back(trend_figure(result));
+        figures.push_back(raw_figure(result, print));
+    figures.push_back(samples_figure(result, print));
+    figures.push_back(trend_figure(result, print));
     if (result.analysis.modes) {
         const ModePair pair = mode_pair(result);
-        figures.push_back(overlay_figure(result, pair));
+        figures.push_back(overlay_figure(result, pair, print));
         figures.push_back(scatter_figure(
             "scatter-modes",
             tr("The two modes, acceleration sign reversed and moved, with regression line."),
             pair.temperature, pair.turned, result.analysis.modes->moved, 0.0,
-            tr("- Acceleration (mGal)")));
-        figures.push_back(correlation_figure(result.analysis));
+            tr("- Acceleration (mGal)"), print));
+        figures.push_back(correlation_figure(result.analysis, print));
     }
     figures.push_back(scatter_figure("scatter", tr("All samples at 20 s, with regression line."),
                                      segment.temperature_degc, segment.acceleration_mgal,
                                      result.analysis.raw, reference_of(result),
-                                     above_reference(result)));
+                                     above_reference(result), print));
     return figures;
 }
 

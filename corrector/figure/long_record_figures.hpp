@@ -23,9 +23,10 @@ namespace a351::corrector::figure {
 /// correlation (7), scatter (3), with the publication's numbers in brackets.
 /// - record-raw is absent if no part of the record was decimated.
 /// - modes, scatter-modes and correlation are absent without RecordAnalysis::modes.
-/// - modes shows the middle 12 h of a longer segment.
+/// - modes shows the middle 8 h of a longer segment, 4 h in a column.
 /// @param result  analysed, with at least one stretch.
-[[nodiscard]] std::vector<Figure> long_record_figures(const long_record::RecordResult& result);
+[[nodiscard]] std::vector<Figure> long_record_figures(const long_record::RecordResult& result,
+                                                      const Print& print);
 
 /// Returns the figure of gain and phase by period, from spectra and from modes, with the two-path
 /// fit.
@@ -33,11 +34,12 @@ namespace a351::corrector::figure {
 /// Refused points are left out.  The fit is drawn from 240 s to the length of the segment, with its
 /// 95 % limits by linear propagation of the covariance.  Phase is positive if the acceleration
 /// leads.  Without any point the figure has the fit alone.
-[[nodiscard]] Figure response_figure(const long_record::RecordResult& result);
+[[nodiscard]] Figure response_figure(const long_record::RecordResult& result, const Print& print);
 
 /// Returns the figures of the noise of the acceleration: noise-spectrum, with the three noises of the
 /// Allan deviation and Peterson's models of the ground, and noise-allan.  Both have 95 % limits.
-[[nodiscard]] std::vector<Figure> noise_figures(const long_record::RecordResult& result);
+[[nodiscard]] std::vector<Figure> noise_figures(const long_record::RecordResult& result,
+                                                const Print& print);
 
 /// Returns the figures of a record before and after a calibration was applied: the series, and
 /// their Allan deviations.
@@ -45,6 +47,7 @@ namespace a351::corrector::figure {
 /// Both ways of correction are shown, parametric and by modes.  A long series is drawn as means of
 /// neighbours, at most kMostPoints of them, minus the mean of the whole.
 /// @pre result.applied
-[[nodiscard]] std::vector<Figure> applied_figures(const long_record::RecordResult& result);
+[[nodiscard]] std::vector<Figure> applied_figures(const long_record::RecordResult& result,
+                                                  const Print& print);
 
 }  // namespace a351::corrector::figure

@@ -17,13 +17,7 @@ namespace {
 
 using text::fixed, text::tr;
 
-// Place of the plot within the picture, from which the place of a label in pixels is computed.
-constexpr int kMapWidth_px = 600, kMapHeight_px = 480;
-constexpr Frame kFrame{84.0, 106.0, 14.0, 60.0};
-constexpr double kPlotWidth_px = kMapWidth_px - kFrame.left - kFrame.right;
-constexpr double kPlotHeight_px = kMapHeight_px - kFrame.above - kFrame.below;
-constexpr double kLetter_px = 7.0;  // width of the labels' 11 px letters, that of the widest digits
-constexpr double kLine_px = 13.0;   // height of a label
+constexpr double kLabel_mm = 3.0;               // height of a label
 constexpr double kKilometresPerDegree = 111.2;  // degree of latitude on a sphere of 6371 km radius
 
 /// A station of the survey on the map.
@@ -35,14 +29,14 @@ struct MapStation {
 
 /// Longitudes and latitudes over the width and height of the plot.
 struct Extent {
-    std::array<double, 2> longitude, latitude;
+    double width_mm, height_mm;
+    std::array<double, 2> longitude = {}, latitude = {};
 
     [[nodiscard]] double width_deg() const { return longitude[1] - longitude[0]; }
-    /// Returns the place of a site in px from the lower left corner.
-    [[nodiscard]] std::array<double, 2> place_px(const text::Site& site) const {
-        return {
-            (site.longitude.value() - longitude[0]) / width_deg() * kPlotWidth_px,
-            (site.latitude.value() - latitude[0]) / (latitude[1] - latitude[0]) * kPlotHeight_px};
+    /// Returns the place of a site in mm from the lower left corner.
+    [[nodiscard]] std::array<double, 2> place_mm(const text::Site& site) const {
+        return {(site.longitude.value() - longitude[0]) / width_deg() * width_mm,
+                (site.latitude.value() - latitude[0]) / (latitude[1] - latitude[0]) * height_mm};
     }
     /// Returns the length of a degree of longitude in degrees of latitude.
     [[nodiscard]] double across() const {
@@ -53,7 +47,7 @@ struct Extent {
     }
 };
 
-Extent extent_of(const std::vector<MapStation>& stations) {
+Extent extent_of(const std::vector<MapStation>& stations, double width_mm, double height_mm) {
     const auto range = [&](Degrees text::Site::*coordinate) -> std::array<double, 2> {
         const auto [least, greatest] =
             std::ranges::minmax(stations, {}, [coordinate](const MapStation& station) {
@@ -61,75 +55,107 @@ Extent extent_of(const std::vector<MapStation>& stations) {
             });
         return {(least.site->*coordinate).value(), (greatest.site->*coordinate).value()};
     };
-    Extent extent{range(&text::Site::longitude), range(&text::Site::latitude)};
+    Extent extent{width_mm, height_mm, range(&text::Site::longitude), range(&text::Site::latitude)};
     constexpr double kShare = 0.75;  // part of the plot for the stations, the rest for labels
     constexpr double kLeastExtent_deg = 1e-3;  // 100 m, for a survey at one place
     const double across = extent.across();
-    const double degrees_per_px =
-        std::max({extent.width_deg() * across / (kShare * kPlotWidth_px),
-                  (extent.latitude[1] - extent.latitude[0]) / (kShare * kPlotHeight_px),
-                  kLeastExtent_deg / kPlotWidth_px});
+    const double degrees_per_mm =
+        std::max({extent.width_deg() * across / (kShare * width_mm),
+                  (extent.latitude[1] - extent.latitude[0]) / (kShare * height_mm),
+                  kLeastExtent_deg / width_mm});
     const auto widen = [](std::array<double, 2>& limits, double half) {
         const double middle = 0.5 * (limits[0] + limits[1]);
         limits = {middle - half, middle + half};
     };
-    widen(extent.longitude, 0.5 * kPlotWidth_px * degrees_per_px / across);
-    widen(extent.latitude, 0.5 * kPlotHeight_px * degrees_per_px);
+    widen(extent.longitude, 0.5 * width_mm * degrees_per_mm / across);
+    widen(extent.latitude, 0.5 * height_mm * degrees_per_mm);
     return extent;
 }
 
-/// A rectangle in px.
+/// A rectangle in mm.
 struct Box {
     double left, bottom, right, top;
 
     [[nodiscard]] bool overlaps(const Box& other) const {
         return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
     }
+
+    /// Returns true if the way from one point to the other passes through the rectangle.
+    [[nodiscard]] bool is_crossed(const std::array<double, 2>& from,
+                                  const std::array<double, 2>& to) const {
+        double first = 0.0, last = 1.0;  // part of the way that is within
+        const std::array<double, 2> low{left, bottom}, high{right, top};
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double step = to.at(k) - from.at(k);
+            const double enter = (low.at(k) - from.at(k)) / step,
+                         leave = (high.at(k) - from.at(k)) / step;
+            if (step == 0.0) {
+                if (from.at(k) < low.at(k) || from.at(k) > high.at(k)) return false;
+                continue;
+            }
+            first = std::max(first, std::min(enter, leave));
+            last = std::min(last, std::max(enter, leave));
+        }
+        return first < last;
+    }
 };
 
-/// Places of a label's near end relative to the point, px, in the order of preference.
-constexpr std::array kRight_px{9, -9, 7, 7, -7, -7, 5, -5, 5, -5, 5, 5, -5, -5};
-constexpr std::array kUp_px{0, 0, 11, -11, 11, -11, 24, -24, -24, 24, 37, -37, 37, -37};
+/// Places of a label's near end relative to the point, mm, in the order of preference.
+std::vector<std::array<double, 2>> label_places() {
+    constexpr double kNear_mm = 1.8;
+    std::vector<std::array<double, 2>> places{{kNear_mm, 0.0}, {-kNear_mm, 0.0}};
+    for (int line = 1; line <= 6; ++line)
+        for (const double right : {kNear_mm, -kNear_mm})
+            for (const double up : {0.9 * kLabel_mm, -0.9 * kLabel_mm})
+                places.push_back({right * (line > 1 ? 2.0 : 1.0), up * line});
+    return places;
+}
 
-/// Returns the labels of the stations.  Each is at the first place where it touches no other label
-/// and no point; if none is free, at the first place.
-std::vector<Text> labels_of(const std::vector<MapStation>& stations, const Extent& extent) {
-    constexpr double kPoint_px = 5.0;
+/// Adds the labels of the stations.  Each is at the first place where it touches no other label,
+/// no point and no way; if none is free, at the first where it crosses ways only, and if there is
+/// none either, it is left out.  A pointer leads to a label that is not beside its point.
+/// @param ways  points in the order of the visits, mm.
+void add_labels(Panel& panel, const std::vector<MapStation>& stations, const Extent& extent,
+                const std::vector<std::array<double, 2>>& ways) {
+    constexpr double kPoint_mm = 1.3;
     std::vector<Box> taken;
     for (const MapStation& station : stations) {
-        const auto [x, y] = extent.place_px(*station.site);
-        taken.push_back({x - kPoint_px, y - kPoint_px, x + kPoint_px, y + kPoint_px});
+        const auto [x, y] = extent.place_mm(*station.site);
+        taken.push_back({x - kPoint_mm, y - kPoint_mm, x + kPoint_mm, y + kPoint_mm});
     }
-    std::vector<Text> labels;
+    const auto places = label_places();
     for (const MapStation& station : stations) {
-        const text::Site& site = *station.site;
-        std::string name = short_label(site.name);
+        std::string name = short_label(station.site->name);
         if (!station.visits.empty()) name += fmt::format(" [{}]", text::joined(station.visits));
-        const auto [x, y] = extent.place_px(site);
-        const double width = kLetter_px * static_cast<double>(name.size());
-        const auto box_at = [&](std::size_t place) -> Box {
-            const double left = x + kRight_px.at(place) - (kRight_px.at(place) < 0 ? width : 0.0);
-            const double middle = y + kUp_px.at(place);
-            return {left, middle - kLine_px / 2, left + width, middle + kLine_px / 2};
+        const auto point = extent.place_mm(*station.site);
+        const double width = text_width_mm(name, kSmallLetters_pt);
+        const auto is_free = [&](const std::array<double, 2>& place, bool may_cross) {
+            const double left = point[0] + place[0] - (place[0] < 0 ? width : 0.0);
+            const double middle = point[1] + place[1];
+            const Box box{left, middle - kLabel_mm / 2, left + width, middle + kLabel_mm / 2};
+            if (box.left < 0 || box.right > extent.width_mm || box.bottom < 0 ||
+                box.top > extent.height_mm ||
+                std::ranges::any_of(taken, [&](const Box& other) { return other.overlaps(box); }))
+                return false;
+            for (std::size_t k = 1; !may_cross && k < ways.size(); ++k)
+                if (box.is_crossed(ways[k - 1], ways[k])) return false;
+            taken.push_back(box);
+            return true;
         };
-        std::size_t place = 0;
-        for (; place < kUp_px.size(); ++place) {
-            const Box box = box_at(place);
-            if (box.left > 0 && box.right < kPlotWidth_px && box.bottom > 0 &&
-                box.top < kPlotHeight_px &&
-                std::ranges::none_of(taken, [&](const Box& b) { return b.overlaps(box); }))
-                break;
-        }
-        if (place == kUp_px.size())
-            place = 0;
-        else
-            taken.push_back(box_at(place));
-        labels.push_back(
-            {name,
-             {(x + kRight_px.at(place)) / kPlotWidth_px, (y + kUp_px.at(place)) / kPlotHeight_px},
-             kRight_px.at(place) < 0 ? "right" : "left"});
+        auto place = places.end();
+        for (const bool may_cross : {false, true})
+            if (place == places.end())
+                place = std::ranges::find_if(
+                    places, [&](const auto& candidate) { return is_free(candidate, may_cross); });
+        if (place == places.end()) continue;
+        const auto at = [&](double x, double y) -> Place {
+            return {x / extent.width_mm, y / extent.height_mm};
+        };
+        const Place end = at(point[0] + (*place)[0], point[1] + (*place)[1]);
+        if (std::abs((*place)[1]) > kLabel_mm)
+            panel.lines.push_back({at(point[0], point[1]), end, Stroke::pointer});
+        panel.texts.push_back({name, end, (*place)[0] < 0 ? "right" : "left"});
     }
-    return labels;
 }
 
 /// Adds a bar of a round length.
@@ -139,8 +165,8 @@ void add_scale_bar(Panel& panel, const Extent& extent) {
     const double share = length_km / width_km;
     const std::string title =
         length_km < 1.0 ? fixed(length_km * 1000.0, 0) + " m" : fixed(length_km, 0) + " km";
-    panel.lines.push_back({{0.04, 0.04}, {0.04 + share, 0.04}, true});
-    panel.texts.push_back({title, {0.04 + share / 2, 0.065}, "center", Letters::normal});
+    panel.lines.push_back({{0.04, 0.04}, {0.04 + share, 0.04}, Stroke::scale_bar});
+    panel.texts.push_back({title, {0.04 + share / 2, 0.07}, "center"});
 }
 
 /// Returns the site of each stay in the order of time, stays without a value too.
@@ -170,7 +196,7 @@ std::string station_line(const MapStation& station) {
 }  // namespace
 
 std::optional<Figure> map_figure(const model::SurveyCorrection& result,
-                                 const std::vector<text::Site>& sites) {
+                                 const std::vector<text::Site>& sites, const Print& print) {
     std::vector<MapStation> stations;
     std::vector<std::string> absent;
     for (const model::StationValue& station : result.stations) {
@@ -181,7 +207,12 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
             absent.push_back(station.site);
     }
     if (stations.empty()) return std::nullopt;
-    const Extent extent = extent_of(stations);
+    Panel panel;
+    panel.colours.label = tr("Gravity (mGal)");
+    const double width_mm = print.small_mm();
+    panel.height_mm = width_mm <= kColumn_mm ? 70.0 : 100.0;
+    const Extent extent = extent_of(stations, panel_width_mm(width_mm, panel), panel.height_mm);
+    std::vector<std::array<double, 2>> ways;
     std::string route;
     std::size_t visit = 0;
     for (const std::string& name : visited_sites(result)) {
@@ -190,6 +221,7 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
             stations, name, [](const MapStation& candidate) { return candidate.site->name; });
         if (station == stations.end()) continue;
         station->visits.push_back(std::to_string(visit));
+        ways.push_back(extent.place_mm(*station->site));
         route +=
             data_line("66", {station->site->longitude.value(), station->site->latitude.value()},
                       std::to_string(visit) + '\n');
@@ -205,20 +237,18 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
             (absent.empty()
                  ? ""
                  : tr(" Not shown, because they have no position: {}.", text::joined(absent))),
-        kMapWidth_px, kMapHeight_px};
-    figure.frame = kFrame;
+        width_mm};
     const double step_deg = round_step(extent.width_deg() / 3.0);
     const std::string format =
         fmt::format("%.{}f", std::clamp(-std::floor(std::log10(step_deg)), 0.0, 6.0));
     const auto [least, greatest] = std::ranges::minmax(stations, {}, &MapStation::gravity_mgal);
-    Panel& panel = figure.panels.emplace_back(Panel{.height_px = kPlotHeight_px});
-    panel.x = {tr("Longitude (° east)"), extent.longitude, step_deg, 0.0, format};
-    panel.y = {tr("Latitude (° north)"), extent.latitude, step_deg, 0.0, format};
-    panel.colours = {.range = {least.gravity_mgal - 0.5, greatest.gravity_mgal + 0.5},
-                     .format = "%.0f"};
-    panel.key = Key::in_corner;
-    panel.texts = labels_of(stations, extent);
+    panel.x = {tr("Longitude (° east)"), extent.longitude, step_deg, format};
+    panel.y = {tr("Latitude (° north)"), extent.latitude, step_deg, format};
+    panel.colours.range = {least.gravity_mgal - 0.5, greatest.gravity_mgal + 0.5};
+    panel.colours.format = "%.0f";
+    add_labels(panel, stations, extent, ways);
     add_scale_bar(panel, extent);
+    figure.panels = {panel};
     figure.plot("visits: longitude_deg latitude_deg number", route,
                 {Look::line, Colour::route_grey});
     figure.plot("with reference: longitude_deg latitude_deg altitude_m gravity_mgal", lines[0],

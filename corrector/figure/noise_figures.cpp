@@ -20,13 +20,13 @@ double density_of(const noise::ThreeNoises& noises, double frequency_hz) {
                      walk * walk / (2.0 * kPi * kPi * frequency_hz * frequency_hz));
 }
 
-Figure spectrum_figure(const RecordResult& result) {
+Figure spectrum_figure(const RecordResult& result, const Print& print) {
     const noise::RecordNoise& noise = result.analysis.noise;
     Figure figure{"noise-spectrum",
                   tr("Amplitude spectral density of the acceleration with 95 % limits, the three "
                      "noises of the Allan deviation, and the ground at the quietest and noisiest "
                      "seismic stations (Peterson 1993)."),
-                  900, 480};
+                  print.wide_mm()};
     figure.panels = {
         {{.label = tr("Frequency (Hz)"), .scale = Scale::logarithmic},
          {.label = tr("Acceleration (mGal/√Hz)"), .format = "%g", .scale = Scale::logarithmic}}};
@@ -44,21 +44,21 @@ Figure spectrum_figure(const RecordResult& result) {
     }
     const std::string source = figure.add("frequency_hz mgal_per_sqrt_hz low high", measured);
     figure.panels[0].series = {{Look::area, Colour::limits, "", {{1}, {3}, {4}}, source},
-                               {Look::firm_line, Colour::blue, tr("record"), {{1}, {2}}, source}};
+                               {Look::line, Colour::blue, tr("record"), {{1}, {2}}, source}};
     figure.plot("three noises: frequency_hz mgal_per_sqrt_hz", model,
                 {Look::strong_line, Colour::vermilion, tr("three noises")});
     figure.plot("NHNM: frequency_hz mgal_per_sqrt_hz", high,
-                {Look::firm_line, Colour::black, "NHNM"});
+                {Look::dashed_line, Colour::black, "NHNM"});
     figure.plot("NLNM: frequency_hz mgal_per_sqrt_hz", low,
-                {Look::firm_line, Colour::grey, "NLNM"});
+                {Look::dotted_line, Colour::grey, "NLNM"});
     return figure;
 }
 
-Figure allan_noise_figure(const RecordResult& result) {
+Figure allan_noise_figure(const RecordResult& result, const Print& print) {
     Figure figure{"noise-allan",
                   tr("Allan deviation of the acceleration with 95 % limits, and that of white "
                      "noise, flicker and random walk together."),
-                  480, 400};
+                  print.small_mm()};
     const auto& allan = result.analysis.noise.allan.points;
     const Axis time{.label = tr("Averaging time (s)"),
                     .range = {0.8 * allan.front().averaging_s, 1.25 * allan.back().averaging_s},
@@ -79,8 +79,8 @@ Figure allan_noise_figure(const RecordResult& result) {
 
 }  // namespace
 
-std::vector<Figure> noise_figures(const RecordResult& result) {
-    return {spectrum_figure(result), allan_noise_figure(result)};
+std::vector<Figure> noise_figures(const RecordResult& result, const Print& print) {
+    return {spectrum_figure(result, print), allan_noise_figure(result, print)};
 }
 
 }  // namespace a351::corrector::figure

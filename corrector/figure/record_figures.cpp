@@ -72,9 +72,9 @@ double half_range(const std::vector<double>& values, double centre) {
     return std::max(1.7 * spread(values, centre, 0.9), 1e-3);
 }
 
-/// Returns the axis of both directions with ticks that are not near its ends.
+/// Returns the axis of both directions.
 Axis axis_about_zero(const std::string& label, double half) {
-    return {.label = label, .range = {-half, half}, .step = round_step(half / 1.3)};
+    return {.label = label, .range = {-half, half}, .step = round_step(half)};
 }
 
 /// Returns a text on the part of the record that was averaged, with its standard error.
@@ -93,7 +93,8 @@ std::string averaged_text(const model::CorrectedRow& row, double mean_mgal) {
         fixed(day->averaged_s, 0), fixed(row.row.measured().value(), 3), samples);
 }
 
-Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord& record) {
+Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord& record,
+                      const Print& print) {
     const RepresentativeValue& value = *record.value;
     const double mean_mgal = value.curve_mean.value();
     const double half_mgal = std::max(half_range(value.series.values(), mean_mgal),
@@ -102,10 +103,10 @@ Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord
     Figure figure{reading_figure_name(record.row),
                   tr("{}, from {}: {}", reading, to_rfc3339(value.series.start()),
                      averaged_text(result.rows[record.row], mean_mgal)),
-                  480, 300};
+                  print.small_mm()};
     Panel& panel = figure.panels.emplace_back();
-    panel.title = reading;
-    panel.key = Key::above_small;
+    panel.note = short_label(reading);
+    panel.height_mm = kStackedPanel_mm;
     panel.x = {.label = tr("Minutes"), .range = {0.0, length_min(value)}};
     panel.y = axis_about_zero(tr("Acceleration - {} (mGal)", fixed(mean_mgal, 1)), half_mgal);
     std::vector<UtcTime> extrema;
@@ -120,7 +121,7 @@ Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord
     const std::string series =
         figure.add("minutes acceleration_mgal trend_mgal temperature_degc", series_lines(value));
     panel.series = {{Look::thin_line, Colour::raw_grey, "2 s series", column(2), series},
-                    {Look::thick_line, Colour::blue, "trend", column(3), series}};
+                    {Look::strong_line, Colour::blue, "trend", column(3), series}};
     const std::string ends =
         figure.add("limits of the interval: minutes trend_mgal", trend_lines(value, limits));
     figure.plot("extrema of the trend: minutes trend_mgal", trend_lines(value, extrema),
@@ -165,34 +166,35 @@ std::vector<ReadingRecord> find_records(const model::SurveyCorrection& result,
 }
 
 std::vector<Figure> reading_figures(const model::SurveyCorrection& result,
-                                    const std::vector<ReadingRecord>& records) {
+                                    const std::vector<ReadingRecord>& records, const Print& print) {
     std::vector<Figure> figures;
-    for (const ReadingRecord& record : records) figures.push_back(reading_figure(result, record));
+    for (const ReadingRecord& record : records)
+        figures.push_back(reading_figure(result, record, print));
     return figures;
 }
 
 std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
-                                  const std::vector<ReadingRecord>& records) {
-    constexpr std::size_t kColumns = 5;
+                                  const std::vector<ReadingRecord>& records, const Print& print) {
     if (records.empty()) return {};
     double longest_min = 0.0;
     for (const ReadingRecord& record : records)
         longest_min = std::max(longest_min, length_min(*record.value));
     const Axis minutes{.label = tr("Minutes"),
                        .range = {0.0, longest_min},
-                       .step = round_step(longest_min / 2.5),
+                       .step = round_step(longest_min / 2.0),
                        .format = "%g"};
     std::vector<Figure> figures{
         {"records-acceleration",
-         tr("Acceleration of every reading: samples of 2 s minus the value of the reading. All "
-            "panels have the same scale, which cuts off knocks.")},
+         tr("Acceleration of every reading: samples of 2 s minus the value of the reading, which "
+            "is "
+            "above each panel. All panels have the same scale, which cuts off knocks.")},
         {"records-temperature",
-         tr("Temperature of every reading: samples of 2 s minus the temperature of the reading. "
-            "All panels have the same scale.")}};
+         tr("Temperature of every reading: samples of 2 s minus the temperature of the reading, "
+            "which is above each panel. All panels have the same scale.")}};
     for (const bool is_temperature : {false, true}) {
         Figure& figure = figures.at(is_temperature ? 1 : 0);
-        figure.width_px = 960;
-        figure.frame = {67.2, 9.6, 12.0, 52.0, 11.52, 10.0, kColumns};
+        figure.width_mm = print.wide_mm();
+        figure.columns = print.is_narrow() ? 2 : 4;
         Axis y = axis_about_zero(
             is_temperature ? tr("Temperature - mean (°C)") : tr("Acceleration - mean (mGal)"),
             half_range_of(result, records, is_temperature));
@@ -205,13 +207,9 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
                                  {{1}, {is_temperature ? 4 : 2, -centre}},
                                  source_of(reading_figure_name(record.row), 0)};
             Panel& panel = figure.panels.emplace_back(Panel{minutes, y, {samples}});
-            panel.height_px = 114.0;
-            panel.texts = {
-                {short_label(judgement::reading_name(result.rows, record.row)), {0.04, 0.9}},
-                {"mean " + fixed(centre, is_temperature ? 3 : 1),
-                 {0.96, 0.09},
-                 "right",
-                 Letters::tiny}};
+            panel.height_mm = print.is_narrow() ? 15.0 : 18.0;
+            panel.heading = short_label(judgement::reading_name(result.rows, record.row));
+            panel.note = fixed(centre, is_temperature ? 3 : 1);
         }
     }
     return figures;

@@ -54,16 +54,18 @@ std::string fit_line(const long_record::TwoPathFit& fit, double period_s) {
 
 }  // namespace
 
-Figure response_figure(const long_record::RecordResult& result) {
+Figure response_figure(const long_record::RecordResult& result, const Print& print) {
     Figure figure{"response",
                   tr("Gain and phase of the acceleration against the temperature by period, with "
                      "limits of 95 %."),
-                  900, 560};
-    const Axis period{.range = {100.0, kFromData}, .scale = Scale::logarithmic};
+                  print.wide_mm()};
+    const double longest_s = static_cast<double>(result.segment().size()) * result.record.step_s;
+    const Axis period{.range = {100.0, longest_s}, .scale = Scale::logarithmic};
     Panel gain{
         period,
         {.label = tr("Gain (mGal/°C)"), .range = {1.0, 3000.0}, .scale = Scale::logarithmic}};
     Panel phase{period, {tr("Phase (°)"), {-200.0, 200.0}, 90.0}};
+    gain.height_mm = phase.height_mm = kStackedPanel_mm;
     phase.x.label = tr("Period (s)");
 
     const auto points = [&figure](const std::string& title,
@@ -79,7 +81,6 @@ Figure response_figure(const long_record::RecordResult& result) {
     const std::string by_spectrum = points("by spectrum", result.analysis.by_spectrum);
     const std::string by_modes = points("by modes", result.analysis.by_modes);
     constexpr double kShortest_s = 240.0, kStep = 1.05;
-    const double longest_s = static_cast<double>(result.segment().size()) * result.record.step_s;
     std::string lines;
     for (double period_s = kShortest_s; period_s < longest_s; period_s *= kStep)
         lines += fit_line(result.analysis.two_paths, period_s);
@@ -94,7 +95,7 @@ Figure response_figure(const long_record::RecordResult& result) {
     };
     const std::vector<Column> all{{1}, {2}, {3}, {4}};
     plot(fit, {{1}, {3}, {4}}, Look::area, Colour::limits, "");
-    plot(fit, {{1}, {2}}, Look::firm_line, Colour::grey, tr("two-path fit"));
+    plot(fit, {{1}, {2}}, Look::line, Colour::grey, tr("two-path fit"));
     plot(by_spectrum, all, Look::discs_with_bars, Colour::blue, tr("by spectrum"));
     plot(by_modes, all, Look::circles_with_bars, Colour::vermilion, tr("by modes"));
     figure.panels = {gain, phase};

@@ -7,8 +7,8 @@
 /// data a line of a reading ends with a comment that names it.
 ///
 ///     const std::vector<ReadingRecord> records = find_records(result, values);
-///     std::vector<Figure> figures = panel_figures(result, records);
-///     for (Figure& figure : reading_figures(result, records)) figures.push_back(figure);
+///     std::vector<Figure> figures = panel_figures(result, records, print);
+///     for (Figure& figure : reading_figures(result, records, print)) figures.push_back(figure);
 ///
 /// A result must have at least one row.  Gravity and acceleration are in mGal, temperatures in
 /// degC, instants in UTC.
@@ -32,17 +32,20 @@ namespace a351::corrector::figure {
 /// absent if there are fewer than three of them or if all have one reference.  The published lines
 /// are reproduced (figures_test.cpp).
 /// @return std::nullopt if no row has a reference; so does the next one.
-[[nodiscard]] std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result);
+[[nodiscard]] std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result,
+                                                        const Print& print);
 
 /// Returns the figure of difference over temperature, with line and R2.  The difference is
 /// acceleration - reference - tide.  The line is that of temperature alone, whatever model was
 /// applied.
-[[nodiscard]] std::optional<Figure> difference_figure(const model::SurveyCorrection& result);
+[[nodiscard]] std::optional<Figure> difference_figure(const model::SurveyCorrection& result,
+                                                      const Print& print);
 
 /// Returns the figure of the sensor's values minus those of the reference gravimeter, over gravity,
 /// with u of the sensor as bars.  Each station has its own reference hidden.
 /// @return std::nullopt without a compared station.
-[[nodiscard]] std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result);
+[[nodiscard]] std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result,
+                                                        const Print& print);
 
 /// Returns a map of the stations in longitude and latitude.  The scale is the
 /// same in both directions (by the cosine of the mean latitude) and is shown by a bar of a round
@@ -55,7 +58,8 @@ namespace a351::corrector::figure {
 /// @param sites  those that are no station of the survey are not shown.
 /// @return std::nullopt if no station of the survey has a position in `sites`.
 [[nodiscard]] std::optional<Figure> map_figure(const model::SurveyCorrection& result,
-                                               const std::vector<text::Site>& sites);
+                                               const std::vector<text::Site>& sites,
+                                               const Print& print);
 
 /// The record of a row.  The pointer is into the values given to find_records(), which must outlive
 /// it; it is null only in a default-constructed object.
@@ -80,15 +84,18 @@ struct ReadingRecord {
 /// samples of the series and the whole trend, so that a knock does not flatten the rest.  The
 /// caption has the mean over the interval; for `day` it has the averaged time and the value.
 [[nodiscard]] std::vector<Figure> reading_figures(const model::SurveyCorrection& result,
-                                                  const std::vector<ReadingRecord>& records);
+                                                  const std::vector<ReadingRecord>& records,
+                                                  const Print& print);
 
 /// Returns two figures of all records side by side at one scale: accelerations and temperatures.
 /// They plot the data of reading_figures().
 ///
-/// These data files must therefore be in the same folder.  Five panels are in a line.  The scale is
+/// These data files must therefore be in the same folder.  Four panels are in a line of a page, two
+/// in a column.  The scale is
 /// common to all panels, each about the value of its own reading.  No records give no figures.
 [[nodiscard]] std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
-                                                const std::vector<ReadingRecord>& records);
+                                                const std::vector<ReadingRecord>& records,
+                                                const Print& print);
 
 /// Returns the figure of the day: errors of the readings, their samples, the temperature of
 /// the sensor and the signal of the recorder on one axis of time, with the stays.
@@ -101,6 +108,6 @@ struct ReadingRecord {
 [[nodiscard]] Figure day_figure(const model::SurveyCorrection& result,
                                 const std::vector<ReadingRecord>& records,
                                 const std::vector<archive_series::MinuteTemperature>& course,
-                                const std::vector<reading::SignalSpan>& signal);
+                                const std::vector<reading::SignalSpan>& signal, const Print& print);
 
 }  // namespace a351::corrector::figure

@@ -113,8 +113,8 @@ void compare_days(Advice& advice, const model::RecordedSurvey& a, const model::R
     const double difference_mgal = std::abs((value_a.gravity - value_b.gravity).value());
     const double ratio = difference_mgal / std::sqrt(variance_mgal2);
     if (ratio <= judgement::kCareRatio) return;
-    advice.grade = std::max(
-        advice.grade, ratio > judgement::kRepeatRatio ? judgement::Grade::repeat : judgement::Grade::care);
+    advice.grade = std::max(advice.grade, ratio > judgement::kRepeatRatio ? judgement::Grade::repeat
+                                                                          : judgement::Grade::care);
     advice.reasons.push_back(
         text::tr("{} and {} differ by {} mGal, {} times the uncertainty of the difference", a.name,
                  b.name, text::fixed(difference_mgal, 1), text::fixed(ratio, 1)));
@@ -156,7 +156,8 @@ void add_joint_actions(pugi::xml_node parent, const std::vector<model::RecordedS
         if (!advice.reasons.empty())
             reasons.at(grade).push_back(
                 {station.site,
-                 std::string(text::translated(judgement::grade_name(advice.grade), text::language())),
+                 std::string(
+                     text::translated(judgement::grade_name(advice.grade), text::language())),
                  text::joined(advice.reasons, "; ")});
     }
     const auto add_group = [&](judgement::Grade grade, const std::string& what) {
@@ -232,7 +233,7 @@ std::optional<DayScatter> scatter_of_days(const std::vector<model::RecordedSurve
 
 Report make_joint_page(const std::vector<JointDay>& days, const result::JointResult& joint,
                        const std::vector<result::UnitDay>& units,
-                       const std::vector<std::string>& picture_formats) {
+                       const figure::FigureOptions& options) {
     std::vector<model::RecordedSurvey> corrected;
     std::vector<std::string> troubles;
     for (const JointDay& day : days) {
@@ -242,8 +243,8 @@ Report make_joint_page(const std::vector<JointDay>& days, const result::JointRes
             troubles.push_back(fmt::format("{}: {}", day.name, day.trouble));
     }
     std::vector<figure::Figure> figures;
-    if (!units.empty()) figures.push_back(figure::history_figure(units));
-    figure::Drawing drawing = figure::draw(figures, picture_formats);
+    if (!units.empty()) figures.push_back(figure::history_figure(units, options.print));
+    figure::Drawing drawing = figure::draw(figures, options.formats);
     Report report;
     report.warnings = missing_lines(drawing.troubles);
     Page page(text::tr("Gravity of {} surveys", days.size()));

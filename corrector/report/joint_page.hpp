@@ -61,10 +61,9 @@ struct DayScatter {
 /// @param days   in the order of the page.
 /// @param joint  adjustment of the days with a result, or why there is none.
 /// @param units  days of the units; without them the page has no section about units.
-/// @param picture_formats  formats other than SVG, from picture_formats().
 [[nodiscard]] Report make_joint_page(const std::vector<JointDay>& days,
                                      const result::JointResult& joint,
                                      const std::vector<result::UnitDay>& units,
-                                     const std::vector<std::string>& picture_formats);
+                                     const figure::FigureOptions& options);
 
 }  // namespace a351::corrector::report

@@ -49,17 +49,18 @@ void add_applied(pugi::xml_node parent, const long_record::AppliedCalibration& a
 
 Report make_long_record_page(const long_record::RecordResult& result,
                              const nlohmann::ordered_json& settings,
-                             const std::vector<std::string>& picture_formats) {
-    std::vector<figure::Figure> figures = figure::long_record_figures(result);
-    const std::vector<figure::Figure> response{figure::response_figure(result)};
+                             const figure::FigureOptions& options) {
+    std::vector<figure::Figure> figures = figure::long_record_figures(result, options.print);
+    const std::vector<figure::Figure> response{figure::response_figure(result, options.print)};
     std::vector<figure::Figure> all = figures;
     all.push_back(response.front());
-    const std::vector<figure::Figure> noise = figure::noise_figures(result);
+    const std::vector<figure::Figure> noise = figure::noise_figures(result, options.print);
     all.insert(all.end(), noise.begin(), noise.end());
-    const std::vector<figure::Figure> applied =
-        result.applied ? figure::applied_figures(result) : std::vector<figure::Figure>();
+    const std::vector<figure::Figure> applied = result.applied
+                                                    ? figure::applied_figures(result, options.print)
+                                                    : std::vector<figure::Figure>();
     all.insert(all.end(), applied.begin(), applied.end());
-    figure::Drawing drawing = figure::draw(all, picture_formats);
+    figure::Drawing drawing = figure::draw(all, options.formats);
     Report page;
     page.warnings = missing_lines(drawing.troubles);
 

@@ -26,18 +26,20 @@ struct SurveyFigures {
 };
 
 SurveyFigures figures_of(const model::SurveyCorrection& result, const ReportSources& sources) {
+    const figure::Print& print = sources.figures.print;
     const std::vector<figure::ReadingRecord> records =
         figure::find_records(result, sources.records);
     SurveyFigures figures;
     figures.day = {
-        figure::day_figure(result, records, sources.temperature_course, sources.signal)};
-    if (const auto map = figure::map_figure(result, sources.sites)) figures.map = {*map};
-    if (const auto figure = figure::side_by_side_figure(result)) figures.side_by_side = {*figure};
+        figure::day_figure(result, records, sources.temperature_course, sources.signal, print)};
+    if (const auto map = figure::map_figure(result, sources.sites, print)) figures.map = {*map};
+    if (const auto figure = figure::side_by_side_figure(result, print))
+        figures.side_by_side = {*figure};
     for (const auto& figure :
-         {figure::difference_figure(result), figure::acceleration_figure(result)})
+         {figure::difference_figure(result, print), figure::acceleration_figure(result, print)})
         if (figure) figures.publication.push_back(*figure);
-    figures.records = figure::panel_figures(result, records);
-    for (figure::Figure& figure : figure::reading_figures(result, records))
+    figures.records = figure::panel_figures(result, records, print);
+    for (figure::Figure& figure : figure::reading_figures(result, records, print))
         figures.records.push_back(std::move(figure));
     return figures;
 }
@@ -48,7 +50,7 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
                    const ReportSources& sources) {
     const SurveyFigures figures = figures_of(result, sources);
     const std::vector<figure::Figure> all = figures.all();
-    figure::Drawing drawing = figure::draw(all, sources.picture_formats);
+    figure::Drawing drawing = figure::draw(all, sources.figures.formats);
     Report report;
     report.warnings = missing_lines(drawing.troubles);
     std::vector<std::string> warnings = text::each_in_words(sources.warnings);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "corrector/archive_series/temperature_course.hpp"
+#include "corrector/figure/drawing.hpp"
 #include "corrector/long_record/record_result.hpp"
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/reading/representative_value.hpp"
@@ -40,11 +41,11 @@ struct ReportSources {
     std::vector<reading::RepresentativeValue> records;  ///< Records of the rows.
     /// Temperature of the sensor.
     std::vector<archive_series::MinuteTemperature> temperature_course;
-    std::vector<reading::SignalSpan> signal;     ///< Words of the recorder.
+    std::vector<reading::SignalSpan> signal;  ///< Words of the recorder.
     std::vector<text::InputFile> inputs;
     /// Entries skipped or left out, with reasons; the report adds the remarks of the result.
     std::vector<text::Message> warnings;
-    std::vector<std::string> picture_formats;  ///< Formats other than SVG, from picture_formats().
+    figure::FigureOptions figures;
 };
 
 /// The files of a report.  The page is the first of them.  `warnings` has one line at most, which
@@ -77,9 +78,8 @@ struct Report {
 /// gnuplot has the same effect as in make_report().
 /// @param result           analysed, with at least one stretch and one segment.
 /// @param settings         object with every option of the run.
-/// @param picture_formats  formats other than SVG, from picture_formats().
 [[nodiscard]] Report make_long_record_page(const long_record::RecordResult& result,
                                            const nlohmann::ordered_json& settings,
-                                           const std::vector<std::string>& picture_formats);
+                                           const figure::FigureOptions& options);
 
 }  // namespace a351::corrector::report

@@ -12,9 +12,9 @@ namespace {
 
 /// Returns a figure of a file's first block, with a text as title.
 Figure figure(const std::string& name, const std::string& file, const std::string& title = "") {
-    Figure figure{name, "", 300, 200};
+    Figure figure{name, "", kColumn_mm};
     figure.panels.emplace_back().series = {{.source = "'" + file + "'"}};
-    figure.panels.back().title = title;
+    figure.panels.back().note = title;
     figure.data = "1 1\n2 4\n";
     return figure;
 }

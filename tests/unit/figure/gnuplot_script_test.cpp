@@ -1,8 +1,11 @@
 #include "corrector/figure/gnuplot_script.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include "tests/support/catch.hpp"
 
+#include "corrector/figure/layout.hpp"
 #include "tests/unit/figure/corrected_rows.hpp"
 
 using namespace a351;
@@ -10,11 +13,20 @@ using namespace a351::corrector::figure;
 
 namespace {
 
-/// Returns the script without the commands that are the same for all figures.
+/// Returns the script without the commands that are the same for all figures, and without the lines
+/// that place texts and panels.
 std::string body_of(const Figure& figure) {
     const std::string script = script_of(figure);
     const std::size_t head = script.find("set palette");
-    return script.substr(script.find('\n', head) + 1);
+    std::string body;
+    std::istringstream lines(script.substr(script.find('\n', head) + 1));
+    for (std::string line; std::getline(lines, line);)
+        if (line.find("margin at screen") == std::string::npos &&
+            line.find("set key") == std::string::npos &&
+            line.find("unset key") == std::string::npos &&
+            line.find("' at screen") == std::string::npos)
+            body += line + '\n';
+    return body;
 }
 
 }  // namespace
@@ -27,11 +39,11 @@ TEST_CASE("a script has only the settings that differ from the panel before", "[
     figure.plot("hours mgal", "", {Look::dots}, 1);  // no data: neither a block nor a series
     figure.plot("hours mgal", "1 1\n", {Look::dots}, 1);
     CHECK(body_of(figure) ==
-          "set multiplot layout 2,1\nset lmargin 12\n"
-          "set xlabel 'Hours'\nset ylabel 'mGal'\nset yrange [-1:*]\n"
-          "plot 'f.dat' index 0 using 1:2 with lines lw 0.7 lc rgb '#D55E00' title 'A'\n"
-          "set xlabel ''\nset ytics mirror norotate 0.5\n"
-          "plot 'f.dat' index 1 using 1:2 with points pt 7 ps 0.2 lc rgb '#0072B2' notitle\n"
+          "set multiplot\n"
+          "set format x ''\nset yrange [-1:*]\n"
+          "plot 'f.dat' index 0 using 1:2 with lines lw 1 lc rgb '#D55E00' title 'A'\n"
+          "set format x '% h'\nset ytics mirror norotate 0.5\nunset label\n"
+          "plot 'f.dat' index 1 using 1:2 with points pt 7 ps 0.12 lc rgb '#0072B2' notitle\n"
           "unset multiplot\nunset output\n");
     CHECK(figure.data == "# hours mgal\n1 1\n\n\n# hours mgal\n1 1\n");
 }
@@ -49,7 +61,7 @@ TEST_CASE("columns are shifted and scaled, and a source without data is not plot
     CHECK_THAT(body_of(figure),
                StartsWith("plot 'other.dat' index 3 using ($1*60+5):($2-0.25):($3*2+0) with "
                           "filledcurves lc rgb '#e4e4e4' notitle, \\\n"
-                          "     0 with lines lc rgb '#888888' notitle\n"));
+                          "     0 with lines lw 1.5 lc rgb '#888888' notitle\n"));
 }
 
 TEST_CASE("a panel has a right axis, colours by value and room beside the data if it says so",
@@ -64,11 +76,11 @@ TEST_CASE("a panel has a right axis, colours by value and room beside the data i
              .has_margin = true};
     const std::string script = body_of(figure);
     CHECK_THAT(script,
-               ContainsSubstring("set y2label 'Right'\nset y2tics nomirror norotate autofreq\n") &&
+               ContainsSubstring("set y2tics nomirror norotate autofreq\n") &&
                    ContainsSubstring("set ytics nomirror") &&
                    ContainsSubstring("plot 0 axes x1y2 with lines ") &&
-                   ContainsSubstring("set cblabel 'mGal'\nset cbrange [1:2]\n") &&
-                   ContainsSubstring("'a' using 1:2 with points pt 9 ps 1.1 palette notitle"));
+                   ContainsSubstring("set cbrange [1:2]\n") &&
+                   ContainsSubstring("'a' using 1:2 with points pt 9 ps 0.8 palette notitle"));
     // The bottom of the range is given, so there is no room below it.
     CHECK_THAT(script,
                ContainsSubstring("set offsets graph 0.03, graph 0.03, graph 0.05, graph 0\n"));
@@ -82,7 +94,7 @@ TEST_CASE("marks of a panel are removed in the next one, on an axis of time too"
                       .series = {{.source = kZero}},
                       .spans = {{instant(noon), instant(noon) + 60.0, Colour::averaged}},
                       .lines = {{{instant(noon), 0.0, true}, {instant(noon), 1.0, true}}},
-                      .texts = {{"a\nb", {instant(noon), 3.0, true, true}, "center"}}},
+                      .texts = {{"a\nb", {instant(noon), 0.5, true}, "center"}}},
                      {.series = {{.source = kZero}}}};
     const std::string script = body_of(figure);
     CHECK_THAT(script,
@@ -91,34 +103,80 @@ TEST_CASE("marks of a panel are removed in the next one, on an axis of time too"
                    ContainsSubstring("set arrow from first '2026-05-01T12:00:00Z',graph 0 to first "
                                      "'2026-05-01T12:00:00Z',graph 1 nohead") &&
                    ContainsSubstring("set label 'a'.\"\\n\".'b' at first '2026-05-01T12:00:00Z',"
-                                     "first 3 center offset 0,0.7"));
+                                     "graph 0.5 center font"));
     const std::string second = script.substr(script.find("\nplot"));
     for (const char* const command : {"\nset xdata\n", "\nunset object\n", "\nunset arrow\n",
                                       "\nunset label\n", "\nset xtics mirror norotate autofreq\n"})
         CHECK(count(second, command) == 1);
 }
 
-TEST_CASE("panels in a frame have numbers and labels at its left and lower border only",
+TEST_CASE("panels of a column share the x axis, those of several columns the y axis too",
           "[report][script]") {
-    Figure figure{"f", "", 200};
-    figure.frame = {10.0, 30.0, 20.0, 40.0, 10.0, 5.0, 2};
+    Figure figure{"f", "", 170.0};
     const Panel panel{.x = {"X"},
                       .y = {.label = "Y", .range = {-6.0, 6.0}, .step = 2.0, .format = "%g"},
                       .series = {{.source = kZero}},
-                      .height_px = 15.0};
+                      .heading = "H"};
     figure.panels = {panel, panel, panel};
+    const std::string column = script_of(figure);
+    CHECK(count(column, "set format x ''") == 1);
+    CHECK(count(column, "set format x '% h'") == 1);  // below the third
+    for (const char* const heading : {"'(a) Y'", "'(b) Y'", "'(c) Y'"})
+        CHECK(count(column, heading) == 1);
+    CHECK(count(column, "set label 'X' at screen") == 1);
+
+    figure.columns = 2;
     const std::string script = script_of(figure);
-    CHECK_THAT(script, ContainsSubstring("size 200,95 "));  // 20 + 15 + 5 + 15 + 40
-    CHECK_THAT(script, ContainsSubstring("set lmargin at screen 0.05000; set rmargin at screen "
-                                         "0.42500; set tmargin at screen 0.78947; set bmargin at "
-                                         "screen 0.63158\nplot"));
     CHECK(count(script, "set format x ''") == 1);     // of the first panel
     CHECK(count(script, "set format x '% h'") == 1);  // again below the second
     CHECK(count(script, "set format y ''") == 1);
     CHECK(count(script, "set label 'X' at screen") == 1);
-    CHECK(count(script, "set ylabel") == 0);
-    // A label at the end of an axis would touch that of the panel above.
-    CHECK_THAT(script, ContainsSubstring("set ytics mirror norotate -4,2,4"));
+    CHECK(count(script, "set label 'Y' at screen") == 1);
+    CHECK(count(script, "set label 'H' at screen") == 3);
+}
+
+TEST_CASE("texts above a panel get as many lines as they need", "[report][layout]") {
+    Figure figure{"f", "", kColumn_mm};
+    Panel& panel = figure.panels.emplace_back();
+    panel.y.label = "Heading";
+    panel.note = "note";
+    panel.x.range = {0.0, 10.0};
+    const auto place = [&] { return layout_of(figure).panels.front(); };
+    const double alone = place().top;
+    CHECK(place().note == place().heading);
+
+    panel.note = std::string(40, 'n');
+    CHECK(place().note == Approx(place().heading + kTextLine_mm));
+    CHECK(place().top == Approx(alone + kTextLine_mm));
+
+    // The second name touches the first; the third has room beside it.  The lowest row is last.
+    panel.note = "";
+    panel.names = {{1.0, "No.1"}, {1.5, "No.2"}, {3.0, "No.3"}};
+    const std::vector<double> rows = place().names;
+    CHECK(rows[0] == rows[2]);
+    CHECK(rows[1] == Approx(rows[0] - kTextLine_mm));
+    CHECK(place().top == Approx(alone + 2.0 * kTextLine_mm));
+
+    panel.names.assign(9, {5.0, "same"});
+    CHECK(std::ranges::count_if(place().names, [](double y) { return std::isnan(y); }) == 3);
+
+    panel.names.clear();
+    panel.series.assign(4, {.label = std::string(20, 'k'), .source = kZero});
+    CHECK(place().key_rows == 4);
+    figure.width_mm = kPage_mm;
+    CHECK(place().key_rows == 2);
+}
+
+TEST_CASE("all formats have the width and the letters that print_style.hpp says",
+          "[report][script]") {
+    Figure figure{"f", "", kColumn_mm};
+    figure.panels.emplace_back().series = {{.source = kZero}};
+    const std::string script = script_of(figure);
+    // 84 mm are 317 px, 3.307 in and 992 dots; 7.5 pt are 10 px.
+    CHECK_THAT(script, ContainsSubstring("svg noenhanced size 317,") &&
+                           ContainsSubstring("pdfcairo noenhanced size 3.307in,") &&
+                           ContainsSubstring("pngcairo noenhanced size 992,"));
+    CHECK(count(script, "font 'sans-serif,10'") == 3);
 }
 
 TEST_CASE("a number that is not finite is a gap of the data", "[report][script]") {

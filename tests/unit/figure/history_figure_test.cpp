@@ -17,7 +17,7 @@ TEST_CASE("the terms of a unit by day have a panel each, if a day has them", "[f
         days[k].terms.front() =
             model::Coefficient{"constant_mgal", 11.0 + 2.0 * static_cast<double>(k), 2.0};
     }
-    const figure::Figure figure = figure::history_figure(days);
+    const figure::Figure figure = figure::history_figure(days, {});
     CHECK_THAT(figure.data, ContainsSubstring("2026-06-02T01:00:00Z 13.00000 2.00000"));
     CHECK_THAT(figure::script_of(figure), ContainsSubstring("Constant mGal"));
     CHECK_THAT(figure::script_of(figure), !ContainsSubstring("Placement mGal"));  // No day has it.

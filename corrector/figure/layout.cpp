@@ -1,0 +1,143 @@
+#include "corrector/figure/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corrector/figure/print_style.hpp"
+
+namespace a351::corrector::figure {
+namespace {
+
+constexpr double kGap_mm = 0.8;  // between texts and the panel below them
+constexpr double kBetweenPanels_mm = 3.0;
+constexpr double kBetweenTexts_mm = 1.5;
+constexpr double kKeySample_mm = 9.0;  // sample of a series in the key, with blanks
+
+double right_margin_mm(const Panel& panel) {
+    if (!panel.colours.label.empty()) return kColourScale_mm;
+    return panel.right.is_shown ? kRightAxis_mm : kRight_mm;
+}
+
+/// Returns the lines of a text.
+double lines_of(const std::string& text) {
+    return text.empty() ? 0.0 : 1.0 + static_cast<double>(std::ranges::count(text, '\n'));
+}
+
+std::size_t key_rows_of(const Panel& panel, double width_mm) {
+    std::size_t count = 0;
+    double widest_mm = 0.0;
+    for (const Series& series : panel.series) {
+        if (series.label.empty() || series.source.empty()) continue;
+        ++count;
+        widest_mm = std::max(widest_mm, text_width_mm(series.label));
+    }
+    const double room = std::floor(width_mm / (widest_mm + kKeySample_mm));
+    const auto columns = static_cast<std::size_t>(std::max(1.0, room));
+    return (count + columns - 1) / columns;
+}
+
+/// Returns the row of each name, 0 is the lowest: the first in which it does not touch the name
+/// before.  Names without room in the highest row get the number of rows.
+std::vector<std::size_t> rows_of_names(const Panel& panel, double left_mm, double width_mm) {
+    constexpr std::size_t kMostRows = 6;
+    std::vector<double> ends(kMostRows, 0.0);
+    std::vector<std::size_t> rows;
+    for (const auto& [value, name] : panel.names) {
+        const double middle_mm =
+            left_mm + width_mm * (value - panel.x.range[0]) / (panel.x.range[1] - panel.x.range[0]);
+        const double half_mm = text_width_mm(name, kSmallLetters_pt) / 2.0;
+        std::size_t row = 0;
+        while (row < kMostRows && ends[row] > middle_mm - half_mm) ++row;
+        if (row < kMostRows) ends[row] = middle_mm + half_mm + kBetweenTexts_mm;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+/// Sets the places of the texts above a panel that begin at `y`, and returns the place of the panel.
+double place_texts_above(PanelPlace& place, const Figure& figure, std::size_t index, double y) {
+    const Panel& panel = figure.panels[index];
+    const std::string left = left_heading(figure, index), right = right_heading(panel);
+    place.heading = place.note = y + 0.5 * kTextLine_mm;
+    if (!left.empty() || !right.empty()) y += kTextLine_mm;
+    const double from = left.empty() ? 0.0 : text_width_mm(left) + kBetweenTexts_mm;
+    if (!right.empty() && from + text_width_mm(right) > place.right - place.left) {
+        place.note += kTextLine_mm;
+        y += kTextLine_mm;
+    }
+    place.key = y;
+    place.key_rows = key_rows_of(panel, place.right - place.left);
+    y += kTextLine_mm * static_cast<double>(place.key_rows);
+    const std::vector<std::size_t> rows =
+        rows_of_names(panel, place.left, place.right - place.left);
+    std::size_t most = 0;
+    for (const std::size_t row : rows) most = std::max(most, std::min<std::size_t>(row + 1, 6));
+    for (const std::size_t row : rows)
+        place.names.push_back(
+            row < most ? y + kTextLine_mm * (static_cast<double>(most - row) - 0.5) : std::nan(""));
+    y += kTextLine_mm * static_cast<double>(most);
+    return y + kGap_mm;
+}
+
+}  // namespace
+
+double panel_width_mm(double width_mm, const Panel& panel) {
+    return width_mm - kLeft_mm - right_margin_mm(panel);
+}
+
+std::string left_heading(const Figure& figure, std::size_t panel) {
+    const Panel& one = figure.panels[panel];
+    if (figure.columns > 1) return one.heading;
+    if (figure.panels.size() == 1 || panel > 25) return one.y.label;
+    return std::string("(") + static_cast<char>('a' + panel) + ") " + one.y.label;
+}
+
+std::string right_heading(const Panel& panel) {
+    return panel.right.is_shown           ? panel.right.label
+           : !panel.colours.label.empty() ? panel.colours.label
+                                          : panel.note;
+}
+
+Layout layout_of(const Figure& figure) {
+    Layout layout;
+    const std::size_t count = figure.panels.size();
+    const auto columns = static_cast<double>(figure.columns);
+    double y = figure.columns > 1 ? kTextLine_mm : 0.0;  // common label of the y axis
+    double lowest = y;
+    for (std::size_t first = 0; first < count; first += figure.columns) {
+        double top = y;
+        const std::size_t end = std::min(count, first + figure.columns);
+        for (std::size_t k = first; k < end; ++k) {
+            PanelPlace& place = layout.panels.emplace_back();
+            const auto column = static_cast<double>(k - first);
+            const double right_mm = right_margin_mm(figure.panels[k]);
+            const double width =
+                (figure.width_mm - kLeft_mm - right_mm - (columns - 1.0) * kBetweenPanels_mm) /
+                columns;
+            place.left = kLeft_mm + column * (width + kBetweenPanels_mm);
+            place.right = place.left + width;
+            place.has_x = k + figure.columns >= count;
+            place.has_y = k == first;
+            top = std::max(top, place_texts_above(place, figure, k, y));
+        }
+        for (std::size_t k = first; k < end; ++k) {
+            PanelPlace& place = layout.panels[k];
+            place.top = top;
+            place.bottom = top + figure.panels[k].height_mm;
+            lowest = std::max(lowest, place.bottom);
+        }
+        y = lowest + kGap_mm;
+    }
+    // Below the last row: numbers, or names, of the x axis and its label.
+    double lines = 0.0;
+    for (const Panel& panel : figure.panels) {
+        double numbers = panel.x.is_shown ? lines_of(panel.x.format) : 0.0;
+        for (const auto& [value, name] : panel.x.names) numbers = std::max(numbers, lines_of(name));
+        lines = std::max(lines, numbers + lines_of(panel.x.label));
+    }
+    constexpr double kTicks_mm = 2.0;  // from the axis to its numbers
+    layout.height_mm = lowest + kTicks_mm + kTextLine_mm * lines;
+    return layout;
+}
+
+}  // namespace a351::corrector::figure
