@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -98,7 +99,9 @@ NormalEquations::NormalEquations(const Equations& equations)
         if (!(of_stations_(static_cast<Index>(station)) > 0.0)) undetermined_.push_back(station);
     factor_.emplace(reduced);
     if (terms == 0) return;
-    bool is_determined = factor_->is_positive_definite();
+    // After a small pivot rounding can leave more than kLeastPivot in a column that depends on others.
+    bool is_determined = factor_->is_positive_definite() &&
+                         equations.rows.size() >= equations.stations + equations.terms;
     if (is_determined) {
         const Eigen::VectorXd pivots = factor_->lower().diagonal().cwiseAbs2();
         least_pivot_ = pivots.minCoeff();
@@ -121,7 +124,13 @@ void NormalEquations::find_undetermined(const Eigen::MatrixXd& reduced) {
     Eigen::MatrixXd left = reduced;
     std::vector<Index> pivots;
     std::set<std::size_t> open(undetermined_.begin(), undetermined_.end());
+    Index weakest = 0;
+    double least_pivot = std::numeric_limits<double>::infinity();
     for (Index k = 0; k < n; ++k) {
+        if (left(k, k) < least_pivot) {
+            least_pivot = left(k, k);
+            weakest = k;
+        }
         if (left(k, k) > least_pivot_of(k)) {
             for (Index j = k + 1; j < n; ++j) {
                 const double part = left(j, k) / left(k, k);
@@ -150,6 +159,8 @@ void NormalEquations::find_undetermined(const Eigen::MatrixXd& reduced) {
                 open.insert(station);
         }
     }
+    // Rounding hid which column depends on others: the one with the least pivot is named.
+    if (open.empty()) open.insert(of_both_.size() + static_cast<std::size_t>(weakest));
     undetermined_.assign(open.begin(), open.end());
 }
 

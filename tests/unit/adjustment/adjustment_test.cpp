@@ -1,6 +1,7 @@
 #include "corrector/adjustment/adjustment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -171,6 +172,16 @@ TEST_CASE("unknowns that depend on each other are named, and the others are not"
     CHECK(adjustment.undetermined() == std::vector<std::size_t>{1, equations.unknown_of_term(1)});
     equations.rows.push_back({0.0, 0.01, {{1, 1.0}}, false});
     CHECK(Adjustment(equations).undetermined().empty());
+}
+
+TEST_CASE("two readings do not determine three terms, whatever rounding leaves", "[adjustment]") {
+    // A station left out of a day that lost half of its stays: constant, temperature and its rate.
+    Equations equations{0, 3, {}};
+    for (const auto& [value, temperature, rate] :
+         {std::array{1841.3336206222541, -0.21549073789026352, -0.053757961056488973},
+          std::array{1843.4090497315096, -0.21563443370779822, 0.099669570257809287}})
+        equations.rows.push_back({value, 2.0, {{0, 1.0}, {1, temperature}, {2, rate}}, true});
+    CHECK_FALSE(Adjustment(equations).undetermined().empty());
 }
 
 TEST_CASE("errors have the scatter of the readings and the stated deviation of a prior",
