@@ -24,6 +24,8 @@ constexpr double kKilometresPerDegree = 111.2;  // degree of latitude on a spher
 struct MapStation {
     const text::Site* site = nullptr;
     double gravity_mgal = 0.0;
+    double longitude_deg = 0.0;  ///< Within 180 degrees of that of the first station.
+    double latitude_deg = 0.0;
     std::vector<std::string> visits = {};  ///< Numbers of its stays in the order of the day.
 };
 
@@ -33,10 +35,10 @@ struct Extent {
     std::array<double, 2> longitude = {}, latitude = {};
 
     [[nodiscard]] double width_deg() const { return longitude[1] - longitude[0]; }
-    /// Returns the place of a site in mm from the lower left corner.
-    [[nodiscard]] std::array<double, 2> place_mm(const text::Site& site) const {
-        return {(site.longitude.value() - longitude[0]) / width_deg() * width_mm,
-                (site.latitude.value() - latitude[0]) / (latitude[1] - latitude[0]) * height_mm};
+    /// Returns the place of a station in mm from the lower left corner.
+    [[nodiscard]] std::array<double, 2> place_mm(const MapStation& station) const {
+        return {(station.longitude_deg - longitude[0]) / width_deg() * width_mm,
+                (station.latitude_deg - latitude[0]) / (latitude[1] - latitude[0]) * height_mm};
     }
     /// Returns the length of a degree of longitude in degrees of latitude.
     [[nodiscard]] double across() const {
@@ -48,14 +50,12 @@ struct Extent {
 };
 
 Extent extent_of(const std::vector<MapStation>& stations, double width_mm, double height_mm) {
-    const auto range = [&](Degrees text::Site::*coordinate) -> std::array<double, 2> {
-        const auto [least, greatest] =
-            std::ranges::minmax(stations, {}, [coordinate](const MapStation& station) {
-                return (station.site->*coordinate).value();
-            });
-        return {(least.site->*coordinate).value(), (greatest.site->*coordinate).value()};
+    const auto range = [&](double MapStation::*coordinate) -> std::array<double, 2> {
+        const auto [least, greatest] = std::ranges::minmax(stations, {}, coordinate);
+        return {least.*coordinate, greatest.*coordinate};
     };
-    Extent extent{width_mm, height_mm, range(&text::Site::longitude), range(&text::Site::latitude)};
+    Extent extent{width_mm, height_mm, range(&MapStation::longitude_deg),
+                  range(&MapStation::latitude_deg)};
     constexpr double kShare = 0.75;  // part of the plot for the stations, the rest for labels
     constexpr double kLeastExtent_deg = 1e-3;  // 100 m, for a survey at one place
     const double across = extent.across();
@@ -120,14 +120,14 @@ void add_labels(Panel& panel, const std::vector<MapStation>& stations, const Ext
     constexpr double kPoint_mm = 1.3;
     std::vector<Box> taken;
     for (const MapStation& station : stations) {
-        const auto [x, y] = extent.place_mm(*station.site);
+        const auto [x, y] = extent.place_mm(station);
         taken.push_back({x - kPoint_mm, y - kPoint_mm, x + kPoint_mm, y + kPoint_mm});
     }
     const auto places = label_places();
     for (const MapStation& station : stations) {
         std::string name = short_label(station.site->name);
         if (!station.visits.empty()) name += fmt::format(" [{}]", text::joined(station.visits));
-        const auto point = extent.place_mm(*station.site);
+        const auto point = extent.place_mm(station);
         const double width = text_width_mm(name, kSmallLetters_pt);
         const auto is_free = [&](const std::array<double, 2>& place, bool may_cross) {
             const double left = point[0] + place[0] - (place[0] < 0 ? width : 0.0);
@@ -189,7 +189,7 @@ std::string station_line(const MapStation& station) {
     const text::Site& site = *station.site;
     const double altitude_m = site.has_altitude ? site.altitude.value() : std::nan("");
     return data_line(
-        "6623", {site.longitude.value(), site.latitude.value(), altitude_m, station.gravity_mgal},
+        "6623", {station.longitude_deg, station.latitude_deg, altitude_m, station.gravity_mgal},
         "# " + clean_utf8(site.name) + '\n');
 }
 
@@ -199,10 +199,20 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
                                  const std::vector<text::Site>& sites, const Print& print) {
     std::vector<MapStation> stations;
     std::vector<std::string> absent;
+    // A survey across the 180th meridian is drawn in one piece.
+    const auto near_first = [&stations](const text::Site& site) {
+        const double longitude_deg = site.longitude.value();
+        if (stations.empty()) return longitude_deg;
+        const double first_deg = stations.front().longitude_deg;
+        return std::abs(longitude_deg - first_deg) <= 180.0
+                   ? longitude_deg
+                   : first_deg + std::remainder(longitude_deg - first_deg, 360.0);
+    };
     for (const model::StationValue& station : result.stations) {
         const text::Site* const site = text::find_site(sites, station.site);
         if (site != nullptr && site->is_placed)
-            stations.push_back({site, station.gravity.value()});
+            stations.push_back(
+                {site, station.gravity.value(), near_first(*site), site->latitude.value()});
         else
             absent.push_back(station.site);
     }
@@ -221,10 +231,9 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
             stations, name, [](const MapStation& candidate) { return candidate.site->name; });
         if (station == stations.end()) continue;
         station->visits.push_back(std::to_string(visit));
-        ways.push_back(extent.place_mm(*station->site));
-        route +=
-            data_line("66", {station->site->longitude.value(), station->site->latitude.value()},
-                      std::to_string(visit) + '\n');
+        ways.push_back(extent.place_mm(*station));
+        route += data_line("66", {station->longitude_deg, station->latitude_deg},
+                           std::to_string(visit) + '\n');
     }
     std::array<std::string, 2> lines;  // with and without a reference
     for (const MapStation& station : stations)

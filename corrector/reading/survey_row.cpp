@@ -128,8 +128,8 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         if (table.has_column("instrument_height_m"))
             row.instrument_height = instrument_height(table, i);
         if (table.has_column("pressure_hpa"))
-            // On Mount Everest it is 330 hPa, and 1084 hPa was the highest ever measured.
-            row.pressure_hpa = table.number_if_given(i, "pressure_hpa", 300.0, 1100.0);
+            // On Mount Everest it is 330 hPa; 1778 hPa is the standard atmosphere at -5000 m.
+            row.pressure_hpa = table.number_if_given(i, "pressure_hpa", 300.0, 1800.0);
         if (i > 0 && row.has_temperature != rows.front().has_temperature)
             table.refuse(i, "temperature_degc", "given in some rows only", "all rows or none");
         if (std::ranges::any_of(rows, [&](const SurveyRow& other) {

@@ -37,7 +37,7 @@ inline constexpr double kLeastDensity_kg_per_m3 = 500.0, kGreatestDensity_kg_per
 /// Accuracy (plate_and_pressure_test.cpp): within 0.02 hPa of the tables of the standard at 0, 1000 and
 /// 3000 m.
 /// Source: ISO 2533:1975, also DIN 5450; the reference of gravity's reduction for air pressure.
-/// @param height  above sea level, -500 to 11000 m.
+/// @param height  above sea level, -5000 (where it is 1778 hPa) to 11000 m.
 [[nodiscard]] double normal_pressure_hpa(Metres height);
 
 }  // namespace a351::corrector::reduction

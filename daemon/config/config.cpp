@@ -8,6 +8,7 @@
 
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/sites.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/text/toml_without.hpp"
 #include "protocol/wire/device_profile.hpp"
@@ -64,7 +65,8 @@ station::Description read_station(TomlTable table) {
     station.longitude =
         Degrees(required_number(table, "longitude", -180, 360, "degrees east, -180 to 360"));
     station.elevation =
-        Metres(required_number(table, "elevation_m", -500, 9000, "metres above sea, -500 to 9000"));
+        Metres(required_number(table, "elevation_m", text::kLeastAltitude_m,
+                               text::kGreatestAltitude_m, "metres above sea, -5000 to 9000"));
     table.require_all_read();
     return station;
 }

@@ -1,5 +1,6 @@
 #include "daemon/ctl/when.hpp"
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <string>
@@ -25,6 +26,34 @@ std::optional<UtcTime> parse_ago(std::string_view text, UtcTime now) {
 /// A watch that is fast must not turn into the day before.
 constexpr std::chrono::hours kAhead(1);
 
+/// Returns the instant of a local time of the day of `now`, or of an earlier one.
+///
+/// The hour at the end of summer time occurs twice.  The latest of both that is not after `now` is
+/// meant, because only the past was recorded.  A time that the beginning of summer time leaves out
+/// is shifted by mktime().
+UtcTime on_local_day(int days_ago, const std::array<int, 3>& time, UtcTime now) {
+    const auto instant = [&](int is_summer_time) -> std::optional<UtcTime> {
+        const std::time_t today =
+            std::chrono::floor<std::chrono::seconds>(now).time_since_epoch().count();
+        std::tm local{};
+        localtime_r(&today, &local);
+        local.tm_mday -= days_ago;
+        local.tm_hour = time[0];
+        local.tm_min = time[1];
+        local.tm_sec = time[2];
+        local.tm_isdst = is_summer_time;
+        const std::time_t seconds = std::mktime(&local);
+        // With the other offset than the one in force mktime() gives another local time.
+        if (is_summer_time >= 0 && (local.tm_hour != time[0] || local.tm_min != time[1]))
+            return std::nullopt;
+        return UtcTime(std::chrono::seconds(seconds));
+    };
+    const auto summer = instant(1), winter = instant(0);
+    if (!summer || !winter) return *instant(-1);
+    const auto [earlier, later] = std::minmax(*summer, *winter);
+    return later <= now ? later : earlier;
+}
+
 /// Reads HH:MM or HH:MM:SS.
 std::optional<UtcTime> parse_local(std::string_view text, UtcTime now) {
     const auto two = [&](std::size_t place, int largest) -> std::optional<int> {
@@ -39,19 +68,9 @@ std::optional<UtcTime> parse_local(std::string_view text, UtcTime now) {
     const auto hour = two(0, 23), minute = two(3, 59),
                second = has_seconds ? two(6, 59) : std::optional(0);
     if (!hour || !minute || !second) return std::nullopt;
-    const std::time_t today =
-        std::chrono::floor<std::chrono::seconds>(now).time_since_epoch().count();
     std::optional<UtcTime> found;
-    for (int days_ago = 0; days_ago <= 1 && (!found || *found > now + kAhead); ++days_ago) {
-        std::tm local{};
-        localtime_r(&today, &local);
-        local.tm_mday -= days_ago;
-        local.tm_hour = *hour;
-        local.tm_min = *minute;
-        local.tm_sec = *second;
-        local.tm_isdst = -1;
-        found = UtcTime(std::chrono::seconds(std::mktime(&local)));
-    }
+    for (int days_ago = 0; days_ago <= 1 && (!found || *found > now + kAhead); ++days_ago)
+        found = on_local_day(days_ago, {*hour, *minute, *second}, now);
     return found;
 }
 

@@ -14,8 +14,9 @@ inline constexpr const char* kAllowedWhen =
 
 /// Reads an instant as an operator writes it.
 ///
-/// A local time is the latest such instant up to an hour after `now`, in the host's time zone.  The
-/// daemon refuses what is later than its last sample.
+/// A local time is the latest such instant up to an hour after `now`, in the host's time zone.  In
+/// the repeated hour at the end of summer time it is the later instant if that is not after `now`.
+/// The daemon refuses what is later than its last sample.
 /// @param now  the daemon's time.
 /// @return std::nullopt if the text has none of the forms of kAllowedWhen.
 [[nodiscard]] std::optional<UtcTime> parse_when(std::string_view text, UtcTime now);

@@ -22,8 +22,9 @@ namespace a351::text {
 /// mGal (Arctic Ocean).
 inline constexpr double kLeastGravity_mgal = 976000.0, kGreatestGravity_mgal = 984000.0;
 
-/// Limits of an altitude, m: the shore of the Dead Sea is at -440, Mount Everest at 8849.
-inline constexpr double kLeastAltitude_m = -500.0, kGreatestAltitude_m = 9000.0;
+/// Limits of an altitude, m: mines reach 4000 m below the ground, which may be at sea level; Mount
+/// Everest is at 8849.
+inline constexpr double kLeastAltitude_m = -5000.0, kGreatestAltitude_m = 9000.0;
 
 /// Benchmark, a row of `sites.csv`: site,longitude_deg,latitude_deg,altitude_m,gravity_mgal, and if
 /// known u_gravity_mgal.

@@ -20,7 +20,8 @@ text::Site read_site(text::TomlTable& table) {
         .name = required_name(table),
         .longitude = Degrees(required_number(table, "longitude_deg", -180.0, 360.0)),
         .latitude = Degrees(required_number(table, "latitude_deg", -90.0, 90.0)),
-        .altitude = Metres(required_number(table, "altitude_m", -500.0, 9000.0)),
+        .altitude = Metres(required_number(table, "altitude_m", text::kLeastAltitude_m,
+                                           text::kGreatestAltitude_m)),
         .gravity = MilliGal(required_number(table, "gravity_mgal", 970000.0, 990000.0))};
     table.require_all_read();
     return site;

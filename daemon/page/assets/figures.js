@@ -123,8 +123,10 @@ export function show_map(sites, stays, here) {
         const keys = stays.filter((one) => one.site === site).map((one) => one.key);
         return keys.length === 0 ? "open" : keys.some((key) => doubts_of(key).length > 0) ? "doubt" : "read";
     };
+    // Longitudes within 180 degrees of the first one: a survey across the 180th meridian is one piece.
+    const near_first = (degrees) => degrees - 360 * Math.round((degrees - placed[0].longitude_deg) / 360);
     const marks = placed.map(({ site, latitude_deg, longitude_deg }) =>
-        ({ site: visible(site), latitude: latitude_deg, longitude: longitude_deg, state: state_of(site) }));
+        ({ site: visible(site), latitude: latitude_deg, longitude: near_first(longitude_deg), state: state_of(site) }));
     set_text("map-caption", tr("{} of {} benchmarks were read today", marks.filter((one) => one.state !== "open").length, marks.length));
     draw("map", { sites: marks, here: visible(here) }, map_parts);
 }

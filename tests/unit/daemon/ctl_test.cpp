@@ -88,6 +88,24 @@ TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago", "[
         CAPTURE(wrong);
         CHECK(read(wrong) == "none");
     }
+    // The hour from 02:00 to 03:00 occurs twice on the last Sunday of October; after wfrog #120 and
+    // DOI-USGS/dataRetrieval #121.
+    setenv("TZ", "CET-1CEST,M3.5.0,M10.5.0/3", 1);
+    tzset();
+    const auto at = [](const char* utc, const char* text) {
+        return to_rfc3339(*parse_when(text, *parse_rfc3339(utc)));
+    };
+    CHECK(at("2024-10-27T00:29:00Z", "02:25") == "2024-10-27T00:25:00Z");
+    CHECK(at("2024-10-27T01:20:00Z", "02:25") == "2024-10-27T00:25:00Z");
+    CHECK(at("2024-10-27T01:29:00Z", "02:25") == "2024-10-27T01:25:00Z");
+    CHECK(at("2024-10-27T09:00:00Z", "02:25") == "2024-10-27T01:25:00Z");
+    CHECK(at("2024-10-27T23:30:00Z", "02:25") == "2024-10-27T01:25:00Z");  // the day before
+    CHECK(at("2024-10-27T09:00:00Z", "03:10") == "2024-10-27T02:10:00Z");
+    CHECK(at("2024-03-31T09:00:00Z", "01:59") == "2024-03-31T00:59:00Z");
+    setenv("TZ", "LHST-10:30LHDT-11,M10.1.0,M4.1.0", 1);  // half an hour, in the south
+    tzset();
+    CHECK(at("2024-04-06T14:50:00Z", "01:40") == "2024-04-06T14:40:00Z");
+    CHECK(at("2024-04-06T15:20:00Z", "01:40") == "2024-04-06T15:10:00Z");
     setenv("TZ", before.c_str(), 1);
     if (before.empty()) unsetenv("TZ");
     tzset();

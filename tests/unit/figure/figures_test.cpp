@@ -183,6 +183,26 @@ TEST_CASE(
     CHECK_FALSE(map_figure(result, {}, {}).has_value());
 }
 
+TEST_CASE("the map of stations across the 180th meridian is one piece", "[report][figures]") {
+    // After GNS-Science/gsolve and obspy's events_longitude_wrap.
+    SurveyCorrection result;
+    for (const char* const name : {"A", "B", "C"}) {
+        StationValue station;
+        station.site = name;
+        result.stations.push_back(station);
+    }
+    const double second = GENERATE(-179.99, 180.01);
+    const std::string script =
+        script_of(map_figure(result, {site("A", 179.99, 36.2), site("B", second, 36.21),
+                                      site("C", 180, 36.2)})
+                      .value());
+    std::smatch x;
+    REQUIRE(std::regex_search(script, x, std::regex("xrange \\[(.*):(.*)\\]")));
+    CHECK(std::stod(x[1]) > 179.9);
+    CHECK(std::stod(x[2]) < 180.1);
+    CHECK_THAT(script, ContainsSubstring("set label '500 m'"));
+}
+
 TEST_CASE("the map shows gravity and the order of the visits, those without a value too",
           "[report][figures]") {
     SurveyCorrection result = corrected(made_up::day());

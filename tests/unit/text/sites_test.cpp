@@ -110,6 +110,14 @@ TEST_CASE("names that a spreadsheet or another program would change are refused"
     CHECK(parse_sites(kHeader + "No.0-1 (\xC3\xA9),1,2,3,\n", "s.csv").size() == 1);
 }
 
+TEST_CASE("altitudes reach from the deepest mine to the highest mountain", "[text][sites]") {
+    for (const char* const good : {"-5000", "-3900.5", "8849"})
+        CHECK(parse_sites(kHeader + std::string("A,1,2,") + good + ",\n", "s.csv").size() == 1);
+    for (const char* const bad : {"-5001", "9001"})
+        CHECK_THROWS_WITH(parse_sites(kHeader + std::string("A,1,2,") + bad + ",\n", "s.csv"),
+                          ContainsSubstring("allowed: -5000 to 9000"));
+}
+
 TEST_CASE("a mistyped name is recognised if only one site is like it", "[text][sites]") {
     std::vector<Site> sites(4);
     sites[0].name = "No.6";
