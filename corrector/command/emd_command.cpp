@@ -8,6 +8,7 @@
 #include "corrector/command/commands.hpp"
 #include "corrector/command/csv_output.hpp"
 #include "corrector/command/options.hpp"
+#include "corrector/command/sample_column.hpp"
 #include "corrector/eemd/eemd.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"
@@ -82,11 +83,9 @@ std::string report_csv(const eemd::Result& result) {
 void write_modes(const EmdCommandOptions& options) {
     eemd::Options eemd_options = decomposition(options);
     require_file_option("--output", options.output);
-    const text::CsvTable table = text::read_csv(options.input);
-    std::vector<double> signal;
-    signal.reserve(table.row_count());
-    for (std::size_t row = 0; row < table.row_count(); ++row)
-        signal.push_back(table.number(row, options.column, -1e300, 1e300));
+    SampleColumn column(options.input, options.column, SampleColumn::Missing::refused);
+    std::vector<double> signal, block;
+    while (column.read(block)) signal.insert(signal.end(), block.begin(), block.end());
     text::ProgressBar bar(options.column);
     eemd_options.progress = std::ref(bar);
     const eemd::Result result = eemd::eemd(signal, eemd_options);

@@ -38,8 +38,9 @@ std::string in_seconds(Nanoseconds time) { return text::shortest(seconds_of(time
 
 }  // namespace
 
-SampleColumn::SampleColumn(const std::string& file, const std::string& column)
-    : in_(open(file)),
+SampleColumn::SampleColumn(const std::string& file, const std::string& column, Missing missing)
+    : missing_(missing),
+      in_(open(file)),
       reader_(in_, file),
       column_(text::column_index(reader_.columns(), column, file)),
       time_column_(find_time(reader_.columns())) {
@@ -51,6 +52,8 @@ bool SampleColumn::read(std::vector<double>& samples) {
     while (samples.size() < kBlock && reader_.next()) {
         if (time_column_) check_time();
         const std::string_view cell = reader_.cells()[column_];
+        if (cell.empty() && missing_ == Missing::refused)
+            reader_.refuse(column_, "missing", "a number in each row");
         if (cell.empty()) {
             ++missing_count_;
             samples.push_back(std::numeric_limits<double>::quiet_NaN());

@@ -33,11 +33,15 @@ namespace a351::corrector::command {
 /// (single_step_test.cpp).
 class SampleColumn {
 public:
+    enum class Missing { allowed, refused };
+
     /// Opens the file and reads its header.
     /// @param file    path of the CSV, or of a pipe.
     /// @param column  name in the header.
+    /// @param missing  refused: an empty cell is an InputError of read().
     /// @throws InputError  the file cannot be read, has no header or no such column.
-    SampleColumn(const std::string& file, const std::string& column);
+    SampleColumn(const std::string& file, const std::string& column,
+                 Missing missing = Missing::allowed);
 
     /// Replaces `samples` by the next ones (NaN: missing). Returns false at the end.
     /// @throws InputError  a cell is not a number of at most 1e150, a time out of step; names the
@@ -56,6 +60,7 @@ public:
 private:
     void check_time();
 
+    Missing missing_;
     std::ifstream in_;
     text::CsvReader reader_;
     std::size_t column_;

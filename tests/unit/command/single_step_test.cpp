@@ -122,6 +122,39 @@ TEST_CASE("a blank line in a single column counts as a missing sample in every s
     CHECK_THAT(refused.errors, ContainsSubstring("in.csv:42: a = "));
 }
 
+TEST_CASE("each step refuses a gap in the times and times that go back", "[command]") {
+    // After PyEMD #79 and #85.
+    const test::TemporaryDirectory folder;
+    const char* const time = GENERATE("time", "time_utc", "time_s");
+    std::string gap = std::string(time) + ",a\n", back = gap, whole = gap;
+    for (int i = 0; i < 60; ++i) {
+        const auto row = [&](int second) {
+            const std::string at = std::string(time) == "time_s"
+                                       ? std::to_string(second)
+                                       : to_rfc3339(UtcTime(std::chrono::seconds(second)));
+            return at + "," + std::to_string(i % 7) + "\n";
+        };
+        whole += row(i);
+        gap += row(i < 30 ? i : i + 100);
+        back += row(i < 30 ? i + 100 : i);
+    }
+    folder.write("whole.csv", whole);
+    folder.write("gap.csv", gap);
+    folder.write("back.csv", back);
+    for (const std::string step :
+         {"emd --output out.csv", "smooth --cutoff 5", "decimate --factor 2"}) {
+        CAPTURE(step, time);
+        CHECK(run(folder, step + " --input whole.csv --column a").status == 0);
+        const Outcome over = run(folder, step + " --input gap.csv --column a");
+        CHECK(over.status == 2);
+        CHECK_THAT(over.errors, ContainsSubstring("gap.csv:32: ") &&
+                                    ContainsSubstring("101 s after the row before it"));
+        const Outcome backward = run(folder, step + " --input back.csv --column a");
+        CHECK(backward.status == 2);
+        CHECK_THAT(backward.errors, ContainsSubstring("not after the row before it"));
+    }
+}
+
 TEST_CASE("smooth reports that its weights did not converge", "[command]") {
     const test::TemporaryDirectory folder;
     folder.write("in.csv", "a\n57\n50\n60\n1\n11\n5\n5\n2\n6\n9\n7\n4\n");
