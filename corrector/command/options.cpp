@@ -69,6 +69,13 @@ void add_tide_factors(CLI::App& command, tide::Factors& factors) {
                      "Gravimetric factor of degree 3 (1: rigid Earth)");
 }
 
+void add_tide_system(CLI::App& command, std::string& system) {
+    add_option(command, "--tide-system", "SYSTEM", system,
+               "Permanent tide in the gravity that remains. tide-free: none; zero: that of the "
+               "deformed Earth; mean: all (default: tide-free)")
+        ->check(CLI::IsMember({"tide-free", "zero", "mean"}));
+}
+
 tide::Factors tide_factor_options(const tide::Factors& factors) {
     constexpr double kLeast = 0.5, kGreatest = 2.0;  // 1 is a rigid Earth
     return {number_option("--delta2", factors.delta2, kLeast, kGreatest),

@@ -64,6 +64,9 @@ void add_verbose_flag(CLI::App& command, bool& is_verbose);
 /// Adds --delta2 and --delta3.  The present factors are the defaults in the help.
 void add_tide_factors(CLI::App& command, tide::Factors& factors);
 
+/// Adds --tide-system, for set_tide_system().
+void add_tide_system(CLI::App& command, std::string& system);
+
 /// Returns the factors given in options.
 /// @throws InputError  one is out of range; allowed are 0.5 to 2.
 [[nodiscard]] tide::Factors tide_factor_options(const tide::Factors& factors);

@@ -13,6 +13,7 @@
 #include "corrector/long_record/joined_record.hpp"
 #include "corrector/long_record/record_result.hpp"
 #include "corrector/report/report.hpp"
+#include "corrector/tide/permanent_tide.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
@@ -25,7 +26,7 @@ namespace {
 struct RecordCommandOptions {
     std::vector<std::string> files;
     std::string from, to, apply;
-    std::string out = "result";
+    std::string out = "result", tide_system = "tide-free";
     long_record::RecordAnalysisOptions analysis;
     figure::FigureOptions figures;
 };
@@ -36,7 +37,8 @@ long_record::LongRecord read_record(const RecordCommandOptions& options) {
     if (!options.to.empty()) window.to = instant_option("--to", options.to);
     if (window.from && window.to && *window.from >= *window.to)
         throw InputError(fmt::format("--to = {}; allowed: an instant after --from", options.to));
-    return long_record::joined_record(read_records(options.files, window));
+    return long_record::joined_record(
+        read_records(options.files, window, *tide::system_named(options.tide_system)));
 }
 
 long_record::RecordResult analysed(const RecordCommandOptions& options) {
@@ -122,6 +124,7 @@ void analyse(const RecordCommandOptions& options) {
     settings["noise_ratio"] = eemd::Options{}.noise_ratio;
     settings["seed"] = result.options.seed;
     settings["apply"] = options.apply;
+    settings["tide_system"] = result.record.is_tide_removed ? options.tide_system : "as given";
     std::vector<text::NamedText> files = long_record::record_files(result, settings);
     report::Report page = report::make_long_record_page(result, settings, options.figures);
     files.insert(files.end(), page.files.begin(), page.files.end());
@@ -156,6 +159,7 @@ void add_record_command(CLI::App& program) {
     add_with_default(command, "--ensemble", "N", options->analysis.ensemble_size,
                      "Number of noise realisations that are averaged");
     add_with_default(command, "--seed", "N", options->analysis.seed, "Seed of the noise generator");
+    add_tide_system(command, options->tide_system);
     add_figure_options(command, options->figures);
     command.callback([options] { analyse(*options); });
 }

@@ -29,7 +29,8 @@ std::filesystem::path root_of(const std::filesystem::path& file) {
 }  // namespace
 
 std::vector<long_record::LongRecord> read_records(const std::vector<std::string>& files,
-                                                  const long_record::RecordWindow& window) {
+                                                  const long_record::RecordWindow& window,
+                                                  tide::System system) {
     std::vector<std::filesystem::path> roots;
     std::vector<long_record::LongRecord> records;
     {
@@ -40,7 +41,8 @@ std::vector<long_record::LongRecord> read_records(const std::vector<std::string>
                 records.push_back(long_record::read_csv_record(file, window, std::ref(bar)));
             } else if (std::find(roots.begin(), roots.end(), root) == roots.end()) {
                 roots.push_back(root);
-                records.push_back(long_record::read_archive_record(root, window, std::ref(bar)));
+                records.push_back(
+                    long_record::read_archive_record(root, window, std::ref(bar), system));
             }
         }
     }

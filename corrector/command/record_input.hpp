@@ -20,11 +20,13 @@ namespace a351::corrector::command {
 /// that is not in an archive is taken as CSV.
 /// @param files   existing paths; symbolic links are followed.
 /// @param window  part to be read, the same for all.
+/// @param system  tide system of the records from archives.
 /// @return records in the order of the files.
 /// @throws std::filesystem::filesystem_error  a path does not exist.
 /// @throws InputError  one cannot be read.
 [[nodiscard]] std::vector<long_record::LongRecord> read_records(
-    const std::vector<std::string>& files, const long_record::RecordWindow& window);
+    const std::vector<std::string>& files, const long_record::RecordWindow& window,
+    tide::System system = tide::System::tide_free);
 
 /// Returns the parts found by divide_record(), with at least one segment.
 /// @param name  of the record, for the message.

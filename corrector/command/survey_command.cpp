@@ -29,6 +29,7 @@
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
 #include "corrector/result/unit_history.hpp"
+#include "corrector/tide/permanent_tide.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/or_null.hpp"
@@ -44,7 +45,7 @@ struct SurveyCommandOptions {
     std::string out;
     std::string model;
     std::string flags;
-    std::string tide;
+    std::string tide, tide_system;
     std::string trend;
     std::string calibration;
     std::string from, to;
@@ -70,6 +71,9 @@ job::SurveyFile with_overrides(job::SurveyFile survey, const SurveyCommandOption
     if (!options.model.empty()) survey.survey.model = options.model;
     if (!options.flags.empty()) survey.survey.use_flags = options.flags == "use";
     if (!options.tide.empty()) tide::set_tide_option(survey.tide, options.tide);
+    const std::string system(options.tide_system.empty() ? tide::name_of(survey.tide.system)
+                                                         : options.tide_system);
+    tide::set_tide_system(survey.tide, system, "--tide-system");
     if (!options.trend.empty())
         survey.averaging.trend =
             options.trend == "eemd" ? reading::TrendMethod::eemd : reading::TrendMethod::smoother;
@@ -270,6 +274,7 @@ void add_survey_command(CLI::App& program) {
     add_option(command, "--tide", "SOURCE", options->tide,
                "Tide, as its effect on gravity, that is subtracted from the readings: " +
                    std::string(tide::kTideSources));
+    add_tide_system(command, options->tide_system);
     add_option(command, "--trend", "NAME", options->trend,
                "Trend that is averaged; the model paper always uses eemd")
         ->check(CLI::IsMember({"eemd", "smoother"}));

@@ -26,6 +26,7 @@ struct TableOptions {
     job::SurveyFile survey;
     std::string observations;
     std::string flags = "use";
+    std::string tide_system;
     std::string tide;  ///< Empty: given if the column exists, else direct.
     std::vector<std::tuple<std::string, double, double>> priors;
     std::string out = "result";
@@ -40,6 +41,8 @@ void set_options(TableOptions& options, const std::vector<reading::SurveyRow>& r
     if (options.tide.empty()) options.tide = rows.front().given_tide ? "given" : "direct";
     tide::set_tide_option(survey.tide, options.tide);
     survey.tide.factors = tide_factor_options(survey.tide.factors);
+    if (!options.tide_system.empty())
+        tide::set_tide_system(survey.tide, options.tide_system, "--tide-system");
     number_option("--admittance", survey.reduction.admittance_mgal_per_hpa,
                   reduction::kLeastAdmittance_mgal_per_hpa,
                   reduction::kGreatestAdmittance_mgal_per_hpa);
@@ -123,6 +126,7 @@ void add_table_command(CLI::App& program) {
                    std::string(tide::kTideSources) +
                    " (default: given if the column exists, else direct)");
     add_tide_factors(command, survey.tide.factors);
+    add_tide_system(command, options->tide_system);
     add_option(
         command, "--pressure", "CSV", survey.reduction.pressure,
         "Air pressure at the stations, time,pressure_hpa, for readings without pressure_hpa");

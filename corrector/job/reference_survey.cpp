@@ -7,6 +7,7 @@
 
 #include "corrector/model/network.hpp"
 #include "corrector/reduction/row_reduction.hpp"
+#include "corrector/tide/permanent_tide.hpp"
 #include "protocol/core/input_error.hpp"
 
 namespace a351::corrector::job {
@@ -41,8 +42,7 @@ bool has_published_gravity(const std::vector<reading::SurveyRow>& rows) {
 
 }  // namespace
 
-ReferenceNetwork hold_reference_values(const SurveyFile& survey,
-                                       reading::OccupationRows& read) {
+ReferenceNetwork hold_reference_values(const SurveyFile& survey, reading::OccupationRows& read) {
     const ReferenceSurvey& reference = survey.reference.value();
     const std::string origin = reference.observations.string();
     std::vector<reading::SurveyRow> rows =
@@ -50,7 +50,11 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey,
     if (rows.front().instrument.empty())
         throw InputError(origin + ":1: no column instrument; allowed: a table of gravimeters");
     tide::Choice tide = survey.tide;
-    if (rows.front().given_tide) tide::set_tide_option(tide, "given");
+    if (rows.front().given_tide) {
+        tide::set_tide_option(tide, "given");
+        tide::set_tide_system(tide, std::string(tide::name_of(tide.system)),
+                              origin + ": tide_system");
+    }
     tide::apply_tide(rows, read.sites, tide);
     reduction::ReductionChoice reduction = survey.reduction;
     reduction.height.reset();  // that of the sensor
@@ -110,8 +114,7 @@ void compare_with_reference(model::SurveyCorrection& result, const ReferenceNetw
     for (const model::StationValue& station : result.stations) {
         const auto theirs = reference.values.find(station.site);
         if (theirs == reference.values.end() || !station.left_out || !station.u_left_out) continue;
-        side_by_side.stations.push_back(
-            {station.site, *station.left_out, *station.u_left_out,
+        side_by_side.stations.push_back({station.site, *station.left_out, *station.u_left_out,
                                          theirs->second.gravity, theirs->second.u});
     }
     result.side_by_side = std::move(side_by_side);

@@ -99,6 +99,9 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
         table.number_or("delta2", survey.tide.factors.delta2, kLeastFactor, kGreatestFactor);
     survey.tide.factors.delta3 =
         table.number_or("delta3", survey.tide.factors.delta3, kLeastFactor, kGreatestFactor);
+    tide::set_tide_system(
+        survey.tide, table.choice_or("tide_system", "tide-free", {"tide-free", "zero", "mean"}),
+        survey.path.string() + ": survey.tide_system");
     if (const auto height =
             table.number("instrument_height_m", -reading::kGreatestInstrumentHeight_m,
                          reading::kGreatestInstrumentHeight_m))

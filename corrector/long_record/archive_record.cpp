@@ -14,7 +14,7 @@
 #include "corrector/archive_series/temperature_course.hpp"
 #include "corrector/long_record/csv_record.hpp"
 #include "corrector/long_record/stretch_builder.hpp"
-#include "corrector/tide/earth_tide.hpp"
+#include "corrector/tide/permanent_tide.hpp"
 #include "protocol/archive/sds.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
@@ -210,11 +210,13 @@ void set_outer(LongRecord& record, const std::vector<archive_series::MinuteTempe
     }
 }
 
-void remove_tide(LongRecord& record, const station::Position& position) {
+void remove_tide(LongRecord& record, const station::Position& position, tide::System system) {
     const tide::Station station{position.latitude, position.longitude, position.elevation};
+    const MilliGal kept = tide::kept_permanent_tide(system, station, tide::Factors());
     for (RecordStretch& stretch : record.stretches)
         for (std::size_t i = 0; i < stretch.size(); ++i)
-            stretch.acceleration_mgal[i] -= tide::direct_tide(stretch.times[i], station).value();
+            stretch.acceleration_mgal[i] -=
+                (tide::direct_tide(stretch.times[i], station) - kept).value();
     record.is_tide_removed = true;
 }
 
@@ -234,7 +236,7 @@ void describe_inputs(LongRecord& record, const std::filesystem::path& root,
 }  // namespace
 
 LongRecord read_archive_record(const std::filesystem::path& root, const RecordWindow& window,
-                               const archive_series::Progress& progress) {
+                               const archive_series::Progress& progress, tide::System system) {
     const std::filesystem::path metadata = root / "metadata" / "station.xml";
     const std::vector<Epoch> epochs = archive_series::read_epochs(metadata);
     const UtcTime begin = window.from.value_or(UtcTime::min());
@@ -283,7 +285,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
             root.string(), epochs.back().channels[kLeading].code));
     if (has_outer) set_outer(record, outer);
     if (const auto& position = epochs.front().position)
-        remove_tide(record, *position);
+        remove_tide(record, *position, system);
     else
         record.warnings.push_back(
             text::message("{}: no position: the tide is not removed", metadata.string()));

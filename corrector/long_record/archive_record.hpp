@@ -12,6 +12,7 @@
 
 #include "corrector/archive_series/on_all_cores.hpp"
 #include "corrector/long_record/long_record.hpp"
+#include "corrector/tide/earth_tide.hpp"
 
 namespace a351::corrector::long_record {
 
@@ -44,11 +45,13 @@ struct RecordWindow {
 /// @param root      data root with archive/ and metadata/station.xml.
 /// @param window    part to be read.
 /// @param progress  called with the days done and in all, in the caller's thread.
+/// @param system    of the gravity that remains after the tide is subtracted.
 /// @throws InputError  if the metadata cannot be read, if the archive has no sample of the vertical
 ///                     axis in the window, if whole stages of 10 do not lead from its rate to 20 s
 ///                     within 10 %, or if a part would have another step than the rest.
 [[nodiscard]] LongRecord read_archive_record(const std::filesystem::path& root,
                                              const RecordWindow& window,
-                                             const archive_series::Progress& progress);
+                                             const archive_series::Progress& progress,
+                                             tide::System system = tide::System::tide_free);
 
 }  // namespace a351::corrector::long_record

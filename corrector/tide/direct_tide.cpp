@@ -3,6 +3,8 @@
 
 #include "corrector/tide/earth_tide.hpp"
 #include "corrector/tide/lunar_terms.hpp"
+#include "corrector/tide/meridian.hpp"
+#include "corrector/tide/permanent_tide.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::corrector::tide {
@@ -28,10 +30,6 @@ constexpr double kGmSun = 1.32712440018e20;
 
 /// Astronomical unit, m.  Source: IAU 2012 resolution B2.
 constexpr double kAstronomicalUnit_m = 149597870.7e3;
-
-/// Semi-major axis (m) and flattening of the WGS84 ellipsoid.  Source: NIMA TR8350.2, table 3.1.
-constexpr double kEquatorialRadius_m = 6378137.0;
-constexpr double kFlattening = 1.0 / 298.257223563;
 
 double sin_deg(double angle_deg) { return std::sin(angle_deg * kRadPerDeg); }
 double cos_deg(double angle_deg) { return std::cos(angle_deg * kRadPerDeg); }
@@ -117,13 +115,9 @@ StationFrame station_frame(const Station& station) {
     const double cos_lat = cos_deg(station.latitude.value());
     const double sin_lon = sin_deg(station.longitude.value());
     const double cos_lon = cos_deg(station.longitude.value());
-    const double e2 = kFlattening * (2.0 - kFlattening);
-    // N = a / sqrt(1 - e^2 sin^2 lat);  x, y, z from geodetic latitude, longitude and height
-    const double n = kEquatorialRadius_m / std::sqrt(1.0 - e2 * sin_lat * sin_lat);
-    const double h = station.height.value();
-    const double x = (n + h) * cos_lat * cos_lon;
-    const double y = (n + h) * cos_lat * sin_lon;
-    const double z = (n * (1.0 - e2) + h) * sin_lat;
+    const auto [rho, z] = meridian(sin_lat, cos_lat, station.height.value());
+    const double x = rho * cos_lon;
+    const double y = rho * sin_lon;
     const double radius = std::sqrt(x * x + y * y + z * z);
     return {{x / radius, y / radius, z / radius},
             {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat},
@@ -170,10 +164,12 @@ MilliGal direct_tide(UtcTime time, const Station& station, Factors factors) {
                     (pull(kGmMoon, moon_position(t)) + pull(kGmSun, sun_position(t))));
 }
 
-MilliGal earth_tide(Model model, UtcTime time, const Station& station, Factors factors) {
-    if (model == Model::direct) return direct_tide(time, station, factors);
-    if (model == Model::longman) return longman_tide(time, station, factors);
-    return MilliGal(0.0);
+MilliGal earth_tide(Model model, UtcTime time, const Station& station, Factors factors,
+                    System system) {
+    if (model == Model::none) return MilliGal(0.0);
+    const MilliGal whole = model == Model::direct ? direct_tide(time, station, factors)
+                                                  : longman_tide(time, station, factors);
+    return whole - kept_permanent_tide(system, station, factors);
 }
 
 }  // namespace a351::corrector::tide

@@ -98,11 +98,20 @@ inline constexpr Factors kLongmanFactors{1.1575, 1.1575};
 /// - `longman`: longman_tide(), for comparison; its error is up to 0.0043 mGal.
 enum class Model { none, direct, longman };
 
+/// Systems of gravity, by the part of the permanent tide that is removed from it.
+/// - `tide_free`: all, attraction and deformation, with the factor delta2: the default, and the
+///   systems of gravimeters that remove a tide themselves.
+/// - `zero`: the attraction only; the Earth keeps its permanent deformation.  IAG resolution 16 of
+///   1983 recommends it.
+/// - `mean`: nothing; gravity as it is on the average.
+enum class System { tide_free, zero, mean };
+
 /// Returns the tide by one of the models; 0 for `none`.
 /// @param time, station  as direct_tide().
 /// @param factors         of either model; no model replaces them by defaults of its own.
+/// @param system          of the gravity that remains if the result is subtracted.
 /// @return mGal, positive if gravity is larger.
 [[nodiscard]] MilliGal earth_tide(Model model, UtcTime time, const Station& station,
-                                  Factors factors);
+                                  Factors factors, System system = System::tide_free);
 
 }  // namespace a351::corrector::tide

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "corrector/tide/permanent_tide.hpp"
 #include "corrector/tide/tide_series.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -31,7 +32,8 @@ std::optional<MilliGal> chosen_tide(const reading::SurveyRow& row, UtcTime time,
     }
     const Model model = tide_model(choice.source);
     const text::Site& site = text::required_site(sites, row.site);
-    return earth_tide(model, time, {site.latitude, site.longitude, site.altitude}, choice.factors);
+    return earth_tide(model, time, {site.latitude, site.longitude, site.altitude}, choice.factors,
+                      choice.system);
 }
 
 std::string_view model_text(const Choice& choice) {
@@ -46,7 +48,13 @@ std::string_view model_text(const Choice& choice) {
 /// Returns what a result contains of the constant part of the tide, which not all programs remove.
 std::string_view permanent_tide_text(const Choice& choice) {
     if (!choice.series.empty() || choice.source == "given") return "as in the given tide";
-    return choice.source == "none" ? "not removed" : "removed, with the factor delta2";
+    if (choice.source == "none" || choice.system == System::mean) return "not removed";
+    return choice.system == System::zero ? "attraction removed, deformation kept"
+                                         : "removed, with the factor delta2";
+}
+
+bool is_computed(const Choice& choice) {
+    return choice.series.empty() && choice.source != "given" && choice.source != "none";
 }
 
 }  // namespace
@@ -65,6 +73,18 @@ void set_tide_option(Choice& choice, const std::string& text) {
     if (set_tide_source(choice, text, "")) return;
     throw InputError(
         fmt::format("--tide = {}: neither a source nor a file; allowed: {}", text, kTideSources));
+}
+
+void set_tide_system(Choice& choice, const std::string& text, const std::string& origin) {
+    const auto system = system_named(text);
+    if (!system)
+        throw InputError(fmt::format("{} = {}: unknown; allowed: {}", origin, text, kTideSystems));
+    if (*system != System::tide_free && !is_computed(choice))
+        throw InputError(fmt::format(
+            "{} = {}: the tide is {}, and what it contains of the permanent tide is not known; "
+            "allowed: with the tide direct or longman",
+            origin, text, choice.source));
+    choice.system = *system;
 }
 
 Model tide_model(const std::string& source) {
@@ -100,11 +120,11 @@ void describe_tide(Json& settings, const Choice& choice) {
     settings["tide"] = choice.source;
     settings["tide_model"] = model_text(choice);
     settings["tide_sign"] = "effect on gravity: positive where gravity is larger; subtracted";
+    settings["tide_system"] = is_computed(choice) ? name_of(choice.system) : "as given";
     settings["permanent_tide"] = permanent_tide_text(choice);
-    const bool is_computed =
-        choice.series.empty() && choice.source != "given" && choice.source != "none";
-    settings["delta2"] = is_computed ? Json(choice.factors.delta2) : Json(nullptr);
-    settings["delta3"] = is_computed ? Json(choice.factors.delta3) : Json(nullptr);
+    const bool has_factors = is_computed(choice);
+    settings["delta2"] = has_factors ? Json(choice.factors.delta2) : Json(nullptr);
+    settings["delta3"] = has_factors ? Json(choice.factors.delta3) : Json(nullptr);
 }
 
 }  // namespace a351::corrector::tide

@@ -36,6 +36,9 @@ struct Choice {
     /// here if those are wanted.  Other sources ignore them.
     Factors factors;
     std::filesystem::path series;  ///< CSV for Series::read(); empty: `source` is one of the names.
+    /// System of the gravity that remains.  Only direct and longman can give another one than
+    /// tide_free: what a given tide contains is not known.
+    System system = System::tide_free;
 };
 
 /// Allowed values of a tide, for messages and help.
@@ -58,6 +61,16 @@ inline constexpr std::string_view kTideSources =
 /// @throws InputError  if `text` is neither a name nor a regular file.
 /// @throws std::filesystem::filesystem_error  as set_tide_source().
 void set_tide_option(Choice& choice, const std::string& text);
+
+/// Allowed names of a tide system, for messages and help.
+inline constexpr std::string_view kTideSystems = "tide-free, zero or mean";
+
+/// Sets the system from the text of the option --tide-system or of the key tide_system; call it
+/// after the source is set.
+/// @param origin  what begins the message: "--tide-system", or file and key.
+/// @throws InputError  the text is no system, or it is another one than tide-free and the tide is
+///                     not computed.
+void set_tide_system(Choice& choice, const std::string& text, const std::string& origin);
 
 /// Returns the model of a computed source: direct, catalogue, longman or none.
 /// `direct` and `catalogue` are one model: it agrees with the harmonic catalogue within 0.0001
@@ -84,7 +97,7 @@ void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::S
 
 /// Adds source, model, sign and factors of the tide to the settings of a result.  The factors are
 /// null if the tide is not computed.
-/// The keys are tide, tide_model, tide_sign, permanent_tide, delta2 and delta3.  Keys that exist are
+/// The keys are tide, tide_model, tide_sign, tide_system, permanent_tide, delta2 and delta3.  Keys that exist are
 /// overwritten.
 /// Example: tests/unit/tide/tide_series_test.cpp.
 /// @throws InputError  as tide_model(), without a series.

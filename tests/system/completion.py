@@ -60,6 +60,7 @@ esac
             (("a351-correct", "survey", "--model", "="), ["auto", "paper", "day", "t", "t-rate", "t-drift", "t-rate-drift",
                                                           "t-rate-drift-axes", "drift", "network"]),
             (("a351-correct", "survey", "--tide", "l"), ["longman"]),
+            (("a351-correct", "survey", "--tide-system", ""), ["tide-free", "zero", "mean"]),
             (("a351-correct", "import", "--tide", ""), ["keep", "remove"]),
             (("a351-correct", "import", "--average", "me"), ["median", "mean"]),
             (("a351-correct", "table", "--sites", "list.csv", "--base", "Mt"), ["Mt Tsukuba"]),

@@ -30,6 +30,13 @@ TEST_CASE("tide writes times and the effect on gravity", "[command]") {
     CHECK(table.cell(0, "time") == "2015-04-23T00:00:00Z");
     CHECK(table.cell(2, "time") == "2015-04-23T01:00:00Z");
     CHECK(table.number(0, "tide_mgal") == Approx(-0.00354).margin(0.00001).epsilon(0));
+    const auto mean =
+        text::CsvTable::parse(run(folder, arguments + " --tide-system mean").output, "stdout");
+    CHECK(mean.cell(0, "tide_system") == "mean");
+    // 1.1575 times Ekman's -0.0304 + 0.0912 sin^2(lat)
+    CHECK(table.number(0, "tide_mgal") - mean.number(0, "tide_mgal") ==
+          Approx(0.00986).margin(0.00025).epsilon(0));
+    CHECK(run(folder, arguments + " --tide-system free").status == 2);
     CHECK(run(folder, arguments + " --output tide.csv").output.empty());
     CHECK(text::read_text_file(folder.path() / "tide.csv") == outcome.output);
 }

@@ -146,9 +146,19 @@ TEST_CASE("the settings name the tide's source, model, factors and sign", "[surv
         settings.dump() ==
         R"({"tide":"direct","tide_model":"positions of Moon and Sun, degrees 2 and 3, along the )"
         R"(ellipsoid's normal","tide_sign":"effect on gravity: positive where gravity is larger; )"
-        R"(subtracted","permanent_tide":"removed, with the factor delta2","delta2":1.16,"delta3":1.07})");
-    choice.source = "given";
+        R"(subtracted","tide_system":"tide-free","permanent_tide":"removed, with the factor delta2","delta2":1.16,"delta3":1.07})");
+    set_tide_system(choice, "zero", "--tide-system");
     describe_tide(settings, choice);
+    CHECK(settings["tide_system"] == "zero");
+    CHECK(settings["permanent_tide"] == "attraction removed, deformation kept");
+    CHECK_THROWS_WITH(set_tide_system(choice, "free", "--tide-system"),
+                      "--tide-system = free: unknown; allowed: tide-free, zero or mean");
+    set_tide_system(choice, "tide-free", "--tide-system");
+    choice.source = "given";
+    CHECK_THROWS_WITH(set_tide_system(choice, "mean", "--tide-system"),
+                      StartsWith("--tide-system = mean: the tide is given, and what it contains"));
+    describe_tide(settings, choice);
+    CHECK(settings["tide_system"] == "as given");
     CHECK(settings["tide_model"] == "column earth_tide_mgal");
     CHECK(settings["permanent_tide"] == "as in the given tide");
     CHECK(settings["delta2"].is_null());
