@@ -83,20 +83,23 @@ struct Pair {
     double size = 0.0;
 };
 
+double distance_m(const Position& one, const Position& other) {
+    text::Site site;
+    site.latitude = one.latitude;
+    site.longitude = one.longitude;
+    return text::distance(site, other.latitude, other.longitude).value();
+}
+
 text::Message position_remark(const GravimeterFile& file) {
     std::map<std::string, const Reading*> first_at;
     std::map<std::string, Pair> far;  // the worst of each station
     for (const Reading& reading : file.readings) {
         if (!reading.position) continue;
         const Reading& first = *first_at.try_emplace(reading.site, &reading).first->second;
-        text::Site site;
-        site.latitude = first.position->latitude;
-        site.longitude = first.position->longitude;
-        const double size = std::max(
-            text::distance(site, reading.position->latitude, reading.position->longitude).value() /
-                kGreatestDistance_m,
-            std::abs((reading.position->altitude - first.position->altitude).value()) /
-                kGreatestHeightDifference_m);
+        const double size =
+            std::max(distance_m(*first.position, *reading.position) / kGreatestDistance_m,
+                     std::abs((reading.position->altitude - first.position->altitude).value()) /
+                         kGreatestHeightDifference_m);
         Pair& pair = far[reading.site];
         if (size > std::max(1.0, pair.size)) pair = {&first, &reading, size};
     }
@@ -108,17 +111,34 @@ text::Message position_remark(const GravimeterFile& file) {
     }
     if (count == 0) return {};
     const Position &one = *worst.first->position, &other = *worst.second->position;
-    text::Site site;
-    site.latitude = one.latitude;
-    site.longitude = one.longitude;
     return text::message(
         "positions of one station differ (stations: {}), the most at {}: {:.0f} m, and {:+.0f} "
         "m of height (lines {} and {}), {:+.2f} mGal of normal gravity. The first position of a "
         "station is used",
-        count, worst.first->site, text::distance(site, other.latitude, other.longitude).value(),
-        (other.altitude - one.altitude).value(), worst.first->line, worst.second->line,
+        count, worst.first->site, distance_m(one, other), (other.altitude - one.altitude).value(),
+        worst.first->line, worst.second->line,
         (normal_gravity(other.latitude, other.altitude) -
          normal_gravity(one.latitude, one.altitude))
+            .value());
+}
+
+text::Message receiver_remark(const GravimeterFile& file) {
+    const Reading* worst = nullptr;
+    double largest = kGreatestDistance_m;
+    for (const Reading& reading : file.readings) {
+        if (!reading.position || !reading.receiver) continue;
+        const double size = distance_m(*reading.position, *reading.receiver);
+        if (size > largest) {
+            largest = size;
+            worst = &reading;
+        }
+    }
+    if (worst == nullptr) return {};
+    return text::message(
+        "the receiver is up to {:.0f} m from the position that was entered, at {} (line {}), "
+        "{:+.2f} mGal of normal gravity. The position that was entered is used",
+        largest, worst->site, worst->line,
+        (normal_gravity(worst->receiver->latitude) - normal_gravity(worst->position->latitude))
             .value());
 }
 
@@ -174,8 +194,9 @@ text::Message tide_switch_remark(const GravimeterFile& file, const TideOf& tide_
 
 std::vector<text::Message> contradictions(const GravimeterFile& file, const TideOf& tide_of) {
     std::vector<text::Message> remarks;
-    for (text::Message remark : {tide_remark(file, tide_of), position_remark(file),
-                                 stay_number_remark(file), tide_switch_remark(file, tide_of)})
+    for (text::Message remark :
+         {tide_remark(file, tide_of), position_remark(file), receiver_remark(file),
+          stay_number_remark(file), tide_switch_remark(file, tide_of)})
         if (!remark.empty()) remarks.push_back(std::move(remark));
     return remarks;
 }

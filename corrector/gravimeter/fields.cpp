@@ -171,7 +171,8 @@ Reading Fields::reading() const {
     if (const auto dial = number("dial")) reading.dial = text::shortest(*dial);
     if (const auto height = number("instrument_height_m")) reading.height = Metres(*height);
     reading.position = position("");
-    if (!reading.position) reading.position = position("receiver_");
+    reading.receiver = position("receiver_");
+    if (!reading.position) reading.position = reading.receiver;
     for (const Column& column : columns())
         if (const Cell* const cell = column.is_kept ? find(column.field) : nullptr)
             reading.kept.emplace_back(column.field, cell->text);

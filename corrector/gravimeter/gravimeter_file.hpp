@@ -46,6 +46,7 @@ struct Reading {
     int loop = 0;                      ///< Number of its loop, if the file marks their ends.
     std::optional<Metres> height;      ///< Height of the instrument above the mark.
     std::optional<Position> position;  ///< Absent: unknown.
+    std::optional<Position> receiver;  ///< Position of the receiver, if the file has it too.
     /// Further columns: name with its unit, and the text of the file.
     std::vector<std::pair<std::string_view, std::string>> kept;
 };

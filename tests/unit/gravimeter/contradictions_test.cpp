@@ -42,6 +42,17 @@ TEST_CASE("positions of one station that differ are one remark with the worst", 
           "(lines 5 and 7), +9.25 mGal of normal gravity. The first position of a station is used");
 }
 
+TEST_CASE("a receiver that is far from the position entered is a remark", "[gravimeter]") {
+    const std::string line =
+        moved(cg6_reading("A", "10:00:00"), "--\t--\t--", "39.5\t-105.0\t1577.0");
+    CHECK(remarks(cg6_header() + line, 0.0488).empty());
+    const auto found = remarks(cg6_header() + moved(line, "39.5", "39.4"), 0.0488);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0] ==
+          "the receiver is up to 11119 m from the position that was entered, at A (line 5), +8.87 "
+          "mGal of normal gravity. The position that was entered is used");
+}
+
 TEST_CASE("a tide correction that is off for a part of the readings is a remark", "[gravimeter]") {
     const auto found =
         remarks(cg6_header() + cg6_reading("A", "10:00:00") +
