@@ -31,9 +31,14 @@ const Layout& layout_of_width(std::size_t width) {
 }
 
 std::vector<std::string_view> split(std::string_view line) {
-    for (const char separator : {'\t', ','})
-        if (line.find(separator) != std::string_view::npos) return split_at(line, separator);
-    return split_at_blanks(line);
+    auto cells = split_at_blanks(line);
+    for (const char separator : {',', '\t'})
+        if (line.find(separator) != std::string_view::npos) cells = split_at(line, separator);
+    // A spreadsheet can have quoted the texts.
+    for (std::string_view& cell : cells)
+        if (cell.size() > 2 && cell.front() == '"' && cell.back() == '"')
+            cell = cell.substr(1, cell.size() - 2);
+    return cells;
 }
 
 /// Returns true for a line of names, also with some that nobody knows.

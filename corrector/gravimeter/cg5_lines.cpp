@@ -17,8 +17,8 @@ namespace {
 constexpr std::string_view kCg5Title = "CG-5 SURVEY";
 
 /// Largest distance of a station from the coordinates in the header, by which a line without names
-/// is known to begin with coordinates.  Reason: more than a day's drive, and a line and a station
-/// with such numbers by chance are hardly possible.
+/// is known to begin with coordinates.  Reason: more than a day's drive; a line and a station with
+/// such fractions by chance are hardly possible.
 constexpr double kNear_deg = 3.0;
 
 /// Returns a coordinate such as `1.6000000 E` in degrees, north and east positive.
@@ -78,12 +78,13 @@ private:
 
     /// Chooses the usual columns for a file without names.
     void take_usual_layout(const std::vector<std::string_view>& cells) {
-        const auto is_near = [](std::string_view cell, const std::optional<Degrees>& header) {
+        const auto is_coordinate = [](std::string_view cell, const std::optional<Degrees>& header) {
             const auto value = text::parse_number(cell);
-            return value && header && std::abs(*value - header->value()) < kNear_deg;
+            return value && header && std::abs(*value - header->value()) < kNear_deg &&
+                   *value != std::round(*value);
         };
-        is_by_note_ = !note_.empty() && cells.size() > 2 && is_near(cells[0], survey_.latitude) &&
-                      is_near(cells[1], survey_.longitude);
+        is_by_note_ = cells.size() > 2 && is_coordinate(cells[0], survey_.latitude) &&
+                      is_coordinate(cells[1], survey_.longitude);
         auto names = usual_names(Form::cg5);
         if (!is_by_note_) {
             layout_ = usual_layout(Form::cg5, names);

@@ -93,6 +93,10 @@ TEST_CASE("a Burris is read with 15 columns, with a note, and with the month fir
         {"a b,o,B44,2017/12/05,10:00:00,2769.695,2800,0.482,-0.103,0.005,-0.033,-0.002,0.1,1600,"
          "35.1,-106.6,96,0.003,120,,rain",
          "20 columns in the usual order, without a line of names"},
+        {"\"a\",\"o\",\"B44\",2017/12/"
+         "05,10:00:00,2769.695,2800,0.482,-0.103,0.005,-0.033,-0.002,0.1,"
+         "1600,35.1,-106.6",
+         "16 columns in the usual order, without a line of names"},
         {"a\t\tB44\t12/5/2017\t10:00:00\t2769.695\t2800\t0.482\t-0.103\t0.005\t-0.033\t-0.002\t"
          "0.1\t1600\t35.1\t-106.6",
          "16 columns in the usual order, without a line of names, dates read as month/day/year"},
@@ -145,8 +149,12 @@ TEST_CASE("a CG-5 without a line of names is known to begin with coordinates by 
     CHECK(by_note.readings.front().site == "B-7");
     CHECK(by_note.readings.front().position->longitude == Degrees(-70.6));
     CHECK(read(header + note + at(reading, "0.0", "2.0000000")).readings.front().site == "2");
+    CHECK(read(header + note + at(reading, "-33.0000000", "70.0000000")).readings.front().site ==
+          "70");
     const auto without_note = read(header + at(reading, "0.0", "3.5000000"));
     CHECK(without_note.readings.front().site == "3.5");
+    CHECK_THROWS_WITH(read(header + at(reading, "-33.2", "-70.6")),
+                      ContainsSubstring("no header with Note, whose first word is the station"));
 }
 
 TEST_CASE("a CG-5 can have its options before the survey, and lines switched off", "[gravimeter]") {
