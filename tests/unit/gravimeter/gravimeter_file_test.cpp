@@ -149,8 +149,8 @@ TEST_CASE("a CG-5 without a line of names is known to begin with coordinates by 
     CHECK(by_note.readings.front().site == "B-7");
     CHECK(by_note.readings.front().position->longitude == Degrees(-70.6));
     CHECK(read(header + note + at(reading, "0.0", "2.0000000")).readings.front().site == "2");
-    CHECK(read(header + note + at(reading, "-33.0000000", "70.0000000")).readings.front().site ==
-          "70");
+    CHECK(read(header + note + at(reading, "-33.0000000", "-70.0000000")).readings.front().site ==
+          "-70");
     const auto without_note = read(header + at(reading, "0.0", "3.5000000"));
     CHECK(without_note.readings.front().site == "3.5");
     CHECK_THROWS_WITH(read(header + at(reading, "-33.2", "-70.6")),
