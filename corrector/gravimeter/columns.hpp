@@ -28,10 +28,9 @@ struct ColumnName {
     double factor = 1.0;  ///< Unit of the cell over the unit of the field: 0.01 for cm.
 };
 
-/// One column.
+/// One column.  readings.csv has the kept ones under the names of their fields.
 struct Column {
-    std::string_view
-        field;  ///< The field that it fills, with its unit; readings.csv has kept ones under this name.
+    std::string_view field;  ///< The field that it fills, with its unit.
     CellType type = CellType::text;
     double low = 0.0, high = 0.0;  ///< Limits of a number, in the unit of the field.
     bool is_required = false;      ///< A form that has a name for it cannot be without it.

@@ -24,6 +24,13 @@ double tide_difference_mgal(const Reading& reading, const TideOf& tide_of,
 
 /// Returns what would make the tides agree; empty if nothing that is tried does, or too much.
 text::Message tide_hint(const Readings& readings, const TideOf& tide_of) {
+    // A tide that hardly varies fits some other time of the day anyway.
+    constexpr double kLeastRange_mgal = 5.0 * kGreatestTideDifference_mgal;
+    const auto [least, greatest] = std::ranges::minmax_element(
+        readings, {}, [](const Reading* reading) { return reading->tide_correction->value(); });
+    if ((**greatest).tide_correction->value() - (**least).tide_correction->value() <
+        kLeastRange_mgal)
+        return {};
     // A hundred readings are enough for a curve of half days.
     constexpr std::size_t kMost = 100;
     const std::size_t step = readings.size() / kMost + 1;

@@ -25,8 +25,9 @@ using TideOf = std::function<MilliGal(UtcTime, const Position&)>;
 /// Returns the contradictions of a file, one sentence each with the size of its effect and what is
 /// used:
 ///
-/// 1. The tide in the file differs from the computed one, or is 0 throughout.  The sentence says so if it fits times that
-///    are shifted by half hours, up to a day, or another sign of a coordinate.
+/// 1. The tide in the file differs from the computed one, or is 0 throughout.  If the tide varies, the
+///    sentence says that it fits times shifted by half hours, up to a day, or another sign of a
+///    coordinate.
 /// 2. Positions of one station differ, or the receiver is elsewhere than the position entered.
 /// 3. A stay number comes back at its station after other stations.
 /// 4. The tide correction is on for some readings and off for others.

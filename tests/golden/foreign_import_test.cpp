@@ -84,6 +84,13 @@ TEST_CASE("a wrong GMT DIFF. is seen from the tide in the file, with the hours t
                    ContainsSubstring("GMT DIFF., LONG and LAT"));
 }
 
+TEST_CASE("a tide that hardly varies names no hours", "[golden][foreign]") {
+    const auto found = remarks(read("burris-android-20-columns/burris.csv"));
+    REQUIRE(found.size() == 1);  // its tide column is made up
+    CHECK_THAT(found[0],
+               ContainsSubstring("another time or place") && !ContainsSubstring("it fits"));
+}
+
 TEST_CASE("the files of real instruments contradict themselves nowhere", "[golden][foreign]") {
     for (const std::string file : {"B44_2017-12-05.txt", "B44_2018-02-27.txt",
                                    "B108_2017-12-05.txt", "cg5_excerpt.txt", "CG-6_TestData.dat"}) {
