@@ -16,6 +16,7 @@
 #include "corrector/result/result_files.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/plain_text.hpp"
 #include "protocol/text/progress_bar.hpp"
 #include "protocol/text/write_together.hpp"
 
@@ -41,6 +42,8 @@ void set_options(TableOptions& options, const std::vector<reading::SurveyRow>& r
     if (options.tide.empty()) options.tide = rows.front().given_tide ? "given" : "direct";
     tide::set_tide_option(survey.tide, options.tide);
     survey.tide.factors = tide_factor_options(survey.tide.factors);
+    survey.survey.base = text::plain_text(survey.survey.base);
+    for (std::string& name : survey.survey.datum) name = text::plain_text(name);
     if (!options.tide_system.empty())
         tide::set_tide_system(survey.tide, options.tide_system, "--tide-system");
     number_option("--admittance", survey.reduction.admittance_mgal_per_hpa,

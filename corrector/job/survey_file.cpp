@@ -8,6 +8,7 @@
 #include "corrector/reading/representative_value.hpp"
 #include "corrector/reduction/plate_and_pressure.hpp"
 #include "protocol/text/or_null.hpp"
+#include "protocol/text/plain_text.hpp"
 #include "protocol/text/strict_toml.hpp"
 
 namespace a351::corrector::job {
@@ -89,8 +90,9 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     survey.from = table.instant("from_utc");
     survey.to = table.instant("to_utc");
     survey.amendments = table.path_or_empty("amendments");
-    survey.survey.base = table.string_or("base", "");
+    survey.survey.base = text::plain_text(table.string_or("base", ""));
     survey.survey.datum = table.strings("datum");
+    for (std::string& name : survey.survey.datum) name = text::plain_text(name);
     survey.survey.model = table.choice_or("model", "auto", model::model_names());
     survey.survey.use_flags = table.choice_or("flags", "use", {"use", "ignore"}) == "use";
     if (!tide::set_tide_source(survey.tide, table.string_or("tide", "direct"), beside))

@@ -11,6 +11,7 @@
 
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/or_null.hpp"
+#include "protocol/text/plain_text.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -76,7 +77,8 @@ public:
 
     Amendment rename(text::TomlTable& table) {
         Amendment amendment = read(table, "rename");
-        const std::string to = required_string(table, "to", "the name of the site");
+        const std::string to =
+            text::plain_text(required_string(table, "to", "the name of the site"));
         require_site(table, "to", sites_, to);
         if (to == amendment.site) table.refuse("to", "already its name", "another site");
         const auto matches = matching(table, amendment, "name");
@@ -124,7 +126,7 @@ public:
 
     Amendment reference(text::TomlTable& table, std::vector<std::string>& refused) {
         Amendment amendment{.kind = "reference"};
-        amendment.site = required_string(table, "site", "the name of a site");
+        amendment.site = text::plain_text(required_string(table, "site", "the name of a site"));
         require_site(table, "site", sites_, amendment.site);
         amendment.reason = required_string(table, "reason", kReason);
         const bool is_used = table.boolean_or("use", true);
@@ -171,7 +173,8 @@ private:
 
     static Amendment read(text::TomlTable& table, const std::string& kind) {
         Amendment amendment{.kind = kind};
-        amendment.site = required_string(table, "site", "the site of an occupation");
+        amendment.site =
+            text::plain_text(required_string(table, "site", "the site of an occupation"));
         amendment.occupation = required_count(table, "occupation");
         if (kind != "rename" && kind != "set_up" && table.has("set_up"))
             amendment.set_up = required_count(table, "set_up");

@@ -95,6 +95,14 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
     CHECK(survey.averaging.norm == NormOrder::as_published);
 }
 
+TEST_CASE("a site is named in wide characters as well", "[survey][survey_file]") {
+    const Desk desk;
+    const SurveyFile survey =
+        desk.read("[survey]\nbase = \"\uFF2E\uFF4F.0\"\ndatum = [\"No.\uFF10\"]\n");
+    CHECK(survey.survey.base == "No.0");
+    CHECK(survey.survey.datum == std::vector<std::string>{"No.0"});
+}
+
 TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_file]") {
     const Desk desk;
     const adjustment::Priors priors =
