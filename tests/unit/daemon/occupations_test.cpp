@@ -315,6 +315,15 @@ TEST_CASE("a missing site is refused, and an unknown one too if there is a list 
     CHECK(unlisted.rename(of(1), "", {}).kind == Kind::refused);
 }
 
+TEST_CASE("a site named in wide characters is logged as in the list", "[daemon][occupations]") {
+    FakeRecorder recorder;
+    Occupations occupations(recorder, two_sites(), {});
+    CHECK(mentions(occupations.start("\uFF2E\uFF4F.0", {}, minute(1)), "started No.0"));
+    CHECK(recorder.log.back().details.at("site") == "No.0");
+    CHECK(occupations.rename(of(1), "No\uFF0E1", {}).kind == Kind::done);
+    CHECK(recorder.log.back().details.at("site") == "No.1");
+}
+
 TEST_CASE("a second start is refused with the name and start of the running occupation",
           "[daemon][occupations]") {
     FakeRecorder recorder;
