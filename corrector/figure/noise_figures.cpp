@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -56,8 +55,8 @@ Figure spectrum_figure(const RecordResult& result, const Print& print) {
 
 Figure allan_noise_figure(const RecordResult& result, const Print& print) {
     Figure figure{"noise-allan",
-                  tr("Allan deviation of the acceleration with 95 % limits, and that of white "
-                     "noise, flicker and random walk together."),
+                  tr("Allan deviation of the acceleration, with 95 % limits if the three noises "
+                     "describe it, and that of white noise, flicker and random walk together."),
                   print.small_mm()};
     const auto& allan = result.analysis.noise.allan.points;
     const Axis time{.label = tr("Averaging time (s)"),
@@ -72,8 +71,11 @@ Figure allan_noise_figure(const RecordResult& result, const Print& print) {
     }
     figure.plot("averaging_s deviation_mgal", model,
                 {Look::strong_line, Colour::vermilion, tr("three noises")});
-    figure.plot("averaging_s deviation_mgal low high", points,
-                {Look::discs_with_bars, Colour::blue, tr("record"), {{1}, {2}, {3}, {4}}});
+    figure.plot(
+        "averaging_s deviation_mgal low high", points,
+        result.analysis.noise.allan.noises.describes_record
+            ? Series{Look::discs_with_bars, Colour::blue, tr("record"), {{1}, {2}, {3}, {4}}}
+            : Series{Look::discs, Colour::blue, tr("record")});
     return figure;
 }
 

@@ -40,17 +40,25 @@ text::Message off_reference(const reading::SurveyRow& row, double off_mgal) {
         row.site, row.occupation, size_of(off_mgal));
 }
 
-/// Returns the only stay at a known station after a step; null if there are more or none.
+bool is_same_stay(const reading::SurveyRow& one, const reading::SurveyRow& other) {
+    return one.site == other.site && one.occupation == other.occupation;
+}
+
+/// Returns the only stay that shows a step; null if there are more or none.
 ///
-/// Then its name or its reference explains as much as a step does, and can be checked at once.
-const reading::SurveyRow* only_known_after(const model::SurveyCorrection& result,
-                                           const Finding& step) {
+/// It is at a known station.  Others show it if they are at one, or at a station that was read before
+/// too.  A wrong name or reference of the only one explains as much as a step does.
+const reading::SurveyRow* only_witness(const model::SurveyCorrection& result, const Finding& step) {
     const reading::SurveyRow* only = nullptr;
     for (const model::CorrectedRow& row : result.rows) {
-        if (!row.row.reference || !step.time || row.row.time < *step.time) continue;
-        const bool is_other = only != nullptr && (only->site != row.row.site ||
-                                                  only->occupation != row.row.occupation);
-        if (is_other) return nullptr;
+        if (!step.time || row.row.time < *step.time) continue;
+        const bool was_read_before =
+            std::ranges::any_of(result.rows, [&](const model::CorrectedRow& other) {
+                return other.row.site == row.row.site && other.row.time < *step.time;
+            });
+        if (!row.row.reference && !was_read_before) continue;
+        if (!row.row.reference || (only != nullptr && !is_same_stay(*only, row.row)))
+            return nullptr;
         only = &row.row;
     }
     return only;
@@ -59,8 +67,13 @@ const reading::SurveyRow* only_known_after(const model::SurveyCorrection& result
 void add_findings(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
     for (const Finding& finding : result.findings) {
         if (finding.kind == FindingKind::step && finding.size_mgal) {
-            if (const auto* const row = only_known_after(result, finding)) {
-                all.push_back(about(*row, "references", off_reference(*row, *finding.size_mgal)));
+            if (const auto* const row = only_witness(result, finding)) {
+                all.push_back(about(
+                    *row, "references",
+                    text::message("{} ({}) is {} mGal off: its name or its reference is wrong, "
+                                  "or the box was knocked before it; check the name, then "
+                                  "read another known benchmark",
+                                  row->site, row->occupation, size_of(*finding.size_mgal))));
                 continue;
             }
         }

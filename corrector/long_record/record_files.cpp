@@ -119,6 +119,7 @@ Json segments_json(const RecordResult& result) {
 }
 
 void add_limits(Json& json, const std::string& name, const Limits& limits) {
+    // An infinite limit is written as null.
     json[name] = limits.value;
     json[name + "_low"] = limits.low;
     json[name + "_high"] = limits.high;

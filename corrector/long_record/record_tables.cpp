@@ -166,8 +166,10 @@ TextTable noise_table(const RecordResult& result) {
     for (const noise::AllanPoint& point : result.analysis.noise.allan.points)
         rows.push_back({text::fixed(point.averaging_s, 0),
                         text::fixed(point.deviation_mgal.value, 3),
-                        text::tr("{} to {}", text::fixed(point.deviation_mgal.low, 3),
-                                 text::fixed(point.deviation_mgal.high, 3)),
+                        result.analysis.noise.allan.noises.describes_record
+                            ? text::tr("{} to {}", text::fixed(point.deviation_mgal.low, 3),
+                                       text::fixed(point.deviation_mgal.high, 3))
+                            : "-",
                         text::fixed(point.model_mgal, 3)});
     return rows;
 }
@@ -178,6 +180,8 @@ std::string noise_reading(const RecordResult& result) {
     const auto level = [&levels](const Limits& limits, double unit, int digits) {
         const std::string value = text::fixed(unit * limits.value, digits);
         if (!levels.describes_record) return text::Message(value);
+        if (std::isinf(limits.high))
+            return text::message("{} (at least {})", value, text::fixed(unit * limits.low, digits));
         return text::message("{} ({} to {})", value, text::fixed(unit * limits.low, digits),
                              text::fixed(unit * limits.high, digits));
     };
@@ -187,7 +191,7 @@ std::string noise_reading(const RecordResult& result) {
             "to stay: {}",
             levels.describes_record
                 ? text::message(", with 95 % limits")
-                : text::message(", the nearest one, because a drift or a cycle is in the record"),
+                : text::message(", only the nearest one, because a cycle or something else is in the record"),
             level(levels.white_mgal_sqrt_s, 1.0, 2), level(levels.flicker_mgal, 1.0, 3),
             level(levels.walk_mgal_per_sqrt_s, std::sqrt(kSecondsPerHour), 3), stay);
     };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -116,17 +116,21 @@ struct Fit {
 /// Probability below which the noises do not describe the record.
 constexpr double kMisfit = 0.001;
 
-/// Returns where the estimate is `kNormalLimit` standard errors from the truth, on one side.
-/// The standard error is that with the truth at the limit: with an estimate of 0 it would be too small.
-double limit(double estimate, double side, const std::function<double(double)>& standard_error) {
-    const auto next = [&](double square) {
-        return std::max(0.0, estimate + side * kNormalLimit * standard_error(square));
-    };
-    if (next(0.0) == 0.0) return 0.0;
-    constexpr int kRounds = 50;
-    double square = std::max(0.0, estimate);
-    for (int round = 0; round < kRounds; ++round) square = 0.5 * (square + next(square));
-    return square;
+/// Returns the squares s from which an estimate differs by at most kNormalLimit standard errors.
+///
+/// The standard error is that with the truth s, because with an estimate of 0 it would be too small:
+/// its square is variance[0] + variance[1] s + variance[2] s^2.
+Limits limits_of(double estimate, const std::array<double, 3>& variance) {
+    constexpr double z2 = kNormalLimit * kNormalLimit;
+    // (s - estimate)^2 = z^2 variance: a s^2 - 2 b s + c = 0
+    const double a = 1.0 - z2 * variance[2], b = estimate + 0.5 * z2 * variance[1],
+                 c = estimate * estimate - z2 * variance[0];
+    const double root = std::sqrt(std::max(0.0, b * b - a * c));
+    if (a > 0.0) return {estimate, std::max(0.0, (b - root) / a), std::max(0.0, (b + root) / a)};
+    // The error grows with s as fast as s does, so that nothing limits it above.
+    const double above = b * b > a * c ? (b - root) / a : 0.0;
+    return {estimate, estimate > above ? std::max(0.0, above) : 0.0,
+            std::numeric_limits<double>::infinity()};
 }
 
 Fit fit(const Eigen::MatrixXd& design, const Eigen::VectorXd& variances, Eigen::MatrixXd weights) {
@@ -154,9 +158,9 @@ ThreeNoises fit_noises(const Eigen::VectorXd& variances,
                    covariance.at(best.squares).ldlt().solve(Eigen::MatrixXd::Identity(size, size)));
     const Eigen::VectorXd misfits = variances - design * best.squares;
     ThreeNoises noises;
-    noises.describes_record =
-        signal::chi_square_exceedance(static_cast<double>(size - 3),
-                                      misfits.dot(best.weights * misfits)) > kMisfit;
+    noises.describes_record = signal::chi_square_exceedance(
+                                  static_cast<double>(size - (best.squares.array() > 0.0).count()),
+                                  misfits.dot(best.weights * misfits)) > kMisfit;
     squares = noises.describes_record ? best.squares : simple.squares;
     std::array<Limits*, 3> levels{&noises.white_mgal_sqrt_s, &noises.flicker_mgal,
                                   &noises.walk_mgal_per_sqrt_s};
@@ -168,14 +172,20 @@ ThreeNoises fit_noises(const Eigen::VectorXd& variances,
         Limits& level = *levels[static_cast<std::size_t>(i)];
         level = {squares(i), squares(i), squares(i)};
         if (!noises.describes_record) continue;
-        const auto standard_error = [&](double square) {
+        const auto variance_at = [&](double square) {
             Eigen::Vector3d truth = squares;
             truth(i) = square;
-            return std::sqrt(
-                estimator.row(i).dot(covariance.at(truth) * estimator.row(i).transpose()));
+            return estimator.row(i).dot(covariance.at(truth) * estimator.row(i).transpose());
         };
-        level.low = std::min(level.value, limit(estimates(i), -1.0, standard_error));
-        level.high = std::max(level.value, limit(estimates(i), 1.0, standard_error));
+        // A quadratic function of the square: three values determine it.
+        const double unit = std::max(squares.sum(), variances(0));
+        const double at_0 = variance_at(0.0), at_1 = variance_at(unit),
+                     at_2 = variance_at(2.0 * unit);
+        const Limits limits =
+            limits_of(estimates(i), {at_0, (4.0 * at_1 - at_2 - 3.0 * at_0) / (2.0 * unit),
+                                     (at_2 - 2.0 * at_1 + at_0) / (2.0 * unit * unit)});
+        level.low = std::min(level.value, limits.low);
+        level.high = std::max(level.value, limits.high);
     }
     return noises;
 }
@@ -206,7 +216,10 @@ AllanAnalysis analyse_allan(const std::vector<double>& values, double step_s) {
         analysis.points.push_back({.averaging_s = static_cast<double>(m) * step_s,
                                    .deviation_mgal = {deviation, deviation, deviation}});
     }
-    if (!(variances.minCoeff() > 0.0)) return analysis;  // A constant record has no noise.
+    if (!(variances.minCoeff() > 0.0)) {  // A constant record has no noise.
+        analysis.noises.describes_record = true;
+        return analysis;
+    }
     const Covariance covariance(n, averages);
     Eigen::Vector3d squares;
     ThreeNoises& noises = analysis.noises = fit_noises(variances, averages, covariance, squares);
@@ -217,6 +230,7 @@ AllanAnalysis analyse_allan(const std::vector<double>& values, double step_s) {
     for (std::size_t i = 0; i < averages.size(); ++i) {
         AllanPoint& point = analysis.points[i];
         point.model_mgal = analysis.noises.deviation_mgal(point.averaging_s);
+        if (!noises.describes_record) continue;
         // chi-square with nu degrees of freedom has the relative variance 2 / nu.
         const auto k = static_cast<Eigen::Index>(i);
         const double expected = point.model_mgal * point.model_mgal;

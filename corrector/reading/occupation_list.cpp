@@ -168,14 +168,17 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
     auto occupations = replay.finished();
     if (!from && !to) keep_last_day(occupations, list, events);
     for (const events::Occupation& occupation : occupations) {
+        const bool is_last = occupation.key == last_key;
         for (const events::Occupation::SetUp& set_up : occupation.set_ups) {
+            // The samples of a set-up that was begun just now are not in the journal yet.
+            if (is_last && running_until && set_up.end <= set_up.start) continue;
             list.windows.push_back(
                 {{text::plain_text(occupation.site), occupation.number, occupation.key},
                  set_up.start,
                  set_up.end});
             list.windows.back().not_moved_until = occupation.not_moved_until;
         }
-        const bool is_last = occupation.key == last_key;
+        if (list.windows.empty() || list.windows.back().key != occupation.key) continue;
         list.windows.back().is_last = is_last;
         if (!occupation.is_stopped || (is_last && !running_until))
             list.windows.back().notes.emplace_back("no-stop");
@@ -216,7 +219,8 @@ OccupationList drop_invalid_occupations(OccupationList list, const std::vector<t
     leave_out_overlapping(list);
     if (list.windows.empty()) {
         list.warnings.insert(list.warnings.begin(), origin.string() + ": no occupation");
-        throw Refused(list.left_out.empty() ? "no_stay" : "no_usable_stay",
+        const char* const without_windows = list.running_key.empty() ? "no_stay" : "no_reading";
+        throw Refused(list.left_out.empty() ? without_windows : "no_usable_stay",
                       text::joined(text::in_english(list.warnings), "; ") +
                           "; allowed: at least one, with its end");
     }

@@ -35,6 +35,9 @@ constexpr std::array kLeftOut{reading::FindingKind::not_visited,
                               reading::FindingKind::base_not_revisited,
                               reading::FindingKind::doubtful_site};
 
+/// Reasons why a set-up has no value that are met as soon as it has samples.
+constexpr std::array<std::string_view, 2> kJustBegun{"no samples", "too few samples in a row"};
+
 /// A stay, and the places of its set-ups in the lists of the survey.
 struct Stay {
     std::string key, site;
@@ -106,7 +109,7 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
             std::hypot(factor * *u, is_named ? std::max(std::abs(off), 0.5 * (most - least)) : 0.0);
 }
 
-/// @param is_running  a set-up that has just begun has no value yet, which is no remark.
+/// @param is_running  its last set-up may have just begun: too few samples are no remark then.
 Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& grades,
                 const std::vector<reading::LeftOut>& left_out, bool is_running) {
     Json remarks = Json::array();
@@ -118,8 +121,11 @@ Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& gr
                                {"text", reason.text.english()},
                                {"text_parts", reason.text.to_json()}});
     };
-    for (const std::size_t i : stay.left_out)
-        if (!is_running || i != stay.left_out.back()) add({"left_out", {}, left_out[i].reason});
+    for (const std::size_t i : stay.left_out) {
+        const bool has_just_begun = is_running && i == stay.left_out.back() &&
+                                    std::ranges::count(kJustBegun, left_out[i].reason) > 0;
+        if (!has_just_begun) add({"left_out", {}, left_out[i].reason});
+    }
     if (!grades.empty())
         for (const std::size_t i : stay.rows)
             for (const judgement::Reason& reason : grades[i].reasons) add(reason);
@@ -188,8 +194,13 @@ Json to_json(const GravitySoFar& so_far) {
     }
     std::vector<reading::Finding> findings;
     if (so_far.read) findings = so_far.result ? so_far.result->findings : so_far.read->findings;
-    std::erase_if(findings, [](const reading::Finding& finding) {
-        return std::ranges::count(kLeftOut, finding.kind) > 0;
+    // The signal says it of a stay that runs.
+    const auto is_move_of_running = [&](const reading::Finding& finding) {
+        return finding.kind == reading::FindingKind::moved_box && !finding.key.empty() &&
+               finding.key == so_far.read->running_key;
+    };
+    std::erase_if(findings, [&](const reading::Finding& finding) {
+        return std::ranges::count(kLeftOut, finding.kind) > 0 || is_move_of_running(finding);
     });
     json["findings"] = reading::findings_json(findings);
     json["contradictions"] = Json::array();

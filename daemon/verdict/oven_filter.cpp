@@ -10,8 +10,8 @@
 namespace a351::daemon::verdict {
 namespace {
 
-// Values that gave the most likely outlook of 10 min on 150 simulated warm-ups, visits and
-// disturbances.
+// Values that gave the most likely outlook of 10 min on simulated warm-ups, visits and disturbances:
+// seeds 1 to 50 and 251 to 350 of tests/bench/verdict_bench.cpp, which is in the history up to b747d9bc.
 constexpr double kRateSeconds = 700.0;    ///< Decay time of a change of the ambient temperature.
 constexpr double kCycleSeconds = 2500.0;  ///< Decay time of the oven's cycle.
 constexpr double kLevelNoise = 5e-4;      ///< [degC / s^(1/2)]

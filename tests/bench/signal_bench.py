@@ -163,6 +163,8 @@ def show(days):
 def ratio_of(days):
     """Returns the rms of error over u in words, with its standard error from the scatter of the days."""
     squares = [statistics.fmean((error / u) ** 2 for error, u in day) for _, day in days if day]
+    if not squares:
+        return "not known"
     ratio = statistics.fmean(squares) ** 0.5
     scatter = statistics.stdev(squares) / len(squares) ** 0.5 / (2.0 * ratio) if len(squares) > 1 else float("nan")
     return f"{ratio:.2f} +- {scatter:.2f} of {sum(len(day) for _, day in days)} values"
@@ -178,8 +180,8 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count())
             days = [one for one in pool.map(lambda seed: with_mistake(scratch / f"{kind}-{seed}", kind, seed), seeds) if one]
             show(days)
             print(f"{kind}: LOOK at the benchmark on {sum(bool(found[0]) for found, _ in days)}, there or at the next one on "
-                  f"{sum(any(found) for found, _ in days)} of {len(days)} days (promised 95 %); error over u then {ratio_of(days)} "
-                  "(promised at most 2)", flush=True)
+                  f"{sum(any(found) for found, _ in days)} of {len(days)} days{'' if kind == 'moved' else ' (promised 95 %)'}; error over u then "
+                  f"{ratio_of(days)} (promised at most 2)", flush=True)
             continue
         scenarios, plans, is_base_alone = WITHOUT[kind]
         for scenario, more in ((scenario, more) for scenario in scenarios for more in plans):

@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <future>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,8 +53,10 @@ struct Change {
 };
 
 struct Stay {
-    double late_s = -1.0;  ///< From the end of the plan to YOU CAN GO; negative: it did not come.
+    std::optional<double>
+        late_s;  ///< From the end of the plan to YOU CAN GO; empty: it did not come.
     bool has_look = false;
+    bool is_forgotten = false;  ///< The box was lifted without *Next set-up*.
 };
 
 /// What the operator does, by its time.
@@ -62,18 +65,21 @@ struct Order {
     std::string site;
 };
 
+/// @param forgotten  is set to the number of the stay without *Next set-up*, if there is one.
 std::multimap<UtcTime, Order> orders_of(const std::vector<PlannedSetUp>& plan, Press press,
-                                        sim::noise::RandomStream& draws) {
+                                        sim::noise::RandomStream& draws,
+                                        std::ptrdiff_t& forgotten) {
     const auto stays = std::ranges::count(plan, 1, &PlannedSetUp::part);
-    const auto forgotten =
-        static_cast<std::ptrdiff_t>(draws.uniform() * static_cast<double>(stays));
+    forgotten = press == Press::forgotten
+                    ? static_cast<std::ptrdiff_t>(draws.uniform() * static_cast<double>(stays))
+                    : -1;
     std::multimap<UtcTime, Order> orders;
     std::ptrdiff_t stay = -1;
     for (const PlannedSetUp& set_up : plan) {
         if (set_up.part == 1) {
             ++stay;
             orders.emplace(set_up.start, Order{Order::Kind::start, set_up.site.name});
-        } else if (press != Press::forgotten || stay != forgotten) {
+        } else if (stay != forgotten) {
             const double after_s =
                 press == Press::beside_lifting ? draws.uniform(-60.0, 120.0) : 0.0;
             orders.emplace(set_up.start + from_seconds(after_s), Order{Order::Kind::setup, {}});
@@ -91,7 +97,8 @@ std::vector<Stay> walk(const std::string& name, int set_ups, std::uint64_t seed,
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
     sim::signal::Source source(scenario, profile, seed);
     sim::noise::RandomStream draws(seed, "operator");
-    auto orders = orders_of(source.plan(), press, draws);
+    std::ptrdiff_t forgotten = -1;
+    auto orders = orders_of(source.plan(), press, draws, forgotten);
 
     SimulatedRecorder recorder;
     std::vector<text::Site> sites;
@@ -124,10 +131,10 @@ std::vector<Stay> walk(const std::string& name, int set_ups, std::uint64_t seed,
             (void)occupations.setup({});
         } else {
             Stay& stay = stays.emplace_back();
+            stay.is_forgotten = std::ssize(stays) - 1 == forgotten;
             for (std::size_t i = said_before; i < said.size(); ++i) {
                 stay.has_look = stay.has_look || said[i].word == survey::Word::look;
-                if (said[i].word == survey::Word::go && stay.late_s < 0.0 &&
-                    said[i].utc >= last_set_up)
+                if (said[i].word == survey::Word::go && !stay.late_s && said[i].utc >= last_set_up)
                     stay.late_s = seconds_between(last_set_up, said[i].utc) - kPlan_s / set_ups;
             }
             (void)occupations.stop({}, {});
@@ -170,7 +177,7 @@ int main(int count, char** arguments) {
           Kind{"tsukuba", 2, Press::at_lifting}, Kind{"hot-afternoon", 2, Press::at_lifting},
           Kind{"tsukuba", 2, Press::beside_lifting}, Kind{"tsukuba", 2, Press::forgotten}}) {
         std::vector<std::future<std::vector<Stay>>> walks;
-        std::size_t stays = 0, in_time = 0, looks = 0, days_with_look = 0;
+        std::size_t stays = 0, in_time = 0, looks = 0, named = 0;
         double latest_s = 0.0;
         for (int day = 0; day < days; day += 2) {
             walks.clear();
@@ -182,24 +189,27 @@ int main(int count, char** arguments) {
                 stays += found.size();
                 in_time +=
                     static_cast<std::size_t>(std::ranges::count_if(found, [](const Stay& stay) {
-                        return stay.late_s >= 0.0 && stay.late_s <= kMostLate_s;
+                        return stay.late_s && *stay.late_s >= -1.0 && *stay.late_s <= kMostLate_s;
                     }));
-                for (const Stay& stay : found) latest_s = std::max(latest_s, stay.late_s);
-                const auto with_look = std::ranges::count(found, true, &Stay::has_look);
-                looks += static_cast<std::size_t>(with_look);
-                days_with_look += with_look > 0 ? 1 : 0;
+                for (const Stay& stay : found)
+                    latest_s = std::max(latest_s, stay.late_s.value_or(0.0));
+                for (const Stay& stay : found) {
+                    if (stay.has_look && stay.is_forgotten) ++named;
+                    if (stay.has_look && !stay.is_forgotten) ++looks;
+                }
             }
         }
         const bool is_forgotten = kind.press == Press::forgotten;
+        const auto count = static_cast<std::size_t>(days);
         std::printf(
             "%s, %d set-ups, %s: %zu stays, YOU CAN GO within %.0f s of the plan at %zu, at most "
             "%.1f s; "
-            "LOOK at %zu stays, on %zu of %d days\n",
+            "LOOK at %zu stays without a mistake, and at %zu of %zu with one\n",
             kind.scenario, kind.set_ups,
             is_forgotten                          ? "one Next set-up forgotten"
             : kind.press == Press::beside_lifting ? "Next set-up beside the lifting"
                                                   : "no mistake",
-            stays, kMostLate_s, in_time, latest_s, looks, days_with_look, days);
+            stays, kMostLate_s, in_time, latest_s, looks, named, is_forgotten ? count : 0);
         std::fflush(stdout);
         is_kept =
             is_kept && (is_forgotten ? 20 * days_with_look >= 19 * static_cast<std::size_t>(days)

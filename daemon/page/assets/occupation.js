@@ -13,6 +13,7 @@ import { nearest_instant, time_with_utc, with_local_times } from "./time.js";
 
 const kDay_ms = 24 * 3600 * 1000;
 const kTestSetUps = "20"; // Twenty set-ups give the scatter of placement within about 40 % (95 %).
+const kOwnChange_ms = 5000; // An answer stays at least so long: a status that is older than it may come later.
 const kFewestTested = 8; // Fewer are refused by a351-correct calibrate --placement.
 
 function distance_text(metres) {
@@ -41,6 +42,7 @@ export class OccupationPanel {
         this.signal = null;
         this.changes = null; // The daemon's count of changes when the lists were last read.
         this.wanted_site = null; // Site to be chosen for the next start when the list has it.
+        this.answered_ms = 0; // Time of the last order.
         this.is_chosen = false; // The operator has chosen the site of the next start.
         this.now_ms = 0;
         by_id("start-operator").value = recalled("operator");
@@ -105,6 +107,7 @@ export class OccupationPanel {
     async send(path, body) {
         by_id("answer").classList.remove("error");
         set_text("answer", "…");
+        this.answered_ms = performance.now();
         try {
             set_text("answer", visible(await this.answer_to(path, body)));
             this.forget_lists();
@@ -251,7 +254,8 @@ export class OccupationPanel {
         this.now_ms = Date.parse(status.now);
         this.signal = status.signal;
         if (status.changes !== this.changes) {
-            if (this.changes !== null) set_text("answer", ""); // The terminal or another page made a change.
+            // The terminal or another page made a change.
+            if (performance.now() - this.answered_ms > kOwnChange_ms) set_text("answer", "");
             this.changes = status.changes;
             this.read_lists();
         }

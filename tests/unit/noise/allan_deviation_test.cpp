@@ -15,9 +15,14 @@ using namespace a351::corrector::noise;
 namespace {
 
 struct Share {
-    int inside = 0, all = 0;
+    int inside = 0, all = 0, unlimited = 0;
+    double width = 0.0;  ///< Mean ratio of the upper limit to the truth, where there is one.
     void add(const Limits& limits, double truth) {
         ++all;
+        if (std::isinf(limits.high))
+            ++unlimited;
+        else if (truth > 0.0)
+            width += (limits.high / truth - width) / (all - unlimited);
         inside += limits.low <= truth && truth <= limits.high ? 1 : 0;
     }
     [[nodiscard]] double value() const { return static_cast<double>(inside) / all; }
@@ -74,6 +79,9 @@ TEST_CASE("the limits contain the Allan deviation and the levels of known noises
         }
         std::printf("; white, flicker, walk %.3f %.3f %.3f; described %d of %d\n",
                     levels[0].value(), levels[1].value(), levels[2].value(), described, records);
+        for (const Share& share : levels)
+            std::printf("    upper limit %.2f times the truth, none in %d of %d\n", share.width,
+                        share.unlimited, share.all);
         CHECK(described >= 0.97 * records);
         for (const Share& share : levels) CHECK(share.value() >= (test::is_long() ? 0.9 : 0.82));
     }

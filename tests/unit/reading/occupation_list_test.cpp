@@ -154,3 +154,25 @@ TEST_CASE(
     CHECK(list.left_out[1].reason == "overlaps another");
     CHECK(list.left_out[2].site == "B");
 }
+
+TEST_CASE("a set-up of a running stay counts when the journal has samples of it",
+          "[survey][occupations]") {
+    const test::TemporaryDirectory folder;
+    const auto events =
+        folder
+            .write("2020-01.jsonl", R"({"type":"start","utc":"2020-01-01T08:00:00Z","site":"A"})"
+                                    "\n"
+                                    R"({"type":"setup","utc":"2020-01-01T08:06:00Z"})"
+                                    "\n")
+            .parent_path();
+    const auto until = [&](const char* utc) {
+        return read_logged_occupations(events, {}, {}, parse_rfc3339(utc));
+    };
+    CHECK(until("2020-01-01T08:06:01Z").windows.size() == 2);
+    CHECK(until("2020-01-01T08:06:00Z").windows.size() == 1);
+    const auto none = until("2020-01-01T08:00:00Z");
+    CHECK(none.windows.empty());
+    CHECK_FALSE(none.running_key.empty());
+    CHECK_THROWS_WITH(drop_invalid_occupations(none, kListedSites, events),
+                      !ContainsSubstring("ends before"));
+}
