@@ -58,6 +58,9 @@ long_record::RecordResult analysed(const RecordCommandOptions& options) {
     const auto longest =
         std::ranges::max_element(result.parts.segments, {}, &long_record::RecordSegment::size);
     result.analysed = static_cast<std::size_t>(longest - result.parts.segments.begin());
+    if (result.options.mode)
+        number_option("--mode", *result.options.mode, 1,
+                      eemd::default_mode_count(result.segment().size()));
     text::ProgressBar bar("decompose");
     result.options.progress = std::ref(bar);
     result.analysis =
@@ -120,6 +123,8 @@ void analyse(const RecordCommandOptions& options) {
     settings["to"] = options.to;
     settings["cycle_s"] = result.options.cycle_s;
     settings["shift_s"] = result.options.shift_s;
+    settings["mode"] = result.options.mode ? nlohmann::ordered_json(*result.options.mode)
+                                           : nlohmann::ordered_json(nullptr);
     settings["ensemble"] = result.options.ensemble_size;
     settings["noise_ratio"] = eemd::Options{}.noise_ratio;
     settings["seed"] = result.options.seed;
@@ -156,6 +161,9 @@ void add_record_command(CLI::App& program) {
                      "Cycle of the oven, 200-7200 s");
     add_with_default(command, "--shift", "S", options->analysis.shift_s,
                      "Time by which the acceleration is moved earlier, as published");
+    add_option(command, "--mode", "N", options->analysis.mode,
+               "Mode of both decompositions that is compared, 1 is the fastest (default: the one "
+               "whose period is nearest to the cycle)");
     add_with_default(command, "--ensemble", "N", options->analysis.ensemble_size,
                      "Number of noise realisations that are averaged");
     add_with_default(command, "--seed", "N", options->analysis.seed, "Seed of the noise generator");

@@ -83,10 +83,8 @@ void plot_errors(Figure& figure, const model::SurveyCorrection& result) {
         });
     std::vector<Series>& series = figure.panels.front().series;
     if (series.empty()) return;
-    std::vector<Series> below{{.look = Look::line, .colour = Colour::grey, .source = kZero}};
-    for (const Series& marks : series)
-        below.push_back({Look::bars, Colour::bar_grey, "", {{1}, {2}, {3}}, marks.source});
-    series.insert(series.begin(), below.begin(), below.end());
+    add_bars(figure.panels.front());
+    series.insert(series.begin(), {.look = Look::line, .colour = Colour::grey, .source = kZero});
 }
 
 /// Adds the samples of the records, which are in the data of their own figures.

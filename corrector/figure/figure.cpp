@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 
@@ -35,6 +36,11 @@ std::string data_line(std::string_view decimals, std::initializer_list<double> n
 }
 
 double instant(UtcTime time) { return seconds_between(UtcTime{}, time); }
+
+std::string as_published(const std::string& number, const std::string& value) {
+    return value.empty() ? text::tr(" (Publication's Fig. {}.)", number)
+                         : text::tr(" (Publication's Fig. {}; value there: {}.)", number, value);
+}
 
 double round_step(double limit) {
     const double power = std::pow(10.0, std::floor(std::log10(limit)));

@@ -133,7 +133,8 @@ struct Figure {
     std::string caption = {};  ///< Plain text.
     double width_mm = kPage_mm;
     std::vector<Panel> panels = {};
-    std::size_t columns = 1;      ///< Panels side by side; they share their y axis.
+    std::size_t columns = 1;      ///< Panels side by side.
+    bool has_common_y = true;     ///< They share their y axis.
     std::string data = {};        ///< Content of NAME.dat.
     std::size_t block_count = 0;  ///< Blocks in it.
 
@@ -164,6 +165,11 @@ struct Figure {
 
 /// Returns the value of an instant on an axis of time: seconds since 1970.
 [[nodiscard]] double instant(UtcTime time);
+
+/// Returns the end of a caption that names the publication's figure, and its value of what the
+/// figure shows.
+/// @param value  only if it is the same quantity, else empty.
+[[nodiscard]] std::string as_published(const std::string& number, const std::string& value = "");
 
 /// Most points of a curve or scatter over a whole record.  Reason: a figure of weeks must stay
 /// small.

@@ -240,7 +240,7 @@ std::string place_texts(const Figure& figure, const Layout& layout, std::size_t 
     add(left, text_width_mm(left) < place.right - place.left ? place.left : kBorder_mm,
         place.heading, "left");
     add(right_heading(panel), place.right, place.note, "right");
-    if (index == 0 && figure.columns > 1)
+    if (index == 0 && figure.columns > 1 && figure.has_common_y)
         add(panel.y.label, kBorder_mm, 0.5 * kTextLine_mm, "left");
     if (index + 1 == figure.panels.size())
         add(panel.x.label, 0.5 * (layout.panels.front().left + rightmost(layout)),

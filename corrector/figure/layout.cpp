@@ -102,7 +102,9 @@ Layout layout_of(const Figure& figure) {
     Layout layout;
     const std::size_t count = figure.panels.size();
     const auto columns = static_cast<double>(figure.columns);
-    double y = figure.columns > 1 ? kTextLine_mm : 0.0;  // common label of the y axis
+    const bool has_common_y = figure.columns > 1 && figure.has_common_y;
+    double y = has_common_y ? kTextLine_mm : 0.0;  // its label
+    const double between_mm = has_common_y ? kBetweenPanels_mm : kLeft_mm;
     double lowest = y;
     for (std::size_t first = 0; first < count; first += figure.columns) {
         double top = y;
@@ -112,12 +114,11 @@ Layout layout_of(const Figure& figure) {
             const auto column = static_cast<double>(k - first);
             const double right_mm = right_margin_mm(figure.panels[k]);
             const double width =
-                (figure.width_mm - kLeft_mm - right_mm - (columns - 1.0) * kBetweenPanels_mm) /
-                columns;
-            place.left = kLeft_mm + column * (width + kBetweenPanels_mm);
+                (figure.width_mm - kLeft_mm - right_mm - (columns - 1.0) * between_mm) / columns;
+            place.left = kLeft_mm + column * (width + between_mm);
             place.right = place.left + width;
             place.has_x = k + figure.columns >= count;
-            place.has_y = k == first;
+            place.has_y = k == first || !has_common_y;
             top = std::max(top, place_texts_above(place, figure, k, y));
         }
         for (std::size_t k = first; k < end; ++k) {

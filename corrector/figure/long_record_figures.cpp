@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "corrector/figure/record_curve.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
@@ -16,35 +17,6 @@ namespace {
 using long_record::RecordResult, long_record::RecordStretch;
 using text::tr;
 
-/// Most steps of a curve.  Reason: two to three per pixel.
-constexpr std::size_t kMostSteps = 1500;
-/// Time per width of the figure with both modes, h/mm: 4 h in a column, 8 h on a page.  Reason: in
-/// a longer one the curves cannot be distinguished.
-constexpr double kOverlay_h_per_mm = 4.0 / kColumn_mm;
-
-/// A curve over hours: sample i is at first_h + i step_h and has factor * (value - offset).
-struct Curve {
-    std::span<const double> values;
-    double step_h, first_h = 0.0, offset = 0.0, factor = 1.0;
-};
-
-/// Returns the least and the greatest value of every step; one value if a step is one sample.
-std::string curve_lines(const Curve& curve) {
-    const std::size_t count = curve.values.size(), each = (count + kMostSteps - 1) / kMostSteps;
-    std::string lines;
-    for (std::size_t first = 0; first < count; first += each) {
-        const auto step = curve.values.subspan(first, std::min(each, count - first));
-        const auto [low, high] = std::ranges::minmax(step);
-        const double hours =
-            curve.first_h + curve.step_h * 0.5 * static_cast<double>(2 * first + step.size() - 1);
-        lines += data_line("55", {hours, curve.factor * (low - curve.offset)});
-        if (each > 1) lines += data_line("55", {hours, curve.factor * (high - curve.offset)});
-    }
-    return lines;
-}
-
-double step_h_of(const RecordResult& result) { return result.record.step_s / kSecondsPerHour; }
-
 /// Returns the mean acceleration rounded to whole mGal, so that the axis is easy to read.
 double reference_of(const RecordResult& result) {
     return std::round(signal::mean_of(result.segment().acceleration_mgal));
@@ -54,7 +26,12 @@ std::string above_reference(const RecordResult& result) {
     return tr("Acceleration - {} (mGal)", text::fixed(reference_of(result), 0));
 }
 
-std::string hours_after(UtcTime start) { return tr("Hours after {}", to_rfc3339(start)); }
+/// Returns slope and R2 of a published line.
+/// @param key  beginning of the names of its statistics.
+std::string published_line(const RecordResult& result, const std::string& key) {
+    return fmt::format("{} mGal/°C, R² = {}", published_value(result, key + "_slope_mgal_per_degc"),
+                       published_value(result, key + "_r2"));
+}
 
 /// Returns a figure of the acceleration above the temperature.
 Figure two_panels(const std::string& name, const std::string& caption, UtcTime start,
@@ -96,7 +73,8 @@ Figure raw_figure(const RecordResult& result, const Print& print) {
     }
     Figure figure = two_panels("record-raw",
                                tr("Norm and temperature as sampled: range from the least to the "
-                                  "greatest sample of each step."),
+                                  "greatest sample of each step.") +
+                                   as_published("2"),
                                start, above_reference(result), print);
     const std::vector<Column> columns{{1}, {2}, {3}};
     figure.plot("hours acceleration: least, greatest (mGal)", acceleration,
@@ -118,7 +96,8 @@ Figure samples_figure(const RecordResult& result, const Print& print) {
     }
     Figure figure = two_panels("record-20s",
                                tr("Norm and temperature decimated to 20 s, in the segments that "
-                                  "can be analysed."),
+                                  "can be analysed.") +
+                                   as_published("2"),
                                start, above_reference(result), print);
     figure.plot("hours acceleration_mgal", acceleration, {});
     figure.plot("hours temperature_degc", temperature, {Look::line, Colour::vermilion}, 1);
@@ -157,7 +136,8 @@ Figure trend_figure(const RecordResult& result, const Print& print) {
     Figure figure = two_panels("trend",
                                tr("Acceleration, sign reversed and moved {} s earlier, and "
                                   "temperature, each with the residue of its decomposition.",
-                                  text::fixed(result.options.shift_s, 0)),
+                                  text::fixed(result.options.shift_s, 0)) +
+                                   as_published("4"),
                                segment.start, tr("- Acceleration (mGal)"), print);
     const std::vector<double>& slow_a = result.analysis.acceleration.residue.values;
     const std::vector<double>& slow_t = result.analysis.temperature.residue.values;
@@ -174,75 +154,6 @@ Figure trend_figure(const RecordResult& result, const Print& print) {
     return figure;
 }
 
-struct ModePair {
-    std::vector<double> temperature;
-    std::vector<double> turned;  ///< Acceleration, sign reversed, moved earlier by the shift.
-};
-
-ModePair mode_pair(const RecordResult& result) {
-    const long_record::RecordAnalysis& analysis = result.analysis;
-    const std::vector<double>& a =
-        analysis.acceleration.modes[analysis.acceleration_mode->number - 1].values;
-    const auto earlier =
-        static_cast<std::size_t>(std::llround(result.options.shift_s / result.record.step_s));
-    ModePair pair;
-    pair.temperature = analysis.temperature.modes[analysis.temperature_mode->number - 1].values;
-    for (std::size_t i = earlier; i < a.size(); ++i) pair.turned.push_back(-a[i]);
-    pair.temperature.resize(pair.turned.size());
-    return pair;
-}
-
-Figure overlay_figure(const RecordResult& result, const ModePair& pair, const Print& print) {
-    const double step_h = step_h_of(result);
-    const std::size_t size = pair.turned.size();
-    const std::size_t count =
-        std::min(size, static_cast<std::size_t>(kOverlay_h_per_mm * print.wide_mm() / step_h));
-    const std::size_t first = (size - count) / 2;
-    Figure figure{"modes",
-                  tr("Modes of the cycle: acceleration, sign reversed and moved {} s earlier, and "
-                     "temperature{}.",
-                     text::fixed(result.options.shift_s, 0),
-                     count < size ? tr("; the middle of the record") : ""),
-                  print.wide_mm()};
-    figure.panels.push_back({.x = {hours_after(result.segment().start)},
-                             .y = {tr("- Acceleration (mGal)")},
-                             .right = {tr("Temperature (°C)")}});
-    const auto lines = [&](const std::vector<double>& mode) {
-        return curve_lines(
-            {std::span(mode).subspan(first, count), step_h, static_cast<double>(first) * step_h});
-    };
-    figure.plot("hours; acceleration, sign reversed and moved (mGal)", lines(pair.turned),
-                {.label = tr("acceleration, sign reversed and moved")});
-    figure.plot("hours temperature_degc", lines(pair.temperature),
-                {.look = Look::dashed_line,
-                 .colour = Colour::vermilion,
-                 .label = tr("temperature"),
-                 .is_right = true});
-    return figure;
-}
-
-Figure correlation_figure(const long_record::RecordAnalysis& analysis, const Print& print) {
-    const auto lines = [](const signal::CrossCorrelation& correlation) {
-        std::string text;
-        for (std::size_t i = 0; i < correlation.values.size(); ++i)
-            text += data_line("15", {correlation.delays_s[i], correlation.values[i]});
-        return text;
-    };
-    Figure figure{
-        "correlation",
-        tr("Cross-correlation of the two modes, and of the band, against the delay of the "
-           "acceleration."),
-        print.small_mm()};
-    figure.panels.push_back({{.label = tr("Delay of the acceleration (s)"), .step = 500.0},
-                             {tr("Correlation"), {-1.0, 1.0}},
-                             {{Look::thin_line, Colour::grey, "", {}, kZero}}});
-    figure.plot("modes: delay_s correlation", lines(analysis.modes->correlation),
-                {Look::strong_line, Colour::blue, tr("modes")});
-    figure.plot("band: delay_s correlation", lines(analysis.band.correlation),
-                {Look::dashed_line, Colour::vermilion, tr("band")});
-    return figure;
-}
-
 }  // namespace
 
 std::vector<Figure> long_record_figures(const RecordResult& result, const Print& print) {
@@ -253,17 +164,21 @@ std::vector<Figure> long_record_figures(const RecordResult& result, const Print&
         figures.push_back(raw_figure(result, print));
     figures.push_back(samples_figure(result, print));
     figures.push_back(trend_figure(result, print));
+    figures.push_back(decomposition_figure(result, print));
     if (result.analysis.modes) {
         const ModePair pair = mode_pair(result);
         figures.push_back(overlay_figure(result, pair, print));
         figures.push_back(scatter_figure(
             "scatter-modes",
-            tr("The two modes, acceleration sign reversed and moved, with regression line."),
+            tr("The two modes, acceleration sign reversed and moved, with regression line.") +
+                as_published("6", is_published_pair(result) ? published_line(result, "mode") : ""),
             pair.temperature, pair.turned, result.analysis.modes->moved, 0.0,
             tr("- Acceleration (mGal)"), print));
-        figures.push_back(correlation_figure(result.analysis, print));
+        figures.push_back(correlation_figure(result, print));
     }
-    figures.push_back(scatter_figure("scatter", tr("All samples at 20 s, with regression line."),
+    figures.push_back(scatter_figure("scatter",
+                                     tr("All samples at 20 s, with regression line.") +
+                                         as_published("3", published_line(result, "raw")),
                                      segment.temperature_degc, segment.acceleration_mgal,
                                      result.analysis.raw, reference_of(result),
                                      above_reference(result), print));

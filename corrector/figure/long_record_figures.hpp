@@ -19,8 +19,8 @@ namespace a351::corrector::figure {
 /// Returns the publication's figures.  Of a long series the least and the greatest value of each of
 /// 1500 steps are drawn, of a long scatter at most kMostPoints points at equal distances.
 ///
-/// Names in order: record-raw (2a), record-20s (2b), trend (4), modes (5), scatter-modes (6),
-/// correlation (7), scatter (3), with the publication's numbers in brackets.
+/// Names in order: record-raw (2), record-20s (2), trend (4), decomposition, modes (5),
+/// scatter-modes (6), correlation (7), scatter (3), with the publication's numbers in brackets.
 /// - record-raw is absent if no part of the record was decimated.
 /// - modes, scatter-modes and correlation are absent without RecordAnalysis::modes.
 /// - modes shows the middle 8 h of a longer segment, 4 h in a column.

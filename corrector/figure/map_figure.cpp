@@ -243,6 +243,7 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
         "map",
         tr("Stations with the order of the visits in brackets; colours: gravity in mGal. The scale "
            "is the same in both directions.") +
+            as_published("8") +
             (absent.empty()
                  ? ""
                  : tr(" Not shown, because they have no position: {}.", text::joined(absent))),

@@ -102,7 +102,8 @@ Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord
     const std::string reading = judgement::reading_name(result.rows, record.row);
     Figure figure{reading_figure_name(record.row),
                   tr("{}, from {}: {}", reading, to_rfc3339(value.series.start()),
-                     averaged_text(result.rows[record.row], mean_mgal)),
+                     averaged_text(result.rows[record.row], mean_mgal)) +
+                      as_published("11"),
                   print.small_mm()};
     Panel& panel = figure.panels.emplace_back();
     panel.note = short_label(reading);
@@ -187,7 +188,8 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
         {"records-acceleration",
          tr("Acceleration of every reading: samples of 2 s minus the value of the reading, which "
             "is "
-            "above each panel. All panels have the same scale, which cuts off knocks.")},
+            "above each panel. All panels have the same scale, which cuts off knocks.") +
+             as_published("10")},
         {"records-temperature",
          tr("Temperature of every reading: samples of 2 s minus the temperature of the reading, "
             "which is above each panel. All panels have the same scale.")}};

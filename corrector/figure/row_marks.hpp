@@ -17,6 +17,9 @@ namespace a351::corrector::figure {
 void plot_rows(Figure& figure, const model::SurveyCorrection& result, const std::string& columns,
                const std::function<std::string(const model::CorrectedRow&)>& line_of);
 
+/// Adds error bars below the marks of a panel; their data have u in the third column.
+void add_bars(Panel& panel);
+
 /// Returns the end of a line of data: a comment with the name of the row's reading.
 [[nodiscard]] std::string comment(const model::SurveyCorrection& result, std::size_t row);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Figures of a survey: figures 10 to 13 of the publication, the day on one axis of time, and a map.
+/// Figures of a survey: figures 8 and 10 to 14 of the publication, the day on one axis of time, and a map.
 ///
 /// Each function returns figures as data; draw() of drawing.hpp makes the pictures.  Rows have
 /// three marks: in the fit, marked by the operator but in the fit, and left out of the fit.  In the
@@ -40,6 +40,10 @@ namespace a351::corrector::figure {
 /// applied.
 [[nodiscard]] std::optional<Figure> difference_figure(const model::SurveyCorrection& result,
                                                       const Print& print);
+
+/// Returns the figure of corrected gravity over reference, with u as bars, line and R2.
+[[nodiscard]] std::optional<Figure> corrected_figure(const model::SurveyCorrection& result,
+                                                     const Print& print);
 
 /// Returns the figure of the sensor's values minus those of the reference gravimeter, over gravity,
 /// with u of the sensor as bars.  Each station has its own reference hidden.

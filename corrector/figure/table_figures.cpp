@@ -19,11 +19,17 @@ using text::tr;
 /// A point of a figure; a row without a finite one is not in it.
 struct Point {
     double x, y;
+    std::optional<MilliGal> u_y = {};
 };
 using PointOf = std::function<Point(const model::CorrectedRow&)>;
 
 double or_nan(const std::optional<MilliGal>& value) {
     return value ? value->value() : std::nan("");
+}
+
+/// Returns the standard error from the scatter of the samples, if there are samples.
+std::optional<MilliGal> standard_error_of(const model::CorrectedRow& row) {
+    return row.row.record ? row.row.record->standard_error : std::nullopt;
 }
 
 /// Returns a figure of points without data.
@@ -39,6 +45,7 @@ Figure scatter(const std::string& name, const std::string& x_label, const std::s
 std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& result,
                                 const std::string& columns, const PointOf& point_of) {
     std::vector<double> all_x, x, y;  // of all points, and of those in the fit
+    bool has_bars = false;
     plot_rows(figure, result, columns, [&](const model::CorrectedRow& row) -> std::string {
         const Point point = point_of(row);
         if (!std::isfinite(point.x) || !std::isfinite(point.y)) return {};
@@ -47,8 +54,10 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
             x.push_back(point.x);
             y.push_back(point.y);
         }
-        return data_line("44", {point.x, point.y}, "");
+        has_bars = has_bars || point.u_y;
+        return data_line("444", {point.x, point.y, point.u_y.value_or(MilliGal(0.0)).value()}, "");
     });
+    if (has_bars) add_bars(figure.panels.front());
     if (figure.data.empty()) return std::nullopt;
     if (x.size() < 3 || !(std::ranges::min(x) < std::ranges::max(x))) return figure;
     const auto fit = signal::fit_line(x, y);
@@ -72,10 +81,14 @@ std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result,
     return with_rows(
         scatter("acceleration", tr("Reference gravity (mGal)"), tr("Acceleration (mGal)"),
                 tr("Acceleration as measured, tide not removed, over reference gravity; "
-                   "least-squares line and R² of the readings in the fit (in sample)."),
+                   "bars: standard error from the scatter of the samples; "
+                   "least-squares line and R² of the readings in the fit (in sample).") +
+                    as_published("12"),
                 print),
-        result, "reference_mgal acceleration_mgal", [](const model::CorrectedRow& row) -> Point {
-            return {or_nan(row.row.reference), row.row.acceleration.value()};
+        result, "reference_mgal acceleration_mgal u_mgal",
+        [](const model::CorrectedRow& row) -> Point {
+            return {or_nan(row.row.reference), row.row.acceleration.value(),
+                    standard_error_of(row)};
         });
 }
 
@@ -83,12 +96,28 @@ std::optional<Figure> difference_figure(const model::SurveyCorrection& result, c
     return with_rows(
         scatter("difference", tr("Temperature (°C)"), tr("Acceleration - reference - tide (mGal)"),
                 tr("Difference between the reading, tide removed, and reference gravity over "
-                   "temperature; least-squares line and R² of the readings in the fit (in sample; "
-                   "temperature alone, whatever model was applied)."),
+                   "temperature; bars: standard error from the scatter of the samples; "
+                   "least-squares line and R² of the readings in the fit (in sample; "
+                   "temperature alone, whatever model was applied).") +
+                    as_published("13"),
                 print),
-        result, "temperature_degc difference_mgal", [](const model::CorrectedRow& row) -> Point {
+        result, "temperature_degc difference_mgal u_mgal",
+        [](const model::CorrectedRow& row) -> Point {
             return {row.row.has_temperature ? row.row.temperature.value() : std::nan(""),
-                    or_nan(row.difference)};
+                    or_nan(row.difference), standard_error_of(row)};
+        });
+}
+
+std::optional<Figure> corrected_figure(const model::SurveyCorrection& result, const Print& print) {
+    return with_rows(
+        scatter("corrected", tr("Reference gravity (mGal)"), tr("Corrected gravity (mGal)"),
+                tr("Corrected gravity of each reading over reference gravity, with u as bars; "
+                   "least-squares line and R² of the readings in the fit (in sample).") +
+                    as_published("14"),
+                print),
+        result, "reference_mgal corrected_mgal u_mgal",
+        [](const model::CorrectedRow& row) -> Point {
+            return {or_nan(row.row.reference), row.corrected.value(), row.u_corrected};
         });
 }
 

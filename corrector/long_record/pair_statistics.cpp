@@ -51,7 +51,14 @@ PairStatistics pair_statistics(std::span<const double> temperature_degc,
     const auto correlated = static_cast<std::size_t>(std::llround(4.0 * cycle_s / step_s));
     pair.moved = signal::fit_line(temperature_degc.first(turned.size()), turned, correlated);
     const int half_cycle = std::max(2, static_cast<int>(0.5 * cycle_s / step_s));
-    pair.correlation = signal::correlate(temperature_degc, acceleration_mgal, half_cycle, step_s);
+    // Half of the record still overlaps at the longest delay.
+    const auto most = static_cast<int>(temperature_degc.size() / 2);
+    const int hour = static_cast<int>(kSecondsPerHour / step_s);
+    const int most_lag = std::max(half_cycle + 1, std::min(most, std::max(2 * half_cycle, hour)));
+    pair.correlation =
+        signal::correlate(temperature_degc, acceleration_mgal, half_cycle, most_lag, step_s);
+    pair.chance = signal::chance_correlation(temperature_degc, acceleration_mgal,
+                                             std::min(most, 16 * half_cycle));
     return pair;
 }
 

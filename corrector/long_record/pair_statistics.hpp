@@ -29,14 +29,16 @@ struct PairStatistics {
     signal::LineFit
         moved;  ///< Acceleration, sign inverted and `shift_s` earlier, over temperature.
     double shift_s = 0.0;
-    signal::CrossCorrelation correlation;  ///< Delays of the acceleration after the temperature.
+    /// Delays of the acceleration after the temperature, up to an hour, as published, or a cycle.
+    signal::CrossCorrelation correlation;
+    double chance = 0.0;  ///< Size that a correlation exceeds by chance at 5 % of the delays.
 };
 
 /// Computes the statistics of a pair of series.
 ///
 /// Peaks of the correlation are searched within half a cycle on either side of 0.  The standard
 /// error of the slope is for residuals that are correlated over four cycles.  Cost: O(n cycle_s /
-/// step_s).
+/// step_s), and an hour at least.
 /// @param temperature_degc   (n) about zero; n > 4 cycles.  Finite and not constant.
 /// @param acceleration_mgal  (n) about zero.  Finite and not constant.
 /// @param step_s             time between samples, s.

@@ -27,17 +27,20 @@ eemd::Result decompose(const std::vector<double>& values, const RecordAnalysisOp
     return eemd::eemd(values, eemd_options);
 }
 
-/// Returns the mode whose mean period is nearest to the cycle, by ratio, and within an octave of
-/// it.
-std::optional<ChosenMode> choose_mode(const eemd::Result& result, double cycle_s, double step_s) {
+/// Returns the mode that is asked for if it oscillates, or the one whose mean period is nearest to
+/// the cycle, by ratio, and within an octave of it.
+std::optional<ChosenMode> choose_mode(const eemd::Result& result,
+                                      const RecordAnalysisOptions& options, double step_s) {
+    const double cycle_s = options.cycle_s;
     const auto distance = [&](const eemd::Component& mode) {
         return mode.extrema_count == 0
                    ? std::numeric_limits<double>::infinity()
                    : std::abs(std::log2(mode.mean_period_samples * step_s / cycle_s));
     };
     const auto& modes = result.modes;
-    const auto best = std::ranges::min_element(modes, {}, distance);
-    if (best == modes.end() || distance(*best) > 1.0) return std::nullopt;
+    const auto best = options.mode ? modes.begin() + *options.mode - 1
+                                   : std::ranges::min_element(modes, {}, distance);
+    if (best == modes.end() || distance(*best) > (options.mode ? 1e6 : 1.0)) return std::nullopt;
     ChosenMode chosen;
     chosen.number = static_cast<std::size_t>(best - modes.begin()) + 1;
     chosen.period_s = best->mean_period_samples * step_s;
@@ -73,12 +76,15 @@ text::Message reading_of(const RecordAnalysis& analysis, double cycle_s) {
 double change_of(const std::vector<double>& values) { return values.back() - values.front(); }
 
 void remark_on_mode(RecordAnalysis& analysis, const std::optional<ChosenMode>& mode,
-                    const text::Message& name, double cycle_s) {
-    if (!mode)
+                    const text::Message& name, const RecordAnalysisOptions& options) {
+    if (!mode && options.mode)
+        analysis.remarks.push_back(text::message(
+            "{}: mode {} does not oscillate; needed: a longer record", name, *options.mode));
+    else if (!mode)
         analysis.remarks.push_back(text::message(
             "{}: no mode has a mean period within an octave of {} s; needed: a record "
             "in which the oven cycles",
-            name, text::fixed(cycle_s, 0)));
+            name, text::fixed(options.cycle_s, 0)));
     else if (mode->neighbour_share > kMostSplit)
         analysis.remarks.push_back(text::message(
             "{}: a neighbour of mode {} ({} s) has {} % of its energy: the oscillation "
@@ -139,17 +145,20 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
     analysis.temperature_change_degc = change_of(slow_temperature);
     analysis.acceleration_change_mgal = change_of(slow_acceleration);
 
-    analysis.temperature_mode = choose_mode(analysis.temperature, options.cycle_s, step_s);
-    analysis.acceleration_mode = choose_mode(analysis.acceleration, options.cycle_s, step_s);
-    remark_on_mode(analysis, analysis.temperature_mode, text::message("temperature"),
-                   options.cycle_s);
-    remark_on_mode(analysis, analysis.acceleration_mode, text::message("acceleration"),
-                   options.cycle_s);
+    analysis.temperature_mode = choose_mode(analysis.temperature, options, step_s);
+    analysis.acceleration_mode = choose_mode(analysis.acceleration, options, step_s);
+    remark_on_mode(analysis, analysis.temperature_mode, text::message("temperature"), options);
+    remark_on_mode(analysis, analysis.acceleration_mode, text::message("acceleration"), options);
     if (analysis.temperature_mode && analysis.acceleration_mode) {
+        // Another mode has its own cycle; eight of them, and the delay, must fit into the record.
+        const double most_s = static_cast<double>(segment.size()) * step_s / 8.0;
+        const double cycle_s =
+            options.mode ? std::clamp(analysis.temperature_mode->period_s, 4.0 * step_s, most_s)
+                         : options.cycle_s;
         analysis.modes = pair_statistics(
             analysis.temperature.modes[analysis.temperature_mode->number - 1].values,
             analysis.acceleration.modes[analysis.acceleration_mode->number - 1].values, step_s,
-            options.cycle_s, options.shift_s);
+            cycle_s, options.shift_s);
     }
 
     analysis.by_spectrum =

@@ -29,21 +29,22 @@ namespace a351::corrector::long_record {
 
 /// Options of analyse_record().  Cycle, shift and ensemble are those of the publication.
 ///
-/// Range: cycle_s more than 3 steps, shift_s >= 0 and shorter than the segment, ensemble_size and
+/// Range: mode 1 to eemd::default_mode_count(), cycle_s more than 3 steps, shift_s >= 0 and shorter than the segment, ensemble_size and
 /// threads >= 1.  The command accepts cycles of 200 to 7200 s and shifts up to a cycle.
 struct RecordAnalysisOptions {
     double cycle_s = 900.0;   ///< Cycle of the oven; default: 15 minutes as in the publication.
     double shift_s = 280.0;   ///< Time by which the acceleration is moved, as in the publication.
     int ensemble_size = 160;  ///< Members of the EEMD, as in the publication's record indoors.
     std::uint64_t seed = 1;   ///< Seed of the EEMD.
+    std::optional<int> mode;  ///< Number of the mode of both series; absent: that of the cycle.
     int threads = 1;          ///< Number of threads; the result does not depend on it.
     /// Called with the members done and in all, of both decompositions together; in the caller's
     /// thread.  Empty: no reports.
     std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
-/// The mode of the oven's cycle: its mean period is nearest to the cycle by ratio, and within an
-/// octave.
+/// The mode that was asked for, or that of the oven's cycle: its mean period is nearest to the cycle
+/// by ratio, and within an octave.
 ///
 /// A neighbour_share above 0.2 means that the oscillation may be split between two modes; a remark
 /// says so then.

@@ -36,7 +36,8 @@ SurveyFigures figures_of(const model::SurveyCorrection& result, const ReportSour
     if (const auto figure = figure::side_by_side_figure(result, print))
         figures.side_by_side = {*figure};
     for (const auto& figure :
-         {figure::difference_figure(result, print), figure::acceleration_figure(result, print)})
+         {figure::difference_figure(result, print), figure::acceleration_figure(result, print),
+          figure::corrected_figure(result, print)})
         if (figure) figures.publication.push_back(*figure);
     figures.records = figure::panel_figures(result, records, print);
     for (figure::Figure& figure : figure::reading_figures(result, records, print))

@@ -36,11 +36,12 @@ double correlation(std::span<const double> temperature, std::span<const double> 
     return xy / std::sqrt(xx * yy);
 }
 
-/// Returns the strongest correlation of a sign (1 or -1) among the middle half of the lags.
-CorrelationPeak find_peak(const CrossCorrelation& all, double sign, double step_s) {
-    const std::size_t half_cycle = (all.values.size() - 1) / 4;
-    std::size_t best = half_cycle;
-    for (std::size_t i = half_cycle; i <= 3 * half_cycle; ++i)
+/// Returns the strongest correlation of a sign (1 or -1) within half a cycle of lag 0.
+CorrelationPeak find_peak(const CrossCorrelation& all, double sign, std::size_t half_cycle,
+                          double step_s) {
+    const std::size_t middle = all.values.size() / 2;
+    std::size_t best = middle - half_cycle;
+    for (std::size_t i = best; i <= middle + half_cycle; ++i)
         if (sign * all.values[i] > sign * all.values[best]) best = i;
     const double before = all.values[best - 1], here = all.values[best],
                  after = all.values[best + 1];
@@ -101,15 +102,26 @@ std::vector<double> without_line(std::span<const double> values) {
 }
 
 CrossCorrelation correlate(std::span<const double> temperature,
-                           std::span<const double> acceleration, int half_cycle, double step_s) {
+                           std::span<const double> acceleration, int half_cycle, int most_lag,
+                           double step_s) {
     CrossCorrelation all;
-    for (int lag = -2 * half_cycle; lag <= 2 * half_cycle; ++lag) {
+    for (int lag = -most_lag; lag <= most_lag; ++lag) {
         all.delays_s.push_back(step_s * lag);
         all.values.push_back(correlation(temperature, acceleration, lag));
     }
-    all.negative = find_peak(all, -1.0, step_s);
-    all.positive = find_peak(all, 1.0, step_s);
+    const auto half = static_cast<std::size_t>(half_cycle);
+    all.negative = find_peak(all, -1.0, half, step_s);
+    all.positive = find_peak(all, 1.0, half, step_s);
     return all;
+}
+
+double chance_correlation(std::span<const double> x, std::span<const double> y, int most_lag) {
+    constexpr double kNormal95 = 1.96;
+    const auto n = static_cast<double>(x.size());
+    double sum = 1.0;
+    for (int lag = 1; lag <= most_lag; ++lag)
+        sum += 2.0 * (1.0 - lag / n) * correlation(x, x, lag) * correlation(y, y, lag);
+    return std::min(1.0, kNormal95 * std::sqrt(std::max(sum, 1.0) / n));
 }
 
 }  // namespace a351::signal

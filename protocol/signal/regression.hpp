@@ -51,14 +51,14 @@ struct CorrelationPeak {
 
 /// Correlations by delay.
 struct CrossCorrelation {
-    std::vector<double> delays_s;  ///< (4 half_cycle + 1) Delays, ascending, symmetric about 0.
-    std::vector<double> values;    ///< (4 half_cycle + 1) Correlations, -1 to 1.
+    std::vector<double> delays_s;  ///< (2 most_lag + 1) Delays, ascending, symmetric about 0.
+    std::vector<double> values;    ///< (2 most_lag + 1) Correlations, -1 to 1.
     CorrelationPeak negative;      ///< Least correlation within half_cycle lags of 0.
     CorrelationPeak positive;      ///< Greatest correlation within half_cycle lags of 0.
 };
 
-/// Correlates the temperature with the acceleration `lag` steps later, for lags of -2 half_cycle to
-/// 2 half_cycle:
+/// Correlates the temperature with the acceleration `lag` steps later, for lags of -most_lag to
+/// most_lag:
 ///
 ///     r(lag) = sum dT_i da_(i+lag) / sqrt(sum dT_i^2 sum da_(i+lag)^2)
 ///
@@ -66,12 +66,25 @@ struct CrossCorrelation {
 /// parabola moves a peak by at most one step.
 /// Accuracy: for sines of 900 s at steps of 20 s both peaks are within 1 s
 /// (indoor_record_test.cpp).
-/// @param temperature   (n) finite, not constant in any overlap; n > 2 half_cycle.
+/// @param temperature   (n) finite, not constant in any overlap; n > most_lag.
 /// @param acceleration  (n) likewise, any unit.
 /// @param half_cycle    number of lags searched for peaks on either side of 0, >= 2.
+/// @param most_lag      more than half_cycle.
 /// @param step_s        time between samples, s, > 0.
 [[nodiscard]] CrossCorrelation correlate(std::span<const double> temperature,
                                          std::span<const double> acceleration, int half_cycle,
-                                         double step_s);
+                                         int most_lag, double step_s);
+
+/// Returns the size that the correlation of two independent series exceeds at a lag with a
+/// probability of 5 %: 1.96 times its standard deviation (Bartlett 1935),
+///
+///     sqrt(sum over k of (1 - |k| / n) rx(k) ry(k) / n),   |k| <= most_lag
+///
+/// where rx and ry are the autocorrelations.  Two series that oscillate in one narrow band
+/// correlate by chance much more often than white ones.  At most 1.
+/// @param x, y      (n) finite, not constant; n > most_lag.
+/// @param most_lag  lags after which an autocorrelation is taken as zero.
+[[nodiscard]] double chance_correlation(std::span<const double> x, std::span<const double> y,
+                                        int most_lag);
 
 }  // namespace a351::signal

@@ -27,6 +27,16 @@ with Scratch() as scratch:
             for f in ("record.csv", "response.csv", "result.json", "record.html", "figures/response.svg")]
     demand("a day file gives the same bytes as its data root", all(same))
 
+    other = record(scratch, "night", "--mode", "6", "--out", "f").stdout
+    periods = {json.loads((scratch / folder / "result.json").read_text())["temperature_mode"]["period_s"] for folder in "af"}
+    demand("another mode is compared on demand, with its own period",
+           "modes: temperature 6 of 10" in other and "acceleration 6 of 10" in other and min(periods) < 1000 < 3000 < max(periods))
+    data = (scratch / "f" / "figures" / "correlation.dat").read_text()
+    demand("the cross-correlation is drawn over an hour to either side, with limits",
+           "\n-3600.0 " in data and "\n3600.0 " in data and "limits of 95 %" in data)
+    modes = (scratch / "f" / "figures" / "decomposition.gp").read_text()
+    demand("one figure has all modes of both series with their periods", modes.count("'mode 6: ") == 2 and modes.count(" s *'") == 2)
+
     record(scratch, "a/record.csv", "--out", "c")
     again = json.loads((scratch / "c" / "result.json").read_text())["statistics"]
     demand("record.csv as input gives the same statistics",
@@ -47,6 +57,7 @@ with Scratch() as scratch:
             (("night", "--to", "2017-06-01T10:00:00Z"), "too short"),
             (("night", "--from", "2018-01-01T00:00:00Z"), "no sample"),
             (("night", "--from", "yesterday"), "--from"),
+            (("night", "--mode", "11"), "--mode = 11: out of range; allowed: 1 to 9"),
             (("night", "--cycle", "7"), "--cycle")):
         bad = record(scratch, *arguments, "--out", "e", check=False)
         print(bad.stderr.strip())

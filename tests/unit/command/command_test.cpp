@@ -53,7 +53,7 @@ TEST_CASE("table writes a report in the requested formats, the same bytes each t
         CHECK(text::read_text_file(entry.path()) ==
               text::read_text_file(folder.path() / "b" / name));
     }
-    CHECK(count == 8 + 4 * 5);  // four figures as .gp, .dat, .svg, .pdf and .png
+    CHECK(count == 8 + 5 * 5);  // five figures as .gp, .dat, .svg, .pdf and .png
     CHECK_THAT(text::read_text_file(folder.path() / "a/report.html"),
                ContainsSubstring("Gravity survey observations") &&
                    ContainsSubstring("n = 16) has itself a standard error of 0.54 mGal") &&
@@ -63,7 +63,7 @@ TEST_CASE("table writes a report in the requested formats, the same bytes each t
 TEST_CASE("without a working gnuplot everything except the figures is written", "[command]") {
     const auto [script, reason] = GENERATE(table<std::string, std::string>({
         {"", "figures are missing: gnuplot is not installed (not in PATH)"},
-        {"echo 'no fonts' >&2; exit 5", "gnuplot failed: no fonts; 3 more such"},
+        {"echo 'no fonts' >&2; exit 5", "gnuplot failed: no fonts; 4 more such"},
     }));
     CAPTURE(reason);
     const test::TemporaryDirectory folder;

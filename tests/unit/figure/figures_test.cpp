@@ -66,6 +66,17 @@ TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines pr
                ContainsSubstring("'y = -29.2309 x + 3083.3, R² = 0.9257'"));
 }
 
+TEST_CASE("corrected gravity over reference has u as bars and the publication's number",
+          "[report][figures]") {
+    const Figure figure = corrected_figure(corrected(made_up::day()), {}).value();
+    CHECK(count(script_of(figure), "yerrorbars") == 1);
+    CHECK_THAT(figure.caption, EndsWith(" (Publication's Fig. 14.)"));
+    CHECK_THAT(as_published("3", "0.265"), EndsWith("Fig. 3; value there: 0.265.)"));
+    // A table of averages does not know the scatter of the samples.
+    CHECK(count(script_of(difference_figure(corrected(made_up::day()), {}).value()),
+                "yerrorbars") == 0);
+}
+
 TEST_CASE("every row is in a block of its kind, and an empty block is not plotted",
           "[report][figures]") {
     auto rows = made_up::day();
