@@ -68,6 +68,7 @@ Report make_report(const model::SurveyCorrection& result, const nlohmann::ordere
     add_readings(readings, result);
     add_closures(readings, result);
     add_corrections(readings, result);
+    add_paper_table(readings, result);
     const pugi::xml_node accuracy = page.add_section(tr("Accuracy"));
     add_accuracy(accuracy, result);
     add_stations(accuracy, result);

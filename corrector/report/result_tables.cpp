@@ -11,6 +11,7 @@
 #include "corrector/report/html.hpp"
 #include "corrector/result/answer.hpp"
 #include "corrector/result/columns.hpp"
+#include "corrector/result/paper_report.hpp"
 #include "corrector/result/side_by_side_report.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -179,6 +180,17 @@ void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& resul
         parent,
         tr("From acceleration to gravity, in mGal: corrected = acceleration - tide + constant "
            "+ the other columns. The constant of {} contains the bias of the sensor and the "
+void add_paper_table(pugi::xml_node parent, const model::SurveyCorrection& result) {
+    if (!result::is_paper(result)) return;
+    add(parent, "h3", tr("Table 2 of the publication"));
+    add_table(parent,
+              tr("The steps of the publication, in mGal and °C. Difference: acceleration - tide - "
+                 "reference; (1) after the line in temperature, (2) after the drift step too; "
+                 "errors are reference - corrected.") +
+                  ' ' + result::paper_errors(result),
+              result::paper_table(result));
+}
+
            "mean effect of its temperature; T corr. is the rest of this effect.",
            text::fixed(constant.value(), decimals)) +
             (is_day ? tr(" °C/h is the rate that the model's fast term uses.") : ""),

@@ -24,6 +24,8 @@ void add_stations(pugi::xml_node parent, const model::SurveyCorrection& result);
 /// Adds the sources of the stations' uncertainties; nothing unless `day` is applied.
 void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result);
 
+/// Adds Table 2 of the publication; nothing for another model than `paper`.
+void add_paper_table(pugi::xml_node parent, const model::SurveyCorrection& result);
 /// Adds the comparison with reference gravimeters.
 /// @param result  with `side_by_side`.
 void add_side_by_side(pugi::xml_node parent, const model::SurveyCorrection& result);

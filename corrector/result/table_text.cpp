@@ -10,6 +10,7 @@
 #include "corrector/result/answer.hpp"
 #include "corrector/result/columns.hpp"
 #include "corrector/result/network_report.hpp"
+#include "corrector/result/paper_report.hpp"
 #include "corrector/result/scale_report.hpp"
 #include "corrector/result/side_by_side_report.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -112,6 +113,8 @@ std::string details_text(const model::SurveyCorrection& result) {
                        tr("LOO: leave-one-out. LOSO: leave-one-station-out.") + "\n\n" +
                        summary_text(result) + coefficients_text(result) + network_text(result);
     for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
+    if (is_paper(result))
+        text += '\n' + aligned_text(paper_table(result)) + paper_errors(result) + '\n';
     for (const std::string& sentence : side_by_side_sentences(result)) text += sentence + '\n';
     for (const text::Message& remark : result.remarks) text += text::in_words(remark) + '\n';
     return text + model::trend_comparison_text(result);
