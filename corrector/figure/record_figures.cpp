@@ -8,6 +8,7 @@
 #include "corrector/eemd/extrema.hpp"
 #include "corrector/figure/escaping.hpp"
 #include "corrector/judgement/reading_name.hpp"
+#include "corrector/result/columns.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
@@ -106,7 +107,11 @@ Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord
                       as_published("11"),
                   print.small_mm()};
     Panel& panel = figure.panels.emplace_back();
-    panel.note = short_label(reading);
+    const reading::SurveyRow& row = result.rows[record.row].row;
+    const double used_min = result::used_minutes(result.rows[record.row]).value_or(0.0);
+    panel.note = tr("{}, {} of {} min", short_label(reading), fixed(used_min, 1),
+                    fixed(length_min(value), 1));
+    panel.spans = {{minutes_in(value, *row.start), minutes_in(value, *row.end), Colour::averaged}};
     panel.height_mm = kStackedPanel_mm;
     panel.x = {.label = tr("Minutes"), .range = {0.0, length_min(value)}};
     panel.y = axis_about_zero(tr("Acceleration - {} (mGal)", fixed(mean_mgal, 1)), half_mgal);

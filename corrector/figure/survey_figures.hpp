@@ -86,7 +86,8 @@ struct ReadingRecord {
 ///
 /// The name is reading-NN with the number of the row from 1.  The range of the axis has nine of ten
 /// samples of the series and the whole trend, so that a knock does not flatten the rest.  The
-/// caption has the mean over the interval; for `day` it has the averaged time and the value.
+/// caption has the mean over the interval; for `day` it has the averaged time and the value.  The
+/// minutes that the reading uses are shaded, and their number is above the panel.
 [[nodiscard]] std::vector<Figure> reading_figures(const model::SurveyCorrection& result,
                                                   const std::vector<ReadingRecord>& records,
                                                   const Print& print);

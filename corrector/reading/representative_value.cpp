@@ -186,6 +186,7 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     if (degc) summary.temperature_range = degc->range;
     if (degc) summary.temperature_shape = degc->shape;
     summary.counts = count_samples(present, series.size(), reach_of(filter));
+    summary.recorded_s = static_cast<double>(series.size()) / series.rate().value();
     summary.x = summarise(record.x, axes.x);
     summary.y = summarise(record.y, axes.y);
     summary.z = summarise(record.z, axes.z);

@@ -99,8 +99,9 @@ struct RecordSummary {
     DegC temperature_range;
     /// Shape of the decimated temperature; meaningless without temperature.
     TemperatureShape temperature_shape = TemperatureShape::monotone;
-    SampleCounts counts;  ///< Counts over the whole occupation.
-    AxisSummary x, y, z;  ///< Axes; z is along gravity.
+    SampleCounts counts;      ///< Counts over the whole occupation.
+    double recorded_s = 0.0;  ///< Length of `series`, the whole occupation.
+    AxisSummary x, y, z;      ///< Axes; z is along gravity.
     /// rectification_bias() of the axes; part of the value if NormOrder::as_published.
     MilliGal rectification;
 

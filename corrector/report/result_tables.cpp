@@ -29,20 +29,19 @@ std::string between(UtcTime start, UtcTime end) {
                        to_rfc3339(end).substr(11, 8));
 }
 
-/// Returns the instants between which a row was averaged, and the duration in seconds of what was.
-HtmlCells averaged(const reading::SurveyRow& row) {
-    if (!row.start || !row.end) return {"-", "-"};
-    return {between(*row.start, *row.end), text::fixed(seconds_between(*row.start, *row.end), 0)};
+/// Returns the instants between which a row was averaged.
+std::string averaged(const reading::SurveyRow& row) {
+    return row.start && row.end ? between(*row.start, *row.end) : "-";
 }
 
 /// Returns the columns of a result that follow the name of a reading and its times.
 std::vector<result::Column<model::CorrectedRow>> reading_columns(
     const model::SurveyCorrection& result) {
     return result::with_decimals(
-        result::with_keys(
-            result::occupation_columns(result),
-            {"used", "corrected_mgal", "reference_mgal", "residual_mgal", "left_out_mgal",
-             "u_corrected_mgal", "studentised_residual", "grade", "flags"}),
+        result::with_keys(result::occupation_columns(result),
+                          {"used_min", "recorded_min", "used", "corrected_mgal", "reference_mgal",
+                           "residual_mgal", "left_out_mgal", "u_corrected_mgal",
+                           "studentised_residual", "grade", "flags"}),
         result::decimals_of(result));
 }
 
@@ -57,8 +56,8 @@ std::string reading_caption(const model::SurveyCorrection& result) {
         return text + tr("u: standard uncertainty of a new station, from the scatter in sample; t: "
                          "studentised residual.");
     return text +
-           tr("The model day averages all undisturbed samples between the two instants; column s "
-              "is their duration in seconds. The residual is the error of placing the box, one "
+           tr("The model day averages all undisturbed samples between the two instants; their "
+              "duration is below Min used. The residual is the error of placing the box, one "
               "value for each set-up. Left out: the value of the reading if the reference of its "
               "station is not used (cross-validated); u is the standard uncertainty of this value, "
               "and t = (left out - reference) / u.");
@@ -120,22 +119,17 @@ void add_budget(pugi::xml_node parent, const model::SurveyCorrection& result) {
 void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const std::vector<result::Column<model::CorrectedRow>> columns = reading_columns(result);
     const bool is_recorded = result.rows.front().row.start.has_value();
-    const std::size_t first = is_recorded ? 3 : 2;  // columns before those of the declaration
+    constexpr std::size_t kFirst = 2;  // columns before those of the declaration
     result::Table table = result::empty_table(columns);
-    const HtmlCells leading =
-        is_recorded ? HtmlCells{text::marked("Reading"), text::marked("Averaged UTC"), "s"}
-                    : HtmlCells{text::marked("Reading"), text::marked("Time UTC")};
+    const HtmlCells leading = is_recorded
+                                  ? HtmlCells{text::marked("Reading"), text::marked("Averaged UTC")}
+                                  : HtmlCells{text::marked("Reading"), text::marked("Time UTC")};
     table.headings.insert(table.headings.begin(), leading.begin(), leading.end());
-    table.alignment.insert(0, is_recorded ? "nnr" : "nn");
+    table.alignment.insert(0, "nn");
     const auto add_row = [&](std::size_t i) {
         const model::CorrectedRow& row = result.rows[i];
         HtmlCells cells{judgement::reading_name(result.rows, i), to_rfc3339(row.row.time)};
-        if (is_recorded) {
-            const HtmlCells times = averaged(row.row);
-            cells[1] = times[0];
-            const auto* const day = row.as<model::WholeDayRow>();
-            cells.push_back(day != nullptr ? text::fixed(day->averaged_s, 0) : times[1]);
-        }
+        if (is_recorded) cells[1] = averaged(row.row);
         HtmlCells rest = result::shown_row(columns, row);
         for (auto at = rest.back().find(';'); at != std::string::npos;
              at = rest.back().find(';', at + 1))
@@ -144,7 +138,7 @@ void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result) 
         table.rows.push_back(std::move(cells));
     };
     result::in_order_of_time(result, add_row, [&](const reading::LeftOut& stay) {
-        HtmlCells& cells = table.rows.emplace_back(first + columns.size(), "-");
+        HtmlCells& cells = table.rows.emplace_back(kFirst + columns.size(), "-");
         cells.front() = fmt::format("{} ({})", stay.site, stay.occupation);
         cells[1] = is_recorded ? between(stay.start, stay.end) : to_rfc3339(stay.start);
         cells.back() = stay.reason;
@@ -180,6 +174,12 @@ void add_corrections(pugi::xml_node parent, const model::SurveyCorrection& resul
         parent,
         tr("From acceleration to gravity, in mGal: corrected = acceleration - tide + constant "
            "+ the other columns. The constant of {} contains the bias of the sensor and the "
+           "mean effect of its temperature; T corr. is the rest of this effect.",
+           text::fixed(constant.value(), decimals)) +
+            (is_day ? tr(" °C/h is the rate that the model's fast term uses.") : ""),
+        table);
+}
+
 void add_paper_table(pugi::xml_node parent, const model::SurveyCorrection& result) {
     if (!result::is_paper(result)) return;
     add(parent, "h3", tr("Table 2 of the publication"));
@@ -189,12 +189,6 @@ void add_paper_table(pugi::xml_node parent, const model::SurveyCorrection& resul
                  "errors are reference - corrected.") +
                   ' ' + result::paper_errors(result),
               result::paper_table(result));
-}
-
-           "mean effect of its temperature; T corr. is the rest of this effect.",
-           text::fixed(constant.value(), decimals)) +
-            (is_day ? tr(" °C/h is the rate that the model's fast term uses.") : ""),
-        table);
 }
 
 void add_side_by_side(pugi::xml_node parent, const model::SurveyCorrection& result) {

@@ -54,6 +54,11 @@ Columns columns_of_records() {
                   [](R r) { return cell(static_cast<double>(r.counts.partial)); }),
         of_record("missing_samples",
                   [](R r) { return cell(static_cast<double>(r.counts.missing)); }),
+        {"recorded_min",
+         [](const model::CorrectedRow& row) -> Cell {
+             return row.row.record.value().recorded_s / 60.0;
+         },
+         {text::marked("of min"), 1}},
         of_record("mean_x_g", [](R r) { return cell(r.x.mean); }),
         of_record("rms_x_mgal", [](R r) { return cell(r.x.rms); }),
         of_record("mean_y_g", [](R r) { return cell(r.y.mean); }),
@@ -119,6 +124,14 @@ Columns columns_of_day() {
 
 }  // namespace
 
+std::optional<double> used_minutes(const model::CorrectedRow& row) {
+    constexpr double kMinute_s = 60.0;
+    const auto* const day = row.as<model::WholeDayRow>();
+    if (day != nullptr) return day->averaged_s / kMinute_s;
+    if (!row.row.start || !row.row.end) return std::nullopt;
+    return seconds_between(*row.row.start, *row.row.end) / kMinute_s;
+}
+
 std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyCorrection& result) {
     using Row = model::CorrectedRow;
     using Read = reading::SurveyRow;
@@ -176,6 +189,10 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         append(columns,
                {{"instrument", read(&Read::instrument), {text::marked("Instrument"), 0, 'n'}},
                 {"loop", read(&Read::loop), {text::marked("Loop")}}});
+    if (first.row.start)
+        columns.push_back({"used_min",
+                           [](const Row& row) { return cell(used_minutes(row)); },
+                           {text::marked("Min used"), 1}});
     if (first.row.record) append(columns, columns_of_records());
     if (first.as<model::WholeDayRow>() != nullptr)
         append(columns, columns_of_day());

@@ -18,6 +18,10 @@
 
 namespace a351::corrector::result {
 
+/// Returns the minutes that a reading averages: those between its limits, for `day` those of the
+/// undisturbed samples; nothing for a table of averages.
+[[nodiscard]] std::optional<double> used_minutes(const model::CorrectedRow& row);
+
 /// Returns the columns of occupations.csv.  An occupation without a value has only the first seven,
 /// from the site to the flags, and the last two, its grade.  Rows from records and rows of the whole-day model have more
 /// columns.

@@ -25,11 +25,12 @@ namespace {
 
 std::string occupations_text(const model::SurveyCorrection& result) {
     const auto columns = with_decimals(
-        with_keys(occupation_columns(result),
-                  {"site", "occupation", "time_utc", "used", "acceleration_mgal",
-                   "temperature_degc", "rate_degc_per_h", "tide_mgal", "height_correction_mgal",
-                   "pressure_correction_mgal", "difference_mgal", "corrected_mgal",
-                   "reference_mgal", "residual_mgal", "u_corrected_mgal", "flags"}),
+        with_keys(
+            occupation_columns(result),
+            {"site", "occupation", "time_utc", "used", "acceleration_mgal", "temperature_degc",
+             "rate_degc_per_h", "tide_mgal", "height_correction_mgal", "pressure_correction_mgal",
+             "difference_mgal", "corrected_mgal", "reference_mgal", "residual_mgal",
+             "u_corrected_mgal", "used_min", "recorded_min", "flags"}),
         decimals_of(result) + 1);
     Table table = empty_table(columns);
     in_order_of_time(
@@ -112,9 +113,9 @@ std::string details_text(const model::SurveyCorrection& result) {
                        '\n' + aligned_text(models_table(result)) +
                        tr("LOO: leave-one-out. LOSO: leave-one-station-out.") + "\n\n" +
                        summary_text(result) + coefficients_text(result) + network_text(result);
-    for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
     if (is_paper(result))
         text += '\n' + aligned_text(paper_table(result)) + paper_errors(result) + '\n';
+    for (const std::string& sentence : scale_sentences(result)) text += sentence + '\n';
     for (const std::string& sentence : side_by_side_sentences(result)) text += sentence + '\n';
     for (const text::Message& remark : result.remarks) text += text::in_words(remark) + '\n';
     return text + model::trend_comparison_text(result);

@@ -143,7 +143,11 @@ TEST_CASE("the figure of a reading has its series, trend, extrema and interval",
     const auto records = find_records(result, values);
     const Figure figure = reading_figures(result, records, {}).at(0);
     CHECK(figure.name == "reading-01");
-    CHECK_THAT(script_of(figure), ContainsSubstring("set label 'O\u2019Hara <3 (1)' at screen"));
+    CHECK_THAT(script_of(figure),
+               ContainsSubstring("set label 'O\u2019Hara <3 (1), 9.9 of 10.0 min' at screen"));
+    // The minutes that the reading uses are shaded.
+    CHECK_THAT(script_of(figure), ContainsSubstring("rectangle from 0.06666666667,graph 0 to "
+                                                    "9.966666667,graph 1 fc rgb '#cfe6f4'"));
     // The knock of 500 mGal does not stretch the axis.
     CHECK_THAT(script_of(figure), ContainsSubstring("set yrange [-1.09999"));
     CHECK_THAT(figure.data, StartsWith("# minutes acceleration_mgal trend_mgal "

@@ -102,9 +102,9 @@ TEST_CASE("the table of the whole-day model shows which time it averages", "[rep
     const auto lines = readings_of(corrected_by_day(day));
     // 14 bins of 25 samples, 2 s apart, from 02:00 on every half hour.
     CHECK(lines[0].at("Averaged UTC") == "2026-05-01 02:00:00\u201302:11:38");
-    CHECK(lines[0].at("s") == "700");
+    CHECK(lines[0].at("Min used") == "11.7");
     CHECK(lines[2].at("Averaged UTC") == "2026-05-01 03:03:20\u201303:11:38");
-    CHECK(lines[2].at("s") == "500");
+    CHECK(lines[2].at("Min used") == "8.3");
 }
 
 TEST_CASE("a table of given averages has no columns of records", "[report][readings]") {
@@ -112,7 +112,7 @@ TEST_CASE("a table of given averages has no columns of records", "[report][readi
     options.model = "t";
     const auto lines = readings_of(correct_survey(made_up::day(), options));
     REQUIRE(lines.size() == 12);
-    for (const char* const title : {"Averaged UTC", "s", "Left out"})
+    for (const char* const title : {"Averaged UTC", "Min used", "Left out"})
         CHECK_FALSE(lines[0].contains(title));
 }
 

@@ -18,7 +18,7 @@ const std::string kHead =
 const std::string kOfRecords =
     "key,series_mean_mgal,series_minus_curve_mgal,standard_error_mgal,temperature_range_degc,"
     "temperature_is_monotone,temperature_is_half_wave,valid_samples,partial_samples,"
-    "missing_samples,mean_x_g,rms_x_mgal,mean_y_g,rms_y_mgal,mean_z_g,rms_z_mgal,"
+    "missing_samples,recorded_min,mean_x_g,rms_x_mgal,mean_y_g,rms_y_mgal,mean_z_g,rms_z_mgal,"
     "rectification_mgal,eemd_mgal,smoother_mgal,u_smoother_mgal,smoother_minus_eemd_mgal,";
 const std::string kTail = "doubt_physical,grade,grade_reason\n";
 
