@@ -63,7 +63,7 @@ Figure history_figure(const std::vector<result::UnitDay>& days, const Print& pri
         const std::size_t k = index_of(name);
         Panel& panel = figure.panels.emplace_back();
         panel.x = {.step = static_cast<double>(date_step_s(days, print)),
-                   .format = "%Y-%m-%d",
+                   .format = "%m-%d\n%Y",
                    .scale = Scale::time};
         panel.y.label =
             std::string(text::translated(result::term_kinds()[k].heading, text::language()));

@@ -1,7 +1,7 @@
 """The figures of a day, a table and a record in print, by poppler: width as asked, letters of 6.5 to 10 pt, fonts embedded, no two
 texts on each other, none turned or outside.
 
-The short form draws each language in one width.
+The short form draws each language in one width, and no figure of several days.
 """
 
 import itertools
@@ -62,11 +62,13 @@ def faults(pdf, width_mm):
 
 def draw(scratch, language, width_mm):
     folder = scratch / f"{language}-{width_mm}"
+    both_days = [("joint", "survey", scratch / "day" / "survey.toml", scratch / "other" / "survey.toml")] if IS_LONG else []
     options = ("--figures", "pdf", "--figure-width", f"{width_mm}mm", "--out")
     for name, *arguments in (("day", "survey", scratch / "day" / "survey.toml"), ("night", "record", scratch / "night"),
                              ("table", "table", "--sites", GOLDEN / "sites.csv", "--observations", GOLDEN / "observations.csv",
                               "--model", "paper"),
-                             ("plan", "design", scratch / "plan.csv", "--sites", scratch / "unknown.csv")):
+                             ("plan", "design", scratch / "plan.csv", "--sites", scratch / "unknown.csv"),
+                             *both_days):
         run(BIN / "a351-correct", *arguments, *options, folder / name, env={"A351_LANG": language})
     pictures = sorted(folder.glob("*/figures/*.pdf"))
     scripts = sorted(folder.glob("*/figures/*.gp"))
@@ -81,6 +83,8 @@ if not shutil.which("pdftotext"):
     skip("no pdftotext (Debian: poppler-utils)")
 with Scratch() as scratch:
     run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 7, "--out", scratch / "day")
+    if IS_LONG:
+        run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 8, "--out", scratch / "other")
     run(BIN / "a351-sim", "survey", "--scenario", "indoor", "--seed", 7, "--out", scratch / "night")
     visits = [row["site"] for row in rows(GOLDEN / "observations.csv")]
     (scratch / "plan.csv").write_text("site,start_utc,set_ups,minutes_each\n" + "".join(

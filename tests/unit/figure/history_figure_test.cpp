@@ -19,6 +19,8 @@ TEST_CASE("the terms of a unit by day have a panel each, if a day has them", "[f
     }
     const figure::Figure figure = figure::history_figure(days, {});
     CHECK_THAT(figure.data, ContainsSubstring("2026-06-02T01:00:00Z 13.00000 2.00000"));
+    // A date in two lines has room at the border.
+    CHECK_THAT(figure::script_of(figure), ContainsSubstring("set format x '%m-%d'.\"\\n\".'%Y'"));
     CHECK_THAT(figure::script_of(figure), ContainsSubstring("Constant mGal"));
     CHECK_THAT(figure::script_of(figure), !ContainsSubstring("Placement mGal"));  // No day has it.
     CHECK_THAT(
