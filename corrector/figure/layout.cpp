@@ -23,15 +23,26 @@ double lines_of(const std::string& text) {
     return text.empty() ? 0.0 : 1.0 + static_cast<double>(std::ranges::count(text, '\n'));
 }
 
+/// Returns the width of a column of the key with this text.  gnuplot takes the real widths for PDF
+/// and PNG; for SVG it takes 0.7 of the letters' size for each letter and for seven more.
+double key_column_mm(const std::string& label) {
+    const auto letters = std::ranges::count_if(
+        label, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+    constexpr double kSvgLetter_mm = 0.7 * kLetters_pt * kMmPerInch / kPointsPerInch;
+    return std::max(text_width_mm(label) + kKeySample_mm,
+                    kSvgLetter_mm * static_cast<double>(letters + 7));
+}
+
 std::size_t key_rows_of(const Panel& panel, double width_mm) {
     std::size_t count = 0;
     double widest_mm = 0.0;
     for (const Series& series : panel.series) {
         if (series.label.empty() || series.source.empty()) continue;
         ++count;
-        widest_mm = std::max(widest_mm, text_width_mm(series.label));
+        widest_mm = std::max(widest_mm, key_column_mm(series.label));
     }
-    const double room = std::floor(width_mm / (widest_mm + kKeySample_mm));
+    if (count == 0) return 0;
+    const double room = std::floor(width_mm / widest_mm);
     const auto columns = static_cast<std::size_t>(std::max(1.0, room));
     return (count + columns - 1) / columns;
 }
