@@ -175,7 +175,8 @@ std::string head_of(const Figure& figure, double height_mm) {
     const double letters = pixels(kLetters_pt), line = pixels(kUnitLine_pt);
     const double png = kPngDotsPerInch / kPixelsPerInch;  // pixels of PNG per px
     const auto inches = [](double mm) { return mm / kMmPerInch; };
-    // pointintervalbox: error bars reach their marks (gnuplot ignores 0).
+    // pointintervalbox: error bars reach their marks (gnuplot ignores 0, and 0.001 is the
+    // scale 0.00 in SVG, which viewers refuse).
     // cairo takes a font of size n as 4/3 n px, or n pt; its unit line is 0.5 pt in a PDF and 1
     // pixel in a PNG.  The scales of the points make marks of all formats look alike.
     return fmt::format(
@@ -197,7 +198,7 @@ std::string head_of(const Figure& figure, double height_mm) {
         "set grid lc rgb '#dddddd' lt 1 lw 1\n"
         "set boxwidth 0.7\n"
         "set errorbars small\n"
-        "set pointintervalbox 0.001\n"
+        "set pointintervalbox 0.01\n"
         "set timefmt '%Y-%m-%dT%H:%M:%SZ'\n"
         "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n",
         figure.name, number(figure.width_mm), number(std::round(height_mm)), number(kLetters_pt),

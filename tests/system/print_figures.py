@@ -74,6 +74,8 @@ def draw(scratch, language, width_mm):
     scripts = sorted(folder.glob("*/figures/*.gp"))
     demand(f"{language}, {width_mm} mm: each of the {len(scripts)} figures has a script, data or those of others, SVG and PDF",
            len(pictures) == len(scripts) >= 39 and all(script.with_suffix(".svg").exists() for script in scripts))
+    demand(f"{language}, {width_mm} mm: no mark has the scale zero, which viewers of SVG refuse",
+           not any("scale(0.00)" in pdf.with_suffix(".svg").read_text() for pdf in pictures))
     found = [f"{pdf.parent.parent.name}/{pdf.stem}: {fault}" for pdf in pictures for fault in faults(pdf, width_mm)]
     print(*found[:20], sep="\n")
     demand(f"{language}, {width_mm} mm: width, fonts, letters and places are as a journal wants them", not found)
