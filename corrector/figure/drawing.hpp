@@ -18,7 +18,7 @@
 namespace a351::corrector::figure {
 
 /// Returns the formats of pictures other than SVG: "pdf", a vector format for papers, and "png",
-/// three times as wide and as high as the SVG in pixels.  The list lives as long as the program.
+/// 300 dots per inch.  The list lives as long as the program.
 [[nodiscard]] const std::vector<std::string>& picture_formats();
 
 /// How figures are wanted: formats besides SVG, from picture_formats(), and their width.

@@ -11,7 +11,7 @@
 namespace a351::corrector::figure {
 
 /// Widths of one column and of a page, mm (Elsevier asks for 90 and 190, AGU for 95 and 190, SSJ for
-/// 84 and 174; the narrowest of each fits all).
+/// 84 and 174; these fit all).
 inline constexpr double kColumn_mm = 84.0, kPage_mm = 170.0;
 
 /// Width that is asked for.  Without it a small figure is a column wide, and any other a page.
