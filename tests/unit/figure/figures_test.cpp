@@ -207,10 +207,10 @@ TEST_CASE("the map of stations across the 180th meridian is one piece", "[report
         result.stations.push_back(station);
     }
     const double second = GENERATE(-179.99, 180.01);
-    const std::string script =
-        script_of(map_figure(result, {site("A", 179.99, 36.2), site("B", second, 36.21),
-                                      site("C", 180, 36.2)})
-                      .value());
+    const std::string script = script_of(
+        map_figure(result,
+                   {site("A", 179.99, 36.2), site("B", second, 36.21), site("C", 180, 36.2)}, {})
+            .value());
     std::smatch x;
     REQUIRE(std::regex_search(script, x, std::regex("xrange \\[(.*):(.*)\\]")));
     CHECK(std::stod(x[1]) > 179.9);

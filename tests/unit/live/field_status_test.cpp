@@ -162,7 +162,7 @@ TEST_CASE("tilt is relative to the first set-up of the day, and shown while the 
     field.occupations.use(two_sites(),
                           {.planned = std::chrono::minutes(12), .planned_set_ups = 2});
     (void)field.occupations.start("No.0", {}, minute(20));
-    CHECK(at(20).level);  // no sample yet
+    CHECK_FALSE(at(20).level);
     CHECK_FALSE(at(25).level);
     CHECK(at(26).level);
 }
