@@ -37,7 +37,6 @@ CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
                         "for each column{}",
                         kHowToSave));
     columns_.assign(names.begin(), names.end());
-    decimal_sign_ = DecimalSign(lines_.separator());
 }
 
 bool CsvReader::next() {

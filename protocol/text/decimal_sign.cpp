@@ -24,7 +24,8 @@ SignedNumber signed_number(std::string_view text) {
     const std::string_view rest = text.substr(sign + 1);
     const std::size_t end = std::min(rest.find_first_not_of(kDigits), rest.size());
     if (end == 0 || (end < rest.size() && rest[end] != 'e' && rest[end] != 'E')) return {};
-    const bool is_group = sign > 0 && sign <= kGroup && end == kGroup && end == rest.size();
+    const bool is_group =
+        sign > 0 && sign <= kGroup && end == kGroup && end == rest.size() && text.front() != '0';
     return {text[sign], text[sign] == ',' && is_group};
 }
 
@@ -40,7 +41,7 @@ bool DecimalSign::note(std::string_view cell) {
     const SignedNumber found = signed_number(with_usual_minus(cell));
     if (found.sign == '\0' || found.sign == sign_) return true;
     if (sign_ != '\0') return false;
-    if (!found.is_doubtful || is_comma_free_) sign_ = found.sign;
+    if (!found.is_doubtful) sign_ = found.sign;
     return true;
 }
 

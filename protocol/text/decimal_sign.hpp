@@ -8,13 +8,11 @@ namespace a351::text {
 /// The decimal sign of the numbers in a table.  A spreadsheet writes a comma or a point, by the
 /// language of its computer, and some put the other one between thousands.
 ///
-/// The first number that can be read in one way only decides for the table.
+/// The first number that can be read in one way only decides for the table.  1,234 can be read in
+/// two ways, whatever separates the cells; 1.234 is a decimal point unless another number has a
+/// decimal comma.
 class DecimalSign {
 public:
-    /// @param separator  character between the cells.  Where it is a semicolon the comma is free:
-    ///                   1,234 is then a decimal comma unless other numbers have points.
-    explicit DecimalSign(char separator = ',') : is_comma_free_(separator == ';') {}
-
     /// Takes a cell into account; other text than a number changes nothing.
     /// @return false if the cell has the other sign than the numbers before it.
     [[nodiscard]] bool note(std::string_view cell);
@@ -31,7 +29,6 @@ public:
     [[nodiscard]] static std::string_view remedy(std::string_view cell);
 
 private:
-    bool is_comma_free_;
     char sign_ = '\0';
 };
 

@@ -104,7 +104,8 @@ TEST_CASE("a table that can be read in two ways or none is refused with what to 
                       "t.csv:2: 1 cells; allowed: 2 as in the header");
 }
 
-TEST_CASE("a comma between thousands is never read as a decimal comma", "[text][csv]") {
+TEST_CASE("a comma that may stand between thousands is refused unless other numbers show the sign",
+          "[text][csv]") {
     CHECK_THROWS_WITH(
         parsed("site;latitude_deg;altitude_m\nA;36.2;30\nB;36.2;1,234\n"),
         "t.csv:3: altitude_m = 1,234: other numbers of this table have a decimal point; allowed: "
@@ -113,14 +114,19 @@ TEST_CASE("a comma between thousands is never read as a decimal comma", "[text][
     CHECK_THROWS_WITH(parsed("a;b\n36,2;1.234\n"),
                       StartsWith("t.csv:2: b = 1.234: other numbers of this table have a decimal "
                                  "comma"));
-    for (const char* text : {"a\tb\n1\t1,234\n", "a,b\n1,\"1,234\"\n", "a;b\n1;1.234,5\n",
-                             "a\tb\n1\t979,951.2\n", "a\tb\n1\t1 234,5\n"}) {
+    for (const char* text :
+         {"a\tb\n1\t1,234\n", "a,b\n1,\"1,234\"\n", "a;b\n1;1,234\n", "a;b\n-12,345;-1,234\n",
+          "a;b\n1;1.234,5\n", "a\tb\n1\t979,951.2\n", "a\tb\n1\t1 234,5\n"}) {
         CAPTURE(text);
         const auto table = parsed(text);
         CHECK_THROWS_WITH((void)table.number(0, "b"), EndsWith(kRemedy));
     }
-    CHECK(parsed("a;b\n1;1,234\n").number(0, "b") == 1.234);
-    CHECK(parsed("a\tb\n1,5\t1,234\n").number(0, "b") == 1.234);
+    // Another number shows the sign, or thousands do not begin with 0.
+    CHECK(parsed("a;b\n1,5;1,234\n").number(0, "b") == 1.234);
+    CHECK(parsed("a\tb\n1\t1,234\n1,5\t2\n").number(0, "b") == 1.234);
+    CHECK(parsed("a;b\n-0,123;1,234\n").number(0, "b") == 1.234);
+    // A point is between thousands only where a comma is the decimal sign.
+    CHECK(parsed("a;b\n1;1.234\n").number(0, "b") == 1.234);
     // Names may look like numbers.
     CHECK(parsed("site;b\n12.5;1,5\n").cell(0, "site") == "12.5");
 }
