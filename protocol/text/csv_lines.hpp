@@ -14,9 +14,11 @@
 
 namespace a351::text {
 
-/// Remedy that ends refusals of a table that can be read in two ways, or in none.
+/// Remedy that ends refusals of a table that can be read in two ways, or in none.  With a decimal
+/// comma Excel writes semicolons also as CSV UTF-8.
 inline constexpr std::string_view kHowToSave =
-    "; in a spreadsheet: save as CSV UTF-8, separated by commas";
+    "; in a spreadsheet: set the decimal sign to a point, and save as CSV UTF-8, separated by "
+    "commas";
 
 class CsvLines {
 public:

@@ -17,7 +17,9 @@ using namespace a351::text;
 
 namespace {
 
-const std::string kRemedy = "; in a spreadsheet: save as CSV UTF-8, separated by commas";
+const std::string kRemedy =
+    "; in a spreadsheet: set the decimal sign to a point, and save as CSV UTF-8, separated by "
+    "commas";
 
 CsvTable parsed(std::string_view text) { return CsvTable::parse(text, "t.csv"); }
 
