@@ -44,6 +44,7 @@ SampleColumn::SampleColumn(const std::string& file, const std::string& column, M
       reader_(in_, file),
       column_(text::column_index(reader_.columns(), column, file)),
       time_column_(find_time(reader_.columns())) {
+    reader_.expect_numbers(column_);
     if (std::filesystem::is_regular_file(file)) byte_count_ = std::filesystem::file_size(file);
 }
 

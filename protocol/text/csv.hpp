@@ -13,7 +13,8 @@
 ///         if (site.empty()) table.refuse(row, "site", "empty", "a name");
 ///     }
 ///
-/// Columns may be in any order.  A column that no one asks for is not an error.
+/// Columns may be in any order.  A column that no one asks for is not an error.  It shows no decimal
+/// sign either, unless it is named with a unit, as altitude_m.
 
 #include <filesystem>
 #include <limits>

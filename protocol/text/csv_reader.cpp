@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "protocol/core/input_error.hpp"
@@ -14,9 +16,13 @@
 namespace a351::text {
 namespace {
 
-/// Returns true for the columns whose cells are names or words, also where they look like numbers.
-bool is_text_column(std::string_view name) {
-    return name == "site" || name == "note" || name == "instrument";
+/// Returns true for the columns that are named with a unit.  In others, names and words may look like
+/// numbers.
+bool is_number_column(std::string_view name) {
+    constexpr std::array<std::string_view, 7> kUnits{"deg", "degc", "g", "hpa", "m", "mgal", "s"};
+    const std::size_t mark = name.rfind('_');
+    return name == "time" || (mark != std::string_view::npos &&
+                              std::ranges::find(kUnits, name.substr(mark + 1)) != kUnits.end());
 }
 
 }  // namespace
@@ -37,6 +43,7 @@ CsvReader::CsvReader(std::istream& in, std::filesystem::path origin)
                         "for each column{}",
                         kHowToSave));
     columns_.assign(names.begin(), names.end());
+    std::ranges::transform(columns_, std::back_inserter(is_number_), is_number_column);
 }
 
 bool CsvReader::next() {
@@ -104,7 +111,7 @@ void CsvReader::note_decimal_signs() {
         return;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
         const std::string_view cell = lines_.cells()[i];
-        if (is_text_column(columns_[i]) || decimal_sign_.note(cell)) continue;
+        if (!is_number_[i] || decimal_sign_.note(cell)) continue;
         refuse_line(
             fmt::format("{} = {}: other numbers of this table have a decimal {}; allowed: "
                         "one sign in a table{}",

@@ -46,6 +46,10 @@ public:
     /// to find one.
     [[nodiscard]] const std::vector<std::string>& columns() const noexcept { return columns_; }
 
+    /// Takes a column as one of numbers, from the next row on: its numbers show the decimal sign of
+    /// the table.  Columns that are named with a unit, as altitude_m, are such columns already.
+    void expect_numbers(std::size_t column) { is_number_.at(column) = true; }
+
     /// Reads the next row; returns false at the end.
     /// @throws InputError  the row has another width than the header, or the file cannot be read.
     [[nodiscard]] bool next();
@@ -97,6 +101,7 @@ private:
     CsvLines lines_;
     std::filesystem::path origin_;
     std::vector<std::string> columns_;
+    std::vector<bool> is_number_;  ///< For each column.
     DecimalSign decimal_sign_;
     std::size_t line_;
     std::vector<std::string_view> cells_;

@@ -113,8 +113,8 @@ TEST_CASE("a comma that may stand between thousands is refused unless other numb
         "t.csv:3: altitude_m = 1,234: other numbers of this table have a decimal point; allowed: "
         "one sign in a table" +
             kRemedy);
-    CHECK_THROWS_WITH(parsed("a;b\n36,2;1.234\n"),
-                      StartsWith("t.csv:2: b = 1.234: other numbers of this table have a decimal "
+    CHECK_THROWS_WITH(parsed("a_m;b_m\n36,2;1.234\n"),
+                      StartsWith("t.csv:2: b_m = 1.234: other numbers of this table have a decimal "
                                  "comma"));
     for (const char* text :
          {"a\tb\n1\t1,234\n", "a,b\n1,\"1,234\"\n", "a;b\n1;1,234\n", "a;b\n-12,345;-1,234\n",
@@ -124,13 +124,24 @@ TEST_CASE("a comma that may stand between thousands is refused unless other numb
         CHECK_THROWS_WITH((void)table.number(0, "b"), EndsWith(kRemedy));
     }
     // Another number shows the sign, or thousands do not begin with 0.
-    CHECK(parsed("a;b\n1,5;1,234\n").number(0, "b") == 1.234);
-    CHECK(parsed("a\tb\n1\t1,234\n1,5\t2\n").number(0, "b") == 1.234);
-    CHECK(parsed("a;b\n-0,123;1,234\n").number(0, "b") == 1.234);
+    CHECK(parsed("a_m;b\n1,5;1,234\n").number(0, "b") == 1.234);
+    CHECK(parsed("a_m\tb\n1\t1,234\n1,5\t2\n").number(0, "b") == 1.234);
+    CHECK(parsed("a_m;b\n-0,123;1,234\n").number(0, "b") == 1.234);
     // A point is between thousands only where a comma is the decimal sign.
     CHECK(parsed("a;b\n1;1.234\n").number(0, "b") == 1.234);
-    // Names may look like numbers.
-    CHECK(parsed("site;b\n12.5;1,5\n").cell(0, "site") == "12.5");
+}
+
+TEST_CASE("only columns that are named with a unit show the decimal sign of a table",
+          "[text][csv]") {
+    CHECK(parsed("site;b_m\n12.5;1,5\n").number(0, "b_m") == 1.5);
+    CHECK(parsed("version;b_m\n1.5;36,2\n").number(0, "b_m") == 36.2);
+    const auto table = parsed("wells;b_m\n5,5;1,234\n");
+    CHECK_THROWS_WITH((void)table.number(0, "b_m"), EndsWith(kRemedy));
+    std::istringstream in("a;b\n1,5;2\n1.5;2\n");
+    CsvReader reader(in, "t.csv");
+    reader.expect_numbers(0);
+    CHECK(reader.next());
+    CHECK_THROWS_WITH(reader.next(), StartsWith("t.csv:3: a = 1.5: other numbers"));
 }
 
 TEST_CASE("an empty row within a record is a missing sample, at its end it is nothing",
