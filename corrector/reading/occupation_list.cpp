@@ -9,7 +9,6 @@
 #include "protocol/events/occupations.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
-#include "protocol/text/plain_text.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -173,9 +172,7 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
             // The samples of a set-up that was begun just now are not in the journal yet.
             if (is_last && running_until && set_up.end <= set_up.start) continue;
             list.windows.push_back(
-                {{text::plain_text(occupation.site), occupation.number, occupation.key},
-                 set_up.start,
-                 set_up.end});
+                {{occupation.site, occupation.number, occupation.key}, set_up.start, set_up.end});
             list.windows.back().not_moved_until = occupation.not_moved_until;
         }
         if (list.windows.empty() || list.windows.back().key != occupation.key) continue;

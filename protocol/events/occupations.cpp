@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "protocol/text/plain_text.hpp"
+
 namespace a351::events {
 
 namespace {
@@ -18,6 +20,9 @@ std::string detail(const Event& event, const std::string& key) {
     const auto found = event.details.find(key);
     return found == event.details.end() ? std::string() : found->second;
 }
+
+/// Returns the name of the site in the form of the list of sites, so that stays are counted right.
+std::string site_of(const Event& event) { return text::plain_text(detail(event, "site")); }
 
 void add_text(std::string& notes, const std::string& text) {
     if (text.empty()) return;
@@ -99,7 +104,7 @@ void OccupationReplay::apply(const Event& event) {
     }
     if (event.type == "setup") running_->set_ups.push_back(event.utc);
     if (event.type == "stop") {
-        const std::string site = detail(event, "site");
+        const std::string site = site_of(event);
         if (!site.empty() && site != running_->site)
             add_text(running_->note, "its stop names " + site);
         add_note(running_->note, event);
@@ -119,9 +124,10 @@ void OccupationReplay::start(const Event& event) {
     std::string key = detail(event, kKey);
     if (key.empty() || keys_.contains(key)) key = key_for(event.utc);
     keys_.insert(key);
-    running_ = RunningOccupation{
-        key,         detail(event, "site"),     1, event.utc, {event.utc}, event.session,
-        event.index, detail(event, "operator"), ""};
+    running_ =
+        RunningOccupation{key,         site_of(event), 1,           event.utc,
+                          {event.utc}, event.session,  event.index, detail(event, "operator"),
+                          ""};
     add_note(running_->note, event);
     running_->planned_set_ups = parse_planned_set_ups(detail(event, "set_ups"));
 }
@@ -153,7 +159,7 @@ RunningOccupation* OccupationReplay::stay_of(const Event& event) {
 void OccupationReplay::rename(const Event& event) {
     RunningOccupation* const stay = stay_of(event);
     if (!stay) return;
-    stay->site = detail(event, "site");
+    stay->site = site_of(event);
     add_note(stay->note, event);
 }
 

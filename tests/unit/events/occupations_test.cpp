@@ -52,6 +52,13 @@ TEST_CASE("occupations are numbered per site in time order", "[record][occupatio
           Lines{"A#1 09:00-09:10", "A#2 10:00-10:10", "B#1 11:00-11:10", "A#3 12:00-12:10"});
 }
 
+TEST_CASE("a site is counted as one in all forms of its characters", "[record][occupations]") {
+    Event rename{"rename", at("2026-03-01T09:50:00Z"), {}, {}, {{"site", "Cafe\u0301"}}};
+    CHECK(shown({start("09:00", "Caf\u00E9"), stop("09:10"), start("09:20", "Cafe\u0301"),
+                 stop("09:30"), start("09:40", "B"), rename, stop("10:00")}) ==
+          Lines{"Caf\u00E9#1 09:00-09:10", "Caf\u00E9#2 09:20-09:30", "Caf\u00E9#3 09:40-10:00"});
+}
+
 TEST_CASE("a start while another occupation is running ends that occupation",
           "[record][occupations]") {
     CHECK(shown({start("09:00", "A"), start("09:30", "B"), stop("09:40")}) ==
