@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <system_error>
-#include <unordered_set>
+#include <unordered_map>
 #include <utility>
 
 namespace a351::events {
@@ -42,25 +42,34 @@ void take_back(files::FileLayer& files, const fs::path& file, std::uint64_t size
     }
 }
 
-/// Finds the lines that a merged copy of a data root has twice.
+bool is_unique(const Event& event) {
+    return event.type == "start" || event.type == "stop" || event.type == "setup";
+}
+
+/// Returns which lines of a month a merged copy of a data root has again.
 ///
 /// The recorder never logs two equal starts, stops or set-ups.  Equal changes of a stay are possible,
-/// as discard, restore, discard without a sensor: such a line counts as repeated only directly after
-/// another one.
-class RepeatedLines {
-public:
-    /// Returns true if the line is a repeated one.
-    [[nodiscard]] bool take(const std::string& line, const std::string& type) {
-        const bool is_known = !seen_.insert(line).second;
-        const bool is_unique = type == "start" || type == "stop" || type == "setup";
-        is_within_copy_ = is_known && (is_unique || is_within_copy_);
-        return is_within_copy_;
+/// as discard, restore, discard without a sensor: such a line counts as repeated only in a sequence
+/// of repeated lines that has a start, stop or set-up.
+std::vector<bool> find_repeated(const std::vector<std::string>& lines,
+                                const std::vector<std::optional<Event>>& events) {
+    std::vector<bool> is_repeated(lines.size());
+    std::unordered_map<std::string_view, std::size_t> first;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (!events[i] || !is_unique(*events[i]) || is_repeated[i]) continue;
+        const auto [original, is_new] = first.emplace(lines[i], i);
+        if (is_new) continue;
+        const std::size_t distance = i - original->second;
+        const auto repeats = [&](std::size_t at) {
+            return at >= distance && at < lines.size() && !is_repeated[at] &&
+                   !is_repeated[at - distance] && lines[at] == lines[at - distance];
+        };
+        std::size_t begin = i;
+        while (begin > 0 && repeats(begin - 1)) --begin;
+        for (std::size_t at = begin; at <= i || repeats(at); ++at) is_repeated[at] = true;
     }
-
-private:
-    std::unordered_set<std::string> seen_;
-    bool is_within_copy_ = false;
-};
+    return is_repeated;
+}
 
 }  // namespace
 
@@ -136,13 +145,14 @@ EventLog read_events(const fs::path& directory) {
     for (const auto& month : months) {
         std::ifstream in(month, std::ios::binary);
         if (!in) throw std::system_error(errno, std::generic_category(), "open " + month.string());
-        std::string line;
-        RepeatedLines repeated;
-        for (std::size_t number = 1; std::getline(in, line); ++number) {
-            auto event = parse_event(line);
-            if (event && repeated.take(line, event->type)) continue;
-            if (event) log.events.push_back(std::move(*event));
-            if (!event) log.damage.push_back({month, number});
+        std::vector<std::string> lines;
+        std::vector<std::optional<Event>> events;
+        for (std::string line; std::getline(in, line); lines.push_back(std::move(line)))
+            events.push_back(parse_event(line));
+        const std::vector<bool> is_repeated = find_repeated(lines, events);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (!events[i]) log.damage.push_back({month, i + 1});
+            if (events[i] && !is_repeated[i]) log.events.push_back(std::move(*events[i]));
         }
     }
     return log;

@@ -97,6 +97,11 @@ TEST_CASE("lines that a merged copy has twice count once", "[record][event_log]"
     CHECK(types(morning) == expected);
     CHECK(types(morning + morning) == expected);
     CHECK(types(morning + morning + line("start", "20")) == expected + "start ");
+    // Changes before the first start, of a stay of the month before.
+    const std::string change = line("discard", "00") + line("start", "00") + line("restore", "00");
+    CHECK(types(change + change + change) == "discard start restore ");
+    CHECK(types(change + line("discard", "00")) == "discard start restore discard ");
+    CHECK(types(change + change + line("discard", "00")) == "discard start restore discard ");
     CHECK(types(line("start", "00") + line("start", "00") + line("start", "01")) == "start start ");
 }
 
