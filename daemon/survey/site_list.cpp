@@ -59,6 +59,9 @@ std::string row_of(const text::Site& site, const std::string& list,
     for (const std::string& column : reader.columns()) {
         row.push_back(cells[column]);
         if (has_commas && column != "site") std::ranges::replace(row.back(), '.', ',');
+        // A quotation mark is in no name of a site.
+        if (row.back().find(reader.separator()) != std::string::npos)
+            row.back() = '"' + row.back() + '"';
     }
     return fmt::format("{}", fmt::join(row, std::string(1, reader.separator())));
 }

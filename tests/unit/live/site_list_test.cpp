@@ -57,6 +57,12 @@ TEST_CASE("the row has the separator and the decimal sign of its list", "[sites]
     List list(old);
     CHECK(list.append(new_site("B.2")).size() == 2);
     CHECK(list.content() == old + "B.2;140,125;36,25;;\n");
+    const std::string quoted = kHeader + "A,140,\"36,2\",10,\n";
+    List commas(quoted);
+    CHECK(commas.append(new_site("B;2")).size() == 2);
+    CHECK(commas.content() == quoted + "B;2,\"140,125\",\"36,25\",,\n");
+    List semicolons("site;longitude_deg;latitude_deg;altitude_m;gravity_mgal\nA;140;36;10;\n");
+    CHECK(semicolons.append(new_site("B;2")).back().name == "B;2");
     List wide(std::string("\xFF\xFEs\0", 4));
     CHECK_THROWS_AS(wide.append(new_site("B")), InputError);
 }
