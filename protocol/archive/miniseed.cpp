@@ -135,10 +135,13 @@ bool is_start_time(std::span<const std::byte> bytes) {
     const auto day = get<std::uint16_t>(bytes, kDayOfYearAt);
     const bool is_leap = std::chrono::year(year).is_leap();
     const auto microseconds = get<std::int8_t>(bytes, kBlockette1001At + 5);
-    return year >= 1900 && year <= 2200 && day >= 1 && day <= (is_leap ? 366 : 365) &&
-           get<std::uint8_t>(bytes, kHourAt) < 24 && get<std::uint8_t>(bytes, kHourAt + 1) < 60 &&
-           // Other recorders write 60 in a leap second; the sample is then at the next minute.
-           get<std::uint8_t>(bytes, kHourAt + 2) <= 60 &&
+    const auto hour = get<std::uint8_t>(bytes, kHourAt);
+    const auto minute = get<std::uint8_t>(bytes, kHourAt + 1);
+    const auto second = get<std::uint8_t>(bytes, kHourAt + 2);
+    return year >= 1900 && year <= 2200 && day >= 1 && day <= (is_leap ? 366 : 365) && hour < 24 &&
+           minute < 60 &&
+           // Other recorders write 23:59:60 in a leap second; the sample is then at midnight.
+           second < (hour == 23 && minute == 59 ? 61 : 60) &&
            get<std::uint16_t>(bytes, kFractionAt) < 10'000 && microseconds >= -50 &&
            microseconds < 50;
 }
