@@ -33,8 +33,8 @@ namespace a351::station {
 /// Returns the instant in an attribute of a node; std::nullopt if the node does not have it or it
 /// is empty.
 /// @param file       named in the message of an error; it is not read.
-/// @param attribute  "startDate" or "endDate"; its text is RFC 3339, in UTC without a zone.  A year
-///                   after 2261 means that there is no date.
+/// @param attribute  "startDate" or "endDate"; its text is RFC 3339, in UTC without a zone.  An
+///                   endDate after 2261 means that there is none.
 /// @throws InputError  the attribute is not an instant.
 [[nodiscard]] std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node node,
                                              const char* attribute);

@@ -149,7 +149,9 @@ std::optional<UtcTime> date_of(const std::filesystem::path& file, pugi::xml_node
     int year = 0;
     constexpr int kLastYear = 2261;
     const auto end_of_year = std::from_chars(text.data(), text.data() + text.size(), year).ptr;
-    if (text.empty() || (*end_of_year == '-' && year > kLastYear)) return std::nullopt;
+    const bool is_open =
+        std::string_view(attribute) == "endDate" && *end_of_year == '-' && year > kLastYear;
+    if (text.empty() || is_open) return std::nullopt;
     // Dates of StationXML (xs:dateTime) are UTC if they have no zone.
     const auto date = parse_rfc3339_in_zone(text, std::chrono::minutes(0));
     if (!date) {

@@ -188,6 +188,7 @@ TEST_CASE("metadata that cannot be used are refused with the file's name",
         std::string(), std::string("no xml"), std::string("<a/>"), whole.substr(0, 2000),
         replaced(whole, "<Value>1710799", "<Value>x"), replaced(whole, "<Value>1", "<Value>-1"),
         replaced(whole, "code=\"BN1\"", "code=\"LK9\""),
+        replaced(whole, "locationCode=\"00\" startDate=\"2026", "startDate=\"20260"),
         replaced(whole, "locationCode=\"00\" startDate=\"2026", "startDate=\"x"),
         replaced(whole, "<Name>m/s**2</Name>", "<Name/>"),
         replaced(whole, "<Coefficient number=\"1\">34.987</Coefficient>", ""));
