@@ -31,6 +31,7 @@ public:
         line = trimmed(line);
         if (line.empty()) return Comment{};
         if (line.front() == '/') return header_line(trimmed(line.substr(1)));
+        is_in_names_ = false;
         if (layout_.places.empty()) choose_layout();
         return reading_line(line);
     }
@@ -42,15 +43,16 @@ public:
 
 private:
     Line header_line(std::string_view line) {
-        if (line == kTitle) {
-            layout_ = {};
-            names_.clear();
-        }
+        if (line == kTitle) *this = Cg6ExportLines();
         if (is_in_names_ && !line.empty()) {
             names_.emplace_back(line);
             return Comment{};
         }
         is_in_names_ = line == "Column Headers:";
+        if (is_in_names_) {
+            layout_ = {};
+            names_.clear();
+        }
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos) return Comment{};
         const std::string_view key = line.substr(0, colon), value = trimmed(line.substr(colon + 1));
@@ -83,7 +85,7 @@ private:
             layout_ = usual_layout(Form::cg6_lynx, usual);
         } else if (layout_ = named_layout(Form::cg6_lynx, names);
                    !layout_.trouble.empty() && is_in_usual_order(names, usual)) {
-            // Its names are not published: those that are known vouch for the others.
+            // Its names are not published: those of what is computed vouch for the others.
             layout_ = usual_layout(Form::cg6_lynx, usual);
             layout_.description = fmt::format("{} columns, by their order", names.size());
         }
@@ -92,27 +94,31 @@ private:
     static bool is_in_usual_order(const std::vector<std::string_view>& names,
                                   const std::vector<std::string_view>& usual) {
         if (names.size() != usual.size()) return false;
+        const auto places = usual_layout(Form::cg6_lynx, usual).places;
         for (std::size_t i = 0; i < names.size(); ++i)
-            if (const auto found = std::ranges::find(usual, names[i]);
-                found != usual.end() && *found != usual[i])
+            if (names[i] != usual[i] && (places[i].column->is_required ||
+                                         std::ranges::find(usual, names[i]) != usual.end()))
                 return false;
         return true;
     }
 
-    /// Returns the cells.  Those of a Lynx LG are between single blanks, and Occupation and Line can
-    /// be empty.
+    /// Returns the cells.  Those of a Lynx LG are between single blanks from Survey to Line, where
+    /// each can be empty; the cells before and after these four are padded numbers.
     [[nodiscard]] std::vector<std::string_view> split(std::string_view line) const {
         auto cells = split_at_blanks(line);
-        constexpr std::size_t kStation = 8;
-        if (!is_lynx_ || cells.size() >= layout_.places.size() ||
-            cells.size() + 2 < layout_.places.size())
+        const auto& places = layout_.places;
+        const auto first = std::ranges::find(places, "Survey", &Layout::Place::name);
+        constexpr std::ptrdiff_t kNames = 4;
+        const auto before = first - places.begin(), after = places.end() - first - kNames;
+        if (!is_lynx_ || before < 1 || after < 1 || std::ssize(cells) < before + after)
             return cells;
-        const std::string_view station = cells[kStation];
-        const auto end = static_cast<std::size_t>(station.data() + station.size() - line.data());
-        const bool is_occupation_empty = line.substr(end).starts_with("  ");
-        if (is_occupation_empty) cells.insert(cells.begin() + kStation + 1, std::string_view());
-        if (cells.size() < layout_.places.size())
-            cells.insert(cells.begin() + kStation + 2, std::string_view());
+        const std::string_view last_before = *(cells.begin() + before - 1);
+        const char* const begin = last_before.data() + last_before.size() + 1;
+        const char* const end = (cells.end() - after)->data() - 1;
+        const auto names = end < begin ? std::vector<std::string_view>()
+                                       : split_at(std::string_view(begin, end), ' ');
+        cells.erase(cells.begin() + before, cells.end() - after);
+        cells.insert(cells.begin() + before, names.begin(), names.end());
         return cells;
     }
 
@@ -120,7 +126,13 @@ private:
         if (!layout_.trouble.empty()) return Refusal{layout_.trouble};
         if (instrument_.empty() || !has_tide_)
             return Refusal{"no header with Meter and Tidal Correction before it"};
-        const Fields fields(layout_, split(line));
+        const auto cells = split(line);
+        if (is_lynx_ && cells.size() != layout_.places.size())
+            return Refusal{fmt::format(
+                "{} columns; allowed: {}, between single blanks from Survey to Line, so that no "
+                "name has a blank in it",
+                cells.size(), layout_.places.size())};
+        const Fields fields(layout_, cells);
         if (!fields.trouble().empty()) return Refusal{fields.trouble()};
         const auto time = time_of(fields);
         if (!time) return Refusal{"Year to MilliSec: not an instant"};
