@@ -36,6 +36,7 @@ figcaption { font-size: .85em; color: #333; }
 .first { display: flex; flex-wrap: wrap; gap: 0 1.5em; align-items: flex-start; }
 .first figure { flex: 1 1 24em; min-width: 0; margin: .4em 0; }
 .first figure.table { flex: 0 1 30em; display: flex; flex-direction: column-reverse; }
+.first .small { flex: 1 1 24em; grid-template-columns: 1fr; }
 .small { display: grid; grid-template-columns: 1fr 1fr; gap: 0 1em; }
 .small figure { margin: .5em 0; }
 code { font-size: .95em; }
