@@ -5,6 +5,7 @@
 
 #include "corrector/gravimeter/fields.hpp"
 #include "corrector/gravimeter/line_readers.hpp"
+#include "protocol/text/csv_reader.hpp"
 
 namespace a351::corrector::gravimeter {
 namespace {
@@ -45,14 +46,51 @@ std::vector<std::string_view> split(std::string_view line) {
 bool is_names(const std::vector<std::string_view>& cells) {
     constexpr std::array<std::string_view, 5> kSeveral{"Serial Number", "Date", "Time", "ObsG",
                                                        "Dial"};
-    const auto known = std::ranges::count_if(kSeveral, [&](std::string_view name) {
-        return std::ranges::find(cells, name) != cells.end();
-    });
-    return cells.front().starts_with("Station") && known >= 3;
+    return std::ranges::count_if(kSeveral, [&](std::string_view name) {
+               return std::ranges::find(cells, name) != cells.end();
+           }) >= 3;
+}
+
+/// Joins the cells of a note that has separators in it.
+void join_note(std::vector<std::string_view>& cells, std::string_view line, const Layout& layout) {
+    const std::size_t last = layout.places.size() - 1;
+    if (cells.size() <= last + 1 || layout.places[last].column->field != "note") return;
+    cells[last] = line.substr(static_cast<std::size_t>(cells[last].data() - line.data()));
+    cells.resize(last + 1);
+}
+
+/// Returns true for a line that has the usual columns of a reading.
+bool is_reading(std::string_view line) {
+    auto cells = split(line);
+    const Layout& layout = layout_of_width(cells.size());
+    if (layout.places.empty()) return false;
+    join_note(cells, line, layout);
+    Fields fields(layout, cells);
+    (void)fields.time({}, true);
+    return fields.trouble().empty();
+}
+
+/// Returns true if the dates of a file with the year last prove that the month is first: the second
+/// number exceeds 12 somewhere and the first one nowhere.
+bool is_month_first(std::string_view text) {
+    bool is_proven = false;
+    for (const std::string_view line : split_at(text, '\n')) {
+        for (const std::string_view cell : split(line)) {
+            const auto day = parse_day(cell);
+            if (!day || !day->has_year_last) continue;
+            const auto parts = split_at(day->iso, '-');
+            constexpr std::string_view kMonths = "12";
+            if (parts[1] > kMonths) return false;
+            is_proven = is_proven || parts[2] > kMonths;
+        }
+    }
+    return is_proven;
 }
 
 class BurrisLines : public LineReader {
 public:
+    void look_at(std::string_view text) override { is_month_first_ = is_month_first(text); }
+
     Line read(std::string_view line) override {
         line = trimmed(line);
         if (line.empty()) return Comment{};
@@ -69,31 +107,29 @@ public:
             return Refusal{fmt::format("{} columns; allowed: 15, 16 or 20", cells.size())};
         join_note(cells, line, layout);
         Fields fields(layout, cells);
-        const UtcTime time = fields.time({}, true);
+        const UtcTime time = fields.time({}, is_month_first_);
         if (!fields.trouble().empty()) return Refusal{fields.trouble()};
+        if (const auto observer = fields.text("observer");
+            text::parse_number(observer) && line.find_first_of(",\t") == std::string_view::npos)
+            return Refusal{fmt::format(
+                "Observer ID = {}: a number, which can be the second word of the station; allowed: "
+                "columns between commas or tabs",
+                observer)};
         layout_ = layout;
-        is_month_first_ = is_month_first_ || parse_day(fields.text("date"))->is_month_first;
+        has_year_last_ = has_year_last_ || parse_day(fields.text("date"))->has_year_last;
         Reading reading = fields.reading();
         reading.time = time;
         return reading;
     }
 
     [[nodiscard]] std::string layout() const override {
-        return layout_.description + (is_month_first_ ? ", dates read as month/day/year" : "");
+        return layout_.description + (has_year_last_ ? ", dates read as month/day/year" : "");
     }
 
 private:
-    /// Joins the cells of a note that has separators in it.
-    static void join_note(std::vector<std::string_view>& cells, std::string_view line,
-                          const Layout& layout) {
-        const std::size_t last = layout.places.size() - 1;
-        if (cells.size() <= last + 1 || layout.places[last].column->field != "note") return;
-        cells[last] = line.substr(static_cast<std::size_t>(cells[last].data() - line.data()));
-        cells.resize(last + 1);
-    }
-
     Layout layout_;
-    bool is_month_first_ = false;
+    bool is_month_first_ = false;  ///< In dates with the year last.
+    bool has_year_last_ = false;   ///< In a reading.
 };
 
 }  // namespace
@@ -102,8 +138,7 @@ Format burris_format() {
     return {"ZLS Burris", "15, 16 or 20 columns",
             [](std::string_view line) {
                 return !trimmed(line).empty() &&
-                       (is_names(split(trimmed(line))) ||
-                        std::holds_alternative<Reading>(BurrisLines().read(line)));
+                       (is_names(split(trimmed(line))) || is_reading(trimmed(line)));
             },
             [](const ReadOptions&) -> std::unique_ptr<LineReader> {
                 return std::make_unique<BurrisLines>();

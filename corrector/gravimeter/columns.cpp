@@ -148,8 +148,9 @@ std::vector<Column> table() {
         kept("air_temperature_degc", {{gcym, "air temperature"}}),
         kept_text("note", {{burris, "Note"}}),
 
-        unused("", CellType::text,
-               {{cg6_lynx, "Survey"}, {burris, "Observer ID"}, {gcym, "network"}}),
+        unused("", CellType::text, {{cg6_lynx, "Survey"}}),
+        unused("observer", CellType::text, {{burris, "Observer ID"}}),
+        unused("network", CellType::text, {{gcym, "network"}}),
         unused("", CellType::number, {{cg5, "DEC.TIME+DATE"}}),
         unused("", CellType::number, {{cg6, "RawGrav"}, {cg6_tsoft, "RawGravity(mGals)"}}),
         unused("", CellType::number, {{cg6_tsoft, "Battery1"}}),

@@ -55,10 +55,10 @@ std::optional<Day> parse_day(std::string_view text) {
     const auto two = [](std::string_view part) {
         return part.size() == 1 ? "0" + std::string(part) : std::string(part);
     };
-    const bool is_month_first = parts[2].size() == 4;
-    const auto& [year, month, day] = is_month_first ? std::tuple(parts[2], parts[0], parts[1])
-                                                    : std::tuple(parts[0], parts[1], parts[2]);
-    return Day{std::string(year) + "-" + two(month) + "-" + two(day), is_month_first};
+    const bool has_year_last = parts[2].size() == 4;
+    const auto& [year, month, day] = has_year_last ? std::tuple(parts[2], parts[0], parts[1])
+                                                   : std::tuple(parts[0], parts[1], parts[2]);
+    return Day{std::string(year) + "-" + two(month) + "-" + two(day), has_year_last};
 }
 
 Fields::Fields(const Layout& layout, const std::vector<std::string_view>& cells) {
@@ -138,7 +138,7 @@ UtcTime Fields::time(std::chrono::minutes utc_minus_local, bool allows_month_fir
     const Cell *const date = find("date"), *const clock = find("time");
     if (date == nullptr || clock == nullptr) return {};
     auto day = parse_day(date->text);
-    const bool is_doubtful = day && day->is_month_first && !allows_month_first;
+    const bool is_doubtful = day && day->has_year_last && !allows_month_first;
     if (is_doubtful) day.reset();
     const bool is_short_hour = clock->text.find(':') == 1;
     if (const auto parsed = parse_rfc3339_in_zone(

@@ -28,7 +28,7 @@ namespace a351::corrector::gravimeter {
 /// A day: YYYY/MM/DD or YYYY-MM-DD, or with the year last MM/DD/YYYY.
 struct Day {
     std::string iso;  ///< YYYY-MM-DD.
-    bool is_month_first = false;
+    bool has_year_last = false;
 };
 [[nodiscard]] std::optional<Day> parse_day(std::string_view text);
 

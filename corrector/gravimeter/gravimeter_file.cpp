@@ -61,6 +61,7 @@ GravimeterFile read_gravimeter_file(const std::filesystem::path& path, const Rea
             "{}: a {} does not say the zone of its times; allowed: --zone +hh:mm, for example "
             "--zone +08:00 for Beijing time",
             path.string(), format.name));
+    reader->look_at(text);
     for (std::size_t number = 1; !text.empty(); ++number) {
         // 99999 is the end of a GCYM table, so that nothing of it can be missing.
         const bool is_cut = text.find('\n') == std::string_view::npos && trimmed(text) != "99999";

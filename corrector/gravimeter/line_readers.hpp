@@ -30,6 +30,8 @@ using Line = std::variant<Comment, Reading, Refusal>;
 class LineReader {
 public:
     virtual ~LineReader() = default;
+    /// Takes the whole text before its lines, for what only all of them together prove.
+    virtual void look_at(std::string_view /*text*/) {}
     [[nodiscard]] virtual Line read(std::string_view line) = 0;
     /// Returns which layout the last reading had, for people.
     [[nodiscard]] virtual std::string layout() const = 0;

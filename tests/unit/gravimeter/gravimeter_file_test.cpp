@@ -4,6 +4,8 @@
 
 #include "tests/support/catch.hpp"
 
+#include <fmt/core.h>
+
 #include "protocol/core/input_error.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"
@@ -81,7 +83,7 @@ TEST_CASE("a Burris is read with blanks or commas", "[gravimeter]") {
     CHECK(kept(file.readings[0], "tilt_correction_mgal") == "0.005");
 }
 
-TEST_CASE("a Burris is read with 15 columns, with a note, and with the month first",
+TEST_CASE("a Burris is read with 15 columns, with a note, and with quoted or empty cells",
           "[gravimeter]") {
     const auto [line, layout] = GENERATE(table<std::string, std::string>({
         {"a B44 2017/12/05 10:00:00 2769.695 2800 0.482 -0.103 0.005 -0.033 -0.002 0.1 1600 35.1 "
@@ -97,9 +99,9 @@ TEST_CASE("a Burris is read with 15 columns, with a note, and with the month fir
          "05,10:00:00,2769.695,2800,0.482,-0.103,0.005,-0.033,-0.002,0.1,"
          "1600,35.1,-106.6",
          "16 columns in the usual order, without a line of names"},
-        {"a\t\tB44\t12/5/2017\t10:00:00\t2769.695\t2800\t0.482\t-0.103\t0.005\t-0.033\t-0.002\t"
+        {"a\t\tB44\t2017/12/5\t10:00:00\t2769.695\t2800\t0.482\t-0.103\t0.005\t-0.033\t-0.002\t"
          "0.1\t1600\t35.1\t-106.6",
-         "16 columns in the usual order, without a line of names, dates read as month/day/year"},
+         "16 columns in the usual order, without a line of names"},
     }));
     const auto file = read(line + "\n" + line + "\n");
     CHECK(file.layout == layout);
@@ -108,6 +110,43 @@ TEST_CASE("a Burris is read with 15 columns, with a note, and with the month fir
     CHECK(file.readings[0].value == MilliGal(2769.695));
     CHECK(file.readings[0].position->longitude == Degrees(-106.6));
     CHECK(to_rfc3339(file.readings[0].time) == "2017-12-05T10:00:00Z");
+}
+
+TEST_CASE("a Burris with the year last is read if a day above 12 proves that the month is first",
+          "[gravimeter]") {
+    const auto dated = [](const std::string& date) {
+        std::string line = burris_reading("a", "10:00:00");
+        return line.replace(line.find("2017/12/05"), 10, date);
+    };
+    const auto file = read(dated("05/12/2017") + dated("5/13/2017"));
+    REQUIRE(file.readings.size() == 2);
+    CHECK(to_rfc3339(file.readings[0].time) == "2017-05-12T10:00:00Z");
+    CHECK_THAT(file.layout, ContainsSubstring("dates read as month/day/year"));
+    CHECK_THROWS_WITH(read(dated("05/12/2017") + dated("06/12/2017")),
+                      ContainsSubstring("month and day can be either"));
+    CHECK_THROWS_WITH(read(dated("05/12/2017") + dated("13/12/2017")),
+                      ContainsSubstring("month and day can be either"));
+}
+
+TEST_CASE(
+    "a Burris between blanks whose observer is a number is refused, because a station can "
+    "have a blank",
+    "[gravimeter]") {
+    std::string line = burris_reading("BM", "10:00:00");
+    line.replace(line.find("abc"), 3, "1");
+    CHECK_THROWS_WITH(read(line + line), ContainsSubstring("Observer ID = 1: a number"));
+    for (char& letter : line)
+        if (letter == ' ') letter = ',';
+    CHECK(read(line).readings.front().site == "BM");
+}
+
+TEST_CASE("a Burris is read by the names of its columns if the station is not the first",
+          "[gravimeter]") {
+    const auto file = read(
+        "Observer ID,Station ID,Serial Number,Date,Time,ObsG,Dial,Earthtide Correction\n"
+        "me,P1,B44,2017/12/05,10:00:00,2769.695,2800,-0.103\n");
+    CHECK(file.refused.empty());
+    CHECK(file.readings.front().site == "P1");
 }
 
 TEST_CASE("a line of names with columns that nobody knows is refused with their names",
@@ -129,7 +168,8 @@ TEST_CASE("a line of names with columns that nobody knows is refused with their 
     try {
         file = read(content);
     } catch (const InputError& error) {  // the Burris has no other line
-        CHECK_THAT(error.what(), ContainsSubstring("no reading"));
+        CHECK_THAT(error.what(), ContainsSubstring("no reading") &&
+                                     ContainsSubstring(fmt::format(":{}: {}", line, reason)));
         return;
     }
     CHECK(file.readings.size() == 1);
