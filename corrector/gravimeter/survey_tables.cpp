@@ -31,7 +31,7 @@ std::string safe_cell(std::string_view text) {
     const bool is_utf8 = text::is_utf8(text);
     for (char& letter : safe) {
         if (letter == ',') letter = ';';
-        const bool is_ascii = letter >= 0;
+        const bool is_ascii = static_cast<unsigned char>(letter) < 0x80;  // char can be unsigned
         if (is_ascii ? letter < ' ' || letter > '~' : !is_utf8) letter = '?';
     }
     return safe;

@@ -70,7 +70,7 @@ std::string bare(std::string_view name) {
     std::string text;
     for (const char c : name) {
         const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-        const bool is_ascii = c >= 0;
+        const bool is_ascii = static_cast<unsigned char>(c) < 0x80;  // char can be unsigned
         if (!is_ascii || is_letter || (c >= '0' && c <= '9'))
             text += is_letter ? static_cast<char>(c | 0x20) : c;
     }

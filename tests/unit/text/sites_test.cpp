@@ -119,13 +119,14 @@ TEST_CASE("altitudes reach from the deepest mine to the highest mountain", "[tex
 }
 
 TEST_CASE("a mistyped name is recognised if only one site is like it", "[text][sites]") {
-    std::vector<Site> sites(4);
+    std::vector<Site> sites(5);
     sites[0].name = "No.6";
     sites[1].name = "No.60";
     sites[2].name = "BM-A";
     sites[3].name = "bm a";
+    sites[4].name = "PÄ";
     for (const char* name : {"no.6", "NO 6", "no6", "No.6."})
         CHECK(similar_site(sites, name) == &sites[0]);
-    for (const char* name : {"No.7", "", "...", "bma", "No"})
+    for (const char* name : {"No.7", "", "...", "bma", "No", "PÖ"})
         CHECK(similar_site(sites, name) == nullptr);
 }
