@@ -23,7 +23,8 @@ double tide_difference_mgal(const Reading& reading, const TideOf& tide_of,
 }
 
 /// Returns what would make the tides agree; empty if nothing that is tried does, or too much.
-text::Message tide_hint(const Readings& readings, const TideOf& tide_of) {
+/// @param worst  the reading that differs most.
+text::Message tide_hint(const Readings& readings, const Reading& worst, const TideOf& tide_of) {
     // A tide that hardly varies fits some other time of the day anyway.
     constexpr double kLeastRange_mgal = 5.0 * kGreatestTideDifference_mgal;
     const auto [least, greatest] = std::ranges::minmax_element(
@@ -35,10 +36,14 @@ text::Message tide_hint(const Readings& readings, const TideOf& tide_of) {
     constexpr std::size_t kMost = 100;
     const std::size_t step = readings.size() / kMost + 1;
     const auto fits = [&](std::chrono::minutes shift, double latitude_sign, double longitude_sign) {
+        const auto does_fit = [&](const Reading& reading) {
+            return std::abs(tide_difference_mgal(reading, tide_of, shift, latitude_sign,
+                                                 longitude_sign)) <= kGreatestTideDifference_mgal;
+        };
+        // It differs without a shift, so that no shift of 0 fits.
+        if (!does_fit(worst)) return false;
         for (std::size_t i = 0; i < readings.size(); i += step)
-            if (std::abs(tide_difference_mgal(*readings[i], tide_of, shift, latitude_sign,
-                                              longitude_sign)) > kGreatestTideDifference_mgal)
-                return false;
+            if (!does_fit(*readings[i])) return false;
         return true;
     };
     constexpr std::chrono::minutes kStep{30}, kDay{24 * 60};
@@ -79,7 +84,7 @@ text::Message tide_remark(const GravimeterFile& file, const TideOf& tide_of) {
     return text::message(
         "the tide in the file is that of another time or place, by up to {:.3f} mGal (line "
         "{}){}: check {}. Times and positions are used as they are",
-        largest, worst->line, tide_hint(readings, tide_of),
+        largest, worst->line, tide_hint(readings, *worst, tide_of),
         file.format == "Scintrex CG-5" ? text::message("GMT DIFF., LONG and LAT")
                                        : text::message("the clock and the position"));
 }
