@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "corrector/gravimeter/fields.hpp"
 #include "corrector/gravimeter/line_readers.hpp"
+#include "protocol/text/echo.hpp"
 
 namespace a351::corrector::gravimeter {
 namespace {
+
+/// Network of all readings.  Source: the tables that geoist publishes.
+constexpr std::string_view kNetwork = "GCYM";
 
 /// Returns the instant of YYMMDDhhmm; the years are 1970 to 2069.
 std::optional<UtcTime> time_of(std::string_view text, std::chrono::minutes zone) {
@@ -27,10 +32,15 @@ public:
     Line read(std::string_view line) override {
         const auto cells = split_at_blanks(line);
         if (cells.size() == 1) return mark(cells[0]);
+        if (cells.empty()) return Comment{};
+        const bool is_first = std::exchange(is_first_, false);
         // The line of the operator and the vehicle.
-        if (cells.size() <= 2) return Comment{};
+        if (is_first && cells.size() == 2 && cells[1] != kNetwork) return Comment{};
         const Fields fields(layout_, cells);
         if (!fields.trouble().empty()) return Refusal{fields.trouble()};
+        if (cells[1] != kNetwork)
+            return Refusal{
+                fmt::format("network = {}: allowed: {}", text::echoed(cells[1]), kNetwork)};
         const auto time = time_of(fields.text("minute_of_time"), zone_);
         if (!time) return Refusal{fmt::format("YYMMDDhhmm = {}: not an instant", cells[2])};
         Reading reading = fields.reading();
@@ -58,6 +68,7 @@ private:
 
     std::chrono::minutes zone_;
     int loop_ = 1;
+    bool is_first_ = true;  ///< The next line is the first one that is not blank.
     Layout layout_ = usual_layout(Form::gcym, usual_names(Form::gcym));
 };
 

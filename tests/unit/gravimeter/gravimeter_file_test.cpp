@@ -385,6 +385,24 @@ TEST_CASE("a GCYM table is read in the zone that is given, and marks its loops",
     CHECK(stays[2].loop == 2);
 }
 
+TEST_CASE("a torn line of a GCYM table and another network are refused", "[gravimeter]") {
+    const test::TemporaryDirectory folder;
+    const std::string reading = "C098 GCYM 1508211134 13064422 4424.250 1000.0 29.0\n";
+    const auto refused = [&](const std::string& content) {
+        return read_gravimeter_file(folder.write("q", content + "99999\n"), {std::chrono::hours(8)})
+            .refused;
+    };
+    CHECK(refused("\nai CAR\n" + reading).empty());
+    for (const std::string& content :
+         {"ai CAR\n" + reading + "C098 GCYM\n", "C098 GCYM\n" + reading})
+        REQUIRE(refused(content).size() == 1);
+    CHECK(refused(reading + "C098 GCYM\n")[0].reason == "2 columns; allowed: 7");
+    std::string other = reading;
+    other.replace(other.find("GCYM"), 4, "GCYN");
+    REQUIRE(refused(reading + other).size() == 1);
+    CHECK(refused(reading + other)[0].reason == "network = GCYN: allowed: GCYM");
+}
+
 TEST_CASE("damaged and foreign lines are refused with number and reason, and the others are read",
           "[gravimeter]") {
     const auto [content, line, reason] = GENERATE(table<std::string, std::size_t, std::string>({
