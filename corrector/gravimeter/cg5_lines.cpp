@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +58,12 @@ public:
     [[nodiscard]] std::string layout() const override {
         return layout_.description +
                (is_by_note_ ? ", station from the first word of the line Note:" : "");
+    }
+
+    [[nodiscard]] std::string remark() const override {
+        return stations_.empty()
+                   ? ""
+                   : fmt::format("stations from notes: {}", fmt::join(stations_, ", "));
     }
 
 private:
@@ -153,6 +159,8 @@ private:
             return Refusal{fmt::format("Note = {}: {}", text::echoed(note_), trouble)};
         if (!*survey_.has_tide) reading.tide_correction.reset();
         are_options_used_ = true;
+        if (is_by_note_ && std::ranges::find(stations_, note_) == stations_.end())
+            stations_.push_back(note_);
         if (const auto altitude = fields.number("altitude_m");
             !is_by_note_ && altitude && survey_.latitude && survey_.longitude)
             reading.position = Position{*survey_.latitude, *survey_.longitude, Metres(*altitude)};
@@ -169,9 +177,10 @@ private:
     };
     Survey survey_;
     Layout layout_;
-    std::string note_;               ///< First word of the last line Note:.
-    bool is_by_note_ = false;        ///< It is the station.
-    bool are_options_used_ = false;  ///< By a reading.
+    std::string note_;                   ///< First word of the last line Note:.
+    std::vector<std::string> stations_;  ///< From notes, because any first word of them is one.
+    bool is_by_note_ = false;            ///< It is the station.
+    bool are_options_used_ = false;      ///< By a reading.
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "corrector/gravimeter/gravimeter_file.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -62,6 +62,7 @@ GravimeterFile read_gravimeter_file(const std::filesystem::path& path, const Rea
             "--zone +08:00 for Beijing time",
             path.string(), format.name));
     reader->look_at(text);
+    std::vector<std::string> layouts;
     for (std::size_t number = 1; !text.empty(); ++number) {
         // 99999 is the end of a GCYM table, so that nothing of it can be missing.
         const bool is_cut = text.find('\n') == std::string_view::npos && trimmed(text) != "99999";
@@ -72,11 +73,16 @@ GravimeterFile read_gravimeter_file(const std::filesystem::path& path, const Rea
         } else if (auto* const reading = std::get_if<Reading>(&line)) {
             reading->line = number;
             file.readings.push_back(std::move(*reading));
+            if (std::string layout = reader->layout();
+                std::ranges::find(layouts, layout) == layouts.end())
+                layouts.push_back(std::move(layout));
         } else {
             ++file.comment_count;
         }
     }
-    file.layout = reader->layout();
+    if (std::string remark = reader->remark(); !remark.empty())
+        layouts.push_back(std::move(remark));
+    file.layout = fmt::format("{}", fmt::join(layouts, "; "));
     if (file.readings.empty() && file.refused.empty())
         throw InputError(fmt::format("{}: no reading of a {}; allowed: at least one", path.string(),
                                      file.format));

@@ -61,7 +61,7 @@ struct RefusedLine {
 struct GravimeterFile {
     std::filesystem::path path;
     std::string format;                ///< Name of the instrument's make and type.
-    std::string layout;                ///< Columns that were found, for people.
+    std::string layout;                ///< Different columns that were found, for people.
     std::vector<Reading> readings;     ///< In the order of the file.
     std::size_t comment_count = 0;     ///< Headers, names of columns and blank lines.
     std::vector<RefusedLine> refused;  ///< In the order of the file.

@@ -35,6 +35,8 @@ public:
     [[nodiscard]] virtual Line read(std::string_view line) = 0;
     /// Returns which layout the last reading had, for people.
     [[nodiscard]] virtual std::string layout() const = 0;
+    /// Returns what a person should check in the whole file; empty if nothing.
+    [[nodiscard]] virtual std::string remark() const { return {}; }
 };
 
 /// A format: its name, the line by which it is known, and its reader.

@@ -197,6 +197,23 @@ TEST_CASE("a CG-5 without a line of names is known to begin with coordinates by 
                       ContainsSubstring("no header with Note, whose first word is the station"));
 }
 
+TEST_CASE("a CG-5 with stations in the notes lists them, and a file lists all its layouts",
+          "[gravimeter]") {
+    const std::string line = cg5_reading("1", "10:00:00"), header = cg5_header("0.0");
+    std::string at = line;
+    at.replace(0, at.find(" 12.5"), "-33.2 -70.6");
+    const std::string by_note =
+        header + "/\tNote: A 1\r\n" + at + "/\tNote: wind\r\n" + at + at + "/\tNote: A 1\r\n" + at;
+    const std::string found =
+        "15 columns in the usual order, without a line of names, LAT and LONG known from the "
+        "header, station from the first word of the line Note:";
+    const std::string list = "; stations from notes: A, wind";
+    CHECK(read(by_note).layout == found + list);
+    const std::string usual = "15 columns in the usual order, without a line of names";
+    CHECK(read(header + line + by_note + header + line).layout == usual + "; " + found + list);
+    CHECK(read(by_note + header + line).layout == found + "; " + usual + list);
+}
+
 TEST_CASE("a CG-5 can have its options before the survey, and lines switched off", "[gravimeter]") {
     std::string header = cg5_header("0.0");
     const std::string options = "/\tTide Correction:    YES\r\n";
