@@ -180,7 +180,7 @@ private:
     std::string note_;                   ///< First word of the last line Note:.
     std::vector<std::string> stations_;  ///< From notes, because any first word of them is one.
     bool is_by_note_ = false;            ///< It is the station.
-    bool are_options_used_ = false;      ///< By a reading.
+    bool are_options_used_ = false;      ///< A reading was made with the options.
 };
 
 }  // namespace

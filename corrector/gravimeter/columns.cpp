@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "protocol/text/echo.hpp"
+#include "protocol/text/sites.hpp"
 
 namespace a351::corrector::gravimeter {
 namespace {
@@ -94,7 +95,7 @@ std::vector<Column> table() {
                 {cg6_tsoft, "Longitude(DD)"},
                 {cg6_lynx, "Longitude(DD)"},
                 {burris, "Longitude"}}),
-        number("altitude_m", -500, 9000,
+        number("altitude_m", text::kLeastAltitude_m, text::kGreatestAltitude_m,
                {{cg5, "ALT."},
                 {cg6, "ElevUser"},
                 {cg6_tsoft, "Elevation(m)"},
@@ -104,7 +105,7 @@ std::vector<Column> table() {
                {{cg6, "LatGPS"}, {cg6_tsoft, "GPSLat(DD)"}, {cg6_lynx, "GPSLat(DD)"}}),
         number("receiver_longitude_deg", -180, 360,
                {{cg6, "LonGPS"}, {cg6_tsoft, "GPSLong(DD)"}, {cg6_lynx, "GPSLong(DD)"}}),
-        number("receiver_altitude_m", -500, 9000,
+        number("receiver_altitude_m", text::kLeastAltitude_m, text::kGreatestAltitude_m,
                {{cg6, "ElevGPS"}, {cg6_tsoft, "GPSOrthHgt(m)"}, {cg6_lynx, "GPSOrthHgt(m)"}}),
 
         kept("sd_mgal", {{cg5, "SD."},

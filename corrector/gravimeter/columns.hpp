@@ -44,7 +44,7 @@ struct Column {
 /// The columns of a line, in its order.
 struct Layout {
     struct Place {
-        std::string name;  ///< As the maker writes it, for messages.
+        std::string name;  ///< Name that the maker gives it; messages have it.
         const Column* column = nullptr;
         double factor = 1.0;
     };

@@ -24,10 +24,14 @@ Contradiction about(const reading::SurveyRow& row, std::string code, text::Messa
     return {std::move(code), row.site, row.occupation, row.key, std::move(text)};
 }
 
+/// Returns true for rows or contradictions of the same stay.
+bool is_same_stay(const auto& one, const reading::SurveyRow& other) {
+    return one.site == other.site && one.occupation == other.occupation;
+}
+
 bool is_named(const std::vector<Contradiction>& all, const reading::SurveyRow& row) {
-    return std::ranges::any_of(all, [&](const Contradiction& one) {
-        return one.site == row.site && one.occupation == row.occupation;
-    });
+    return std::ranges::any_of(all,
+                               [&](const Contradiction& one) { return is_same_stay(one, row); });
 }
 
 std::string size_of(double mgal) { return text::fixed(std::abs(mgal), 1); }
@@ -35,13 +39,8 @@ std::string size_of(double mgal) { return text::fixed(std::abs(mgal), 1); }
 text::Message off_reference(const reading::SurveyRow& row, double off_mgal) {
     return text::message(
         "{} ({}) differs from its reference by {} mGal: check its name and its reference, then "
-        "read "
-        "it again",
+        "read it again",
         row.site, row.occupation, size_of(off_mgal));
-}
-
-bool is_same_stay(const reading::SurveyRow& one, const reading::SurveyRow& other) {
-    return one.site == other.site && one.occupation == other.occupation;
 }
 
 /// Returns the only stay that shows a step; null if there are more or none.
@@ -129,7 +128,7 @@ double placement_without(const std::vector<Closure>& pairs, const Closure& judge
     double weight = kUsualWeight, sum = kUsualWeight * kUsualPlacement_mgal * kUsualPlacement_mgal;
     for (const Closure& pair : pairs) {
         const reading::SurveyRow& other = rows[pair.later].row;
-        if (other.site == stay.site && other.occupation == stay.occupation) continue;
+        if (is_same_stay(other, stay)) continue;
         sum += 0.5 * pair.after_all.value() * pair.after_all.value();
         ++weight;
     }

@@ -181,7 +181,7 @@ std::string noise_reading(const RecordResult& result) {
         const std::string value = text::fixed(unit * limits.value, digits);
         if (!levels.describes_record) return text::Message(value);
         if (std::isinf(limits.high))
-            return text::message("{} (at least {})", value, text::fixed(unit * limits.low, digits));
+            return text::message("{} (from {}, no upper limit)", value, text::fixed(unit * limits.low, digits));
         return text::message("{} ({} to {})", value, text::fixed(unit * limits.low, digits),
                              text::fixed(unit * limits.high, digits));
     };

@@ -22,7 +22,7 @@ namespace http = page::http;
 using page::error_code;
 using page::into;
 
-// Longest wait for the answer to a question.  After this time the operator is told that an order waits.
+// The longest wait for an answer.  Then the operator is told that the order waits.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::chrono::seconds kPatience{15};
 #else

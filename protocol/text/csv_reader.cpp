@@ -86,8 +86,7 @@ bool CsvReader::next_line() {
     return false;
 }
 
-/// Checks the width of a line.  A spreadsheet writes empty cells behind the last column where one
-/// was used once.
+/// Checks the number of cells of a line.  A spreadsheet can write empty cells after the last column.
 void CsvReader::check_width() const {
     const auto& cells = lines_.cells();
     const std::size_t width = columns_.size();

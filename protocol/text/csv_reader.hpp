@@ -29,7 +29,7 @@ namespace a351::text {
 
 /// Reads one row at a time.  Lines end with LF or CRLF; a byte-order mark and blank lines are
 /// skipped.  In a table of one column a blank line is a row with an empty cell.  Empty rows at the
-/// end of the file, and empty cells behind the last column, are skipped.
+/// end of the file and empty cells after the last column are skipped.
 ///
 /// CsvLines splits the lines, DecimalSign reads the numbers.  What can be read in two ways is
 /// refused with what to do in the spreadsheet.  Do not copy a reader: both would take lines from

@@ -59,7 +59,7 @@ struct Stay {
     bool is_forgotten = false;  ///< The box was lifted without *Next set-up*.
 };
 
-/// What the operator does, by its time.
+/// An action of the operator.
 struct Order {
     enum class Kind { start, setup, stop } kind;
     std::string site;

@@ -104,7 +104,7 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     CHECK(look.sentence == "the box was moved");
     CHECK(look.buttons == std::vector<std::string>{"a", "b"});
     CHECK(look.look->key == "K");
-    // The plan goes on beside a contradiction of another stay.
+    // The sentence has the plan of this stay after a contradiction of another one.
     CHECK(said(State::stable, PlannedStay{"No.1", plan_with(1, 129.2)}, {{"set_ups", "K", "look", {}}})
               .sentence == "look. No.1: set-up 1 of 2, 2:10 left.");
     verdict::Verdict frozen;
