@@ -26,7 +26,6 @@
 #include "daemon/identify/identify_file.hpp"
 #include "daemon/identify/report.hpp"
 #include "daemon/live/live_record.hpp"
-#include "daemon/survey/operator_signal.hpp"
 #include "daemon/page/server.hpp"
 #include "daemon/service/process_setup.hpp"
 #include "daemon/service/service_notice.hpp"
@@ -41,6 +40,7 @@
 #include "daemon/status/status_log.hpp"
 #include "daemon/store/store.hpp"
 #include "daemon/survey/occupations.hpp"
+#include "daemon/survey/operator_signal.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/normal_gravity.hpp"
 #include "protocol/text/message.hpp"
@@ -151,7 +151,7 @@ page::Download bundle_of_day(const Recorder& recorder, const survey::Occupations
     const auto& running = occupations.running();
     const bundle::Contents contents = bundle::contents_of(
         {.root = config.storage.root,
-         .sites = config.survey.sites_file,
+         .sites = occupations.sites_file(),
          .calibration = config.survey.calibration_file,
          .station = config.station.codes.network + '_' + config.station.codes.station,
          .configuration = config.shown,
@@ -183,10 +183,11 @@ void log_doubt(const survey::Occupations& occupations, const std::filesystem::pa
 /// Reads the configuration again after SIGHUP, and takes sites, the plan of a stay and thresholds
 /// from it.  A file that is refused changes nothing.
 void reload(const std::filesystem::path& config_file, spdlog::logger& log, live::Record& live,
-            survey::Occupations& occupations, page::Server& page) {
+            survey::Occupations& occupations, gravity::GravitySoFar& gravity, page::Server& page) {
     try {
         const config::Config fresh = config::read_config(config_file);
         live.judge_by(fresh.verdict);
+        gravity.use(gravity_options(fresh, log));
         page.post([&occupations, &log, survey = fresh.survey, options = occupation_options(fresh)] {
             occupations.use(survey.sites, options);
             log_doubt(occupations, survey.sites_file, log);
@@ -270,10 +271,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                             },
                         .begin = [&] { recall_past(config, clock.read().realtime, log, live); },
                         .other_unit = [&](const auto& event) { other_unit(event); },
-                        .sample =
-                            [&](const archive::Sample& sample, UtcTime time) {
-                                live.take(placed(sample, time));
-                            }},
+                        .sample = [&](const archive::Sample& sample,
+                                      UtcTime time) { live.take(placed(sample, time)); }},
                        clock, reads);
     source::LinkOptions sensor = config.sensor;
     sensor.header = config::journal_header(config, clock);
@@ -337,8 +336,9 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     page.start();
     gravity.start();
     notice.ready();
-    report_until_end(recorder, notice, status_log, signals, [&] { page.post(log_signal); },
-                     [&] { reload(config.file, log, live, occupations, page); });
+    report_until_end(
+        recorder, notice, status_log, signals, [&] { page.post(log_signal); },
+        [&] { reload(config.file, log, live, occupations, gravity, page); });
     log.info("stopping");
     notice.stopping();
     page.stop();

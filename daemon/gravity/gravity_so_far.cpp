@@ -55,8 +55,16 @@ GravityOptions options_for(const std::filesystem::path& corrector, const SurveyF
     return options;
 }
 
-GravitySoFar::GravitySoFar(GravityOptions options) : options_(std::move(options)) {
-    if (options_.command.empty()) reason_ = options_.reason;
+GravitySoFar::GravitySoFar(GravityOptions options) : options_(std::move(options)) { use(options_); }
+
+void GravitySoFar::use(GravityOptions options) {
+    const std::lock_guard lock(mutex_);
+    if (options.command == command_ && !command_.empty()) return;
+    command_ = std::move(options.command);
+    reason_ = command_.empty() ? options.reason : "not_yet";
+    document_.clear();
+    if (last_run_) now_ = steady_clock::now();
+    woken_.notify_all();
 }
 
 void GravitySoFar::stop() {
@@ -98,8 +106,8 @@ std::optional<GravitySoFar::Time> GravitySoFar::next_run() const {
 
 void GravitySoFar::run() {
     std::unique_lock lock(mutex_);
-    while (!stop_ && !options_.command.empty()) {
-        const auto next = next_run();
+    while (!stop_) {
+        const auto next = command_.empty() ? std::nullopt : next_run();
         const auto now = steady_clock::now();
         if (!next) {
             woken_.wait(lock);
@@ -109,17 +117,18 @@ void GravitySoFar::run() {
             now_.reset();
             if (again_ && *again_ <= now) again_.reset();
             last_run_ = now;
+            auto command = command_;
             lock.unlock();
-            Answer answer = ask();
+            Answer answer = ask(command);
             lock.lock();
-            take(std::move(answer));
+            if (command == command_) take(std::move(answer));
         }
     }
 }
 
-GravitySoFar::Answer GravitySoFar::ask() const {
+GravitySoFar::Answer GravitySoFar::ask(std::vector<std::string> command) const {
     try {
-        child::ChildEnd end = child::run_child({.words = options_.command, .is_background = true},
+        child::ChildEnd end = child::run_child({.words = std::move(command), .is_background = true},
                                                options_.limits, &stop_);
         if (end.outcome != child::Outcome::good)
             return {{}, reason_of(end.outcome), std::move(end.message)};

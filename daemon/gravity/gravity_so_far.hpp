@@ -63,6 +63,9 @@ public:
     /// Ends the thread and its child within a second.
     void stop();
 
+    /// Takes the command of other options, or their reason for none.  Any thread.
+    void use(GravityOptions options);
+
     /// Says that the occupations have changed, and whether a stay runs now.  Any thread.
     void note_change(bool is_running);
 
@@ -79,12 +82,13 @@ private:
     void run();
     [[nodiscard]] std::optional<Time> next_run() const;
     /// Runs the corrector; returns the document, or the reason and its cause.
-    [[nodiscard]] Answer ask() const;
+    [[nodiscard]] Answer ask(std::vector<std::string> command) const;
     void take(Answer answer);
 
-    const GravityOptions options_;
+    const GravityOptions options_;  ///< Its command is that of the start.
     std::atomic<bool> stop_{false};
     mutable std::mutex mutex_;  ///< Protects all below; never locked while the child runs.
+    std::vector<std::string> command_;
     std::condition_variable woken_;
     bool is_stay_running_ = false;
     std::optional<Time> now_, again_, last_run_;  ///< Runs that are due; start of the last run.

@@ -135,6 +135,9 @@ public:
     /// Replaces the list of sites and the plan of a stay.
     void use(std::vector<text::Site> sites, const OccupationOptions& options);
     [[nodiscard]] const std::vector<text::Site>& sites() const noexcept { return sites_; }
+    [[nodiscard]] const std::filesystem::path& sites_file() const noexcept {
+        return options_.sites_file;
+    }
     /// See text::doubtful_site().
     [[nodiscard]] const text::Message& doubtful_site() const noexcept { return doubtful_site_; }
 

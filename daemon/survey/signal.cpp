@@ -29,7 +29,7 @@ text::Message of_warm_up(const verdict::Verdict& verdict, const std::vector<text
 }
 
 /// Returns where a stay is in its plan, and what to do.
-text::Message of_plan(const PlannedStay& stay, verdict::State state) {
+text::Message of_plan(const PlannedStay& stay) {
     const SetUpPlan& plan = stay.plan;
     if (plan.needs_next())
         return text::message(
@@ -48,8 +48,6 @@ text::Message of_plan(const PlannedStay& stay, verdict::State state) {
                       std::max(plan.planned, plan.running), minutes_of(plan.left_s));
     if (plan.is_disturbed)
         sentence += text::message(", because more than half of it was disturbed");
-    else if (state == verdict::State::disturbed)
-        sentence += text::message(". The box was disturbed: step back two paces");
     return sentence + ".";
 }
 
@@ -115,15 +113,15 @@ Signal signal_of(const verdict::Verdict& verdict, const std::vector<text::Messag
             signal.sentence = of_warm_up(verdict, why);
             break;
         case Word::keep_off:
-            signal.sentence = of_plan(*stay, verdict.state);
+            signal.sentence = of_plan(*stay);
             break;
         case Word::lift:
-            signal.sentence = of_plan(*stay, verdict.state);
+            signal.sentence = of_plan(*stay);
             signal.buttons = {"setup", "stop"};
             break;
         case Word::go:
             if (stay) {
-                signal.sentence = of_plan(*stay, verdict.state);
+                signal.sentence = of_plan(*stay);
                 signal.buttons = {"stop", "setup"};
                 break;
             }
@@ -140,8 +138,7 @@ Signal signal_of(const verdict::Verdict& verdict, const std::vector<text::Messag
         case Word::look:
             signal.look = contradictions.front();
             signal.sentence = signal.look->text;
-            if (stay && signal.look->code != kMoved)
-                signal.sentence += ". " + of_plan(*stay, verdict.state);
+            if (stay && signal.look->code != kMoved) signal.sentence += ". " + of_plan(*stay);
             signal.buttons = signal.look->buttons;
             break;
     }

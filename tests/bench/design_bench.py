@@ -3,9 +3,9 @@
 usage: design_bench.py [SEEDS [FOLDER [PLAN [NOISE]]]]    (A351_BIN, A351_TOOLS)
 SEEDS: default 12001-12040, which were not used while the command was developed.  FOLDER: keeps the results of each day; days
 with results are not computed again.  PLAN: the first letters of a plan, default all.  NOISE: usual (default), placement and flicker
-of 1.2 mGal; drawn, both from the prior of a day, 1.2 mGal within a factor 2, in even steps of its distribution, so that u is right
-if it is the rms error; calibrated, usual with the placement known to the day, from a calibration.
-Each seed draws a unit within +-25 % and a day of tsukuba's weather for every plan.  Nothing is fitted to the days: the design
+of 1.2 mGal and a unit within +-25 %; assumed, unit and noise from the priors of a day; calibrated, usual with the placement known to
+the day, from a calibration.
+Each seed draws a day of tsukuba's weather for every plan.  Nothing is fitted to the days: the design
 knows the plan and a usual unit only.
 
 Errors are those of gravity_mgal in stations.csv at the stations without a reference, u is u_gravity_mgal there.  Promised: the
@@ -19,11 +19,10 @@ import os
 import pathlib
 import random
 import shutil
-import statistics
 import sys
 import tomllib
 
-from simulated_units import correct, hide_references, rms, seeds_of, simulate
+from simulated_units import assumed, correct, hide_references, rms, seeds_of, simulate_unit, unit_of
 from programs import BIN, TOP, Scratch, read_json, rows, run
 
 START, EVERY_MIN = "2017-07-15T23:30:00Z", 35
@@ -34,7 +33,6 @@ PLANS = {"1 x 12 min": (ROUND, 1, 12.0, ("No.0", "No.7")), "2 x 6 min": (ROUND, 
          "4 x 3 min": (ROUND, 4, 3.0, ("No.0", "No.7")), "one datum, two loops": (LOOP, 1, 12.0, ("No.0",))}
 PROMISED = 0.85, 1.15
 DRAWS = 1000
-USUAL_MGAL, FACTOR = 1.2, 2.0  # Placement and flicker, and their prior: corrector/methods.md, "The whole-day model".
 CALIBRATION = """format = 1
 serial_number = "00000001"
 program = "design_bench"
@@ -94,21 +92,13 @@ def expected_u(folder, plan):
     return json.loads(run(BIN / "a351-correct", "design", "plan.csv", "--sites", "sites.csv", "--json", cwd=folder).stdout)["u_mgal"]
 
 
-def slow_noise(place, count):
-    """Returns the noise of the day at a place among `count` days: placement and flicker in even steps of their distributions."""
-    def mgal(share):
-        return USUAL_MGAL * FACTOR ** statistics.NormalDist().inv_cdf(share)
-    order = random.Random(count).sample(range(count), count)  # Of the flicker, so that it does not go with the placement.
-    return f"[slow_noise]\nplacement_mgal = {mgal((place + 0.5) / count)}\nflicker_mgal = {mgal((order[place] + 0.5) / count)}\n"
-
-
 def look_at(scratch, seed, plan):
     """Returns model and [error, u] of each unknown station of a day."""
     visits, set_ups, minutes_each, known = PLANS[plan]
     folder = scratch / f"{seed}-{list(PLANS).index(plan)}"
     folder.mkdir()
-    drawn = slow_noise(seeds.index(seed), len(seeds)) if noise == "drawn" else ""
-    day = simulate(folder, "day", "tsukuba", seed, 0.25, drawn + scenario_of(visits, set_ups, minutes_each))
+    unit, more = assumed(seeds.index(seed), len(seeds)) if noise == "assumed" else (unit_of(seed, 0.25), "")
+    day = simulate_unit(folder, "day", "tsukuba", seed, unit, more + scenario_of(visits, set_ups, minutes_each))
     survey, truth = hide_references(day, known, "known")
     (folder / "unit.toml").write_text(CALIBRATION)
     out = correct(folder, survey, "result", *(["--calibration", folder / "unit.toml"] if noise == "calibrated" else []))

@@ -4,6 +4,7 @@ usage: signal_bench.py FIRST_SEED DAYS [KIND ...]    (A351_BIN)
 KIND: default all.  The log of a day is cut after each stop, as the recorder has it then.  Without a mistake:
 - clean: DAYS of tsukuba and of hot-afternoon, one set-up of 12 min in each stay, all benchmarks known;
 - clean_two: the same with two set-ups of 6 min;
+- assumed, assumed_two: the same, with units and noise that together are the priors of the corrector;
 - one_known: DAYS of quadratic and of three-links, one set-up of 12 min, the base alone known; and the same with stays of 17 min.
 With one mistake in a day with two set-ups, drawn, DAYS of both scenarios in turn:
 - set_up: the second set-up of a stay is 12 mGal higher;
@@ -24,7 +25,7 @@ import struct
 import subprocess
 import sys
 
-from simulated_units import rms, simulate
+from simulated_units import assumed, rms, simulate, simulate_unit, unit_of
 from programs import BIN, Scratch, rows
 
 SCENARIOS = ("tsukuba", "hot-afternoon")
@@ -82,9 +83,9 @@ def stays_of(events):
 class Day:
     """A simulated survey day, its events and its benchmarks."""
 
-    def __init__(self, folder, scenario, seed, more):
+    def __init__(self, folder, scenario, seed, more, unit=None):
         folder.mkdir()
-        self.folder, self.path = folder, simulate(folder, "day", scenario, seed, UNIT_SCATTER, more)
+        self.folder, self.path = folder, simulate_unit(folder, "day", scenario, seed, unit or unit_of(seed, UNIT_SCATTER), more)
         self.events = [json.loads(line) for line in next((self.path / "events").glob("*.jsonl")).read_text().splitlines()]
         self.table = rows(self.path / "sites.csv")
         self.true = {row["site"]: float(row["gravity_mgal"]) for row in self.table}
@@ -105,9 +106,10 @@ class Day:
                 if stay["gravity_mgal"] is not None and not (len(self.listed) == 1 and stay["site"] in self.listed)]
 
 
-def without_mistake(scratch, scenario, seed, more, is_base_alone):
+def without_mistake(scratch, scenario, seed, more, is_base_alone, is_assumed):
     """Returns the contradictions after each stop of a day, and error and u of the stay that was stopped."""
-    day = Day(scratch, scenario, seed, more)
+    unit, drawn = assumed(seeds.index(seed), len(seeds)) if is_assumed else (None, "")
+    day = Day(scratch, scenario, seed, drawn + more, unit)
     if is_base_alone:
         day.listed = {day.site(0): day.true[day.site(0)]}
     answers = [day.after_stop(k) for k in range(len(day.stays))]
@@ -171,8 +173,9 @@ def ratio_of(days):
     return f"{ratio:.2f} +- {scatter:.2f} of {sum(len(day) for _, day in days)} values"
 
 
-WITHOUT = {"clean": (SCENARIOS, [""], False), "clean_two": (SCENARIOS, [TWO_SET_UPS], False),
-           "one_known": (CURVED, [f"[schedule]\nlength_s = {length:.1f}\n" for length in STAYS_s], True)}
+WITHOUT = {"clean": (SCENARIOS, [""], False, False), "clean_two": (SCENARIOS, [TWO_SET_UPS], False, False),
+           "assumed": (SCENARIOS, [""], False, True), "assumed_two": (SCENARIOS, [TWO_SET_UPS], False, True),
+           "one_known": (CURVED, [f"[schedule]\nlength_s = {length:.1f}\n" for length in STAYS_s], True, False)}
 MISTAKES = ("set_up", "names", "reference", "moved")
 seeds = range(int(sys.argv[1]), int(sys.argv[1]) + int(sys.argv[2]))
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -184,9 +187,9 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count())
                   f"{sum(any(found) for found, _ in days)} of {len(days)} days{'' if kind == 'moved' else ' (promised 95 %)'}; error over u then "
                   f"{ratio_of(days)} (promised at most 2)", flush=True)
             continue
-        scenarios, plans, is_base_alone = WITHOUT[kind]
+        scenarios, plans, is_base_alone, is_assumed = WITHOUT[kind]
         for scenario, more in ((scenario, more) for scenario in scenarios for more in plans):
-            days = list(pool.map(lambda seed: without_mistake(scratch / f"{kind}-{seed}", scenario, seed, more, is_base_alone), seeds))
+            days = list(pool.map(lambda seed: without_mistake(scratch / f"{kind}-{seed}", scenario, seed, more, is_base_alone, is_assumed), seeds))
             show(days)
             looks = [bool(stay) for found, _ in days for stay in found]
             print(f"{kind}, {scenario}{', ' + more.split()[-1] + ' s' if is_base_alone else ''}: LOOK at {sum(looks)} of {len(looks)} stays "

@@ -28,10 +28,37 @@ def unit_of(seed, scatter):
     return {key: value * draw.uniform(1.0 - scatter, 1.0 + scatter) for key, value in UNIT.items()}
 
 
+def assumed(place, count):
+    """Returns the thermal parameters and the rest of the scenario of the day at a place among `count` days that together are the priors
+    of the whole-day model (corrector/methods.md): each quantity in even steps of its distribution, in an order of its own."""
+    draw = random.Random(count)
+
+    def normal(mean, deviation):
+        share = (draw.sample(range(count), count)[place] + 0.5) / count
+        return mean + deviation * statistics.NormalDist().inv_cdf(share)
+
+    def within(median, factor):
+        return median * factor ** normal(0.0, 1.0)
+
+    fast_lag_s = within(43.0, 1.5)
+    unit = {"crystal_static_mgal_per_degc": normal(-12.0, 7.2), "crystal_dynamic_mgal_per_degc": -3600.0 * normal(11.3, 6.8) / fast_lag_s,
+            "crystal_tau_s": fast_lag_s, "clock_mgal_per_degc": normal(-20.0, 12.0), "clock_tau_s": within(2700.0, 1.5),
+            "warm_up_mgal": normal(0.0, 36.0), "warm_up_tau_h": UNIT["warm_up_tau_h"]}
+    # The emulator draws a horizontal bias evenly within +- its maximum.
+    return unit, (f"[sensor]\nhorizontal_bias_max_mgal = {within(300.0, 3.0) * 3.0 ** 0.5}\nscale = {normal(1.0, 0.002)}\n"
+                  f"[slow_noise]\nplacement_mgal = {within(1.2, 2.0)}\nflicker_mgal = {within(1.2, 2.0)}\n"
+                  f"drift_linear_mgal_per_h = {normal(0.0, 1.0)}\n")
+
+
 def simulate(folder, name, base, seed, scatter, more="", serial="00000001"):
     """Simulates a day of the seed's unit and returns its folder."""
+    return simulate_unit(folder, name, base, seed, unit_of(seed, scatter), more, serial)
+
+
+def simulate_unit(folder, name, base, seed, unit, more="", serial="00000001"):
+    """Simulates a day of a unit with these thermal parameters and returns its folder."""
     file = folder / f"{name}-scenario.toml"
-    error = "".join(f"{key} = {value}\n" for key, value in unit_of(seed, scatter).items())
+    error = "".join(f"{key} = {value}\n" for key, value in unit.items())
     file.write_text(f'base = "{base}"\nname = "{name}"\n[temperature_error]\n{error}{more}')
     run(BIN / "a351-sim", "survey", "--scenario", file, "--seed", seed, "--serial", serial, "--out", folder / name)
     return folder / name

@@ -76,7 +76,7 @@ export class OccupationPanel {
         const stay = this.running && { key: this.running.key, site: this.running.site };
         const at = this.running?.moved?.utc;
         const acts = {
-            stop: () => this.dialogs.open("stop", this.running, this.doubt_of_stop()),
+            stop: () => this.dialogs.open("stop", this.running),
             setup: () => this.order("/api/occupation/setup", stay),
             stop_at: () => this.order("/api/occupation/stop", { ...stay, at }),
             setup_at: () => this.order("/api/occupation/setup", { ...stay, at }),
@@ -253,6 +253,7 @@ export class OccupationPanel {
         this.running = status.occupation;
         this.now_ms = Date.parse(status.now);
         this.signal = status.signal;
+        this.dialogs.say_doubt(this.doubt_of_stop());
         if (status.changes !== this.changes) {
             // The terminal or another page made a change.
             if (performance.now() - this.answered_ms > kOwnChange_ms) set_text("answer", "");

@@ -28,13 +28,11 @@ export class StayDialogs {
     }
 
     /** Opens a dialog: stop, discard, rename or times.
-        @param stay  { key, site, number, start, end, running_s }
-        @param doubt  what speaks against a stop, "" if nothing. */
-    open(kind, stay, doubt = "") {
+        @param stay  { key, site, number, start, end, running_s } */
+    open(kind, stay) {
         this.stay = stay;
         if (kind === "stop") {
             set_text("confirm-stop-text", tr("Stop {}?", described(stay)));
-            set_text("confirm-stop-doubt", doubt && `⚠ ${doubt}`);
         } else if (kind === "discard") {
             set_text("discard-text", stay.end ? tr("Discard {}?", described(stay))
                 : tr("Discard the running occupation at {}, {} so far?", visible(stay.site), duration(stay.running_s)));
@@ -49,6 +47,11 @@ export class StayDialogs {
         }
         if (kind !== "stop") by_id(`${kind}-reason`).value = "";
         this.dialogs[kind].open();
+    }
+
+    /** Shows in the dialog of a stop what speaks against it, "" if nothing. */
+    say_doubt(doubt) {
+        set_text("confirm-stop-doubt", doubt && `⚠ ${doubt}`);
     }
 
     order(change, body, reason_id = null) {

