@@ -49,6 +49,8 @@ struct ScheduleParameters {
     double shortest_s = 0.0;
     double shortest_drive_s = 0.0;  ///< From the end of one stay to the start of the next.
     int set_ups = 1;  ///< Per occupation, of equal length; the box is lifted in between.
+    /// Faces of the set-ups, '+' or '-', one after the other; the list begins again at its end.
+    std::string faces;
     double ambient_before_degc = 0.0;  ///< Air inside the cool box at the start of the record.
     double ambient_after_degc = 0.0;   ///< Air inside the cool box at the end of the record.
 };
@@ -88,6 +90,11 @@ struct SensorParameters {
     double white_mgal = 0.0;                ///< Rms per axis and sample.
     double temperature_white_degc = 0.0;    ///< Rms per sample.
     double power_on_before_start_h = 0.0;   ///< At least OvenParameters::run_in_h.
+    /// Share of each error, but for bias and placement, that is one of the scale: it keeps its sign
+    /// when the sensor is turned over.
+    double scale_share = 0.0;
+    double turn_mgal = 0.0;   ///< Standard deviation of the error at a turn, drawn for each.
+    double turn_tau_s = 0.0;  ///< Time constant of its decay.
     double temperature_warm_up_degc = 0.0;  ///< Excess of the reported temperature; it decays.
     double temperature_warm_up_tau_h = 0.0;
 };

@@ -42,6 +42,13 @@ public:
         value = static_cast<int>(table_.integer_or(key, value, low, high));
     }
 
+    void faces(std::string_view key, std::string& value) {
+        require(key);
+        value = table_.string_or(key, value);
+        if (value.empty() || value.find_first_not_of("+-") != std::string::npos)
+            table_.refuse(key, "not a list of faces", "signs + and -, for example +--+");
+    }
+
     void boolean(std::string_view key, bool& value) {
         require(key);
         value = table_.boolean_or(key, value);
@@ -77,6 +84,7 @@ void read_schedule(Section& s, ScheduleParameters& p) {
     s.number("shortest_s", p.shortest_s, 60.0, 1e6);
     s.number("shortest_drive_s", p.shortest_drive_s, 1.0, 1e5);
     s.integer("setups", p.set_ups, 1, 10);
+    s.faces("faces", p.faces);
     s.number("ambient_before_degc", p.ambient_before_degc, -40.0, 80.0);
     s.number("ambient_after_degc", p.ambient_after_degc, -40.0, 80.0);
 }
@@ -167,6 +175,9 @@ void read_sensor(Section& s, SensorParameters& p, double run_in_h) {
     }
     s.number("temperature_warm_up_degc", p.temperature_warm_up_degc, -10.0, 10.0);
     s.number("temperature_warm_up_tau_h", p.temperature_warm_up_tau_h, 0.01, 1000.0);
+    s.number("scale_share", p.scale_share, 0.0, 1.0);
+    s.number("turn_mgal", p.turn_mgal, 0.0, 1e4);
+    s.number("turn_tau_s", p.turn_tau_s, 1.0, 1e5);
 }
 
 void read_clock(Section& s, ClockParameters& p) {

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <system_error>
 
 #include "protocol/core/input_error.hpp"
@@ -146,6 +147,9 @@ std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t se
                 set_up.about_y_rad = angles.about_y_deg * kRadPerDeg;
                 set_up.about_x_rad = angles.about_x_deg * kRadPerDeg;
             }
+            const std::string& faces = scenario.schedule.faces;
+            set_up.face = faces[plan.size() % faces.size()] == '-' ? -1.0 : 1.0;
+            if (set_up.face < 0.0) set_up.about_x_rad += std::numbers::pi;
             plan.push_back(set_up);
         }
     }

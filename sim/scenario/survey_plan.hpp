@@ -22,7 +22,8 @@ struct PlannedSetUp {
     /// (the start of the record for the first), or the start of a further set-up of the stay.
     UtcTime from;
     double about_y_rad = 0.0;  ///< Levelling, first turn.
-    double about_x_rad = 0.0;  ///< Levelling, second turn.
+    double about_x_rad = 0.0;  ///< Levelling, second turn; half a turn more in the other face.
+    double face = 1.0;         ///< 1, or -1 if the sensor is turned over.
     double placement_mgal = 0.0;
     double step_mgal = 0.0;   ///< Change of the reading by the drives so far.
     bool is_occupied = true;  ///< False for the one set-up of a record without occupations.

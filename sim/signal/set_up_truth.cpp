@@ -16,9 +16,9 @@ namespace {
 using Vector = std::array<double, 3>;
 
 constexpr std::array<const char*, kTermCount> kTermColumns = {
-    "tide_mgal",    "bias_mgal",      "static_mgal",  "dynamic_mgal",   "clock_mgal",
-    "warm_up_mgal", "placement_mgal", "flicker_mgal", "resonant_mgal",  "white_mgal",
-    "drift_mgal",   "ripple_mgal",    "scale_mgal",   "outer_oven_mgal"};
+    "tide_mgal",    "bias_mgal",      "static_mgal",  "dynamic_mgal",    "clock_mgal",
+    "warm_up_mgal", "placement_mgal", "flicker_mgal", "resonant_mgal",   "white_mgal",
+    "drift_mgal",   "ripple_mgal",    "scale_mgal",   "outer_oven_mgal", "turn_mgal"};
 
 /// Rounds a mean to 1e-5, the resolution of the table.
 double rounded(double value) {
@@ -74,7 +74,7 @@ void add_vector_terms(const scenario::Scenario& scenario, const scenario::Planne
                                        truth.terms_mgal[static_cast<std::size_t>(Term::ripple)];
     Vector total_mgal = bias_mgal;
     for (std::size_t i = 0; i < 3; ++i) total_mgal[i] += vertical[i] * along_vertical_mgal;
-    total_mgal[2] += force_mgal - along_vertical_mgal;
+    total_mgal[2] += set_up.face * (force_mgal - along_vertical_mgal);
     truth.tilt_mgal = std::sqrt(dot(total_mgal, total_mgal)) - force_mgal;
 
     constexpr double kRate = Source::kRateHz;
@@ -121,10 +121,16 @@ std::string truth_csv(const scenario::Scenario& scenario,
     std::string csv =
         "site,occupation,start_utc,end_utc,gravity_mgal,used,set_up,ambient_degc,"
         "temperature_degc,about_y_deg,about_x_deg";
-    // The last term is that of the outer oven; a day without one has no such column.
-    const std::size_t terms = scenario.outer_oven ? kTermCount : kTermCount - 1;
-    for (std::size_t i = 0; i < terms; ++i) csv += fmt::format(",{}", kTermColumns[i]);
-    csv += ",tilt_mgal,burst_mgal,rectification_mgal\n";
+    // A day without an outer oven or without turns has no such columns.
+    const bool is_turned = scenario.schedule.faces.find('-') != std::string::npos;
+    std::vector<std::size_t> terms;
+    for (std::size_t k = 0; k < kTermCount; ++k)
+        if ((static_cast<Term>(k) != Term::outer_oven || scenario.outer_oven) &&
+            (static_cast<Term>(k) != Term::turn || is_turned))
+            terms.push_back(k);
+    for (const std::size_t k : terms) csv += fmt::format(",{}", kTermColumns[k]);
+    csv += ",tilt_mgal,burst_mgal,rectification_mgal";
+    csv += is_turned ? ",face\n" : "\n";
     const std::vector<SetUpTruth> truth = set_up_truth(scenario, plan, seed);
     const std::vector<scenario::PlannedSetUp> rows = by_true_time(scenario, plan, seed);
     for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -139,10 +145,11 @@ std::string truth_csv(const scenario::Scenario& scenario,
         cell(mean.temperature_degc);
         cell(set_up.about_y_rad * kDegPerRad);
         cell(set_up.about_x_rad * kDegPerRad);
-        for (std::size_t k = 0; k < terms; ++k) cell(mean.terms_mgal[k]);
+        for (const std::size_t k : terms) cell(mean.terms_mgal[k]);
         cell(mean.tilt_mgal);
         cell(mean.burst_mgal);
         cell(mean.rectification_mgal);
+        if (is_turned) csv += set_up.face < 0.0 ? ",-" : ",+";
         csv += "\n";
     }
     return csv;

@@ -100,10 +100,10 @@ TimedSample Source::next() {
     TimedSample sample{*next_instant(), index_, {}};
     const double share = share_of_second();
     const double vertical_mgal =
-        from_.vertical.value() + share * (to_.vertical - from_.vertical).value();
+        from_.along_vertical.value() + share * (to_.along_vertical - from_.along_vertical).value();
     const double z_mgal = from_.along_z.value() + share * (to_.along_z - from_.along_z).value();
     std::array<double, 3> axes_mgal = vertical_[from_.set_up];
-    for (double& axis : axes_mgal) axis *= vertical_mgal - z_mgal;
+    for (double& axis : axes_mgal) axis *= vertical_mgal;
     axes_mgal[2] += z_mgal;
     disturbances_.add_to(axes_mgal, static_cast<double>(index_) / kRateHz);
     add_noise(axes_mgal);

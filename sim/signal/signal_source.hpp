@@ -45,7 +45,7 @@ private:
 ///
 /// Gravity, tide and ripple act along the vertical; the levelling angles of the set-up distribute
 /// them over the axes.  Bias, temperature error, slow noise and drift arise within the sensor; they
-/// are added on axis z for any levelling.  Then come the biases of x and y, ground noise, bursts,
+/// are added on axis z for any levelling, but for the share of the scale.  Then come the biases of x and y, ground noise, bursts,
 /// spikes, white noise and rounding to counts.
 class Source final : public SampleSource {
 public:

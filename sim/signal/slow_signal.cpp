@@ -42,6 +42,8 @@ SlowSignal::SlowSignal(const scenario::Scenario& scenario,
       walk_(seed, "random walk"),
       wander_(seed, "ripple wander"),
       temperature_(seed, "slow temperature"),
+      turns_(seed, "turns"),
+      face_(plan.front().face),
       links_(equal_links(scenario.slow_noise.drift_link_tau_s, ovens_.inner().body())),
       body_degc_(ovens_.inner().body().value()) {
     if (const plant::ThermalPlant* outer = ovens_.outer()) {
@@ -85,6 +87,13 @@ double SlowSignal::ripple_mgal() {
     return p.ripple_mgal * std::sin(ripple_phase_rad_);
 }
 
+double SlowSignal::turn_mgal(double face) {
+    const scenario::SensorParameters& p = scenario_.sensor;
+    turn_mgal_ *= std::exp(-kStepSeconds / p.turn_tau_s);
+    if (std::exchange(face_, face) != face) turn_mgal_ += p.turn_mgal * turns_.normal();
+    return turn_mgal_;
+}
+
 SlowValue SlowSignal::next() {
     const double elapsed_s = static_cast<double>(step_) * kStepSeconds;
     const UtcTime now = scenario_.start() + from_seconds(elapsed_s);
@@ -123,14 +132,22 @@ SlowValue SlowSignal::next() {
     term(Term::outer_oven) = outer_oven_mgal();
     term(Term::scale) = (scenario_.sensor.scale - 1.0) *
                         (site.gravity->value() + tide.value() - kMilliGalPerStandardGravity);
-    value.along_z = MilliGal(scenario_.sensor.bias_mgal) + temperature_error +
-                    MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +
-                             term(Term::white) + term(Term::drift) + term(Term::outer_oven));
-    value.vertical = *site.gravity + tide + MilliGal(scenario_.sensor.bias_mgal) +
-                     temperature_error +
-                     MilliGal(term(Term::placement) + term(Term::flicker) + term(Term::resonant) +
-                              term(Term::white) + term(Term::drift) + term(Term::ripple) +
-                              term(Term::scale) + term(Term::outer_oven));
+    term(Term::turn) = turn_mgal(set_up.face);
+    const double share = scenario_.sensor.scale_share;
+    const MilliGal errors =
+        temperature_error +
+        MilliGal(term(Term::flicker) + term(Term::resonant) + term(Term::white) +
+                 term(Term::drift) + term(Term::outer_oven) + term(Term::turn));
+    value.along_z =
+        MilliGal(scenario_.sensor.bias_mgal + term(Term::placement)) + (1.0 - share) * errors;
+    value.along_vertical =
+        *site.gravity + tide + MilliGal(term(Term::ripple) + term(Term::scale)) + share * errors;
+    for (const Term bias : {Term::bias, Term::placement}) term(bias) *= set_up.face;
+    const double sign = share + (1.0 - share) * set_up.face;
+    for (const Term error :
+         {Term::crystal_static, Term::crystal_dynamic, Term::clock, Term::warm_up, Term::flicker,
+          Term::resonant, Term::white, Term::drift, Term::outer_oven, Term::turn})
+        term(error) *= sign;
     value.temperature =
         ovens_.inner().body() +
         DegC(scenario_.sensor.temperature_warm_up_degc *

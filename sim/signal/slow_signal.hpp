@@ -16,7 +16,7 @@
 
 namespace a351::sim::signal {
 
-/// Terms by which the reading along the vertical differs from gravity.
+/// Terms by which the reading differs from gravity.
 enum class Term : std::size_t {
     tide,
     bias,
@@ -31,18 +31,21 @@ enum class Term : std::size_t {
     drift,
     ripple,
     scale,
-    outer_oven
+    outer_oven,
+    turn
 };
-inline constexpr std::size_t kTermCount = 14;
+inline constexpr std::size_t kTermCount = 15;
 
 /// The slow signals at one instant.
 struct SlowValue {
-    MilliGal vertical;       ///< Specific force along the vertical as read: gravity and all terms.
-    MilliGal along_z;        ///< The sensor's own part of it: all but gravity, tide and ripple.
-    DegC temperature;        ///< Reported by the sensor, without the white noise of the samples.
-    DegC ambient;            ///< Air inside the cool box.
-    std::size_t set_up = 0;  ///< Index in the plan of the set-up in effect.
-    std::array<double, kTermCount> terms_mgal{};  ///< Indexed by Term.
+    MilliGal along_vertical;  ///< Gravity, tide, ripple, and the errors of the scale.
+    MilliGal along_z;         ///< The errors of the bias, on axis z in any face.
+    DegC temperature;         ///< Reported by the sensor, without the white noise of the samples.
+    DegC ambient;             ///< Air inside the cool box.
+    std::size_t set_up = 0;   ///< Index in the plan of the set-up in effect.
+    /// Indexed by Term: their effects on the reading.  An error of the bias has the other sign in the
+    /// other face.
+    std::array<double, kTermCount> terms_mgal{};
 };
 
 /// Gravity, tide, temperature error, drift, slow noise and ripple: one value a second.  The n-th
@@ -66,6 +69,7 @@ private:
     [[nodiscard]] double links_rate_mgal_per_h();
     [[nodiscard]] double ripple_mgal();
     [[nodiscard]] double outer_oven_mgal();
+    [[nodiscard]] double turn_mgal(double face);
 
     const scenario::Scenario& scenario_;
     const std::vector<scenario::PlannedSetUp>& plan_;
@@ -75,10 +79,12 @@ private:
     plant::TemperatureError error_;
     noise::FlickerNoise flicker_;
     noise::ResonantNoise resonant_;
-    noise::RandomStream white_, walk_, wander_, temperature_;
+    noise::RandomStream white_, walk_, wander_, temperature_, turns_;
     std::int64_t step_ = 0;
     std::size_t set_up_ = 0;
     double walk_mgal_ = 0.0;
+    double face_;                      ///< Face at the last step.
+    double turn_mgal_ = 0.0;           ///< What the turns so far have left.
     std::array<plant::Lag, 3> links_;  ///< One behind the other, the first behind the body.
     double body_degc_;                 ///< Body at the last step.
     double wall_degc_ = 0.0;           ///< Wall of the outer oven at the last step.

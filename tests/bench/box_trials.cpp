@@ -68,7 +68,7 @@ reading::DayRecord record_of(const sim::scenario::Scenario& scenario,
             now > set_up.end - from_seconds(kHandling_s))
             continue;
         const auto vertical = sim::signal::tilted_vertical(set_up);
-        const double along_mgal = (value.vertical - value.along_z).value();
+        const double along_mgal = value.along_vertical.value();
         std::array<double, 3> axes = bias_mgal;
         for (std::size_t i = 0; i < axes.size(); ++i) axes.at(i) += vertical.at(i) * along_mgal;
         axes[2] += value.along_z.value();

@@ -129,9 +129,10 @@ IndoorRecord indoor_record(const Scenario& scenario, std::uint64_t seed) {
         for (int step = 0; step < kSteps; ++step) {
             const SlowValue value = slow.next();
             temperature_degc += value.temperature.value() / kSteps;
-            difference_mgal += ((value.vertical - *plan[0].site.gravity).value() -
-                                value.terms_mgal[static_cast<std::size_t>(Term::tide)]) /
-                               kSteps;
+            difference_mgal +=
+                ((value.along_vertical + value.along_z - *plan[0].site.gravity).value() -
+                 value.terms_mgal[static_cast<std::size_t>(Term::tide)]) /
+                kSteps;
         }
         record.temperature_degc.push_back(temperature_degc);
         record.difference_mgal.push_back(difference_mgal);

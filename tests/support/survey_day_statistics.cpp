@@ -88,8 +88,9 @@ std::vector<DayRow> survey_day(const Scenario& scenario, std::uint64_t seed) {
         if (now < set_up.start + kMargin || now > set_up.end - kMargin) continue;
         DayRow& row = rows[value.set_up];
         row.temperature_degc += value.temperature.value();
-        row.difference_mgal += (value.vertical - *set_up.site.gravity).value() -
-                               value.terms_mgal[static_cast<std::size_t>(Term::tide)];
+        row.difference_mgal +=
+            (value.along_vertical + value.along_z - *set_up.site.gravity).value() -
+            value.terms_mgal[static_cast<std::size_t>(Term::tide)];
         ++counts[value.set_up];
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -43,7 +43,8 @@ double sum_of(const text::CsvTable& table, std::size_t row) {
     for (const char* column :
          {"gravity_mgal", "tide_mgal", "bias_mgal", "static_mgal", "dynamic_mgal", "clock_mgal",
           "warm_up_mgal", "placement_mgal", "flicker_mgal", "resonant_mgal", "white_mgal",
-          "drift_mgal", "ripple_mgal", "scale_mgal", "tilt_mgal", "burst_mgal", "rectification_mgal"}) {
+          "drift_mgal", "ripple_mgal", "scale_mgal", "tilt_mgal", "burst_mgal",
+          "rectification_mgal"}) {
         sum += table.number(row, column);
     }
     return sum;
@@ -52,18 +53,23 @@ double sum_of(const text::CsvTable& table, std::size_t row) {
 }  // namespace
 
 TEST_CASE("the terms of the truth add up to the mean norm of the samples", "[sim][truth]") {
-    // Everything at once: axis biases, two set-ups, traffic without pause, drift, an open lid.
+    // Everything at once: axis biases, two set-ups, traffic without pause, drift, an open lid; and all
+    // this with each second set-up in the other face.
+    const bool is_turned = GENERATE(false, true);
     const Scenario scenario = parse_scenario(
         "base = \"tilted\"\nname = \"x\"\n"
-        "[schedule]\nsetups = 2\nlead_in_h = 0.5\n"
-        "[slow_noise]\ndrift_linear_mgal_per_h = 5.0\ndrift_walk_mgal_per_sqrt_h = 1.0\n"
-        "resonant_mgal = 1.4\nwhite_20s_mgal = 0.4\n"
-        "[vibration]\nvehicles_per_h = 60\nground_mgal = 300\nspike_probability = 0\n"
-        "[[occupation]]\nsite = \"No.5\"\ncentre_utc = \"2017-07-16T00:00:00Z\"\nambient_degc = "
-        "25\n"
-        "[[occupation]]\nsite = \"No.12\"\ncentre_utc = \"2017-07-16T00:40:00Z\"\n"
-        "ambient_degc = 30\n"
-        "[[lid_open]]\nsite = \"No.12\"\noutside_degc = 35\n",
+        "[schedule]\nsetups = 2\nlead_in_h = 0.5\n" +
+            std::string(is_turned ? "faces = \"+-\"\n[sensor]\nscale_share = 0.3\nturn_mgal = 5\n"
+                                  : "") +
+            "[slow_noise]\ndrift_linear_mgal_per_h = 5.0\ndrift_walk_mgal_per_sqrt_h = 1.0\n"
+            "resonant_mgal = 1.4\nwhite_20s_mgal = 0.4\n"
+            "[vibration]\nvehicles_per_h = 60\nground_mgal = 300\nspike_probability = 0\n"
+            "[[occupation]]\nsite = \"No.5\"\ncentre_utc = \"2017-07-16T00:00:00Z\"\nambient_degc "
+            "= "
+            "25\n"
+            "[[occupation]]\nsite = \"No.12\"\ncentre_utc = \"2017-07-16T00:40:00Z\"\n"
+            "ambient_degc = 30\n"
+            "[[lid_open]]\nsite = \"No.12\"\noutside_degc = 35\n",
         "x.toml");
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const auto norms = mean_norms_mgal(scenario, seed);
@@ -77,7 +83,12 @@ TEST_CASE("the terms of the truth add up to the mean norm of the samples", "[sim
             CHECK(table.number(row, "rectification_mgal") > 0.09);  // 300^2 / g alone.
             // The margin covers the mean of 12 000 samples of ground noise, which has little power
             // below 1 Hz, the cross terms of noise and axis bias, and means by the second.
-            CHECK(norms[row] == Approx(sum_of(table, row)).margin(0.15));
+            const double turn_mgal = is_turned ? table.number(row, "turn_mgal") : 0.0;
+            CHECK(norms[row] == Approx(sum_of(table, row) + turn_mgal).margin(0.15));
+            if (!is_turned) continue;
+            CHECK((table.number(row, "bias_mgal") < 0.0) == (row % 2 == 1));
+            CHECK(table.cell(row, "face") == (row % 2 == 1 ? "-" : "+"));
+            CHECK((turn_mgal != 0.0) == (row > 0));
         }
     }
 }
