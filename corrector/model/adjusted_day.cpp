@@ -163,6 +163,9 @@ std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit,
                 fit.outer->mgal_per_degc.at(k).standard_error);
         add(Scope::unit, std::string(whole_day::kOuterNames.back()), fit.outer->lag_s, {});
     }
+    for (std::size_t k = 0; k < fit.on_scale.size(); ++k)
+        add(Scope::unit, "scale_" + std::string(unit::kThermalNames.at(k)), fit.on_scale[k].value,
+            fit.on_scale[k].standard_error);
     const auto add_noise = [&](std::size_t place, std::string name, double mgal) {
         std::optional<double> error;
         if (fit.noise_log_errors) error = mgal * fit.noise_log_errors->at(place);

@@ -104,7 +104,7 @@ struct AveragedSetUp {
 
 AveragedSetUp average(const Samples& samples, const Epoch& epoch,
                       const std::vector<OccupationWindow>& windows, std::size_t i,
-                      const RepresentativeOptions& options) {
+                      const RepresentativeOptions& options, bool is_tumbled) {
     const OccupationWindow& window = windows[i];
     AveragedSetUp set_up{window};
     auto record = cut_occupation(samples, epoch, window.start, window.end);
@@ -124,6 +124,8 @@ AveragedSetUp average(const Samples& samples, const Epoch& epoch,
         set_up.trouble = text::marked("too few samples in a row");
     else if (!set_up.value->temperature)
         set_up.trouble = text::marked("no temperature");
+    else if (!is_tumbled && std::abs(set_up.value->z.mean.value()) < kLeastVertical.value())
+        set_up.trouble = text::marked("the box lay on its side");
     else
         set_up.bins = bin_set_up(0, axes, kDisturbanceThreshold);
     return set_up;
@@ -190,7 +192,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     std::vector<AveragedSetUp> set_ups(windows.size());
     archive_series::on_all_cores(
         windows.size(),
-        [&](std::size_t i) { set_ups[i] = average(samples, epoch, windows, i, source.averaging); },
+        [&](std::size_t i) {
+            set_ups[i] = average(samples, epoch, windows, i, source.averaging, source.is_tumbled);
+        },
         progress);
 
     if (auto temperature = temperature_of_day(samples, epoch, windows))
@@ -222,6 +226,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.records.push_back(std::move(*set_up.value));
         averaged.push_back(std::move(set_up.window));
     }
+    // A sensor that is always upside down has one face: its reading is that of its mounting.
+    if (result.day && (source.is_tumbled || !is_turned(result.day->bins)))
+        for (DayBin& bin : result.day->bins) bin.face = 1.0;
     if (result.rows.empty()) {
         const text::Message cause =
             absent.empty() ? result.warnings.back() : archive_series::to_message(absent.front());

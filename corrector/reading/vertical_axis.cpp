@@ -17,11 +17,16 @@ using archive_series::kVertical;
 constexpr double kSteepDip_deg = 45.0;
 constexpr double kMps2PerG = kMilliGalPerStandardGravity * 1e-5;
 
-/// Returns the mean of an axis over one sample per second in the windows, g; absent without one.
-std::optional<double> mean_g(const std::vector<archive::Segment>& segments,
-                             const station::ChannelScale& scale,
-                             const std::vector<OccupationWindow>& windows) {
-    double sum = 0.0, count = 0.0;
+/// Means of an axis, g.
+struct AxisMean {
+    double value, size;  ///< With its sign, and without: the faces of the sensor may differ.
+};
+
+/// Returns the means of an axis over one sample per second in the windows; absent without one.
+std::optional<AxisMean> mean_g(const std::vector<archive::Segment>& segments,
+                               const station::ChannelScale& scale,
+                               const std::vector<OccupationWindow>& windows) {
+    double sum = 0.0, size = 0.0, count = 0.0;
     for (const archive::Segment& segment : segments) {
         const auto step = static_cast<std::size_t>(std::max(1.0, segment.rate_hz));
         for (std::size_t i = 0; i < segment.counts.size(); i += step) {
@@ -30,12 +35,14 @@ std::optional<double> mean_g(const std::vector<archive::Segment>& segments,
                     return window.start <= time && time < window.end;
                 }))
                 continue;
-            sum += scale.offset + scale.gain * static_cast<double>(segment.counts[i]);
+            const double value = scale.offset + scale.gain * static_cast<double>(segment.counts[i]);
+            sum += value;
+            size += std::abs(value);
             count += 1.0;
         }
     }
     if (count == 0.0) return std::nullopt;
-    return sum / count / kMps2PerG;
+    return AxisMean{sum / count / kMps2PerG, size / count / kMps2PerG};
 }
 
 /// Returns the place of the axis that the metadata call vertical.
@@ -66,20 +73,20 @@ text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
                                 const std::vector<OccupationWindow>& windows,
                                 const std::filesystem::path& file) {
     const std::vector<station::ChannelScale>& axes = epoch.channels;
-    std::array<double, kVertical + 1> means{};
+    std::array<AxisMean, kVertical + 1> means{};
     std::string list;
     bool is_complete = true;
     for (std::size_t k = 0; k < means.size(); ++k) {
         const auto mean = mean_g(samples[k].segments, axes[k], windows);
-        means[k] = mean.value_or(0.0);
+        means[k] = mean.value_or(AxisMean{});
         is_complete = is_complete && mean.has_value();
-        list += fmt::format("{}{} {}", k == 0 ? "" : ", ", axes[k].code, in_g(means[k]));
+        list += fmt::format("{}{} {}", k == 0 ? "" : ", ", axes[k].code, in_g(means[k].value));
     }
-    const auto distance = [](double mean) { return std::abs(std::abs(mean) - 1.0); };
+    const auto distance = [](const AxisMean& mean) { return std::abs(mean.size - 1.0); };
     const auto nearest =
         static_cast<std::size_t>(std::ranges::min_element(means, {}, distance) - means.begin());
     if (!is_complete) return {};
-    if (std::abs(means[nearest]) < kLeastVertical.value())
+    if (means[nearest].size < kLeastVertical.value())
         throw InputError(fmt::format(
             "{}: no axis is vertical: {}; allowed: an axis with at least {} along gravity",
             file.string(), list, in_g(kLeastVertical.value())));
@@ -90,10 +97,10 @@ text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
             "{}: {} is vertical by its dip, but gravity is along {} ({}); {} is used; the axis "
             "biases of a calibration belong to the usual mounting",
             file.string(), axes[*named].code, code, list, code);
-    if (means[nearest] < 0.0)
+    if (means[nearest].value < -kLeastVertical.value())
         warning += text::message("{}the sensor is mounted upside down: {} has {}",
                                  warning.empty() ? file.string() + ": " : "; ", code,
-                                 in_g(means[nearest]));
+                                 in_g(means[nearest].value));
     put_last(samples, epoch, nearest);
     return warning;
 }

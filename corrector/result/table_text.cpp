@@ -30,7 +30,7 @@ std::string occupations_text(const model::SurveyCorrection& result) {
             {"site", "occupation", "time_utc", "used", "acceleration_mgal", "temperature_degc",
              "rate_degc_per_h", "tide_mgal", "height_correction_mgal", "pressure_correction_mgal",
              "difference_mgal", "corrected_mgal", "reference_mgal", "residual_mgal",
-             "u_corrected_mgal", "used_min", "recorded_min", "flags"}),
+             "u_corrected_mgal", "used_min", "recorded_min", "face", "flags"}),
         decimals_of(result) + 1);
     Table table = empty_table(columns);
     in_order_of_time(

@@ -137,6 +137,10 @@ Eigen::VectorXd DayAdjustment::placement_mgal(std::size_t survey,
     problem_->of(survey).whiten(noise, members);
     Eigen::VectorXd placement =
         noise.placement_mgal * noise.placement_mgal * (members.transpose() * left);
+    // The columns have the sign of the face, the placement that of the reading.
+    const std::vector<double> faces =
+        reading::faces_of(bins, static_cast<std::size_t>(placement.size()));
+    placement.array() *= Eigen::Map<const Eigen::ArrayXd>(faces.data(), placement.size());
     // In a box, the part that its sensors have in common is a coefficient of each set-up.
     const Eigen::VectorXd& scaled_values = surveys_[survey].scaled;
     for (Index set_up = 0; set_up < placement.size(); ++set_up)

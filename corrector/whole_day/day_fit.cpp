@@ -13,6 +13,9 @@ using Index = Eigen::Index;
 DayTerm term_of(const DayRegression& regression, Index coefficient) {
     if (coefficient < kTerms) return static_cast<DayTerm>(coefficient);
     if (coefficient < regression.states_begin()) return DayTerm::drift;  // steps
+    if (coefficient >= regression.shares_begin())
+        return DayRegression::kShares.at(
+            static_cast<std::size_t>(coefficient - regression.shares_begin()));
     if (coefficient >= regression.outer_begin()) return DayTerm::slow;
     // States after gaps are in turn of the fast and of the slow lag.
     return (coefficient - regression.states_begin()) % 2 == 0 ? DayTerm::fast : DayTerm::slow;
@@ -37,14 +40,14 @@ std::vector<DaySetUp> DayAdjustment::set_ups_of(std::size_t survey) const {
         DaySetUp& mean = means[bin.set_up];
         const auto row = static_cast<Index>(i);
         const double weight = static_cast<double>(bin.times.size()) / counts[bin.set_up];
-        mean.reading = mean.reading + MilliGal(weight * regression.readings_mgal()(row));
+        mean.reading = mean.reading + MilliGal(weight * bin.face * regression.readings_mgal()(row));
         mean.tide = mean.tide + MilliGal(weight * bin.tide.value());
         mean.temperature = mean.temperature + DegC(weight * temperature(row));
         mean.rate_degc_per_h += weight * x(row, static_cast<Index>(DayTerm::fast));
         for (Index k = 0; k < regression.estimated(); ++k)
             if (k < kTerms || k >= regression.steps_begin())
                 mean.effect_mgal.at(static_cast<std::size_t>(term_of(regression, k))) +=
-                    weight * values(k) * x(row, k);
+                    weight * bin.face * values(k) * x(row, k);
     }
     for (std::size_t s = 0; s < means.size(); ++s) {
         DaySetUp& set_up = means[s];
@@ -84,6 +87,8 @@ DayFit DayAdjustment::fit(std::size_t survey) const {
     for (Index k = regression.steps_begin(); k < regression.states_begin(); ++k)
         fit.steps_mgal.push_back(estimate(k));
     fit.outer = regression.outer_response(fit.point, part.values, errors);
+    for (Index k = regression.shares_begin(); k < regression.estimated(); ++k)
+        fit.on_scale.push_back(estimate(k));
     fit.noise_log_errors = found_.noise_log_errors;
     fit.shift << fit.point[kFastLag], fit.point[kSlowLag], part.scaled.head(kTerms);
     // The lags are last in `scaled` and first in the shift.

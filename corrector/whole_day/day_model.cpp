@@ -90,7 +90,7 @@ std::optional<DayAdjustment> adjust_planned_day(reading::DayRecord& record, DayS
         bare.design({}) * bare.unscaled({}, Eigen::VectorXd::Zero(bare.estimated()));
     for (std::size_t i = 0; i < record.bins.size(); ++i) {
         MilliGal& reading = record.bins[i].reading;
-        reading = reading + MilliGal(effects(static_cast<Eigen::Index>(i)));
+        reading = reading + MilliGal(record.bins[i].face * effects(static_cast<Eigen::Index>(i)));
     }
     const auto problem = std::make_shared<const DayProblem>(std::vector{std::move(survey)});
     const DayPoint point = mean_point(*problem, {problem->of(0).point_of(noise)});

@@ -143,7 +143,7 @@ void DayProblem::set_hypers() {
 void DayProblem::set_columns() {
     for (std::size_t unit = 0; unit < unit_count_; ++unit) {
         unit_begin_.push_back(common_count_);
-        common_count_ += columns_of_unit() + (has_outer(unit) ? kOuterSlopes : 0);
+        common_count_ += columns_of_unit() + (has_outer(unit) ? kOuterSlopes : 0) + shares_of(unit);
     }
     for (std::size_t k = 0; k < surveys_.size(); ++k)
         for (std::size_t number = 0; number < count_of(surveys_[k]); ++number) {
@@ -204,6 +204,12 @@ bool DayProblem::has_outer(std::size_t unit) const {
                                [this](std::size_t k) { return of(k).has_outer(); });
 }
 
+Index DayProblem::shares_of(std::size_t unit) const {
+    Index most = 0;
+    for (const std::size_t k : surveys_of_unit(unit)) most = std::max(most, of(k).shares());
+    return most;
+}
+
 std::vector<std::size_t> DayProblem::surveys_of_unit(std::size_t unit) const {
     std::vector<std::size_t> surveys;
     for (std::size_t k = 0; k < surveys_.size(); ++k)
@@ -228,8 +234,11 @@ std::vector<Index> DayProblem::places_in_group(std::size_t survey, bool is_exten
             places[static_cast<std::size_t>(place) + 1] =
                 common + places_[gravity_of(survey, number)];
     for (Index k = problem.steps_begin(); k < problem.outer_begin(); ++k) places.push_back(own++);
-    for (Index k = problem.outer_begin(); k < problem.estimated(); ++k)
+    for (Index k = problem.outer_begin(); k < problem.shares_begin(); ++k)
         places.push_back(unit + columns_of_unit() + k - problem.outer_begin());
+    const Index outer = has_outer(surveys_[survey].unit) ? kOuterSlopes : 0;
+    for (Index k = 0; k < problem.shares(); ++k)
+        places.push_back(unit + columns_of_unit() + outer + k);
     if (group.is_box())
         for (Index k = 0; k < static_cast<Index>(group.set_up_count); ++k) places.push_back(k);
     if (!is_extended) return places;
@@ -274,13 +283,14 @@ Eigen::MatrixXd DayProblem::whitened(const DayPoint& point, std::size_t survey,
     const double in_common_mgal = std::sqrt(point.share) * of(survey).noise(u).placement_mgal;
     for (Index row = 0; row < columns.rows(); ++row) {
         const std::size_t set_up = bins[static_cast<std::size_t>(row)].set_up;
+        const double face = bins[static_cast<std::size_t>(row)].face;
         if (group.is_box()) {
             const std::size_t number = group.set_ups[place_in_group_[survey]][set_up];
-            columns(row, scaled.cols() + static_cast<Index>(number)) = in_common_mgal;
+            columns(row, scaled.cols() + static_cast<Index>(number)) = face * in_common_mgal;
         }
         if (values != nullptr)
             columns(row, lags + kLags + static_cast<Index>(of_survey.stations[set_up].number)) =
-                kFreeGravity_mgal;
+                face * kFreeGravity_mgal;
     }
     log_determinant = of(survey).whiten(own_noise(point, survey), columns);
     return columns;

@@ -166,6 +166,8 @@ private:
     void add_white_surveys();
     [[nodiscard]] std::vector<std::size_t> surveys_of_unit(std::size_t unit) const;
     [[nodiscard]] bool has_outer(std::size_t unit) const;
+    /// Returns the number of the unit's slopes that act on the scale.
+    [[nodiscard]] Eigen::Index shares_of(std::size_t unit) const;
 
     std::vector<DaySurvey> surveys_;
     std::vector<WhiteSurvey> white_surveys_;

@@ -20,6 +20,11 @@ constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the pub
 constexpr LogNormalPrior kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
 constexpr double kWhiteFactor = 2.0;
 
+/// DayRegression::kShares as terms of the unit.
+constexpr std::array kSharesOfUnit{unit::ThermalTerm::level, unit::ThermalTerm::slow,
+                                   unit::ThermalTerm::fast};
+static_assert(kSharesOfUnit.size() == DayRegression::kShares.size());
+
 /// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
 /// at least 1e-3.  It is the median of the white noise's prior.
 double bin_scatter_mgal(const std::vector<reading::DayBin>& bins) {
@@ -40,7 +45,11 @@ DayRegression::DayRegression(const DaySurvey& survey, const std::vector<double>&
       priors_(survey.priors),
       whitening_(record_.bins),
       white_mgal_{bin_scatter_mgal(record_.bins), kWhiteFactor},
+      is_turned_(reading::is_turned(record_.bins)),
       means_(record_.temperature.series, record_.bins) {
+    faces_.resize(std::ssize(record_.bins));
+    for (Index i = 0; i < faces_.size(); ++i)
+        faces_(i) = record_.bins[static_cast<std::size_t>(i)].face;
     set_states();
     set_gravities();
     set_readings(rough_mgal);
@@ -95,27 +104,30 @@ void DayRegression::set_readings(const std::vector<double>& rough_mgal) {
     const auto count = static_cast<Index>(record_.bins.size());
     readings_mgal_.resize(count);
     double held_sum = 0.0, held_count = 0.0;
-    std::vector<double> sums(places_.size()), counts(sums.size());
+    std::vector<double> sums(places_.size()), counts(sums.size()), faces(sums.size());
     for (Index i = 0; i < count; ++i) {
         const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
         const DayStation& station = stations_[bin.set_up];
         readings_mgal_(i) = (bin.reading - bin.tide).value();
         if (is_held_[station.number]) {
-            held_sum += readings_mgal_(i) - base_mgal_[station.number];
+            held_sum += bin.face * (readings_mgal_(i) - base_mgal_[station.number]);
             held_count += 1.0;
         } else {
             sums[station.number] += readings_mgal_(i);
             counts[station.number] += 1.0;
+            faces[station.number] += bin.face;
         }
     }
     for (std::size_t k = 0; k < sums.size(); ++k)
         if (!rough_mgal.empty() && !is_held_[k])
             base_mgal_[k] = rough_mgal[k];
         else if (counts[k] > 0.0)
-            base_mgal_[k] = sums[k] / counts[k] - held_sum / held_count;
-    for (Index i = 0; i < count; ++i)
-        readings_mgal_(i) -=
-            base_mgal_[stations_[record_.bins[static_cast<std::size_t>(i)].set_up].number];
+            base_mgal_[k] = sums[k] / counts[k] - faces[k] / counts[k] * (held_sum / held_count);
+    for (Index i = 0; i < count; ++i) {
+        const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
+        readings_mgal_(i) =
+            bin.face * (readings_mgal_(i) - base_mgal_[stations_[bin.set_up].number]);
+    }
 }
 
 void DayRegression::set_fixed_columns() {
@@ -133,17 +145,19 @@ void DayRegression::set_fixed_columns() {
     });
     const reading::DayBin& zero =
         first_held == record_.bins.end() ? record_.bins.front() : *first_held;
-    const double zero_mgal = base_mgal_[stations_[zero.set_up].number];
+    // In one face the constant takes the scale's part in all gravities; in two it cannot.
+    const double zero_mgal = is_turned_ ? 0.0 : base_mgal_[stations_[zero.set_up].number];
     for (Index i = 0; i < count; ++i) {
         const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
-        column(DayTerm::scale)(i) = base_mgal_[stations_[bin.set_up].number] - zero_mgal;
+        column(DayTerm::scale)(i) =
+            bin.face * (base_mgal_[stations_[bin.set_up].number] - zero_mgal);
         column(DayTerm::drift)(i) = seconds_between(middle, bin.time) / kSecondsPerHour;
         column(DayTerm::warm_up)(i) = std::exp(-seconds_between(begin, bin.time) / kSecondsPerHour /
                                                unit::kTypicalUnit.warm_up_h);
-        column(DayTerm::x)(i) = bin.x.value();
-        column(DayTerm::y)(i) = bin.y.value();
+        column(DayTerm::x)(i) = bin.face * bin.x.value();
+        column(DayTerm::y)(i) = bin.face * bin.y.value();
         const Index place = place_of(stations_[bin.set_up].number);
-        if (place >= 0) fixed_(i, place) = 1.0;
+        if (place >= 0) fixed_(i, place) = bin.face;
         fixed_.row(i)
             .segment(steps_begin(), static_cast<Index>(stations_[bin.set_up].steps))
             .setOnes();
@@ -154,6 +168,13 @@ double DayRegression::lag_s(const Point& u, DayHyper lag) const {
     const auto place = static_cast<Index>(lag);
     return std::exp(priors_.mean(place) + priors_.factor(place, kFastLag) * u[kFastLag] +
                     priors_.factor(place, kSlowLag) * u[kSlowLag]);
+}
+
+Eigen::VectorXd DayRegression::share_sd() const {
+    Eigen::VectorXd deviations(shares());
+    for (Index k = 0; k < shares(); ++k)
+        deviations(k) = unit::day_prior(kSharesOfUnit.at(static_cast<std::size_t>(k))).deviation;
+    return deviations;
 }
 
 Eigen::VectorXd DayRegression::slow_column(double lag_s) const {
@@ -193,7 +214,10 @@ Eigen::MatrixXd DayRegression::design(const Point& u, LagColumns& lagged) const 
                 column(i) = remaining(record_.bins[static_cast<std::size_t>(i)], states_[k].from,
                                       lag_s(u, lag));
         }
-    if (has_outer()) columns.rightCols(kOuterSlopes) = outer_columns(u);
+    if (has_outer()) columns.middleCols(outer_begin(), kOuterSlopes) = outer_columns(u);
+    for (Index k = 0; k < shares(); ++k)
+        columns.col(shares_begin() + k) = faces_.cwiseProduct(
+            columns.col(static_cast<Index>(kShares.at(static_cast<std::size_t>(k)))));
     return columns;
 }
 
@@ -224,8 +248,9 @@ Eigen::MatrixXd DayRegression::unscaling(const Point& u) const {
     derivative.diagonal().segment(kTerms, gravity_sd_mgal_.size()) = gravity_sd_mgal_;
     derivative.diagonal().segment(states_begin(), states_sd_mgal_.size()) = states_sd_mgal_;
     derivative.diagonal()
-        .segment(outer_begin(), estimated() - outer_begin())
+        .segment(outer_begin(), shares_begin() - outer_begin())
         .setConstant(kOuterSize_mgal_per_degc.at(u[kOuterSize]));
+    derivative.diagonal().tail(shares()) = share_sd();
     derivative.topRightCorner(kTerms, kLags) = factor.bottomLeftCorner<kTerms, kLags>();
     return derivative;
 }
@@ -270,16 +295,26 @@ Eigen::MatrixXd DayRegression::scaled(const Point& u, LagColumns& lagged) const 
         x.middleCols(kTerms, gravity_sd_mgal_.size()) * gravity_sd_mgal_.asDiagonal();
     columns.middleCols(1 + states_begin(), states_sd_mgal_.size()) =
         x.middleCols(states_begin(), states_sd_mgal_.size()) * states_sd_mgal_.asDiagonal();
-    const Index outer = estimated() - outer_begin();
-    columns.rightCols(outer) = kOuterSize_mgal_per_degc.at(u[kOuterSize]) * x.rightCols(outer);
+    const Index outer = shares_begin() - outer_begin();
+    columns.middleCols(1 + outer_begin(), outer) =
+        kOuterSize_mgal_per_degc.at(u[kOuterSize]) * x.middleCols(outer_begin(), outer);
+    columns.rightCols(shares()) = x.rightCols(shares()) * share_sd().asDiagonal();
     return columns;
 }
 
 Eigen::MatrixXd DayRegression::lag_columns(const Point& u, const Eigen::VectorXd& values) const {
     constexpr double kStep = 0.1;
+    const auto slope = [&](DayTerm term) -> Eigen::VectorXd {
+        Eigen::VectorXd of =
+            Eigen::VectorXd::Constant(faces_.size(), values(static_cast<Index>(term)));
+        for (Index k = 0; k < shares(); ++k)
+            if (kShares.at(static_cast<std::size_t>(k)) == term)
+                of += values(shares_begin() + k) * faces_;
+        return of;
+    };
     const auto lagged_effects = [&](const Point& at) -> Eigen::VectorXd {
-        return values(static_cast<Index>(DayTerm::fast)) * fast_column(lag_s(at, kFastLag)) +
-               values(static_cast<Index>(DayTerm::slow)) * slow_column(lag_s(at, kSlowLag));
+        return slope(DayTerm::fast).cwiseProduct(fast_column(lag_s(at, kFastLag))) +
+               slope(DayTerm::slow).cwiseProduct(slow_column(lag_s(at, kSlowLag)));
     };
     Eigen::MatrixXd columns = design(u) * unscaling(u).rightCols(kLags);
     for (const DayHyper lag : {kFastLag, kSlowLag}) {

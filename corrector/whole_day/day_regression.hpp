@@ -15,6 +15,7 @@
 /// temperature, and the middle between the first and the last bin.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -28,9 +29,13 @@ namespace a351::corrector::whole_day {
 
 /// Readings and columns of a survey with n bins.  The estimated quantities are the terms, then the
 /// gravities, then the steps, then for each gap of the temperature the effects of the fast and of
-/// the slow lag's state, mGal where the gap ends (lag_states.hpp), then the slopes of an outer oven.
-/// A reference that is held with an uncertainty is one of the gravities, with that prior; an exact one
+/// the slow lag's state, mGal where the gap ends (lag_states.hpp), then the slopes of an outer oven, then
+/// those that act on the scale, if the sensor was turned over.  A reference that is held with an uncertainty is one of the gravities, with that prior; an exact one
 /// is none.
+///
+/// A reading is face x (gravity + scale) + bias, and the norm of the axes is face x this.  All rows are
+/// multiplied by the face of their bin, 1 or -1: the columns of the bias are then those of one face,
+/// gravities, scale and axes have the sign, and the flicker continues over a turn.
 ///
 /// An unknown gravity counts from a rough one: the mean of its readings minus the mean constant of
 /// the set-ups that are held.  Therefore its prior, 0 +- 1e4 mGal, has practically no influence.
@@ -46,6 +51,10 @@ class DayRegression {
 public:
     using Point = SurveyPoint;
 
+    /// Terms whose slope has a part that acts on the scale.  It is seen only if the sensor is turned
+    /// over; in one face only the sum of both parts is.
+    static constexpr std::array kShares{DayTerm::level, DayTerm::slow, DayTerm::fast};
+
     /// The columns of two lags, kept from point to point of a search: many points differ in one of
     /// them or in neither.
     struct LagColumns {
@@ -59,7 +68,12 @@ public:
     explicit DayRegression(const DaySurvey& survey, const std::vector<double>& rough_mgal = {});
 
     /// Returns the number of terms, gravities, states and slopes of an outer oven.
-    [[nodiscard]] Eigen::Index estimated() const {
+    [[nodiscard]] Eigen::Index estimated() const { return shares_begin() + shares(); }
+    /// Returns the number of slopes that act on the scale: those of kShares, if the sensor was turned
+    /// over.
+    [[nodiscard]] Eigen::Index shares() const { return is_turned_ ? std::ssize(kShares) : 0; }
+    /// Returns the place of the first of them, the last of the estimated quantities.
+    [[nodiscard]] Eigen::Index shares_begin() const {
         return outer_begin() + (has_outer() ? kOuterSlopes : 0);
     }
     [[nodiscard]] bool has_outer() const { return record_.outer.has_value(); }
@@ -102,8 +116,9 @@ public:
     [[nodiscard]] double lag_s(const Point& u, DayHyper lag) const;
 
     /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
-    /// the terms, then 1 for the bins of each gravity and for those after each step, then what remains of
-    /// each state, then the outer oven's temperature without and with its lag.
+    /// the terms, then the face for the bins of each gravity and 1 for those after each step, then what
+    /// remains of each state, then the outer oven's temperature without and with its lag, then the columns
+    /// of kShares times the face.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
@@ -137,7 +152,7 @@ public:
     /// Returns the object that averages a series over the bins.  The reference is valid as long as
     /// this object.
     [[nodiscard]] const BinMeans& means() const { return means_; }
-    /// Returns the readings (n) minus tide and base_mgal().
+    /// Returns the readings (n) minus tide and base_mgal(), times the face.
     [[nodiscard]] const Eigen::VectorXd& readings_mgal() const { return readings_mgal_; }
     /// Returns the gravity of each station from which its estimate counts, mGal: the reference, or a
     /// rough value; 0 for a number without a bin.
@@ -156,6 +171,9 @@ private:
     void set_states();
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
     [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
+    /// Returns the prior deviations of the slopes that act on the scale: those of the slopes
+    /// themselves, because nobody knows the share.
+    [[nodiscard]] Eigen::VectorXd share_sd() const;
     /// design(), as scaled().
     [[nodiscard]] Eigen::MatrixXd design(const Point& u, LagColumns& lagged) const;
     /// Returns the columns (n, kOuterSlopes) of an outer oven, without their means.
@@ -168,6 +186,8 @@ private:
     const DayPriors& priors_;
     Whitening whitening_;
     LogNormalPrior white_mgal_;
+    bool is_turned_;
+    Eigen::VectorXd faces_;             ///< Face of each bin.
     std::vector<bool> is_held_;         ///< One per number: one of its set-ups has a reference.
     std::vector<Eigen::Index> places_;  ///< place_of() each number.
     /// Prior deviations of the gravities that are estimated, then of the steps.

@@ -80,16 +80,21 @@ std::vector<FitTest> goodness_of_fit(const DaySurvey& survey, const DayFit& fit)
     const Index set_ups = mean.rows();
     if (set_ups - residuals.unknown.cols() < kFewestFitDof) return {};
 
+    // An effect on the bias has the sign of the face in the readings.
+    const std::vector<double> faces =
+        reading::faces_of(survey.record->bins, static_cast<std::size_t>(set_ups));
+    const Eigen::Map<const Eigen::VectorXd> face(faces.data(), set_ups);
     std::vector<Direction> curves, steps, singles;
     for (const DayTerm term : {DayTerm::level, DayTerm::drift}) {
         const Eigen::VectorXd course =
             mean * problem.design(fit.point).col(static_cast<Index>(term));
-        curves.push_back(residuals.direction((course.array() - course.mean()).square()));
+        curves.push_back(
+            residuals.direction(face.array() * (course.array() - course.mean()).square()));
     }
     for (Index k = 1; k < set_ups; ++k) {
         Eigen::VectorXd after = Eigen::VectorXd::Ones(set_ups);
         after.head(k).setZero();
-        steps.push_back(residuals.direction(after));
+        steps.push_back(residuals.direction(face.cwiseProduct(after)));
     }
     for (Index k = 0; k < set_ups; ++k)
         singles.push_back(residuals.direction(Eigen::VectorXd::Unit(set_ups, k)));

@@ -48,6 +48,11 @@ adjustment::DenseResiduals set_up_residuals(const DaySurvey& survey, const DayFi
         adjustment::orthonormal_basis(residuals.whitening * scaled(Eigen::all, unknown));
     residuals.values = residuals.whitening * scaled.col(0);
     residuals.project(residuals.values);
+    // The columns have the sign of the face; effects on the readings have not.
+    const std::vector<double> faces =
+        reading::faces_of(record.bins, static_cast<std::size_t>(mean.rows()));
+    residuals.whitening *=
+        Eigen::Map<const Eigen::VectorXd>(faces.data(), mean.rows()).asDiagonal();
     return residuals;
 }
 

@@ -118,7 +118,7 @@ def bound(day, plan, share, is_known, gradient_mgal):
     return float(numpy.mean(numpy.diag(posterior)[:len(unknown)]) ** 0.5)
 
 
-def main():
+def print_bound():
     first = int(sys.argv[1]) if len(sys.argv) > 1 else 95001
     count = int(sys.argv[2]) if len(sys.argv) > 2 else 20
     with Scratch() as scratch:
@@ -133,4 +133,5 @@ def main():
                           + " | ".join(f"{value:.2f}" for value in values))
 
 
-main()
+if __name__ == "__main__":
+    print_bound()

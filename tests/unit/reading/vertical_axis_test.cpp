@@ -18,6 +18,7 @@ struct Mounted {
     std::array<double, 3> sensed_g;
     std::array<std::size_t, 3> order;  ///< Order of the channels in the file.
     std::array<double, 3> dip_deg{0.0, 0.0, -90.0};
+    bool is_turned = false;  ///< In the second half of the stay.
 
     std::vector<archive::ChannelData> samples = std::vector<archive::ChannelData>(3);
     corrector::archive_series::Epoch epoch = {};
@@ -31,6 +32,9 @@ struct Mounted {
             archive::Segment segment{50.0, {}, {{0, kDayStart}}};
             segment.counts.assign(30'000, static_cast<std::int32_t>(counts));
             std::fill_n(segment.counts.begin(), 15'000, 980'665);  // on the way: not looked at
+            if (is_turned)
+                std::for_each(segment.counts.begin() + 22'500, segment.counts.end(),
+                              [](std::int32_t& count) { count = -count; });
             samples[k].segments = {segment};
             epoch.channels.push_back({codes[axis], 1e-5, 0.0, "m/s**2", dip_deg[axis]});
         }
@@ -69,6 +73,15 @@ TEST_CASE("the vertical axis is found in six mountings and three orders of the c
                                       std::string::npos;
                 CHECK(is_other == (axis != 2));
             }
+}
+
+TEST_CASE("the vertical axis is found if the sensor is turned over between the windows",
+          "[survey][vertical][faces]") {
+    Mounted sensor{{0.002, -0.003, 1.0018}, kOrders[1]};
+    sensor.is_turned = true;
+    sensor.look();
+    CHECK(sensor.epoch.channels[2].code == "BNZ");
+    CHECK(sensor.warning.empty());
 }
 
 TEST_CASE("a dip that contradicts gravity is named, and gravity counts", "[survey][vertical]") {

@@ -39,8 +39,29 @@ TEST_CASE("the whole-day model finds the parameters of made-up readings", "[day]
               Approx(MadeUpDay::gravity_mgal(s)).margin(0.001));
 }
 
+TEST_CASE("two faces separate what acts on the bias from what acts on the scale", "[day][faces]") {
+    const MadeUpDay day{.is_turned = true, .scale_share = 0.3};
+    const DayRecord record = day.record();
+    CHECK(is_turned(record.bins));
+    const auto fit = fit_day(record, MadeUpDay::stations());
+    REQUIRE(fit);
+    CHECK(coefficient(*fit, DayTerm::constant) == Approx(day.constant).margin(0.01));
+    CHECK(coefficient(*fit, DayTerm::level) == Approx(0.7 * day.level).margin(0.1));
+    CHECK(coefficient(*fit, DayTerm::fast) == Approx(0.7 * day.fast).margin(0.02));
+    CHECK(coefficient(*fit, DayTerm::drift) == Approx(day.drift).margin(0.01));
+    REQUIRE(fit->on_scale.size() == 3);
+    CHECK(fit->on_scale[0].value == Approx(0.3 * day.level).margin(0.1));
+    CHECK(fit->on_scale[1].value == Approx(0.3 * day.slow).margin(0.1));
+    CHECK(fit->on_scale[2].value == Approx(0.3 * day.fast).margin(0.02));
+    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s)
+        CHECK(fit->set_ups[s].corrected.value() ==
+              Approx(MadeUpDay::gravity_mgal(s)).margin(0.001));
+}
+
 TEST_CASE("reading, flicker and effects of a set-up add up to its corrected value", "[day]") {
-    const auto fit = fit_day(MadeUpDay{.placement_mgal = 1.0}.record(), MadeUpDay::stations());
+    const bool is_turned = GENERATE(false, true);
+    const auto fit = fit_day(MadeUpDay{.placement_mgal = 1.0, .is_turned = is_turned}.record(),
+                             MadeUpDay::stations());
     for (const DaySetUp& set_up : fit.value().set_ups) {
         double effects = 0.0;
         for (const double effect : set_up.effect_mgal) effects += effect;

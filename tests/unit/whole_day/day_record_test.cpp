@@ -13,7 +13,7 @@ namespace {
 const UtcTime kRecordStart = *parse_rfc3339("2026-05-01T00:00:00Z");
 const Hertz kRate(50.0);
 
-OccupationRecord still(double seconds) {
+OccupationRecord still(double seconds, double z_g = 0.999) {
     std::mt19937_64 random(5);
     std::normal_distribution<double> noise(0.0, 1e-5);
     const auto axis = [&](double value_g) {
@@ -21,7 +21,7 @@ OccupationRecord still(double seconds) {
         for (double& sample : samples) sample = value_g + noise(random);
         return TimeSeries<StandardGravity>(kRecordStart, kRate, samples);
     };
-    return {axis(0.001), axis(-0.002), axis(0.999), TimeSeries<DegC>(kRecordStart, kRate, {})};
+    return {axis(0.001), axis(-0.002), axis(z_g), TimeSeries<DegC>(kRecordStart, kRate, {})};
 }
 
 }  // namespace
@@ -38,6 +38,20 @@ TEST_CASE("bins contain the mean norm and the mean horizontal axes", "[day]") {
     }
     CHECK(bins[2].times.size() == kBinSamples);
     CHECK(seconds_between(kRecordStart, bins[2].time) == Approx(124.0));
+}
+
+TEST_CASE("bins know the face of the sensor", "[day][faces]") {
+    std::vector<DayBin> bins;
+    for (const std::size_t set_up : {0U, 1U}) {
+        const double z_g = set_up == 0 ? 0.999 : -0.999;
+        for (const DayBin& bin : bin_set_up(set_up, decimate_axes(still(60.0, z_g)), 8.0)) {
+            bins.push_back(bin);
+            CHECK(bin.face == (z_g < 0.0 ? -1.0 : 1.0));
+            CHECK(bin.reading.value() > 0.0);
+        }
+        CHECK(is_turned(bins) == (z_g < 0.0));
+    }
+    CHECK(faces_of(bins, 3) == std::vector{1.0, -1.0, 1.0});
 }
 
 TEST_CASE("samples near a disturbance are left out of the bins", "[day]") {

@@ -46,7 +46,7 @@ struct RandomDays {
     DayPoint point;
 };
 
-/// Returns a made-up day of a few bins, a number of days later.
+/// Returns a made-up day of a few bins, a number of days later; some days are in two faces.
 std::unique_ptr<DayRecord> day_of(std::uint64_t seed, std::size_t bins_of_set_up, int days) {
     auto record = std::make_unique<DayRecord>(
         MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record(seed));
@@ -59,6 +59,7 @@ std::unique_ptr<DayRecord> day_of(std::uint64_t seed, std::size_t bins_of_set_up
         DayBin bin = record->bins[i];
         bin.time += shift;
         for (UtcTime& time : bin.times) time += shift;
+        if (seed % 3 == 0) bin.face = (bin.set_up + seed) % 4 < 2 ? 1.0 : -1.0;
         bin.y = StandardGravity(0.001 * std::sin(1.7 * static_cast<double>(bin.set_up + seed)));
         kept.push_back(std::move(bin));
     }
@@ -207,9 +208,10 @@ public:
                 const auto effects = [&](double move) -> Eigen::VectorXd {
                     SurveyPoint u = fit.point;
                     u.at(lag) += move;
-                    return regression.design(u) *
-                           regression.unscaled(u,
-                                               adjustment.scaled(k).head(regression.estimated()));
+                    return faces_of(problem.surveys()[k])
+                        .cwiseProduct(regression.design(u) *
+                                      regression.unscaled(
+                                          u, adjustment.scaled(k).head(regression.estimated())));
                 };
                 constexpr double kStep = 0.1;
                 lags.emplace("unit " + std::to_string(problem.surveys()[k].unit) + " lag " +
@@ -261,16 +263,28 @@ public:
     static std::string own(std::size_t site) { return "own " + std::to_string(site); }
 
 private:
+    /// Returns the faces of the bins.  The rows of the regression have their sign, these have not.
+    static Eigen::VectorXd faces_of(const DaySurvey& survey) {
+        Eigen::VectorXd faces(std::ssize(survey.record->bins));
+        for (Eigen::Index i = 0; i < faces.size(); ++i)
+            faces(i) = survey.record->bins[static_cast<std::size_t>(i)].face;
+        return faces;
+    }
+
     void add(std::size_t k, Eigen::Index& begin, Eigen::Index rows) {
         const DayProblem& problem = *days_.problem;
         const DaySurvey& survey = problem.surveys()[k];
         const DayRegression& regression = problem.of(k);
         const SurveyPoint u = problem.part_of(days_.point, k);
         const Eigen::Index count = std::ssize(survey.record->bins);
-        const Eigen::MatrixXd scaled = regression.scaled(u);
+        const Eigen::VectorXd faces = faces_of(survey);
+        const Eigen::MatrixXd scaled = faces.asDiagonal() * regression.scaled(u);
         readings_.segment(begin, count) = scaled.col(0).cast<Real>();
         noise_.block(begin, begin, count, count) =
-            noise_covariance(survey.record->bins, problem.own_noise(days_.point, k)).cast<Real>();
+            (faces.asDiagonal() *
+             noise_covariance(survey.record->bins, problem.own_noise(days_.point, k)) *
+             faces.asDiagonal())
+                .cast<Real>();
         const auto column = [&](const std::string& name, const Eigen::VectorXd& values) {
             columns_.emplace(name, Vector::Zero(rows)).first->second.segment(begin, count) +=
                 values.cast<Real>();
@@ -284,6 +298,9 @@ private:
                    scaled.col(term + 1));
         for (Eigen::Index step = regression.steps_begin(); step < regression.states_begin(); ++step)
             column(of_survey + "step " + std::to_string(step), scaled.col(step + 1));
+        for (Eigen::Index share = 0; share < regression.shares(); ++share)
+            column(of_unit + "share " + std::to_string(share),
+                   scaled.col(1 + regression.shares_begin() + share));
         for (std::size_t site = 0; site < survey.gravities.size(); ++site) {
             Eigen::VectorXd ones = Eigen::VectorXd::Zero(count);
             for (Eigen::Index i = 0; i < count; ++i)

@@ -17,6 +17,12 @@ struct MadeUpDay {
     double fast_lag_s = 55.0, slow_lag_s = 2200.0;
     double constant = 1838.0;
     double placement_mgal = 0.0, white_mgal = 1e-4;
+    bool is_turned = false;    ///< The faces of the set-ups are + - - +, again and again.
+    double scale_share = 0.0;  ///< Share of the thermal effects that acts on the scale.
+
+    [[nodiscard]] double face(std::size_t set_up) const {
+        return is_turned && (set_up % 4 == 1 || set_up % 4 == 2) ? -1.0 : 1.0;
+    }
 
     static constexpr std::size_t kSetUps = 16;
     static constexpr std::size_t kBins = 14;
@@ -55,6 +61,7 @@ struct MadeUpDay {
                                      2.0 * static_cast<double>(b * reading::kBinSamples + i)));
                 bin.time = bin.times[reading::kBinSamples / 2];
                 bin.x = tilt;
+                bin.face = face(s);
                 day.bins.push_back(bin);
             }
         }
@@ -70,12 +77,15 @@ struct MadeUpDay {
             reading::DayBin& bin = day.bins[i];
             const auto k = static_cast<Eigen::Index>(i);
             if (i % kBins == 0) placement = placement_mgal * normal(random);
-            bin.reading = MilliGal(
-                gravity_mgal(bin.set_up) + constant + level * (level_degc(k) - 42.5) +
-                fast * 3600.0 * (level_degc(k) - fast_degc(k)) / fast_lag_s +
-                slow * (slow_degc(k) - 42.5) + drift * seconds_between(middle, bin.time) / 3600.0 +
-                warm_up * std::exp(-seconds_between(start(), bin.time) / 9000.0) +
-                x * bin.x.value() + placement + white_mgal * normal(random));
+            const double thermal = level * (level_degc(k) - 42.5) +
+                                   fast * 3600.0 * (level_degc(k) - fast_degc(k)) / fast_lag_s +
+                                   slow * (slow_degc(k) - 42.5);
+            const double bias = constant + (1.0 - scale_share) * thermal +
+                                drift * seconds_between(middle, bin.time) / 3600.0 +
+                                warm_up * std::exp(-seconds_between(start(), bin.time) / 9000.0);
+            bin.reading =
+                MilliGal(gravity_mgal(bin.set_up) + bin.face * bias + scale_share * thermal +
+                         x * bin.x.value() + placement + white_mgal * normal(random));
         }
         return day;
     }
