@@ -6,6 +6,7 @@
 /// box stands for five minutes more.  Counted are:
 /// - time from the end of the plan to YOU CAN GO, and stays with LOOK, without a mistake;
 /// - stays with LOOK when *Next set-up* comes 60 s before to 120 s after the lifting;
+/// - the same of days with two set-ups whose box is turned over in between;
 /// - days on which LOOK names the box that was lifted and set down without *Next set-up*, in the stay.
 /// Without a corrector LOOK comes from the motion of the box alone; signal_bench.py has what the
 /// readings contradict.
@@ -89,9 +90,11 @@ std::multimap<UtcTime, Order> orders_of(const std::vector<PlannedSetUp>& plan, P
     return orders;
 }
 
-std::vector<Stay> walk(const std::string& name, int set_ups, std::uint64_t seed, Press press) {
+std::vector<Stay> walk(const std::string& name, int set_ups, std::uint64_t seed, Press press,
+                       const std::string& faces) {
     auto scenario = sim::scenario::load_scenario(name);
     scenario.schedule.set_ups = set_ups;
+    scenario.schedule.faces = faces;
     scenario.schedule.length_s = kPlan_s + kLonger_s;
     scenario.schedule.jitter_s = 0.0;
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
@@ -170,12 +173,14 @@ int main(int count, char** arguments) {
         const char* scenario;
         int set_ups;
         Press press;
+        const char* faces = "+";
     };
     bool is_kept = true;
     for (const Kind kind :
          {Kind{"tsukuba", 1, Press::at_lifting}, Kind{"hot-afternoon", 1, Press::at_lifting},
           Kind{"tsukuba", 2, Press::at_lifting}, Kind{"hot-afternoon", 2, Press::at_lifting},
-          Kind{"tsukuba", 2, Press::beside_lifting}, Kind{"tsukuba", 2, Press::forgotten}}) {
+          Kind{"tsukuba", 2, Press::at_lifting, "+-"}, Kind{"tsukuba", 2, Press::beside_lifting},
+          Kind{"tsukuba", 2, Press::forgotten}}) {
         std::vector<std::future<std::vector<Stay>>> walks;
         std::size_t stays = 0, in_time = 0, looks = 0, named = 0;
         double latest_s = 0.0;
@@ -183,7 +188,8 @@ int main(int count, char** arguments) {
             walks.clear();
             for (int k = day; k < std::min(day + 2, days); ++k)
                 walks.push_back(std::async(std::launch::async, walk, kind.scenario, kind.set_ups,
-                                           first + static_cast<std::uint64_t>(k), kind.press));
+                                           first + static_cast<std::uint64_t>(k), kind.press,
+                                           kind.faces));
             for (auto& one : walks) {
                 const auto found = one.get();
                 stays += found.size();
@@ -202,18 +208,18 @@ int main(int count, char** arguments) {
         const bool is_forgotten = kind.press == Press::forgotten;
         const auto count = static_cast<std::size_t>(days);
         std::printf(
-            "%s, %d set-ups, %s: %zu stays, YOU CAN GO within %.0f s of the plan at %zu, at most "
+            "%s, %d set-ups, faces %s, %s: %zu stays, YOU CAN GO within %.0f s of the plan at %zu, "
+            "at most "
             "%.1f s; "
             "LOOK at %zu stays without a mistake, and at %zu of %zu with one\n",
-            kind.scenario, kind.set_ups,
+            kind.scenario, kind.set_ups, kind.faces,
             is_forgotten                          ? "one Next set-up forgotten"
             : kind.press == Press::beside_lifting ? "Next set-up beside the lifting"
                                                   : "no mistake",
             stays, kMostLate_s, in_time, latest_s, looks, named, is_forgotten ? count : 0);
         std::fflush(stdout);
-        is_kept =
-            is_kept && (is_forgotten ? 20 * days_with_look >= 19 * static_cast<std::size_t>(days)
-                                     : looks == 0);
+        is_kept = is_kept &&
+                  (is_forgotten ? 20 * named >= 19 * static_cast<std::size_t>(days) : looks == 0);
     }
     return is_kept ? 0 : 1;
 }
