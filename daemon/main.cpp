@@ -124,6 +124,7 @@ status::Status snapshot(const Recorder& recorder) {
 survey::OccupationOptions occupation_options(const config::Config& config) {
     return {.planned = config.survey.planned,
             .planned_set_ups = config.survey.set_ups,
+            .faces = config.survey.faces,
             .sites_file = config.survey.sites_file};
 }
 
@@ -193,7 +194,8 @@ void reload(const std::filesystem::path& config_file, spdlog::logger& log, live:
             log_doubt(occupations, survey.sites_file, log);
         });
         log.info(
-            "SIGHUP: [verdict], sites, occupation_min and set_ups were read again and are in use");
+            "SIGHUP: [verdict], sites, occupation_min, set_ups and faces were read again and are "
+            "in use");
     } catch (const std::exception& error) {
         log.error("SIGHUP: the configuration was refused and nothing was changed: {}",
                   error.what());

@@ -315,6 +315,9 @@ SurveyConfig read_survey(TomlTable table) {
     const auto most_set_ups =
         std::max<std::int64_t>(1, static_cast<std::int64_t>(occupation_min / kShortestSetUp_min));
     survey.set_ups = static_cast<int>(table.integer_or("set_ups", 1, 1, most_set_ups));
+    survey.faces = table.string_or("faces", survey.faces);
+    if (survey.faces.find_first_not_of("+-") != std::string::npos || !survey.faces.starts_with('+'))
+        table.refuse("faces", "not a plan of faces", "signs + and -, beginning with +, as +--+");
     survey.gravity_every = std::chrono::duration_cast<std::chrono::milliseconds>(
         from_seconds(60.0 * table.number_or("gravity_every_min", 3.0, 0.0, 240.0)));
     table.require_all_read();

@@ -41,6 +41,7 @@ struct SurveyConfig {
     std::optional<unit::Calibration> calibration;
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of an occupation.
     int set_ups = 1;                                 ///< Planned set-ups in it.
+    std::string faces = "+";                         ///< OccupationOptions::faces.
     /// Real time between two computations of the gravity so far; 0: it is not computed.
     std::chrono::milliseconds gravity_every{std::chrono::minutes(3)};
 };

@@ -282,8 +282,8 @@ Response Api::change(std::string_view path, const std::string& body) {
 survey::Outcome Api::check(const Order& order) const {
     const status::Status status = sources_.status();
     const auto field = survey::field_status(sources_.occupations, sources_.live, status.now);
-    const auto open =
-        survey::open_contradictions(status, sources_.occupations, field.moved, so_far_now());
+    const auto open = survey::open_contradictions(status, sources_.occupations, field.moved,
+                                                  field.face, so_far_now());
     const bool is_shown = !open.empty() &&
                           std::ranges::count(open.front().buttons, survey::kChecked) > 0 &&
                           (order.code.empty() || order.code == open.front().code) &&

@@ -47,11 +47,27 @@ std::optional<PlannedStay> planned_stay(const Occupations& occupations, const li
     std::erase_if(set_ups, [at](const SetUp& one) { return one.start > at; });
     const SetUp last{set_ups.back().start, at};
     const double planned_s = std::chrono::duration<double>(occupations.planned()).count();
+    const int number = static_cast<int>(set_ups.size());
     return PlannedStay{
         running->site,
-        set_up_plan(occupations.planned_set_ups(), planned_s, static_cast<int>(set_ups.size()),
+        set_up_plan(occupations.planned_set_ups(), planned_s, number,
                     seconds_between(running->start, at), seconds_between(last.start, at),
-                    live.reading({&last, 1}).used_s)};
+                    live.reading({&last, 1}).used_s),
+        false, occupations.is_turned(number) != occupations.is_turned(number + 1)};
+}
+
+text::Message wrong_face(const Occupations& occupations, const live::Record& live, UtcTime now) {
+    const auto& running = occupations.running();
+    if (!running || running->set_ups.size() < 2) return {};
+    const auto set_ups = set_ups_so_far(*running, now);
+    const SetUp &first = set_ups.front(), last = set_ups.back();
+    const auto face = live.face(last.start, last.end), usual = live.face(first.start, first.end);
+    const int number = static_cast<int>(set_ups.size());
+    if (!face || !usual || (*face != *usual) == occupations.is_turned(number)) return {};
+    return text::message(
+        "the box is in the other face than planned for set-up {}: turn it over, set it down "
+        "level and press Next set-up, or say that you have checked it",
+        number);
 }
 
 std::optional<MovePrompt> moved_box(const Occupations& occupations, const live::Record& live,
@@ -60,14 +76,13 @@ std::optional<MovePrompt> moved_box(const Occupations& occupations, const live::
     if (!running) return std::nullopt;
     const SetUp last = set_ups_so_far(*running, now).back();
     auto moved = move_prompt(live.motion(std::max(last.start, now - kMoveMemory), now),
-                              {.start = last.start,
-                               .end = now,
-                               .ended_by = signal::SetUpEnd::running,
-                               .began_with_next_set_up = running->set_ups.size() > 1,
-                               .not_moved_until = running->not_moved_until});
+                             {.start = last.start,
+                              .end = now,
+                              .ended_by = signal::SetUpEnd::running,
+                              .began_with_next_set_up = running->set_ups.size() > 1,
+                              .not_moved_until = running->not_moved_until});
     // The start of a long set-up is not in the part that is looked at.
-    if (moved && moved->is_at_start && now - last.start > kMoveMemory)
-        moved.reset();
+    if (moved && moved->is_at_start && now - last.start > kMoveMemory) moved.reset();
     return moved;
 }
 
@@ -84,13 +99,13 @@ FieldStatus field_status(const Occupations& occupations, const live::Record& liv
     field.whole = live.reading(set_ups);
     // The clock may be behind the stay.
     field.stay = planned_stay(occupations, live, std::max(now, last.start));
-    if (field.stay->plan.needs_next())
-        compare_level(field, occupations, live, now);
+    if (field.stay->plan.needs_next()) compare_level(field, occupations, live, now);
     constexpr double kLeastMissing_s = 1.0;  // A shorter gap changes no reading.
     if (const double missing_s = live.missing_s(last.start, now); missing_s >= kLeastMissing_s) {
         field.warnings.push_back(text::message("{:.0f} s are missing in this set-up", missing_s));
     }
     field.moved = moved_box(occupations, live, now);
+    field.face = wrong_face(occupations, live, now);
     return field;
 }
 

@@ -28,11 +28,12 @@ struct FieldStatus {
     std::optional<PlannedStay> stay;
     std::vector<text::Message> warnings;
     std::optional<MovePrompt> moved;  ///< Question about a move of the box.
+    text::Message face;               ///< See wrong_face().
 
     /// Tilt relative to the day's first set-up.  Absent while the box must not be touched.
     std::optional<live::Level> level;
-    std::string level_site;            ///< Site of that set-up; empty if there is none.
-    UtcTime level_utc;                 ///< Start of that set-up.
+    std::string level_site;  ///< Site of that set-up; empty if there is none.
+    UtcTime level_utc;       ///< Start of that set-up.
 };
 
 /// Returns the finished occupations of the current survey day (events::kSurveyNight),
@@ -43,6 +44,11 @@ struct FieldStatus {
 /// Returns what is to be asked about a move of the box in the running set-up.
 [[nodiscard]] std::optional<MovePrompt> moved_box(const Occupations& occupations,
                                                   const live::Record& live, UtcTime now);
+
+/// Returns that the running set-up is not in the face of the plan, as compared with the first of the
+/// stay; empty if it is, or if it is not known.
+[[nodiscard]] text::Message wrong_face(const Occupations& occupations, const live::Record& live,
+                                       UtcTime now);
 
 /// Returns the information for the operator at this time.
 [[nodiscard]] FieldStatus field_status(const Occupations& occupations, const live::Record& live,

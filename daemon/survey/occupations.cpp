@@ -131,6 +131,11 @@ int Occupations::planned_set_ups() const noexcept {
                      : options_.planned_set_ups;
 }
 
+bool Occupations::is_turned(int set_up) const noexcept {
+    const auto place = static_cast<std::size_t>(set_up - 1) % options_.faces.size();
+    return !(running() && running()->planned_set_ups) && options_.faces[place] == '-';
+}
+
 Outcome Occupations::start(std::string_view entered, const Remark& remark,
                            std::optional<UtcTime> at, std::optional<int> set_ups) {
     const std::string site = text::plain_text(entered);

@@ -54,6 +54,9 @@ inline constexpr Nanoseconds kTestSetUp = std::chrono::minutes(3);
 struct OccupationOptions {
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay, all set-ups.
     int planned_set_ups = 1;                         ///< Planned set-ups of a stay, equally long.
+    /// Faces of the set-ups of a stay, + as the first one and - turned over, one after the other; the
+    /// plan begins again at its end.
+    std::string faces = "+";
     std::filesystem::path sites_file = {};  ///< List that gets new sites; empty: there is none.
 };
 
@@ -120,6 +123,9 @@ public:
     [[nodiscard]] Nanoseconds planned() const noexcept;
     /// Returns the planned number of set-ups of the same stay.
     [[nodiscard]] int planned_set_ups() const noexcept;
+    /// Returns true if the set-up of this number, from 1, is to be turned over, as compared with the
+    /// first.  A stay with a plan of its own has one face.
+    [[nodiscard]] bool is_turned(int set_up) const noexcept;
 
     /// Logs that another sensor records, and ends the running stay.
     /// @param event  `other_unit`, with the last sample of the sensor before.

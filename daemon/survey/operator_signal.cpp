@@ -1,5 +1,7 @@
 #include "daemon/survey/operator_signal.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -26,6 +28,7 @@ Contradiction of_move(const MovePrompt& moved, const std::string& key) {
 std::vector<Contradiction> open_contradictions(const status::Status& status,
                                                const Occupations& occupations,
                                                const std::optional<MovePrompt>& moved,
+                                               const text::Message& wrong_face,
                                                const SoFar& so_far) {
     std::vector<Contradiction> all;
     for (const text::Message& trouble : status.sensor_troubles)
@@ -35,6 +38,12 @@ std::vector<Contradiction> open_contradictions(const status::Status& status,
             {"other_unit " + to_rfc3339(status.unit_change->since), "", *unit, {kChecked}});
     const auto& running = occupations.running();
     if (moved && running) all.push_back(of_move(*moved, running->key));
+    // The operator may keep one set-up in the wrong face, and turn the next one.
+    if (!wrong_face.empty())
+        all.push_back({fmt::format("{} {}", kFace, running->set_ups.size()),
+                       running->key,
+                       wrong_face,
+                       {"setup", kChecked}});
     // Those of another day are not to be cleared up now.
     const auto day = survey_day(occupations, status.now);
     for (const Contradiction& one : so_far.contradictions) {
@@ -60,8 +69,9 @@ Signal operator_signal(status::Status& status, const verdict::Verdict& verdict,
         const auto gravity = so_far.stays.find(occupations.running()->key);
         stay->is_compared = gravity != so_far.stays.end() && gravity->second.gravity.has_value();
     }
-    Signal signal = signal_of(verdict, why, stay, day.empty() ? std::string() : day.back().site,
-                              open_contradictions(status, occupations, field.moved, so_far));
+    Signal signal =
+        signal_of(verdict, why, stay, day.empty() ? std::string() : day.back().site,
+                  open_contradictions(status, occupations, field.moved, field.face, so_far));
     if (signal.word == Word::no_data && status.level == status::Status::Level::good)
         status.warn(signal.sentence);
     // The sentence may have the plan too.
@@ -75,7 +85,9 @@ Word SignalLog::advance(const status::Status& status, const SoFar& so_far) {
     if (!last) return word_;
     const auto moved = moved_box(occupations_, live_, *last);
     const bool has_contradiction =
-        !open_contradictions(status, occupations_, moved, so_far).empty();
+        !open_contradictions(status, occupations_, moved, wrong_face(occupations_, live_, *last),
+                             so_far)
+             .empty();
     constexpr Nanoseconds kStep = from_seconds(verdict::kLiveStepSeconds);
     // Also after a clock that was set back.
     if (!end_ || *last < *end_ - kStep || *last - *end_ > kMostBehind) {

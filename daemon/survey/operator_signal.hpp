@@ -20,6 +20,7 @@ namespace a351::daemon::survey {
 [[nodiscard]] std::vector<Contradiction> open_contradictions(const status::Status& status,
                                                              const Occupations& occupations,
                                                              const std::optional<MovePrompt>& moved,
+                                                             const text::Message& wrong_face,
                                                              const SoFar& so_far);
 
 /// Returns the signal, and adds it to the level and reasons of the status if it is NO DATA or LOOK.

@@ -31,6 +31,11 @@ text::Message of_warm_up(const verdict::Verdict& verdict, const std::vector<text
 /// Returns where a stay is in its plan, and what to do.
 text::Message of_plan(const PlannedStay& stay) {
     const SetUpPlan& plan = stay.plan;
+    if (plan.needs_next() && stay.turns_next)
+        return text::message(
+            "{}: set-up {} of {} is complete. Turn the box over, set it down level, then press "
+            "Next set-up.",
+            stay.site, plan.running, plan.planned);
     if (plan.needs_next())
         return text::message(
             "{}: set-up {} of {} is complete. Lift the box, set it down level, then press Next "

@@ -38,8 +38,9 @@ struct Contradiction {
     std::vector<std::string> buttons;  ///< Codes of the answers, at most two.
 };
 
-/// Code of the contradiction that the box was moved.
+/// Codes of the contradictions that the box was moved, and that it stands in the wrong face.
 inline constexpr const char* kMoved = "moved";
+inline constexpr const char* kFace = "face";
 /// The answer that the operator has looked at a contradiction.
 inline constexpr const char* kChecked = "checked";
 
@@ -70,6 +71,7 @@ struct PlannedStay {
     std::string site;
     SetUpPlan plan;
     bool is_compared = false;  ///< The corrector has compared it with other readings.
+    bool turns_next = false;   ///< The next set-up is in the other face.
 };
 
 struct Signal {

@@ -39,3 +39,46 @@ TEST_CASE("the log has each word with the time of the data, however seldom it is
                                             "keep_off 08:25:00Z", "lift 08:27:00Z"});
     CHECK(logged(600) == often);
 }
+
+TEST_CASE("a turn that was forgotten is LOOK, and a planned one is not", "[daemon][page][faces]") {
+    const auto words_of = [](bool is_turned) {
+        Page page;
+        std::vector<std::string> words;
+        survey::SignalLog log(page.occupations, page.live, [&](const events::Event& event) {
+            words.push_back(event.details.at("word"));
+        });
+        page.occupations.use(
+            two_sites(), {.planned = std::chrono::minutes(4), .planned_set_ups = 2, .faces = "+-"});
+        std::string lifted;
+        for (int second = 0; second < 1860; ++second) {
+            page.recorder.last = minute(0) + std::chrono::seconds(second);
+            if (second == 1500) page.ask(post("/api/occupation/start", R"({"site":"No.0"})"));
+            if (second == 1650) {
+                log.advance(page.status, {});
+                lifted = page.occupations.running()
+                             ? survey::signal_of({verdict::State::stable, {}, {}}, {},
+                                                 survey::planned_stay(page.occupations, page.live,
+                                                                      page.recorder.last.value()),
+                                                 "", {})
+                                   .sentence.english()
+                             : "";
+                page.ask(post("/api/occupation/setup", R"({"site":"No.0"})"));
+            }
+            const double z_mgal = second >= 1650 && is_turned ? -980000.0 : 980000.0;
+            for (std::int64_t i = 50 * second; i < 50 * (second + 1); ++i) {
+                auto sample = live::placed(i, 100.0, 0.0, z_mgal);
+                sample.counts[3] += second / 60 % 2;
+                page.live.take(sample);
+            }
+            log.advance(page.status, {});
+        }
+        CHECK(lifted ==
+              "No.0: set-up 1 of 2 is complete. Turn the box over, set it down level, then "
+              "press Next set-up.");
+        return words;
+    };
+    CHECK(words_of(true) ==
+          std::vector<std::string>{"no_data", "go", "keep_off", "lift", "keep_off", "go"});
+    CHECK(words_of(false) ==
+          std::vector<std::string>{"no_data", "go", "keep_off", "lift", "keep_off", "look"});
+}
