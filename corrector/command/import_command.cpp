@@ -10,6 +10,7 @@
 #include "corrector/gravimeter/site_names.hpp"
 #include "corrector/gravimeter/survey_tables.hpp"
 #include "corrector/tide/earth_tide.hpp"
+#include "corrector/tide/permanent_tide.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/utc_time.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 struct ImportOptions {
     std::vector<std::string> files;
-    std::string out, average = "median", tide = "keep", zone;
+    std::string out, average = "median", tide = "keep", tide_system, zone;
     std::size_t last = gravimeter::AverageOptions().last;
 };
 
@@ -32,12 +33,36 @@ std::optional<std::chrono::minutes> zone_of(const std::string& text) {
     return std::chrono::duration_cast<std::chrono::minutes>(*here - *there);
 }
 
+tide::Station station_of(const gravimeter::Position& at) {
+    return {at.latitude, at.longitude, at.altitude};
+}
+
 MilliGal computed_tide(UtcTime time, const gravimeter::Position& at) {
-    return tide::direct_tide(time, {at.latitude, at.longitude, at.altitude});
+    return tide::direct_tide(time, station_of(at));
+}
+
+/// Returns the options of the tables.  The instruments remove all of the tide: what they leave is
+/// the system tide-free.
+gravimeter::TableOptions table_options(const ImportOptions& options) {
+    gravimeter::TableOptions table{{options.last, options.average == "mean"},
+                                   options.tide == "keep"};
+    if (options.tide_system.empty()) return table;
+    if (!table.keeps_tide)
+        throw InputError(
+            fmt::format("--tide-system = {}: the table has no tide; allowed: with --tide keep, or "
+                        "in the command table",
+                        options.tide_system));
+    table.tide_system = options.tide_system;
+    table.kept_tide =
+        [system = tide::system_named(options.tide_system).value()](const gravimeter::Position& at) {
+            return tide::kept_permanent_tide(system, station_of(at), {});
+        };
+    return table;
 }
 
 void import_files(const ImportOptions& options) {
     require_folder_option("--out", options.out);
+    const gravimeter::TableOptions table = table_options(options);
     std::vector<gravimeter::GravimeterFile> files;
     for (const std::string& file : options.files)
         files.push_back(gravimeter::read_gravimeter_file(file, {zone_of(options.zone)}));
@@ -45,10 +70,7 @@ void import_files(const ImportOptions& options) {
     const std::vector<gravimeter::Stay> stays = gravimeter::find_stays(files);
     for (const gravimeter::GravimeterFile& file : files)
         print_warnings(gravimeter::contradictions(file, computed_tide), file.path.string() + ": ");
-    text::write_together(
-        options.out,
-        gravimeter::survey_tables(
-            files, stays, {{options.last, options.average == "mean"}, options.tide == "keep"}));
+    text::write_together(options.out, gravimeter::survey_tables(files, stays, table));
 
     bool is_damaged = false;
     for (const gravimeter::GravimeterFile& file : files) {
@@ -88,6 +110,7 @@ void add_import_command(CLI::App& program) {
                      "keep: earth_tide_mgal has the tide that the instrument removed; remove: "
                      "without this column, so that the command table computes the tide")
         ->check(CLI::IsMember({"keep", "remove"}));
+    add_tide_system(command, options->tide_system);
     add_with_default(command, "--zone", "ZONE", options->zone,
                      "Zone of the times in files that do not say it: +hh:mm, -hh:mm or Z");
     command.callback([options] { import_files(*options); });

@@ -37,11 +37,36 @@ std::string safe_cell(std::string_view text) {
     return safe;
 }
 
-std::string observations_csv(const std::vector<Stay>& stays, const TableOptions& options) {
+/// The first known position of each site, by its name.
+using Positions = std::map<std::string, std::optional<Position>>;
+
+Positions positions_of(const std::vector<Stay>& stays) {
+    Positions positions;
+    for (const Stay& stay : stays) {
+        std::optional<Position>& position = positions[stay.site];
+        for (const Reading* const reading : stay.readings)
+            if (!position) position = reading->position;
+    }
+    return positions;
+}
+
+/// Returns what gravity at the site of a stay keeps of the permanent tide.
+MilliGal kept_tide(const Stay& stay, const Positions& positions, const TableOptions& options) {
+    if (options.tide_system.empty()) return MilliGal(0.0);
+    if (const auto& position = positions.at(stay.site)) return options.kept_tide(*position);
+    throw InputError(
+        fmt::format("--tide-system = {}: {} has no position in the files; allowed: without it, or "
+                    "--tide remove and the option of the command table",
+                    options.tide_system, stay.site));
+}
+
+std::string observations_csv(const std::vector<Stay>& stays, const Positions& positions,
+                             const TableOptions& options) {
+    const std::string system_cell = options.tide_system.empty() ? "" : "," + options.tide_system;
     std::string csv = fmt::format(
         "site,occupation,outlier,time_utc,{}acceleration_mgal,temperature_degc,instrument,loop,"
-        "instrument_height_m,pressure_hpa,sd_mgal,readings\n",
-        options.keeps_tide ? "earth_tide_mgal," : "");
+        "instrument_height_m,pressure_hpa,sd_mgal,readings{}\n",
+        options.keeps_tide ? "earth_tide_mgal," : "", system_cell.empty() ? "" : ",tide_system");
     for (const Stay& stay : stays) {
         const StayAverage average = average_of(stay, options.average);
         const std::optional<MilliGal>& correction = average.tide_correction;
@@ -50,35 +75,30 @@ std::string observations_csv(const std::vector<Stay>& stays, const TableOptions&
                 fmt::format("{} ({}): {} removed no tide from its readings; allowed: --tide remove",
                             stay.site, stay.occupation, stay.instrument));
         // The instrument corrects its readings for temperature, so temperature_degc stays empty.
-        csv += fmt::format(
-            "{},{},0,{},{}{},,{},{},{},,{},{}\n", stay.site, stay.occupation,
-            to_rfc3339(average.time), options.keeps_tide ? cell(-*correction) + "," : "",
-            cell(average.value - correction.value_or(MilliGal(0.0))), stay.instrument, stay.loop,
-            exact_cell(stay.readings.front()->height), cell(average.sd), average.count);
+        csv += fmt::format("{},{},0,{},{}{},,{},{},{},,{},{}{}\n", stay.site, stay.occupation,
+                           to_rfc3339(average.time),
+                           options.keeps_tide
+                               ? cell(-*correction - kept_tide(stay, positions, options)) + ","
+                               : "",
+                           cell(average.value - correction.value_or(MilliGal(0.0))),
+                           stay.instrument, stay.loop, exact_cell(stay.readings.front()->height),
+                           cell(average.sd), average.count, system_cell);
     }
     return csv;
 }
 
-std::string sites_csv(const std::vector<Stay>& stays) {
-    // The first known position of each site, in order of the stays.
-    std::vector<std::string> names;
-    std::map<std::string, std::optional<Position>> positions;
-    for (const Stay& stay : stays) {
-        if (!positions.contains(stay.site)) names.push_back(stay.site);
-        std::optional<Position>& position = positions[stay.site];
-        for (const Reading* const reading : stay.readings)
-            if (!position) position = reading->position;
-    }
+std::string sites_csv(const std::vector<Stay>& stays, const Positions& positions) {
     std::string csv =
         "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal,u_gravity_mgal,gradient_mgal_per_"
         "m\n";
-    for (const std::string& name : names) {
-        const std::optional<Position>& position = positions[name];
-        csv += name + (position ? fmt::format(",{},{},{},,,\n",
-                                              text::shortest(position->longitude.value()),
-                                              text::shortest(position->latitude.value()),
-                                              text::shortest(position->altitude.value()))
-                                : ",,,,,,\n");
+    for (const Stay& stay : stays) {
+        if (stay.occupation > 1) continue;  // its site has a row already
+        const std::optional<Position>& position = positions.at(stay.site);
+        csv += stay.site + (position ? fmt::format(",{},{},{},,,\n",
+                                                   text::shortest(position->longitude.value()),
+                                                   text::shortest(position->latitude.value()),
+                                                   text::shortest(position->altitude.value()))
+                                     : ",,,,,,\n");
     }
     return csv;
 }
@@ -130,8 +150,9 @@ std::string readings_csv(const std::vector<GravimeterFile>& files, const std::ve
 std::vector<text::NamedText> survey_tables(const std::vector<GravimeterFile>& files,
                                            const std::vector<Stay>& stays,
                                            const TableOptions& options) {
-    return {{"observations.csv", observations_csv(stays, options)},
-            {"sites.csv", sites_csv(stays)},
+    const Positions positions = positions_of(stays);
+    return {{"observations.csv", observations_csv(stays, positions, options)},
+            {"sites.csv", sites_csv(stays, positions)},
             {"readings.csv", readings_csv(files, stays)}};
 }
 

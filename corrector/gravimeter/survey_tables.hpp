@@ -4,6 +4,8 @@
 ///
 ///     text::write_together("out", survey_tables(files, stays, options));
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "corrector/gravimeter/stays.hpp"
@@ -17,13 +19,18 @@ struct TableOptions {
     /// True: earth_tide_mgal has the tide that the instrument removed.  False: the column is absent,
     /// so that `table` computes the tide.
     bool keeps_tide = true;
+    std::string tide_system = {};  ///< Name of the system for the column tide_system; empty: no column.
+    /// Returns what gravity keeps of the permanent tide, which the instrument has removed.
+    std::function<MilliGal(const Position&)> kept_tide = {};
 };
 
 /// Returns observations.csv, sites.csv and readings.csv (gravimeter-format.md).
 ///
 /// acceleration_mgal is the average plus the effect of the tide that the instrument removed.  Thus
 /// acceleration_mgal - earth_tide_mgal is the instrument's own value, and no tide is removed twice.
-/// @throws InputError  keeps_tide, and the instrument removed no tide in some of the stays.
+/// In a tide system it is this value plus what the system keeps, at the first position of the site.
+/// @throws InputError  keeps_tide, and the instrument removed no tide in some of the stays; or a
+///                     tide system, and a site without a position.
 [[nodiscard]] std::vector<text::NamedText> survey_tables(const std::vector<GravimeterFile>& files,
                                                          const std::vector<Stay>& stays,
                                                          const TableOptions& options);

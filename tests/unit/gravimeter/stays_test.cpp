@@ -104,6 +104,23 @@ TEST_CASE("the tide of the instrument is kept as its effect on gravity, or taken
     CHECK_THAT(removed, !ContainsSubstring("earth_tide_mgal"));
 }
 
+TEST_CASE("a tide system leaves its part of the permanent tide in gravity, and is named",
+          "[gravimeter]") {
+    TableOptions options;
+    options.tide_system = "mean";
+    options.kept_tide = [](const Position&) { return MilliGal(-0.035); };
+    auto files = read_files({burris_reading("a", "10:00:00")});
+    const std::string mean =
+        table(survey_tables(files, find_stays(files), options), "observations.csv");
+    CHECK_THAT(mean, ContainsSubstring(",sd_mgal,readings,tide_system\n"));
+    CHECK_THAT(mean, ContainsSubstring("a,1,0,2017-12-05T10:00:00Z,0.13800,2769.79800,,B44,1,0.1,,"
+                                       ",1,mean\n"));
+
+    files[0].readings[0].position.reset();
+    CHECK_THROWS_WITH(survey_tables(files, find_stays(files), options),
+                      ContainsSubstring("--tide-system = mean: a has no position in the files"));
+}
+
 TEST_CASE("a tide that the instrument did not remove cannot be kept", "[gravimeter]") {
     auto files = read_files({cg5_header("0.0", "NO") + cg5_reading("1", "10:00:00")});
     const auto stays = find_stays(files);
