@@ -151,6 +151,10 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
         next = run.first + count;
         report.values += count;
     };
+    const auto scale =
+        std::ranges::find(metadata.channels, options.channel, &station::ChannelScale::code);
+    const auto metadata_hz = scale == metadata.channels.end() ? std::nullopt : scale->rate_hz;
+    text::Message rate;
     std::optional<UtcGrid> grid;
     double source_rate_hz = 0.0;
     for (UtcTime begin = options.from; begin < options.to;) {
@@ -160,7 +164,8 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
         const std::chrono::seconds margin(33 / options.rate_hz + 1);
         const archive::ChannelData data =
             archive::read_channel(options.root / "archive", metadata.codes, options.channel,
-                                  begin - margin, end + margin);
+                                  begin - margin, end + margin, metadata_hz);
+        if (rate.empty()) rate = rate_remark({&data, 1});
         for (const archive::Segment& segment : data.segments) {
             if (segment.rate_hz != source_rate_hz) {
                 source_rate_hz = segment.rate_hz;
@@ -177,12 +182,13 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
         begin = end;
     }
     for (const auto& one : absent_files(options.root, options.from, options.to))
-        if (one.channel == options.channel) report.absent.push_back(to_message(one));
+        if (one.channel == options.channel) report.remarks.push_back(to_message(one));
+    if (!rate.empty()) report.remarks.push_back(std::move(rate));
     if (report.values == 0) {
         throw InputError(
             fmt::format("{}: no samples of {} from {} to {}{}", options.root.string(),
                         options.channel, to_rfc3339(options.from), to_rfc3339(options.to),
-                        report.absent.empty() ? "" : ": " + report.absent.front().english()));
+                        report.remarks.empty() ? "" : ": " + report.remarks.front().english()));
     }
     writer.end_run();
     return report;

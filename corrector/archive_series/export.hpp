@@ -54,7 +54,7 @@ struct ExportReport {
     std::int64_t values = 0;              ///< Values written.
     std::int64_t runs = 0;                ///< Runs without a gap.
     std::vector<archive::Damage> damage;  ///< Damaged records of the archive, each once.
-    std::vector<text::Message> absent;    ///< Days without a file: absent_files().
+    std::vector<text::Message> remarks;   ///< Days without a file (absent_files()), rate_remark().
     /// First instants that were written twice, because the host's clock was set back: begin and end.
     std::optional<std::array<UtcTime, 2>> twice;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <system_error>
 
@@ -10,6 +11,7 @@
 #include "protocol/archive/journal_tail.hpp"
 #include "protocol/archive/sds.hpp"
 #include "protocol/station/station_xml.hpp"
+#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::archive_series {
 
@@ -18,7 +20,7 @@ std::vector<archive::ChannelData> read_samples(const std::filesystem::path& root
     std::vector<archive::ChannelData> samples(epoch.channels.size());
     on_all_cores(samples.size(), [&](std::size_t k) {
         samples[k] = archive::read_channel(root / "archive", epoch.codes, epoch.channels[k].code,
-                                           span.from(k), span.to);
+                                           span.from(k), span.to, epoch.channels[k].rate_hz);
     });
     return samples;
 }
@@ -93,6 +95,25 @@ text::Message to_message(const archive::AbsentFile& absent) {
         "{} has no day file of {}, but another channel has one: copy the archive again, or write "
         "it again with retime",
         absent.channel, to_rfc3339(absent.day).substr(0, 10));
+}
+
+text::Message rate_remark(std::span<const archive::ChannelData> samples) {
+    std::vector<std::string> names;
+    const archive::RateConflict* first = nullptr;
+    for (const archive::ChannelData& channel : samples) {
+        if (!channel.rate_conflict) continue;
+        if (first == nullptr) first = &*channel.rate_conflict;
+        names.push_back(channel.rate_conflict->channel);
+    }
+    if (first == nullptr) return {};
+    const double other_hz =
+        first->used_hz == first->metadata_hz ? first->header_hz : first->metadata_hz;
+    return text::message(
+        "{}: the headers of the records say {:.6g} Hz, the metadata {:.6g} Hz, and their starts "
+        "give {:.2f} Hz. {:.6g} Hz are used; with {:.6g} Hz samples would be up to {:.2f} s from "
+        "their time",
+        text::joined(names), first->header_hz, first->metadata_hz, first->observed_hz,
+        first->used_hz, other_hz, first->longest_s * std::abs(first->observed_hz / other_hz - 1.0));
 }
 
 void add_damage(std::vector<text::Message>& warnings, const archive::ChannelData& channel) {

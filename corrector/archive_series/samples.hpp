@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "corrector/archive_series/epoch.hpp"
@@ -66,6 +67,10 @@ std::optional<UtcTime> add_journaled(std::vector<archive::ChannelData>& samples,
 
 /// Returns "BNZ has no day file of 2026-03-01, but ...".
 [[nodiscard]] text::Message to_message(const archive::AbsentFile& absent);
+
+/// Returns one sentence on the channels whose headers have another rate than the metadata: both rates,
+/// that of the record starts, the one that is used, and the size of the effect.  Empty: none has.
+[[nodiscard]] text::Message rate_remark(std::span<const archive::ChannelData> samples);
 
 /// Adds a warning for each piece of the channel's files that could not be read.  The English text is
 /// that of archive::to_text(); earlier warnings are kept.

@@ -43,8 +43,7 @@ void run(Texts texts) {
     file.publish();
     for (const archive::Damage& damage : report.damage)
         std::cerr << "a351-correct: " << archive::to_text(damage) << '\n';
-    for (const text::Message& absent : report.absent)
-        std::cerr << fmt::format("a351-correct: {}: {}\n", options.root.string(), absent);
+    print_warnings(report.remarks, options.root.string() + ": ");
     std::cout << fmt::format("{}: {} values of {} at {} Hz in {} runs without a gap\n", texts.out,
                              report.values, options.channel, options.rate_hz, report.runs);
     if (report.twice)

@@ -253,6 +253,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     ArchiveStream stream(record);
     std::vector<archive_series::MinuteTemperature> outer;
     bool has_outer = false;
+    text::Message rate_remark;
     std::size_t done = 0;
     for (const UtcTime day : of_days) {
         for (std::size_t e = 0; e < epochs.size(); ++e) {
@@ -266,6 +267,10 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
                 archive_series::read_samples(root, epoch, {from, from, to});
             for (std::size_t k = 0; k < kChannels; ++k)
                 archive_series::add_damage(record.warnings, samples[k]);
+            if (rate_remark.empty()) {
+                rate_remark = archive_series::rate_remark(samples);
+                if (!rate_remark.empty()) record.warnings.push_back(rate_remark);
+            }
             if (samples[kLeading].segments.empty()) continue;
             stream.use(epoch);
             stream.take(samples);

@@ -209,6 +209,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     for (const auto& one : absent) result.warnings.push_back(archive_series::to_message(one));
     for (const archive::ChannelData& channel : samples)
         archive_series::add_damage(result.warnings, channel);
+    if (auto remark = archive_series::rate_remark(samples); !remark.empty())
+        result.warnings.push_back(std::move(remark));
     std::vector<OccupationWindow> averaged;
     for (std::size_t i = 0; i < windows.size(); ++i) {
         AveragedSetUp& set_up = set_ups[i];

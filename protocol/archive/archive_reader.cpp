@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <set>
 #include <span>
@@ -55,6 +56,46 @@ private:
     std::vector<Seen> seen_;  ///< Ascending.
 };
 
+/// Returns true if two rates are one, within 0.1 %.  Reason: the clock of a sensor is within 0.02 %,
+/// and rates that other programs wrote wrong differ by 2 % (49 for 50 Hz).
+bool is_same_rate(double one_hz, double other_hz) {
+    return std::abs(one_hz / other_hz - 1.0) <= 0.001;
+}
+
+/// Returns the conflict of the headers with the metadata; absent if there is none, or if there are
+/// not two records to prove a rate.
+std::optional<RateConflict> rate_conflict(const std::vector<Segment>& segments,
+                                          const std::string& channel, double metadata_hz) {
+    const auto other = std::ranges::find_if(segments, [&](const Segment& segment) {
+        return !is_same_rate(segment.rate_hz, metadata_hz);
+    });
+    if (other == segments.end()) return std::nullopt;
+    RateConflict conflict{channel, other->rate_hz, metadata_hz};
+    std::vector<double> rates_hz;
+    std::size_t longest = 0, count = 0;
+    std::optional<UtcTime> before;
+    for (const Segment& segment : segments) {
+        for (std::size_t i = 0; i < segment.anchors.size(); ++i) {
+            const Segment::Anchor& anchor = segment.anchors[i];
+            if (before && *before < anchor.time)
+                rates_hz.push_back(static_cast<double>(count) /
+                                   seconds_between(*before, anchor.time));
+            before = anchor.time;
+            count = (i + 1 < segment.anchors.size() ? segment.anchors[i + 1].offset
+                                                    : segment.counts.size()) -
+                    anchor.offset;
+            longest = std::max(longest, count);
+        }
+    }
+    if (rates_hz.empty()) return std::nullopt;
+    const auto median = rates_hz.begin() + static_cast<std::ptrdiff_t>(rates_hz.size() / 2);
+    std::ranges::nth_element(rates_hz, median);
+    conflict.observed_hz = *median;
+    conflict.used_hz = is_same_rate(*median, metadata_hz) ? metadata_hz : conflict.header_hz;
+    conflict.longest_s = static_cast<double>(longest) / *median;
+    return conflict;
+}
+
 bool is_of(const journal::StationCodes& codes, const RecordHeader& header) {
     return header.network == codes.network && header.station == codes.station &&
            header.location == codes.location;
@@ -63,7 +104,7 @@ bool is_of(const journal::StationCodes& codes, const RecordHeader& header) {
 }  // namespace
 
 void RecordJoiner::take(const DecodedRecord& record) {
-    const double rate_hz = record.rate_hz();
+    const double rate_hz = rate_hz_.value_or(record.rate_hz());
     const UtcTime start = record.header.start;
     const auto time_of = [&](std::size_t i) {
         return start + from_seconds(static_cast<double>(i) / rate_hz);
@@ -98,11 +139,16 @@ std::string to_text(const Damage& damage) {
         damage.is_of_another_station ? "a record of another station" : "not a record");
 }
 
-ChannelData read_channel(const fs::path& archive, const journal::StationCodes& codes,
-                         const std::string& channel, UtcTime from, UtcTime to) {
+namespace {
+
+/// Reads the records of a channel.
+/// @param rate_hz  rate of the samples; absent: that of each record.
+ChannelData read_records(const fs::path& archive, const journal::StationCodes& codes,
+                         const std::string& channel, UtcTime from, UtcTime to,
+                         std::optional<double> rate_hz) {
     ChannelData data;
     if (from >= to) return data;
-    RecordJoiner joiner(data, from, to);
+    RecordJoiner joiner(data, from, to, rate_hz);
     for (const auto& file :
          day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
         const auto bytes = files::read_bytes(file);
@@ -120,6 +166,20 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
     }
     std::ranges::stable_sort(data.segments, {},
                              [](const Segment& one) { return one.anchors.front().time; });
+    return data;
+}
+
+}  // namespace
+
+ChannelData read_channel(const fs::path& archive, const journal::StationCodes& codes,
+                         const std::string& channel, UtcTime from, UtcTime to,
+                         std::optional<double> metadata_hz) {
+    ChannelData data = read_records(archive, codes, channel, from, to, {});
+    if (!metadata_hz) return data;
+    const auto conflict = rate_conflict(data.segments, channel, *metadata_hz);
+    if (conflict && conflict->used_hz == *metadata_hz)
+        data = read_records(archive, codes, channel, from, to, metadata_hz);
+    data.rate_conflict = conflict;
     return data;
 }
 

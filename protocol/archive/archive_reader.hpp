@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,11 +72,21 @@ struct AbsentFile {
     bool operator==(const AbsentFile&) const = default;
 };
 
+/// A rate in the headers of records that is not that of the metadata.
+struct RateConflict {
+    std::string channel;
+    double header_hz = 0.0, metadata_hz = 0.0;
+    double observed_hz = 0.0;  ///< Samples over time between the starts of records, the median.
+    double used_hz = 0.0;  ///< That of the metadata if the starts agree, else that of the headers.
+    double longest_s = 0.0;  ///< Duration of the longest record, by the starts.
+};
+
 /// Result of read_channel().
 struct ChannelData {
     std::vector<Segment> segments;  ///< In time order.
     /// Damage of all day files read, also outside the interval, in the order of the files.
     std::vector<Damage> damage;
+    std::optional<RateConflict> rate_conflict = {};
 };
 
 /// Reads the samples of one channel whose times lie within [from, to), from
@@ -95,10 +106,13 @@ struct ChannelData {
 /// Cost: each day file of the interval is read as a whole, one at a time.  Thread-safe.
 /// @param codes    valid codes, see are_valid(); they become parts of the path.
 /// @param channel  channel code, e.g. BNZ; records of another channel in its files are damage.
+/// @param metadata_hz  rate of the metadata, if it is known.  If headers have another one by more than
+///                     0.1 %, the starts of the records decide which is used.
 /// @throws std::system_error  a file cannot be read.
 [[nodiscard]] ChannelData read_channel(const std::filesystem::path& archive,
                                        const journal::StationCodes& codes,
-                                       const std::string& channel, UtcTime from, UtcTime to);
+                                       const std::string& channel, UtcTime from, UtcTime to,
+                                       std::optional<double> metadata_hz = {});
 
 /// Returns the day files in [from, to) that some of these channels have and others lack, in order of
 /// time: they were lost, as by a copy that is not complete.

@@ -98,6 +98,7 @@ struct ChannelScale {
     double gain = 0.0;    ///< Value of one count, in `unit`.
     double offset = 0.0;  ///< Value at 0 counts, in `unit`.
     std::string unit;     ///< "m/s**2", "degC", "%" or "s".
+    std::optional<double> rate_hz = {};  ///< Rate of the samples; absent if the file has none.
     /// Dip of the channel, deg, positive down; absent if the file has none.
     std::optional<double> dip_deg = {};
 };

@@ -64,6 +64,10 @@ ChannelScale read_scale(const std::filesystem::path& file, pugi::xml_node channe
     ChannelScale scale;
     scale.code = channel.attribute("code").value();
     if (const auto dip = channel.child("Dip")) scale.dip_deg = dip.text().as_double();
+    if (const auto rate = channel.child("SampleRate")) {
+        const double rate_hz = number_in(file, scale.code, rate);
+        if (rate_hz > 0.0) scale.rate_hz = rate_hz;  // 0 is a channel without a steady rate
+    }
     const auto response = channel.child("Response");
     const auto sensitivity = response.child("InstrumentSensitivity");
     const auto polynomial = response.child("InstrumentPolynomial");

@@ -72,6 +72,31 @@ TEST_CASE("records of another station in a day file are damage, and are named as
         to_text(data.damage[0]).ends_with("offset 512: 512 bytes are a record of another station"));
 }
 
+TEST_CASE("a rate in headers that contradicts the metadata: the starts of the records decide",
+          "[record][archive_reader]") {
+    const auto read = [](double header_hz, double metadata_hz) {
+        Archive archive;  // its samples are 1/50 s apart
+        for (int i = 0; i < 3; ++i)
+            archive.add(kBegin + i * 100 * kStep, i * 100, "BNZ", header_hz);
+        return read_channel(archive.path(), StationCodes{}, "BNZ", kBegin - 48h, kBegin + 48h,
+                            metadata_hz);
+    };
+    const ChannelData repaired = read(49.0, 50.0);
+    REQUIRE(repaired.segments.size() == 1);
+    CHECK(repaired.segments[0].time_of(199) == kBegin + 199 * kStep);
+    REQUIRE(repaired.rate_conflict.has_value());
+    CHECK(repaired.rate_conflict->header_hz == 49.0);
+    CHECK(repaired.rate_conflict->observed_hz == Approx(50.0).epsilon(1e-6));
+    CHECK(repaired.rate_conflict->used_hz == 50.0);
+    CHECK(repaired.rate_conflict->longest_s == Approx(2.0).epsilon(1e-6));
+
+    const ChannelData wrong_metadata = read(50.0, 49.0);
+    CHECK(wrong_metadata.segments.size() == 1);
+    CHECK(wrong_metadata.rate_conflict->used_hz == 50.0);
+    CHECK_FALSE(read(50.005, 50.0).rate_conflict.has_value());  // a clock of 100 ppm
+    CHECK(read(49.0, 49.0).segments.size() == 3);
+}
+
 TEST_CASE("a day file that one channel lacks is named, once the day is longer than a record",
           "[record][archive_reader]") {
     Archive archive;
