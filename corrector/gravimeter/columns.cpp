@@ -149,6 +149,8 @@ std::vector<Column> table() {
         kept("air_temperature_degc", {{gcym, "air temperature"}}),
         kept_text("note", {{burris, "Note"}}),
 
+        // A spreadsheet ends all lines with separators if one line was longer.
+        unused("", CellType::text, {{cg6, ""}, {burris, ""}}),
         unused("", CellType::text, {{cg6_lynx, "Survey"}}),
         unused("observer", CellType::text, {{burris, "Observer ID"}}),
         unused("network", CellType::text, {{gcym, "network"}}),
@@ -194,7 +196,8 @@ Layout named_layout(Form form, const std::vector<std::string_view>& names,
                 known != nullptr && known->name == name)
                 place = {std::string(name), &column, known->factor};
         if (place.column == nullptr) add(unknown, name);
-        if (std::ranges::find(layout.places, name, &Layout::Place::name) != layout.places.end())
+        if (!name.empty() &&
+            std::ranges::find(layout.places, name, &Layout::Place::name) != layout.places.end())
             add(repeated, name);
         layout.places.push_back(std::move(place));
     }

@@ -149,6 +149,18 @@ TEST_CASE("a Burris is read by the names of its columns if the station is not th
     CHECK(file.readings.front().site == "P1");
 }
 
+TEST_CASE("columns without a name, as a spreadsheet adds at the end, are not used",
+          "[gravimeter]") {
+    const GravimeterFile file = read(
+        "Station ID,Serial Number,Date,Time,ObsG,Dial,Earthtide Correction,,\n"
+        "a,B44,2017/12/05,10:00:00,2770.5,2800,-0.1,,\n"
+        "b,B44,2017/12/05,10:20:00,2770.6,2800,-0.1,,x\n"
+        "c,B44,2017/12/05,10:40:00,2770.7,2800,-0.1\n");
+    CHECK(file.readings.size() == 2);
+    REQUIRE(file.refused.size() == 1);
+    CHECK(file.refused[0].line == 4);
+}
+
 TEST_CASE("a line of names with columns that nobody knows is refused with their names",
           "[gravimeter]") {
     std::string cg6 = cg6_header();
