@@ -4,6 +4,7 @@
 #include <iostream>
 #include "tests/support/catch.hpp"
 
+#include "corrector/gravimeter/contradictions.hpp"
 #include "corrector/gravimeter/stays.hpp"
 #include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/input_error.hpp"
@@ -59,6 +60,17 @@ double tide_difference_mgal(const GravimeterFile& file, const Expected& expected
 }
 
 }  // namespace
+
+TEST_CASE("the files of real instruments contradict themselves nowhere", "[golden][usgs]") {
+    const auto tide_of = [](UtcTime time, const Position& at) {
+        return tide::direct_tide(time, {at.latitude, at.longitude, at.altitude});
+    };
+    for (const Expected& expected : kFiles) {
+        INFO(expected.file);
+        const auto file = read_gravimeter_file(golden(expected.file));
+        CHECK(text::in_english(contradictions(file, tide_of)) == std::vector<std::string>());
+    }
+}
 
 TEST_CASE("every line of the files is a reading or a comment, and none is refused",
           "[golden][usgs]") {
