@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
+#include "corrector/archive_series/epoch.hpp"
 #include "corrector/archive_series/samples.hpp"
+#include "corrector/archive_series/tilt.hpp"
 #include "corrector/archive_series/utc_grid.hpp"
 #include "protocol/archive/miniseed.hpp"
 #include "protocol/core/input_error.hpp"
@@ -22,17 +25,25 @@ namespace {
 using std::chrono::days;
 
 constexpr const char* kProductLocation = "10";
+constexpr const char* kTiltUnit = "urad";
 
 using Write = std::function<void(std::string_view)>;
 
-[[noreturn]] void refuse_unit(const ExportOptions& options, std::string_view trouble) {
-    throw InputError(fmt::format("--unit = {}: {}; allowed: counts", options.unit, trouble));
+[[noreturn]] void refuse_unit(const ExportOptions& options, std::string_view trouble,
+                              std::string_view allowed = "counts") {
+    throw InputError(fmt::format("--unit = {}: {}; allowed: {}", options.unit, trouble, allowed));
 }
 
 /// Returns the value of one count in the unit.
 /// @throws InputError  the channel has another kind of unit.
 double scale_of(const ExportOptions& options, const station::Metadata& metadata) {
+    if (tilt_axis(options.channel)) {
+        if (options.unit != kTiltUnit)
+            refuse_unit(options, options.channel + " is an angle", kTiltUnit);
+        return 1.0;
+    }
     if (options.unit == "counts") return 1.0;
+    if (options.unit == kTiltUnit) refuse_unit(options, options.channel + " is not a tilt");
     const auto channel =
         std::ranges::find(metadata.channels, options.channel, &station::ChannelScale::code);
     if (channel == metadata.channels.end() || channel->unit != "m/s**2")
@@ -84,6 +95,9 @@ struct Unpacked {
 
 GridWriter miniseed_writer(const Write& write, const ExportOptions& options,
                            const station::Metadata& metadata) {
+    if (tilt_axis(options.channel))
+        throw InputError(
+            fmt::format("--format = mseed: {} has no counts; allowed: csv", options.channel));
     if (options.unit != "counts") refuse_unit(options, "records of miniSEED hold whole counts");
     archive::RecordHeader header;
     header.network = metadata.codes.network;
@@ -122,6 +136,79 @@ void note(ExportReport& report, const std::vector<archive::Damage>& damage) {
     }
 }
 
+/// Reads channels on the grid.
+class GridReader {
+public:
+    GridReader(const ExportOptions& options, const station::Metadata& metadata,
+               ExportReport& report)
+        : options_(options), metadata_(metadata), report_(report) {}
+
+    /// Returns the values of a channel within [begin, end), in the order of the archive.
+    [[nodiscard]] std::vector<GridRun> read(const std::string& channel, UtcTime begin,
+                                            UtcTime end) {
+        // The kernel needs 32 zero crossings on either side: 32 s at 1 Hz.
+        const std::chrono::seconds margin(33 / options_.rate_hz + 1);
+        const auto scale =
+            std::ranges::find(metadata_.channels, channel, &station::ChannelScale::code);
+        const auto metadata_hz = scale == metadata_.channels.end() ? std::nullopt : scale->rate_hz;
+        const archive::ChannelData data =
+            archive::read_channel(options_.root / "archive", metadata_.codes, channel,
+                                  begin - margin, end + margin, metadata_hz);
+        if (rate_.empty()) rate_ = rate_remark({&data, 1});
+        std::vector<GridRun> runs;
+        for (const archive::Segment& segment : data.segments) {
+            if (segment.rate_hz != source_rate_hz_) {
+                source_rate_hz_ = segment.rate_hz;
+                if (options_.rate_hz > 1.01 * source_rate_hz_)
+                    throw InputError(fmt::format("--rate = {}; allowed: up to the {} Hz of {}",
+                                                 options_.rate_hz, text::shortest(source_rate_hz_),
+                                                 channel));
+                grid_.emplace(source_rate_hz_, options_.rate_hz);
+            }
+            runs.push_back(grid_->resample(segment, begin, end));
+        }
+        note(report_, data.damage);
+        return runs;
+    }
+
+    /// Returns the remark on a rate that contradicts the metadata; empty if none does.
+    [[nodiscard]] const text::Message& rate() const { return rate_; }
+
+private:
+    const ExportOptions& options_;
+    const station::Metadata& metadata_;
+    ExportReport& report_;
+    text::Message rate_;
+    std::optional<UtcGrid> grid_;
+    double source_rate_hz_ = 0.0;
+};
+
+/// Returns the tilt of an axis, urad, at the instants at which x, y and z have values.
+std::vector<GridRun> tilt_runs(const std::vector<std::vector<GridRun>>& axes, const Epoch& epoch,
+                               std::size_t axis) {
+    std::vector<GridRun> tilts;
+    for (const GridRun& x : axes[0])
+        for (const GridRun& y : axes[1])
+            for (const GridRun& z : axes[2]) {
+                const std::array<const GridRun*, 3> runs{&x, &y, &z};
+                GridRun tilt{std::max({x.first, y.first, z.first}), {}};
+                std::int64_t end = std::numeric_limits<std::int64_t>::max();
+                for (const GridRun* run : runs)
+                    end = std::min(end, run->first + std::ssize(run->values));
+                for (std::int64_t k = tilt.first; k < end; ++k) {
+                    std::array<double, 3> values{};
+                    for (std::size_t i = 0; i < 3; ++i)
+                        values.at(i) =
+                            epoch.channels[i].offset +
+                            epoch.channels[i].gain *
+                                runs.at(i)->values[static_cast<std::size_t>(k - runs.at(i)->first)];
+                    tilt.values.push_back(tilt_urad(values, axis));
+                }
+                tilts.push_back(std::move(tilt));
+            }
+    return tilts;
+}
+
 }  // namespace
 
 std::vector<std::string> export_formats() {
@@ -131,8 +218,8 @@ std::vector<std::string> export_formats() {
 }
 
 ExportReport export_channel(const ExportOptions& options, const Write& write) {
-    const auto metadata =
-        station::read_station_xml(options.root / "metadata" / "station.xml", options.from);
+    const std::filesystem::path file = options.root / "metadata" / "station.xml";
+    const auto metadata = station::read_station_xml(file, options.from);
     const Format& format = *std::ranges::find(kFormats, options.format, &Format::name);
     const GridWriter writer = format.writer(write, options, metadata);
     ExportReport report;
@@ -151,39 +238,34 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
         next = run.first + count;
         report.values += count;
     };
-    const auto scale =
-        std::ranges::find(metadata.channels, options.channel, &station::ChannelScale::code);
-    const auto metadata_hz = scale == metadata.channels.end() ? std::nullopt : scale->rate_hz;
-    text::Message rate;
-    std::optional<UtcGrid> grid;
-    double source_rate_hz = 0.0;
+    const std::optional<std::size_t> tilted = tilt_axis(options.channel);
+    std::optional<Epoch> epoch;
+    std::vector<std::string> channels{options.channel};
+    if (tilted) {
+        epoch = epoch_of(options.from, metadata, file);
+        channels.clear();
+        for (std::size_t k = 0; k <= kVertical; ++k) channels.push_back(epoch->channels[k].code);
+    }
+    GridReader reader(options, metadata, report);
     for (UtcTime begin = options.from; begin < options.to;) {
         const UtcTime end =
             std::min<UtcTime>(options.to, std::chrono::floor<days>(begin) + days(1));
-        // The kernel needs 32 zero crossings on either side: 32 s at 1 Hz.
-        const std::chrono::seconds margin(33 / options.rate_hz + 1);
-        const archive::ChannelData data =
-            archive::read_channel(options.root / "archive", metadata.codes, options.channel,
-                                  begin - margin, end + margin, metadata_hz);
-        if (rate.empty()) rate = rate_remark({&data, 1});
-        for (const archive::Segment& segment : data.segments) {
-            if (segment.rate_hz != source_rate_hz) {
-                source_rate_hz = segment.rate_hz;
-                if (options.rate_hz > 1.01 * source_rate_hz) {
-                    throw InputError(fmt::format("--rate = {}; allowed: up to the {} Hz of {}",
-                                                 options.rate_hz, text::shortest(source_rate_hz),
-                                                 options.channel));
-                }
-                grid.emplace(source_rate_hz, options.rate_hz);
-            }
-            take(grid->resample(segment, begin, end));
-        }
-        note(report, data.damage);
+        std::vector<std::vector<GridRun>> runs;
+        for (const std::string& channel : channels)
+            runs.push_back(reader.read(channel, begin, end));
+        for (const GridRun& run : tilted ? tilt_runs(runs, *epoch, *tilted) : runs.front())
+            take(run);
         begin = end;
     }
+    if (tilted && report.twice)
+        throw InputError(fmt::format(
+            "{}: instants from {} on occur twice, because the host's clock was set back; allowed: "
+            "each instant once; correct the times with a351-correct retime",
+            options.root.string(), to_rfc3339(report.twice->front(), 3)));
     for (const auto& one : absent_files(options.root, options.from, options.to))
-        if (one.channel == options.channel) report.remarks.push_back(to_message(one));
-    if (!rate.empty()) report.remarks.push_back(std::move(rate));
+        if (std::ranges::count(channels, one.channel) > 0)
+            report.remarks.push_back(to_message(one));
+    if (!reader.rate().empty()) report.remarks.push_back(reader.rate());
     if (report.values == 0) {
         throw InputError(
             fmt::format("{}: no samples of {} from {} to {}{}", options.root.string(),

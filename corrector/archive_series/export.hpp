@@ -10,7 +10,8 @@
 ///     const ExportReport report =
 ///         export_channel(options, [&](std::string_view bytes) { file.write(bytes); });
 ///
-/// Values are counts of the channel, or acceleration by the scale in station.xml of the data root.
+/// Values are counts of the channel, acceleration by the scale in station.xml of the data root, or the
+/// tilt of a horizontal axis.
 
 #include <array>
 #include <cstdint>
@@ -41,10 +42,13 @@ namespace a351::corrector::archive_series {
 struct ExportOptions {
     std::filesystem::path root;  ///< A data root.
     UtcTime from, to;            ///< Start, and end, which is not included.
-    std::string channel;         ///< Channel of the archive, e.g. BNZ.
+    /// Channel of the archive, e.g. BNZ, or a tilt (tilt.hpp), which is computed at each instant of
+    /// the grid from the three axes there, with their scales at `from`.
+    std::string channel;
     int rate_hz = 50;            ///< Values per second, at most the rate of the channel.
     std::string format = "csv";  ///< One of export_formats(), not checked.
-    /// Unit of the values: counts, mg (1e-3 of 9.80665 m/s2) or mgal; in miniSEED counts only.
+    /// Unit of the values: counts, mg (1e-3 of 9.80665 m/s2) or mgal; urad for a tilt; in miniSEED
+    /// counts only, so that it has no tilt.
     std::string unit = "counts";
 };
 
@@ -75,7 +79,8 @@ struct ExportReport {
 /// @param write    takes the bytes in order, in pieces of any size; its exceptions are passed on.
 /// @return a summary.
 /// @throws InputError  no metadata, no samples of the channel in this time, a rate above that of
-///                     the samples, a unit that is not that of the channel.  A part of the output may have been written before.
+///                     the samples, a unit that is not that of the channel, a tilt from instants that
+///                     occur twice.  A part of the output may have been written before.
 ExportReport export_channel(const ExportOptions& options,
                             const std::function<void(std::string_view)>& write);
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "corrector/archive_series/export.hpp"
+#include "corrector/archive_series/tilt.hpp"
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
 #include "protocol/core/input_error.hpp"
@@ -68,16 +69,25 @@ void add_export_command(CLI::App& program) {
     add_required(command, "ROOT", "DIR", texts->options.root, "Data root");
     add_required(command, "--from", "UTC", texts->from, "First instant (RFC 3339)");
     add_required(command, "--to", "UTC", texts->to, "End of the interval, not included (RFC 3339)");
-    add_required(command, "--channel", "NAME", texts->options.channel, "Channel, for example BNZ");
+    add_required(
+        command, "--channel", "NAME", texts->options.channel,
+        "Channel, for example BNZ; or tilt-x, tilt-y: angle of a horizontal axis above the "
+        "horizontal, in urad");
     add_required(command, "--rate", "HZ", texts->rate_hz,
                  "Values per second, a whole number from 1 to 1000");
     add_required(command, "--format", "NAME", texts->options.format, "Format of the file")
         ->check(CLI::IsMember(archive_series::export_formats()));
-    add_with_default(command, "--unit", "NAME", texts->options.unit,
-                     "Unit of the values in CSV; mg and mgal for acceleration only")
-        ->check(CLI::IsMember({"counts", "mg", "mgal"}));
+    const CLI::Option* const unit =
+        add_option(command, "--unit", "NAME", texts->options.unit,
+                   "Unit of the values in CSV; mg and mgal for acceleration only, urad for a tilt "
+                   "only (default: counts; urad for a tilt)")
+            ->check(CLI::IsMember({"counts", "mg", "mgal", "urad"}));
     add_required(command, "--out", "FILE", texts->out, "File to write");
-    command.callback([texts] { run(*texts); });
+    command.callback([texts, unit] {
+        if (unit->count() == 0 && archive_series::tilt_axis(texts->options.channel))
+            texts->options.unit = "urad";
+        run(*texts);
+    });
 }
 
 }  // namespace a351::corrector::command

@@ -1,12 +1,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "corrector/archive_series/tilt.hpp"
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
 #include "corrector/command/record_input.hpp"
@@ -26,7 +28,7 @@ namespace {
 struct RecordCommandOptions {
     std::vector<std::string> files;
     std::string from, to, apply;
-    std::string out = "result", tide_system = "tide-free";
+    std::string out = "result", tide_system = "tide-free", quantity = "norm";
     long_record::RecordAnalysisOptions analysis;
     figure::FigureOptions figures;
 };
@@ -39,6 +41,19 @@ long_record::LongRecord read_record(const RecordCommandOptions& options) {
         throw InputError(fmt::format("--to = {}; allowed: an instant after --from", options.to));
     return long_record::joined_record(
         read_records(options.files, window, *tide::system_named(options.tide_system)));
+}
+
+/// Options that only concern the analysis of the norm.
+constexpr std::array kOfNorm{"--tide-system", "--apply",    "--cycle", "--shift",
+                             "--mode",        "--ensemble", "--seed"};
+
+/// Reads the tilt of an axis and fits the effect of the temperature.
+long_record::RecordResult tilted(const RecordCommandOptions& options, std::size_t axis) {
+    long_record::RecordResult result;
+    result.record = long_record::tilt_record(read_record(options), axis);
+    result.parts = divide_or_refuse(result.record, {}, options.files.front());
+    result.tilt = long_record::fit_tilt(result.parts, result.record.step_s, axis);
+    return result;
 }
 
 long_record::RecordResult analysed(const RecordCommandOptions& options) {
@@ -113,14 +128,9 @@ void apply_to(long_record::RecordResult& result, const std::string& file) {
     result.applied = std::move(applied);
 }
 
-void analyse(const RecordCommandOptions& options) {
-    require_folder_option("--out", options.out);
-    long_record::RecordResult result = analysed(options);
-    if (!options.apply.empty()) apply_to(result, options.apply);
-    nlohmann::ordered_json settings;
-    settings["command"] = "record";
-    settings["from"] = options.from;
-    settings["to"] = options.to;
+/// Adds the settings of the analysis of the norm.
+void add_norm_settings(nlohmann::ordered_json& settings, const RecordCommandOptions& options,
+                       const long_record::RecordResult& result) {
     settings["cycle_s"] = result.options.cycle_s;
     settings["shift_s"] = result.options.shift_s;
     settings["mode"] = result.options.mode ? nlohmann::ordered_json(*result.options.mode)
@@ -130,6 +140,25 @@ void analyse(const RecordCommandOptions& options) {
     settings["seed"] = result.options.seed;
     settings["apply"] = options.apply;
     settings["tide_system"] = result.record.is_tide_removed ? options.tide_system : "as given";
+}
+
+void analyse(const RecordCommandOptions& options, const CLI::App& command) {
+    require_folder_option("--out", options.out);
+    const std::optional<std::size_t> axis = archive_series::tilt_axis(options.quantity);
+    for (const char* const name : kOfNorm)
+        if (axis && command.count(name) > 0)
+            throw InputError(
+                fmt::format("{}: has no effect on --quantity = {}; allowed: with "
+                            "--quantity norm only",
+                            name, options.quantity));
+    long_record::RecordResult result = axis ? tilted(options, *axis) : analysed(options);
+    if (!options.apply.empty()) apply_to(result, options.apply);
+    nlohmann::ordered_json settings;
+    settings["command"] = "record";
+    settings["quantity"] = options.quantity;
+    settings["from"] = options.from;
+    settings["to"] = options.to;
+    if (!axis) add_norm_settings(settings, options, result);
     std::vector<text::NamedText> files = long_record::record_files(result, settings);
     report::Report page = report::make_long_record_page(result, settings, options.figures);
     files.insert(files.end(), page.files.begin(), page.files.end());
@@ -153,6 +182,10 @@ void add_record_command(CLI::App& program) {
                "First instant (RFC 3339; default: the start of the record)");
     add_option(command, "--to", "UTC", options->to,
                "End of the interval, not included (RFC 3339; default: the end of the record)");
+    add_with_default(command, "--quantity", "NAME", options->quantity,
+                     "What is analysed: the norm, or the angle of a horizontal axis above the "
+                     "horizontal with its effect of the temperature, in urad")
+        ->check(CLI::IsMember({"norm", "tilt-x", "tilt-y"}));
     add_option(command, "--apply", "FILE", options->apply,
                "Correct the record with this calibration of the unit, in two ways")
         ->check(CLI::ExistingFile);
@@ -169,7 +202,7 @@ void add_record_command(CLI::App& program) {
     add_with_default(command, "--seed", "N", options->analysis.seed, "Seed of the noise generator");
     add_tide_system(command, options->tide_system);
     add_figure_options(command, options->figures);
-    command.callback([options] { analyse(*options); });
+    command.callback([options, &command] { analyse(*options, command); });
 }
 
 }  // namespace a351::corrector::command

@@ -156,6 +156,46 @@ Figure trend_figure(const RecordResult& result, const Print& print) {
 
 }  // namespace
 
+Figure tilt_figure(const RecordResult& result, const Print& print) {
+    const long_record::TiltFit& tilt = *result.tilt;
+    const UtcTime start = result.record.stretches.front().times.front();
+    const double step_h = step_h_of(result);
+    std::vector<std::vector<double>> corrected;
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const long_record::RecordSegment& segment : result.parts.segments) {
+        std::vector<double>& values = corrected.emplace_back(segment.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            sum += values[i] =
+                tilt.corrected_urad(segment.acceleration_mgal[i], segment.temperature_degc[i]);
+        count += values.size();
+    }
+    const double mean = std::round(sum / static_cast<double>(count));
+    std::string measured, without, temperature;
+    for (std::size_t k = 0; k < corrected.size(); ++k) {
+        const long_record::RecordSegment& segment = result.parts.segments[k];
+        const double first_h = seconds_between(start, segment.start) / kSecondsPerHour;
+        measured += curve_lines({segment.acceleration_mgal, step_h, first_h, mean}) + '\n';
+        without += curve_lines({corrected[k], step_h, first_h, mean}) + '\n';
+        temperature += curve_lines({segment.temperature_degc, step_h, first_h}) + '\n';
+    }
+    const std::string axis = tilt.axis == 0 ? "x" : "y";
+    Figure figure = two_panels(
+        "tilt-" + axis,
+        tr("Tilt of the axis {}, positive if its positive end rises, as measured and as corrected "
+           "to {} °C with {} ± {} µrad/°C; and temperature.",
+           axis, text::fixed(tilt.temperature_degc, 3), text::fixed(tilt.slope_urad_per_degc, 2),
+           text::fixed(tilt.slope_error_urad_per_degc, 2)),
+        start,
+        tr("Tilt {} (µrad)",
+           mean < 0.0 ? "+ " + text::fixed(-mean, 0) : "- " + text::fixed(mean, 0)),
+        print);
+    figure.plot("hours tilt_urad", measured, {Look::thin_line, Colour::raw_grey, tr("measured")});
+    figure.plot("hours corrected_urad", without, {Look::line, Colour::blue, tr("corrected")});
+    figure.plot("hours temperature_degc", temperature, {Look::line, Colour::vermilion}, 1);
+    return figure;
+}
+
 std::vector<Figure> long_record_figures(const RecordResult& result, const Print& print) {
     const long_record::RecordSegment& segment = result.segment();
     std::vector<Figure> figures;

@@ -28,6 +28,11 @@ namespace a351::corrector::figure {
 [[nodiscard]] std::vector<Figure> long_record_figures(const long_record::RecordResult& result,
                                                       const Print& print);
 
+/// Returns the figure of a tilt: as measured and as corrected to the mean temperature, minus the mean of
+/// the corrected values, above the temperature.  All segments are shown.
+/// @pre result.tilt
+[[nodiscard]] Figure tilt_figure(const long_record::RecordResult& result, const Print& print);
+
 /// Returns the figure of gain and phase by period, from spectra and from modes, with the two-path
 /// fit.
 ///

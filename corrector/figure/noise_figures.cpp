@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "corrector/figure/long_record_figures.hpp"
 #include "corrector/noise/earth_noise.hpp"
@@ -9,15 +8,6 @@ namespace {
 
 using long_record::RecordResult;
 using text::tr;
-
-/// Returns the density of the three noises, see noise::ThreeNoises.
-double density_of(const noise::ThreeNoises& noises, double frequency_hz) {
-    const double white = noises.white_mgal_sqrt_s.value, flicker = noises.flicker_mgal.value,
-                 walk = noises.walk_mgal_per_sqrt_s.value;
-    constexpr double kPi = std::numbers::pi;
-    return std::sqrt(2.0 * white * white + flicker * flicker / (kPi * frequency_hz) +
-                     walk * walk / (2.0 * kPi * kPi * frequency_hz * frequency_hz));
-}
 
 Figure spectrum_figure(const RecordResult& result, const Print& print) {
     const noise::RecordNoise& noise = result.analysis.noise;
@@ -35,7 +25,7 @@ Figure spectrum_figure(const RecordResult& result, const Print& print) {
         measured +=
             data_line("9666", {f, std::sqrt(one.mgal2_per_hz.value),
                                std::sqrt(one.mgal2_per_hz.low), std::sqrt(one.mgal2_per_hz.high)});
-        model += data_line("96", {f, density_of(noise.allan.noises, f)});
+        model += data_line("96", {f, std::sqrt(noise.allan.noises.density_mgal2_per_hz(f))});
         low +=
             data_line("99", {f, ground_noise_mgal_per_sqrt_hz(noise::GroundNoise::low, 1.0 / f)});
         high +=

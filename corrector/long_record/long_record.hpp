@@ -54,7 +54,8 @@ struct RecordStretch {
     /// Change at the start of the stretch, e.g. "another sensor: ..."; empty: start or gap.
     text::Message begins_with;
     std::vector<UtcTime> times;             ///< (n) Times of the samples.
-    std::vector<double> acceleration_mgal;  ///< (n) Norm of the decimated axes.
+    /// (n) Norm of the decimated axes, in LongRecord::unit; the tilt in its place after tilt_record().
+    std::vector<double> acceleration_mgal;
     /// Axes x, y, z (n each) as the sensor gave them, with the tide; empty if only the norm is
     /// known.
     std::vector<std::vector<double>> axes_mgal;
@@ -76,6 +77,7 @@ struct LongRecord {
     std::vector<RecordStretch> stretches;  ///< In order of time; each has at least one sample.
     double raw_rate_hz = 0.0;              ///< Rate before decimation.
     double step_s = kRecordStep_s;         ///< Time between samples, on the sensor's clock.
+    std::string unit = "mGal";             ///< "urad" after tilt_record().
     bool is_tide_removed = false;          ///< True: the direct tide was subtracted.
     std::vector<text::InputFile> inputs;   ///< Files that were read.
     std::vector<text::Message> warnings;  ///< Skipped data, divisions and other facts, with reason.

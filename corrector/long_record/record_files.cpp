@@ -113,9 +113,18 @@ Json segments_json(const RecordResult& result) {
                         {"restart", segment.is_restart},
                         {"bridged", segment.bridged},
                         {"knocks", segment.disturbed},
-                        {"analysed", k == result.analysed}});
+                        {"analysed", result.tilt || k == result.analysed}});
     }
     return list;
+}
+
+Json tilt_json(const TiltFit& tilt) {
+    return {{"axis", tilt.axis == 0 ? "x" : "y"},
+            {"slope_urad_per_degc", tilt.slope_urad_per_degc},
+            {"slope_error_urad_per_degc", tilt.slope_error_urad_per_degc},
+            {"temperature_degc", tilt.temperature_degc},
+            {"misfit", tilt.misfit},
+            {"scatter_urad", tilt.noise.points.front().deviation_mgal.value}};
 }
 
 void add_limits(Json& json, const std::string& name, const Limits& limits) {
@@ -159,12 +168,15 @@ std::string spectrum_csv(const noise::RecordNoise& noise) {
 /// Returns record.csv: `time_utc,acceleration_mgal,temperature_degc,segment`, one row per sample.
 /// Cells of missing values are empty.  Segments are numbered from 1; empty outside all.  With a
 /// calibration `parametric_mgal` and `by_modes_mgal` follow, filled within the analysed segment, with
-/// an outer oven `outer_degc`.
+/// an outer oven `outer_degc`.  Of a tilt: `tilt_urad` in place of the acceleration, `corrected_urad`,
+/// `u_urad`.
 std::string record_csv(const RecordResult& result) {
     const bool has_outer = std::ranges::any_of(
         result.record.stretches,
         [](const RecordStretch& stretch) { return !stretch.outer_degc.empty(); });
-    std::string csv = "time_utc,acceleration_mgal,temperature_degc,segment" +
+    std::string csv = std::string("time_utc,") +
+                      (result.tilt ? "tilt_urad" : "acceleration_mgal") +
+                      ",temperature_degc,segment" + (result.tilt ? ",corrected_urad,u_urad" : "") +
                       std::string(result.applied ? ",parametric_mgal,by_modes_mgal" : "") +
                       std::string(has_outer ? ",outer_degc\n" : "\n");
     for (const RecordStretch& stretch : result.record.stretches) {
@@ -178,6 +190,13 @@ std::string record_csv(const RecordResult& result) {
                     csv += std::to_string(k + 1);
             }
             csv += applied_cells(result, stretch.times[i]);
+            if (result.tilt) {
+                const double degc = stretch.temperature_degc[i],
+                             corrected = result.tilt->corrected_urad(
+                                 stretch.acceleration_mgal[i], degc);
+                csv += ',' + cell(corrected, 3) + ',' +
+                       (std::isfinite(corrected) ? cell(result.tilt->u_urad(degc), 3) : "");
+            }
             if (has_outer)
                 csv += ',' + (stretch.outer_degc.empty() ? "" : exact_cell(stretch.outer_degc[i]));
             csv += '\n';
@@ -230,6 +249,10 @@ std::string record_json(const RecordResult& result, const Json& settings) {
         json["refused"].push_back({{"start_utc", to_rfc3339(part.start, 3)},
                                    {"end_utc", to_rfc3339(part.end, 3)},
                                    {"reason", part.reason.english()}});
+    if (result.tilt) {
+        json["tilt"] = tilt_json(*result.tilt);
+        return json.dump(2) + '\n';
+    }
     for (const RecordStatistic& statistic : record_statistics(result))
         json["statistics"][statistic.key] = statistic.value;
     json["temperature_mode"] = mode_json(analysis.temperature_mode);
@@ -249,6 +272,8 @@ std::string record_json(const RecordResult& result, const Json& settings) {
 }  // namespace
 
 std::vector<text::NamedText> record_files(const RecordResult& result, const Json& settings) {
+    if (result.tilt)
+        return {{"record.csv", record_csv(result)}, {"result.json", record_json(result, settings)}};
     return {{"record.csv", record_csv(result)},
             {"response.csv", response_csv(result)},
             {"spectrum.csv", spectrum_csv(result.analysis.noise)},

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "corrector/long_record/apply_calibration.hpp"
+#include "corrector/long_record/tilt_record.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::long_record {
@@ -32,6 +33,8 @@ struct RecordResult {
     RecordAnalysis analysis;
     RecordAnalysisOptions options;
     std::optional<AppliedCalibration> applied;  ///< Calibration applied to the analysed segment.
+    /// Tilt in place of the norm: then all segments are analysed, and `analysis` is empty.
+    std::optional<TiltFit> tilt;
 
     /// Returns the analysed segment; valid as long as `parts` does not change.
     [[nodiscard]] const RecordSegment& segment() const { return parts.segments[analysed]; }
@@ -56,6 +59,8 @@ struct RecordStatistic {
 [[nodiscard]] std::vector<RecordStatistic> record_statistics(const RecordResult& result);
 
 /// Returns record.csv, response.csv, and result.json, in which values that are not finite are null.
+///
+/// Of a tilt there are record.csv and result.json only.
 ///
 /// record.csv has one row per decimated sample of all stretches, response.csv one per band or mode,
 /// refused ones too.  Values in CSV of the record have all digits.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "corrector/reading/disturbance.hpp"
 #include "protocol/signal/median.hpp"
@@ -173,8 +174,6 @@ private:
         const Valid valid = valid_samples(stretch, is_stuck);
         if (valid.size() == 0) return;
         const std::vector<double> steps = find_steps(valid.acceleration_mgal);
-        const reading::Disturbances knocks =
-            reading::find_disturbances(valid.acceleration_mgal, kKnockThreshold);
         std::size_t first = 0;
         Begin begin = begin_of(stretch, valid);
         for (std::size_t i = 1; i <= valid.size(); ++i) {
@@ -183,10 +182,10 @@ private:
                 if (valid.places[i] - valid.places[i - 1] - 1 > kLongestBridge)
                     next = begin_at(stretch, is_stuck, valid, i);
                 else if (steps[i] != 0.0)
-                    next.why = text::message("step of {} mGal", text::fixed(steps[i], 1));
+                    next.why = text::message("step of {} {}", text::fixed(steps[i], 1), record_.unit);
                 if (next.why.empty()) continue;
             }
-            add(stretch, valid, knocks, first, i, begin);
+            add(stretch, valid, first, i, begin);
             first = i;
             begin = std::move(next);
         }
@@ -251,8 +250,8 @@ private:
             level(valid, i) - median_of(valid.temperature_degc, i - std::min(i, kBeside), i));
     }
 
-    void add(const RecordStretch& stretch, const Valid& valid, const reading::Disturbances& knocks,
-             std::size_t first, std::size_t end, const Begin& begin) {
+    void add(const RecordStretch& stretch, const Valid& valid, std::size_t first, std::size_t end,
+             const Begin& begin) {
         RecordSegment segment;
         segment.start = stretch.times[valid.places[first]];
         segment.end = stretch.times[valid.places[end - 1]];
@@ -272,10 +271,13 @@ private:
                      hours(span, 2), begin.why, hours(shortest_, 1))});
             return;
         }
+        // Within the segment only: beside a step the median is that of the other side.
+        const reading::Disturbances knocks = reading::find_disturbances(
+            std::span(valid.acceleration_mgal).subspan(first, end - first), kKnockThreshold);
         std::size_t previous = first;
         for (std::size_t i = first; i < end; ++i) {
             const bool is_end = i == first || i + 1 == end;
-            if (knocks.disturbed[i] && !is_end) {
+            if (knocks.disturbed[i - first] && !is_end) {
                 ++segment.disturbed;
                 continue;
             }

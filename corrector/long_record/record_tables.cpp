@@ -102,10 +102,12 @@ std::vector<RecordStatistic> record_statistics(const RecordResult& result) {
 }
 
 std::string record_text(const RecordResult& result) {
+    const std::string parts = lines_of(refused_parts(result)) + '\n';
+    if (result.tilt)
+        return text::aligned(segments_table(result)) + parts + tilt_reading(result) + '\n';
     const RecordAnalysis& analysis = result.analysis;
     std::string text = text::aligned(segments_table(result)) + text::tr("* analysed") + "\n" +
-                       lines_of(refused_parts(result)) + '\n' +
-                       text::aligned(statistics_table(result));
+                       parts + text::aligned(statistics_table(result));
     if (const std::string modes = chosen_modes(result); !modes.empty()) text += modes + '\n';
     text += '\n' + text::in_words(analysis.reading) + "\n\n" +
             text::aligned(response_table(result)) + lines_of(refused_bands(result)) + '\n' +
@@ -120,7 +122,7 @@ TextTable segments_table(const RecordResult& result) {
     for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
         const RecordSegment& segment = result.parts.segments[k];
         rows.push_back(
-            {std::to_string(k + 1) + (k == result.analysed ? " *" : ""), to_rfc3339(segment.start),
+            {std::to_string(k + 1) + (k == result.analysed && !result.tilt ? " *" : ""), to_rfc3339(segment.start),
              text::fixed(
                  static_cast<double>(segment.size()) * result.record.step_s / kSecondsPerHour, 2),
              std::to_string(segment.bridged), std::to_string(segment.disturbed),
@@ -204,6 +206,18 @@ std::string noise_reading(const RecordResult& result) {
         text::fixed(noise.useful->averaging_s, 0),
         is_longest ? text::message("longer stays were not compared")
                    : text::message("a longer stay gains less than a tenth")));
+}
+
+std::string tilt_reading(const RecordResult& result) {
+    const TiltFit& tilt = *result.tilt;
+    return text::tr(
+        "Tilt of the axis {}: {} +- {} urad/degC, beside a straight line over time in each of {} "
+        "segments; corrected to {} degC. A sample of {} s scatters by {} urad. The constant bias of "
+        "the axis is in the tilt, so that only changes have a meaning.",
+        tilt.axis == 0 ? "x" : "y", text::fixed(tilt.slope_urad_per_degc, 2),
+        text::fixed(tilt.slope_error_urad_per_degc, 2), result.parts.segments.size(),
+        text::fixed(tilt.temperature_degc, 3), text::fixed(result.record.step_s, 0),
+        text::fixed(tilt.noise.points.front().deviation_mgal.value, 2));
 }
 
 std::vector<std::string> refused_parts(const RecordResult& result) {

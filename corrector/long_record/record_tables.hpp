@@ -36,6 +36,10 @@ using TextTable = std::vector<std::vector<std::string>>;
 /// Returns how long an average is useful, and the levels of the three noises, in sentences.
 [[nodiscard]] std::string noise_reading(const RecordResult& result);
 
+/// Returns the effect of the temperature on the tilt, in a sentence.
+/// @pre result.tilt
+[[nodiscard]] std::string tilt_reading(const RecordResult& result);
+
 /// Returns one line per part of the record that is not analysed: start, end and reason; no lines if
 /// nothing was refused.
 [[nodiscard]] std::vector<std::string> refused_parts(const RecordResult& result);

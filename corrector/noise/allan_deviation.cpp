@@ -204,6 +204,13 @@ double ThreeNoises::deviation_mgal(double averaging_s) const {
     return std::sqrt(variances_at(averaging_s).dot(levels.cwiseAbs2()));
 }
 
+double ThreeNoises::density_mgal2_per_hz(double frequency_hz) const {
+    const double white = white_mgal_sqrt_s.value, flicker = flicker_mgal.value,
+                 walk = walk_mgal_per_sqrt_s.value / (std::numbers::pi * frequency_hz);
+    return 2.0 * white * white + flicker * flicker / (std::numbers::pi * frequency_hz) +
+           0.5 * walk * walk;
+}
+
 AllanAnalysis analyse_allan(const std::vector<double>& values, double step_s) {
     const auto n = static_cast<std::ptrdiff_t>(values.size());
     std::vector<std::ptrdiff_t> averages;

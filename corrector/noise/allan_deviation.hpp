@@ -24,6 +24,8 @@ struct ThreeNoises {
 
     /// Returns the Allan deviation, mGal.
     [[nodiscard]] double deviation_mgal(double averaging_s) const;
+    /// Returns the one-sided power spectral density, mGal^2/Hz.
+    [[nodiscard]] double density_mgal2_per_hz(double frequency_hz) const;
 };
 
 /// Allan deviation of averages over one time, as measured and by the three noises.

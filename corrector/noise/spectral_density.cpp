@@ -23,7 +23,8 @@ std::size_t segment_length(std::size_t count) {
     return length;
 }
 
-/// Returns the Hann window of period n, whose transform is exact at the frequencies of the segment.
+}  // namespace
+
 std::vector<double> hann(std::size_t n) {
     std::vector<double> window(n);
     for (std::size_t i = 0; i < n; ++i)
@@ -31,8 +32,6 @@ std::vector<double> hann(std::size_t n) {
                                          static_cast<double>(n));
     return window;
 }
-
-}  // namespace
 
 std::vector<Density> spectral_density(const std::vector<double>& values, double step_s) {
     return spectral_density(values, step_s, segment_length(values.size()));

@@ -15,6 +15,10 @@ struct Density {
     Limits mgal2_per_hz;
 };
 
+/// Returns the Hann window of period n, whose transform is exact at the frequencies of the segment.  Its
+/// mean square is 3/8.
+[[nodiscard]] std::vector<double> hann(std::size_t n);
+
 /// Returns the mean of the periodograms of segments that overlap by half, each without its straight
 /// line and under a Hann window w (Welch 1967):
 ///

@@ -45,11 +45,42 @@ void add_applied(pugi::xml_node parent, const long_record::AppliedCalibration& a
                    "lrrr", long_record::allan_table(applied));
 }
 
+void add_segments(Page& document, const long_record::RecordResult& result,
+                  const nlohmann::ordered_json& settings) {
+    pugi::xml_node section = document.add_section(text::tr("Segments"));
+    add_text_table(section,
+                   result.tilt ? text::tr("Parts of the record without gaps.")
+                               : text::tr("Parts of the record without gaps; * analysed."),
+                   "llrrrl", long_record::segments_table(result));
+    add_list(section, long_record::refused_parts(result));
+    add_provenance(document.add_section(text::tr("Settings, inputs, warnings")), settings,
+                   result.record.inputs, text::tr("Warnings"),
+                   text::each_in_words(result.record.warnings));
+}
+
+Report make_tilt_page(const long_record::RecordResult& result,
+                      const nlohmann::ordered_json& settings,
+                      const figure::FigureOptions& options) {
+    const std::vector<figure::Figure> figures{figure::tilt_figure(result, options.print)};
+    figure::Drawing drawing = figure::draw(figures, options.formats);
+    Report page;
+    page.warnings = missing_lines(drawing.troubles);
+    Page document(text::tr("Tilt at one point"));
+    add(document.body(), "p", long_record::tilt_reading(result));
+    add_list(document.body(), page.warnings);
+    add_figures(document.body(), figures, drawing);
+    add_segments(document, result, settings);
+    page.files.emplace_back("record.html", document.text());
+    add_figure_files(page.files, figures, drawing);
+    return page;
+}
+
 }  // namespace
 
 Report make_long_record_page(const long_record::RecordResult& result,
                              const nlohmann::ordered_json& settings,
                              const figure::FigureOptions& options) {
+    if (result.tilt) return make_tilt_page(result, settings, options);
     std::vector<figure::Figure> figures = figure::long_record_figures(result, options.print);
     const std::vector<figure::Figure> response{figure::response_figure(result, options.print)};
     std::vector<figure::Figure> all = figures;
@@ -92,13 +123,7 @@ Report make_long_record_page(const long_record::RecordResult& result,
                    "lrll", long_record::statistics_table(result));
     add(section, "p", long_record::chosen_modes(result));
     add_figures(document.add_section(text::tr("The publication's figures")), figures, drawing);
-    section = document.add_section(text::tr("Segments"));
-    add_text_table(section, text::tr("Parts of the record without gaps; * analysed."), "llrrrl",
-                   long_record::segments_table(result));
-    add_list(section, long_record::refused_parts(result));
-    add_provenance(document.add_section(text::tr("Settings, inputs, warnings")), settings,
-                   result.record.inputs, text::tr("Warnings"),
-                   text::each_in_words(result.record.warnings));
+    add_segments(document, result, settings);
     page.files.emplace_back("record.html", document.text());
     add_figure_files(page.files, all, drawing);
     return page;

@@ -74,7 +74,8 @@ struct Report {
 /// Makes record.html of a long record.
 ///
 /// The order is: interpretation and two-path fit, applied calibration if there is one, response by
-/// period, two paths, the publication's statistics and figures, segments, settings.  A missing
+/// period, two paths, the publication's statistics and figures, segments, settings.  Of a tilt: its
+/// effect of the temperature, its figure, segments, settings.  A missing
 /// gnuplot has the same effect as in make_report().
 /// @param result           analysed, with at least one stretch and one segment.
 /// @param settings         object with every option of the run.

@@ -65,6 +65,7 @@ def draw(scratch, language, width_mm):
     both_days = [("joint", "survey", scratch / "day" / "survey.toml", scratch / "other" / "survey.toml")] if IS_LONG else []
     options = ("--figures", "pdf", "--figure-width", f"{width_mm}mm", "--out")
     for name, *arguments in (("day", "survey", scratch / "day" / "survey.toml"), ("night", "record", scratch / "night"),
+                             ("tilt", "record", scratch / "night", "--quantity", "tilt-y"),
                              ("table", "table", "--sites", GOLDEN / "sites.csv", "--observations", GOLDEN / "observations.csv",
                               "--model", "paper"),
                              ("plan", "design", scratch / "plan.csv", "--sites", scratch / "unknown.csv"),
@@ -73,7 +74,7 @@ def draw(scratch, language, width_mm):
     pictures = sorted(folder.glob("*/figures/*.pdf"))
     scripts = sorted(folder.glob("*/figures/*.gp"))
     demand(f"{language}, {width_mm} mm: each of the {len(scripts)} figures has a script, data or those of others, SVG and PDF",
-           len(pictures) == len(scripts) >= 39 and all(script.with_suffix(".svg").exists() for script in scripts))
+           len(pictures) == len(scripts) >= 40 and all(script.with_suffix(".svg").exists() for script in scripts))
     demand(f"{language}, {width_mm} mm: no mark has the scale zero, which viewers of SVG refuse",
            not any("scale(0.00)" in pdf.with_suffix(".svg").read_text() for pdf in pictures))
     found = [f"{pdf.parent.parent.name}/{pdf.stem}: {fault}" for pdf in pictures for fault in faults(pdf, width_mm)]
