@@ -36,7 +36,8 @@ station::ChannelScale channel_with(const station::Metadata& station, const std::
 }  // namespace
 
 Epoch epoch_of(UtcTime start, const station::Metadata& station, const std::filesystem::path& file) {
-    Epoch epoch{start, station.serial_number, station.codes, {}, station.position};
+    Epoch epoch{start, station.serial_number, station.codes, {}, station.position,
+                station.noise_ug_per_sqrt_hz};
     for (const std::string& axis : station.codes.axes)
         epoch.channels.push_back(channel_with(station, "N" + axis, "m/s**2", file));
     epoch.channels.push_back(channel_with(station, "K1", "degC", file));

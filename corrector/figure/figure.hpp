@@ -35,12 +35,13 @@ enum class Colour {
 
 /// Look of a series.  Its columns are x and y, except:
 /// - bars and the looks with bars: x, y and u, or x, y, low and high;
-/// - area: x, low and high.
+/// - area: x, low and high;
+/// - tiles: x, y, the least and the greatest x, the least and the greatest y, and the value.
 ///
 /// Lines are interrupted by an empty line of the data.  Boxes are from 0 to y.  Curves of one panel
 /// differ in look too, so that they can be distinguished in grey.
 enum class Look {
-    line, thin_line, strong_line, dashed_line, dotted_line, ribbon, area, boxes, bars,
+    line, thin_line, strong_line, dashed_line, dotted_line, ribbon, area, boxes, tiles, bars,
     dots, discs, small_discs, crosses, diamonds, open_diamonds, large_discs, triangles,
     linked_discs, linked_triangles, linked_squares,
     discs_with_bars, circles_with_bars, triangles_with_bars, diamonds_with_bars

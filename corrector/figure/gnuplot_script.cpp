@@ -26,10 +26,11 @@ struct Style {
     double line_pt = 0.0;  ///< 0: no lines.
     const char* after = "";
 };
-constexpr std::array<Style, 24> kLooks{{
+constexpr std::array<Style, 25> kLooks{{
     {"lines", kLine_pt}, {"lines", kThinLine_pt}, {"lines", kStrongLine_pt},
     {"lines", kStrongLine_pt, " dt (8,3)"}, {"lines", kStrongLine_pt, " dt (1,2)"},
     {"lines", 3.0}, {"filledcurves"}, {"boxes fs solid border lc black", kThinLine_pt},
+    {"boxxyerror fs solid noborder"},
     {"yerrorbars pt 0", kThinLine_pt}, {"points pt 7 ps 0.12"}, {"points pt 7 ps 0.45"},
     {"points pt 7 ps 0.35"}, {"points pt 2 ps 0.5", kLine_pt}, {"points pt 13 ps 0.6"},
     {"points pt 12 ps 0.45", kThinLine_pt}, {"points pt 7 ps 0.7"}, {"points pt 9 ps 0.8"},

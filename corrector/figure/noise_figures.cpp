@@ -1,7 +1,11 @@
 #include <cmath>
 
 #include "corrector/figure/long_record_figures.hpp"
+#include "corrector/figure/record_curve.hpp"
 #include "corrector/noise/earth_noise.hpp"
+#include "corrector/noise/spectral_density.hpp"
+#include "protocol/core/units.hpp"
+#include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
 namespace {
@@ -13,11 +17,15 @@ Figure spectrum_figure(const RecordResult& result, const Print& print) {
     const noise::RecordNoise& noise = result.analysis.noise;
     Figure figure{"noise-spectrum",
                   tr("Amplitude spectral density of the acceleration with 95 % limits, the three "
-                     "noises of the Allan deviation, and the ground at the quietest and noisiest "
-                     "seismic stations (Peterson 1993)."),
+                     "noises of the Allan deviation, the ground at the quietest and noisiest "
+                     "seismic stations (Peterson 1993), and the noise of the sensor by its data "
+                     "sheet, which is for faster signals."),
                   print.wide_mm()};
     figure.panels = {
-        {{.label = tr("Frequency (Hz)"), .scale = Scale::logarithmic},
+        {{.label = tr("Frequency (Hz)"),
+          .range = {0.9 * noise.spectrum.front().frequency_hz,
+                    1.1 * noise.spectrum.back().frequency_hz},
+          .scale = Scale::logarithmic},
          {.label = tr("Acceleration (mGal/√Hz)"), .format = "%g", .scale = Scale::logarithmic}}};
     std::string measured, model, low, high;
     for (const noise::Density& one : noise.spectrum) {
@@ -40,6 +48,13 @@ Figure spectrum_figure(const RecordResult& result, const Print& print) {
                 {Look::dashed_line, Colour::black, "NHNM"});
     figure.plot("NLNM: frequency_hz mgal_per_sqrt_hz", low,
                 {Look::dotted_line, Colour::grey, "NLNM"});
+    if (const auto level = result.record.data_sheet_mgal_per_sqrt_hz) {
+        std::string line;
+        for (const noise::Density* end : {&noise.spectrum.front(), &noise.spectrum.back()})
+            line += data_line("96", {end->frequency_hz, *level});
+        figure.plot("data sheet: frequency_hz mgal_per_sqrt_hz", line,
+                    {Look::thin_line, Colour::black, tr("data sheet")});
+    }
     return figure;
 }
 
@@ -69,10 +84,43 @@ Figure allan_noise_figure(const RecordResult& result, const Print& print) {
     return figure;
 }
 
+Figure spectrogram_figure(const RecordResult& result, const Print& print) {
+    const std::vector<noise::Tile> tiles =
+        noise::spectrogram(result.segment().acceleration_mgal, result.record.step_s);
+    Figure figure{"noise-spectrogram",
+                  tr("Spectral density of the acceleration by hour, each of two hours about it, in "
+                     "bands of a quarter octave or one frequency."),
+                  print.wide_mm()};
+    if (tiles.empty()) return figure;
+    Panel& panel = figure.panels.emplace_back();
+    panel.x = {
+        .label = hours_after(result.segment().start),
+        .range = {tiles.front().start_s / kSecondsPerHour, tiles.back().end_s / kSecondsPerHour}};
+    panel.y = {.label = tr("Frequency (Hz)"),
+               .range = {tiles.front().low_hz, tiles.back().high_hz},
+               .format = "%g",
+               .scale = Scale::logarithmic};
+    panel.colours = {
+        .label = tr("Acceleration (mGal/√Hz)"), .format = "%g", .scale = Scale::logarithmic};
+    std::string lines;
+    for (const noise::Tile& tile : tiles) {
+        const double from_h = tile.start_s / kSecondsPerHour, to_h = tile.end_s / kSecondsPerHour;
+        lines += data_line(
+            "4848886", {0.5 * (from_h + to_h), std::sqrt(tile.low_hz * tile.high_hz), from_h, to_h,
+                        tile.low_hz, tile.high_hz, std::sqrt(tile.mgal2_per_hz)});
+    }
+    figure.plot("hours frequency_hz from_h to_h low_hz high_hz mgal_per_sqrt_hz", lines,
+                {Look::tiles, Colour::by_value, "", {{1}, {2}, {3}, {4}, {5}, {6}, {7}}});
+    return figure;
+}
+
 }  // namespace
 
 std::vector<Figure> noise_figures(const RecordResult& result, const Print& print) {
-    return {spectrum_figure(result, print), allan_noise_figure(result, print)};
+    std::vector<Figure> figures{spectrum_figure(result, print), allan_noise_figure(result, print),
+                                spectrogram_figure(result, print)};
+    std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
+    return figures;
 }
 
 }  // namespace a351::corrector::figure

@@ -294,6 +294,8 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     else
         record.warnings.push_back(
             text::message("{}: no position: the tide is not removed", metadata.string()));
+    if (const auto noise_ug = epochs.front().noise_ug_per_sqrt_hz)
+        record.data_sheet_mgal_per_sqrt_hz = 1e-6 * *noise_ug * kMilliGalPerStandardGravity;
     record.source = root;
     record.inputs.push_back(text::describe_input("metadata", metadata));
     describe_inputs(record, root, epochs, begin, end);

@@ -65,6 +65,7 @@ LongRecord joined_record(std::vector<LongRecord> parts) {
     LongRecord all;
     all.raw_rate_hz = parts.front().raw_rate_hz;
     all.step_s = parts.front().step_s;
+    all.data_sheet_mgal_per_sqrt_hz = parts.front().data_sheet_mgal_per_sqrt_hz;
     all.is_tide_removed = true;
     std::vector<Part> sorted;
     for (std::size_t k = 0; k < parts.size(); ++k) {

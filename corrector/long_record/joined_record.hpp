@@ -25,7 +25,7 @@ namespace a351::corrector::long_record {
 /// and the later stretch has the change in `begins_with`.
 ///
 /// - `is_tide_removed` is true only if it is for every part.
-/// - `step_s` and `raw_rate_hz` are those of the first part in the list.
+/// - `step_s`, `raw_rate_hz` and the noise by the data sheet are those of the first part in the list.
 /// - `inputs` and `warnings` are those of all parts, in the order of the list.
 /// @param parts  at least one, in any order; a single part is returned with its stretches in order.
 /// @throws InputError  if parts overlap or have different steps; names both.  Steps are the same if

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,9 @@ struct LongRecord {
     double step_s = kRecordStep_s;         ///< Time between samples, on the sensor's clock.
     std::string unit = "mGal";             ///< "urad" after tilt_record().
     bool is_tide_removed = false;          ///< True: the direct tide was subtracted.
+    /// Noise of an axis by the data sheet of the sensor of the first part, mGal / sqrt(Hz); absent if it
+    /// is not known.
+    std::optional<double> data_sheet_mgal_per_sqrt_hz;
     std::vector<text::InputFile> inputs;   ///< Files that were read.
     std::vector<text::Message> warnings;  ///< Skipped data, divisions and other facts, with reason.
 };

@@ -264,6 +264,8 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["response_by_modes"] = points_json(analysis.by_modes);
     json["two_paths"] = two_paths_json(analysis.two_paths);
     json["noise"] = noise_json(analysis.noise);
+    if (const auto level = result.record.data_sheet_mgal_per_sqrt_hz)
+        json["noise"]["data_sheet_mgal_per_sqrt_hz"] = *level;
     json["applied"] = applied_json(result);
     json["remarks"] = text::in_english(analysis.remarks);
     return json.dump(2) + '\n';

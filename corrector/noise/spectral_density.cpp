@@ -63,4 +63,31 @@ std::vector<Density> spectral_density(const std::vector<double>& values, double 
     return densities;
 }
 
+std::vector<Tile> spectrogram(const std::vector<double>& values, double step_s) {
+    constexpr double kHour_s = 3600.0, kBand = 1.189207115;  // 2^(1/4)
+    const auto hour = 2 * static_cast<std::size_t>(std::lround(kHour_s / step_s / 2.0));
+    const std::size_t hop = std::max(hour, values.size() / kMostColumns);
+    const double hop_s = static_cast<double>(hop) * step_s;
+    const double bin_hz = 1.0 / (static_cast<double>(hour) * step_s);
+    std::vector<Tile> tiles;
+    for (std::size_t first = 0; first + 2 * hop <= values.size(); first += hop) {
+        const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+        const std::vector<Density> densities =
+            spectral_density({begin, begin + static_cast<std::ptrdiff_t>(2 * hop)}, step_s, hour);
+        const double start_s = static_cast<double>(first) * step_s + 0.5 * hop_s;
+        for (auto low = densities.begin(); low != densities.end();) {
+            const auto high = std::find_if(low + 1, densities.end(), [&](const Density& one) {
+                return one.frequency_hz > kBand * low->frequency_hz;
+            });
+            double sum = 0.0;
+            for (auto one = low; one != high; ++one) sum += one->mgal2_per_hz.value;
+            tiles.push_back({start_s, start_s + hop_s, low->frequency_hz - 0.5 * bin_hz,
+                             (high - 1)->frequency_hz + 0.5 * bin_hz,
+                             sum / static_cast<double>(high - low)});
+            low = high;
+        }
+    }
+    return tiles;
+}
+
 }  // namespace a351::corrector::noise

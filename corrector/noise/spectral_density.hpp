@@ -43,4 +43,20 @@ struct Density {
 [[nodiscard]] std::vector<Density> spectral_density(const std::vector<double>& values,
                                                     double step_s, std::size_t length);
 
+/// A part of a spectrogram: mean density in a band during an interval, counted from the first sample.
+struct Tile {
+    double start_s = 0.0, end_s = 0.0, low_hz = 0.0, high_hz = 0.0, mgal2_per_hz = 0.0;
+};
+
+/// Returns the spectrogram of hours: spectral_density() of parts of two hours, each in segments of one,
+/// that begin an hour after another and are shown for the hour in their middle; in bands of a quarter
+/// octave, or of one frequency where these are wider.
+///
+/// A record of more than kMostColumns hours has longer parts.
+/// @param values  (n) mGal, finite.
+/// @param step_s  time between samples, at most 200.
+/// @return by time, then by frequency; empty for less than two hours.
+[[nodiscard]] std::vector<Tile> spectrogram(const std::vector<double>& values, double step_s);
+inline constexpr std::size_t kMostColumns = 168;  ///< Hours of a week.
+
 }  // namespace a351::corrector::noise

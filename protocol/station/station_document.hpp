@@ -17,6 +17,9 @@
 
 namespace a351::station {
 
+/// Begin of the comment of a channel that names its wire::DeviceProfile; a blank follows the name.
+inline constexpr const char* kProfileComment = "device profile ";
+
 /// Returns the document as text in UTF-8, indented by two blanks.  The same tree gives the same
 /// bytes.
 [[nodiscard]] std::string xml_text(const pugi::xml_document& document);

@@ -147,7 +147,7 @@ pugi::xml_node add_sampled_channel(pugi::xml_node station, const Description& de
     auto channel =
         add_channel(station, description, archive::channel_code(rate_hz, instrument_and_axis));
     add_comment(channel, content);
-    add_comment(channel, fmt::format("device profile {} ({})", description.profile,
+    add_comment(channel, fmt::format("{}{} ({})", kProfileComment, description.profile,
                                      description.is_profile_verified ? "verified" : "unverified"));
     add_comment(channel,
                 fmt::format("filter {}, group delay {} s, already subtracted from the "

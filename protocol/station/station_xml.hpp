@@ -118,6 +118,9 @@ struct Metadata {
     std::vector<ChannelScale> channels;
     std::string serial_number = {};         ///< Serial number of the sensor; empty if unknown.
     std::optional<Position> position = {};  ///< Absent if the file has none.
+    /// Noise of an axis by its data sheet, DeviceProfile::noise_ug_per_sqrt_hz of the shipped profile
+    /// that a comment names; absent without one.
+    std::optional<double> noise_ug_per_sqrt_hz = {};
 };
 
 /// Reads codes, scales and serial number of the station.

@@ -8,6 +8,7 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/station/station_document.hpp"
+#include "protocol/wire/device_profile.hpp"
 
 namespace a351::station {
 
@@ -99,6 +100,19 @@ std::optional<Position> position_of(pugi::xml_node station) {
                     Metres(station.child("Elevation").text().as_double())};
 }
 
+/// Returns the noise by the profile that a comment of a channel names.
+std::optional<double> noise_of(pugi::xml_node channel) {
+    const std::string_view begin = kProfileComment;
+    for (const auto comment : channel.children("Comment")) {
+        const std::string_view text = comment.child("Value").text().get();
+        if (!text.starts_with(begin)) continue;
+        const std::string_view name = text.substr(begin.size());
+        const auto* const profile = wire::find_profile(name.substr(0, name.find(' ')));
+        if (profile != nullptr) return profile->noise_ug_per_sqrt_hz;
+    }
+    return std::nullopt;
+}
+
 Metadata channels_in_force(const std::filesystem::path& file, const pugi::xml_document& document,
                            std::optional<UtcTime> at) {
     Metadata metadata;
@@ -112,6 +126,8 @@ Metadata channels_in_force(const std::filesystem::path& file, const pugi::xml_do
                 if (metadata.serial_number.empty())
                     metadata.serial_number =
                         channel.child("Sensor").child("SerialNumber").text().get();
+                if (!metadata.noise_ug_per_sqrt_hz)
+                    metadata.noise_ug_per_sqrt_hz = noise_of(channel);
                 auto scale = read_scale(file, channel);
                 // After a clock was set back, epochs may overlap: the later one counts.
                 const auto known =

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,6 +71,8 @@ struct DeviceProfile {
     std::vector<Coded> output_rates_hz;     ///< SMPL_CTRL bits 11:8.
     std::vector<Coded> baud_rates;          ///< UART_CTRL bits 9:8.
     std::vector<FilterSpec> filters;
+    /// Typical amplitude spectral density of an axis, 1e-6 g / sqrt(Hz); absent if it is not known.
+    std::optional<double> noise_ug_per_sqrt_hz;
     std::string toml;  ///< Text of the file; empty for a shipped profile.
 
     /// Convert raw counts to physical values.

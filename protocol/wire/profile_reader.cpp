@@ -103,6 +103,13 @@ void read_scales(TomlTable& document, DeviceProfile& profile) {
     temperature.require_all_read();
 }
 
+void read_noise(TomlTable& document, DeviceProfile& profile) {
+    if (!document.has("noise")) return;
+    TomlTable noise = required_table(document, "noise");
+    profile.noise_ug_per_sqrt_hz = required_number(noise, "ug_per_sqrt_hz", 1e-4, 1e4);
+    noise.require_all_read();
+}
+
 void read_times(TomlTable& document, DeviceProfile& profile) {
     TomlTable timing = required_table(document, "timing");
     profile.internal_rate_hz = required_integer(timing, "tick_hz", 1, 1'000'000);
@@ -206,6 +213,7 @@ DeviceProfile parse_profile(std::string_view toml, std::string name,
     profile.is_verified = required_boolean(document, "verified");
     require_source(document);
     read_scales(document, profile);
+    read_noise(document, profile);
     read_times(document, profile);
     read_rates(document, profile);
     read_filters(document, profile);

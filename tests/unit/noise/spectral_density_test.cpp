@@ -60,6 +60,32 @@ TEST_CASE("a spectral density equals its definition", "[noise]") {
     }
 }
 
+TEST_CASE("a spectrogram shows when and at which frequency a signal is", "[noise]") {
+    auto values = white_noise(6 * 180, 0.1, 3);  // 6 h
+    for (std::size_t i = 540; i < values.size(); ++i)
+        values[i] += std::sin(2.0 * std::numbers::pi * 0.005 * static_cast<double>(i) * kStep_s);
+    const auto tiles = spectrogram(values, kStep_s);
+    CHECK(tiles.front().start_s == 1800.0);
+    CHECK(tiles.back().end_s == 5.5 * 3600.0);
+    double most_early = 0.0;
+    const Tile* most_late = nullptr;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const Tile& tile = tiles[i];
+        const bool continues = i > 0 && tiles[i - 1].start_s == tile.start_s;
+        if (continues) CHECK(tile.low_hz == Approx(tiles[i - 1].high_hz));
+        if (tile.end_s <= 2.5 * 3600.0) most_early = std::max(most_early, tile.mgal2_per_hz);
+        if (tile.start_s >= 3.5 * 3600.0 &&
+            (most_late == nullptr || tile.mgal2_per_hz > most_late->mgal2_per_hz))
+            most_late = &tile;
+    }
+    CHECK(most_early < 4.0 * 2.0 * 0.01 * kStep_s);
+    REQUIRE(most_late != nullptr);
+    CHECK(most_late->low_hz < 0.005);
+    CHECK(most_late->high_hz > 0.005);
+    CHECK(most_late->mgal2_per_hz > 100.0);
+    CHECK(spectrogram(white_noise(350, 1.0, 1), kStep_s).empty());
+}
+
 TEST_CASE("the limits contain the density of known noise", "[noise]") {
     constexpr std::size_t kCount = 1024;
     const int records = test::is_long() ? 2000 : 500;

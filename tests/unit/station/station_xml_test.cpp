@@ -23,6 +23,7 @@ TEST_CASE("scales are read back from the metadata", "[record][station_xml]") {
     const auto metadata = File(to_station_xml(description())).read();
     CHECK(metadata.codes == StationCodes{});
     REQUIRE(metadata.channels.size() == 7);
+    CHECK(metadata.noise_ug_per_sqrt_hz == 0.2);  // of the profile that a comment names
     const char* codes[] = {"BN1", "BN2", "BNZ"};
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(metadata.channels[i].code == codes[i]);

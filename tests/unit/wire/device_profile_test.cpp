@@ -35,6 +35,7 @@ TEST_CASE("the unverified profile has the scales of the documented one", "[wire]
         CHECK(copy.temperature(counts) == documented.temperature(counts));
     }
     CHECK(copy.rated_range == StandardGravity(15.0));
+    CHECK(copy.noise_ug_per_sqrt_hz == 0.2);
 }
 
 TEST_CASE("one count of acceleration is exactly 2^-24 g", "[wire][device_profile]") {
@@ -58,6 +59,7 @@ TEST_CASE("the A370 differs from the A352 as its brief sheet says", "[wire][devi
     CHECK(profile.product_id_prefix == "A370AD10");
     CHECK(profile.acceleration(1 << 24).value() == 1.0);
     CHECK(profile.rated_range == StandardGravity(10.0));
+    CHECK(profile.noise_ug_per_sqrt_hz == 0.02);
     CHECK(profile.temperature(2634).value() == Approx(25.0).margin(0.0019));  // half a count
     CHECK(profile.temperature_counts(DegC(1e6)) == -32768);                   // 16 bits
     CHECK(profile.temperature_counts(DegC(-1e6)) == 32767);

@@ -67,6 +67,8 @@ TEST_CASE("a profile file with a mistake is refused with key, value and what is 
           "mine.toml:31: output_rate.choices.hz = 1000: given twice; allowed: each value once");
     CHECK(refusal("baud = 230400, code = 2", "baud = 230400, code = 4") ==
           "mine.toml:41: baud.choices.code = 4: out of range; allowed: a whole number from 0 to 3");
+    CHECK(refusal("ug_per_sqrt_hz = 0.2", "ug_per_sqrt_hz = 0")
+              .find("noise.ug_per_sqrt_hz = 0: out of range; allowed: ") != std::string::npos);
     CHECK(refusal("verified = true", "verified = 1") ==
           "mine.toml:4: verified = 1: wrong type; allowed: true or false");
     CHECK(refusal("[tilt] ", "[tilting] ")
