@@ -2,9 +2,12 @@
 
 #include "corrector/figure/long_record_figures.hpp"
 #include "corrector/figure/record_curve.hpp"
+#include "corrector/figure/survey_figures.hpp"
 #include "corrector/noise/earth_noise.hpp"
 #include "corrector/noise/spectral_density.hpp"
+#include "corrector/reading/disturbance.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
@@ -13,27 +16,21 @@ namespace {
 using long_record::RecordResult;
 using text::tr;
 
-Figure spectrum_figure(const RecordResult& result, const Print& print) {
-    const noise::RecordNoise& noise = result.analysis.noise;
-    Figure figure{"noise-spectrum",
-                  tr("Amplitude spectral density of the acceleration with 95 % limits, the three "
-                     "noises of the Allan deviation, the ground at the quietest and noisiest "
-                     "seismic stations (Peterson 1993), and the noise of the sensor by its data "
-                     "sheet, which is for faster signals."),
-                  print.wide_mm()};
+/// Returns the figure of a spectrum with its limits and the models of the ground.
+Figure density_figure(const std::string& name, const std::string& caption,
+                      const std::vector<noise::Density>& spectrum, double width_mm) {
+    Figure figure{name, caption, width_mm};
     figure.panels = {
         {{.label = tr("Frequency (Hz)"),
-          .range = {0.9 * noise.spectrum.front().frequency_hz,
-                    1.1 * noise.spectrum.back().frequency_hz},
+          .range = {0.9 * spectrum.front().frequency_hz, 1.1 * spectrum.back().frequency_hz},
           .scale = Scale::logarithmic},
          {.label = tr("Acceleration (mGal/√Hz)"), .format = "%g", .scale = Scale::logarithmic}}};
-    std::string measured, model, low, high;
-    for (const noise::Density& one : noise.spectrum) {
+    std::string measured, low, high;
+    for (const noise::Density& one : spectrum) {
         const double f = one.frequency_hz;
         measured +=
             data_line("9666", {f, std::sqrt(one.mgal2_per_hz.value),
                                std::sqrt(one.mgal2_per_hz.low), std::sqrt(one.mgal2_per_hz.high)});
-        model += data_line("96", {f, std::sqrt(noise.allan.noises.density_mgal2_per_hz(f))});
         low +=
             data_line("99", {f, ground_noise_mgal_per_sqrt_hz(noise::GroundNoise::low, 1.0 / f)});
         high +=
@@ -42,12 +39,29 @@ Figure spectrum_figure(const RecordResult& result, const Print& print) {
     const std::string source = figure.add("frequency_hz mgal_per_sqrt_hz low high", measured);
     figure.panels[0].series = {{Look::area, Colour::limits, "", {{1}, {3}, {4}}, source},
                                {Look::line, Colour::blue, tr("record"), {{1}, {2}}, source}};
-    figure.plot("three noises: frequency_hz mgal_per_sqrt_hz", model,
-                {Look::strong_line, Colour::vermilion, tr("three noises")});
     figure.plot("NHNM: frequency_hz mgal_per_sqrt_hz", high,
                 {Look::dashed_line, Colour::black, "NHNM"});
     figure.plot("NLNM: frequency_hz mgal_per_sqrt_hz", low,
                 {Look::dotted_line, Colour::grey, "NLNM"});
+    return figure;
+}
+
+Figure spectrum_figure(const RecordResult& result, const Print& print) {
+    const noise::RecordNoise& noise = result.analysis.noise;
+    Figure figure = density_figure(
+        "noise-spectrum",
+        tr("Amplitude spectral density of the acceleration with 95 % limits, the three "
+           "noises of the Allan deviation, the ground at the quietest and noisiest "
+           "seismic stations (Peterson 1993), and the noise of the sensor by its data "
+           "sheet, which is for faster signals."),
+        noise.spectrum, print.wide_mm());
+    std::string model;
+    for (const noise::Density& one : noise.spectrum)
+        model +=
+            data_line("96", {one.frequency_hz,
+                             std::sqrt(noise.allan.noises.density_mgal2_per_hz(one.frequency_hz))});
+    figure.plot("three noises: frequency_hz mgal_per_sqrt_hz", model,
+                {Look::strong_line, Colour::vermilion, tr("three noises")});
     if (const auto level = result.record.data_sheet_mgal_per_sqrt_hz) {
         std::string line;
         for (const noise::Density* end : {&noise.spectrum.front(), &noise.spectrum.back()})
@@ -115,6 +129,33 @@ Figure spectrogram_figure(const RecordResult& result, const Print& print) {
 }
 
 }  // namespace
+
+std::vector<Figure> quiet_noise_figures(const std::vector<ReadingRecord>& records,
+                                        const Print& print) {
+    // 4 min of samples of 2 s: five segments in a stay of 12 min.
+    constexpr std::size_t kLength = 120;
+    std::vector<std::vector<double>> parts;
+    double step_s = 0.0, samples = 0.0;
+    for (const ReadingRecord& record : records) {
+        const auto& series = record.value->series;
+        step_s = 1.0 / series.rate().value();
+        for (auto& part :
+             reading::quiet_parts(series.values(), reading::kDisturbanceThreshold, kLength)) {
+            samples += static_cast<double>(part.size());
+            parts.push_back(std::move(part));
+        }
+    }
+    const std::vector<noise::Density> spectrum = noise::pooled_density(parts, step_s, kLength);
+    if (spectrum.empty()) return {};
+    return {density_figure(
+        "noise-day",
+        tr("Amplitude spectral density of the acceleration in the quiet parts of the stays, "
+           "together, with 95 % limits: {} min in {} parts without motion, each in segments of {} "
+           "min; and the ground at the quietest and noisiest seismic stations (Peterson 1993).",
+           text::fixed(samples * step_s / 60.0, 0), parts.size(),
+           text::fixed(static_cast<double>(kLength) * step_s / 60.0, 0)),
+        spectrum, print.small_mm())};
+}
 
 std::vector<Figure> noise_figures(const RecordResult& result, const Print& print) {
     std::vector<Figure> figures{spectrum_figure(result, print), allan_noise_figure(result, print),

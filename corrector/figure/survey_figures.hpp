@@ -102,12 +102,19 @@ struct ReadingRecord {
                                                 const std::vector<ReadingRecord>& records,
                                                 const Print& print);
 
+/// Returns the figure noise-day: the spectral density of the records' parts between disturbances, pooled
+/// (noise::pooled_density()).  No segment reaches over a motion or from stay to stay.
+/// @return none if no part is four minutes long.
+[[nodiscard]] std::vector<Figure> quiet_noise_figures(const std::vector<ReadingRecord>& records,
+                                                      const Print& print);
+
 /// Returns the figure of the day: errors of the readings, their samples, the temperature of
 /// the sensor and the signal of the recorder on one axis of time, with the stays.
 ///
 /// The errors are those of judgement::error_of(), with u_corrected as bars (0 if there is none).  A panel
 /// without data is left out.  The curve of the temperature is interrupted between minutes that are
-/// not neighbours (day_figure_test.cpp).  It plots the data of reading_figures().
+/// not neighbours (day_figure_test.cpp).  The caption names the stays whose name has no room.
+/// It plots the data of reading_figures().
 /// @param course    in order of time; may be empty.
 /// @param signal    a word that is not known is left out; may be empty.
 [[nodiscard]] Figure day_figure(const model::SurveyCorrection& result,

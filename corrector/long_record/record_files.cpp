@@ -159,7 +159,7 @@ Json noise_json(const noise::RecordNoise& noise) {
 std::string spectrum_csv(const noise::RecordNoise& noise) {
     std::string text = "frequency_hz,mgal_per_sqrt_hz,mgal_per_sqrt_hz_low,mgal_per_sqrt_hz_high\n";
     for (const noise::Density& one : noise.spectrum)
-        text += fmt::format("{:.9g},{:.6g},{:.6g},{:.6g}\n", one.frequency_hz,
+        text += fmt::format("{:.15g},{:.15g},{:.15g},{:.15g}\n", one.frequency_hz,
                             std::sqrt(one.mgal2_per_hz.value), std::sqrt(one.mgal2_per_hz.low),
                             std::sqrt(one.mgal2_per_hz.high));
     return text;

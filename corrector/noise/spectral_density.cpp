@@ -39,6 +39,11 @@ std::vector<Density> spectral_density(const std::vector<double>& values, double 
 
 std::vector<Density> spectral_density(const std::vector<double>& values, double step_s,
                                       std::size_t length) {
+    return pooled_density({values}, step_s, length);
+}
+
+std::vector<Density> pooled_density(const std::vector<std::vector<double>>& parts, double step_s,
+                                    std::size_t length) {
     const std::vector<double> window = hann(length);
     const double power = std::inner_product(window.begin(), window.end(), window.begin(), 0.0);
     const std::size_t half = length / 2;
@@ -46,15 +51,20 @@ std::vector<Density> spectral_density(const std::vector<double>& values, double 
                                               window.end(), window.begin(), 0.0) /
                            power;
     std::vector<double> sums(half + 1, 0.0);
-    std::size_t count = 0;
-    for (std::size_t first = 0; first + length <= values.size(); first += half, ++count) {
-        std::vector<double> part = signal::without_line(std::span(values).subspan(first, length));
-        for (std::size_t i = 0; i < length; ++i) part[i] *= window[i];
-        const signal::Spectrum spectrum = signal::half_spectrum(part, length);
-        for (std::size_t k = 0; k <= half; ++k) sums[k] += std::norm(spectrum[k]);
-    }
+    std::size_t count = 0, pairs = 0;  // of overlapping segments
+    for (const std::vector<double>& values : parts)
+        for (std::size_t first = 0; first + length <= values.size(); first += half, ++count) {
+            std::vector<double> part =
+                signal::without_line(std::span(values).subspan(first, length));
+            for (std::size_t i = 0; i < length; ++i) part[i] *= window[i];
+            const signal::Spectrum spectrum = signal::half_spectrum(part, length);
+            for (std::size_t k = 0; k <= half; ++k) sums[k] += std::norm(spectrum[k]);
+            pairs += first > 0 ? 1 : 0;
+        }
+    if (count == 0) return {};
     const auto segments = static_cast<double>(count);
-    const double dof = 2.0 * segments / (1.0 + 2.0 * (1.0 - 1.0 / segments) * overlap * overlap);
+    const double dof =
+        2.0 * segments / (1.0 + 2.0 * static_cast<double>(pairs) / segments * overlap * overlap);
     std::vector<Density> densities;
     for (std::size_t k = kFirst; k < half; ++k) {
         densities.push_back({static_cast<double>(k) / (static_cast<double>(length) * step_s),

@@ -43,6 +43,13 @@ struct Density {
 [[nodiscard]] std::vector<Density> spectral_density(const std::vector<double>& values,
                                                     double step_s, std::size_t length);
 
+/// Returns that of several series: every segment lies within one of them, and only segments of one
+/// series are correlated.
+/// @param parts  finite, of any lengths; shorter ones than `length` have no segment.
+/// @return empty without a segment.
+[[nodiscard]] std::vector<Density> pooled_density(const std::vector<std::vector<double>>& parts,
+                                                  double step_s, std::size_t length);
+
 /// A part of a spectrogram: mean density in a band during an interval, counted from the first sample.
 struct Tile {
     double start_s = 0.0, end_s = 0.0, low_hz = 0.0, high_hz = 0.0, mgal2_per_hz = 0.0;

@@ -93,4 +93,27 @@ std::vector<double> despike(std::span<const double> series, const Disturbances& 
     return samples;
 }
 
+std::vector<std::vector<double>> quiet_parts(std::span<const double> series, double threshold,
+                                             std::size_t shortest) {
+    std::vector<std::vector<double>> parts;
+    std::vector<double> part;
+    const auto end_part = [&] {
+        if (part.size() >= shortest) parts.push_back(part);
+        part.clear();
+    };
+    for (std::size_t first = 0, end = 0; first < series.size(); first = end + 1) {
+        for (end = first; end < series.size() && !std::isnan(series[end]);) ++end;
+        const std::span<const double> run = series.subspan(first, end - first);
+        const Disturbances found = find_disturbances(run, threshold);
+        for (std::size_t i = 0; i < run.size(); ++i) {
+            if (found.disturbed[i])
+                end_part();
+            else
+                part.push_back(run[i]);
+        }
+        end_part();
+    }
+    return parts;
+}
+
 }  // namespace a351::corrector::reading

@@ -71,4 +71,10 @@ struct Disturbances {
 [[nodiscard]] std::vector<double> despike(std::span<const double> series,
                                           const Disturbances& found);
 
+/// Returns the parts of a series without missing (NaN) and disturbed samples, in order.  Disturbances
+/// are found in each part between missing samples.
+/// @param shortest  parts of fewer samples are left out.
+[[nodiscard]] std::vector<std::vector<double>> quiet_parts(std::span<const double> series,
+                                                           double threshold, std::size_t shortest);
+
 }  // namespace a351::corrector::reading

@@ -60,6 +60,42 @@ TEST_CASE("a spectral density equals its definition", "[noise]") {
     }
 }
 
+TEST_CASE("the density of several stays has no segment that reaches from one to the next",
+          "[noise]") {
+    constexpr std::size_t kLength = 90;
+    std::vector<std::vector<double>> stays;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        stays.push_back(white_noise(200, 1.0, seed));
+        for (double& value : stays.back()) value += 1000.0 * static_cast<double>(seed * seed);
+    }
+    stays.push_back(white_noise(kLength - 1, 1e6, 9));  // too short for a segment
+    const auto pooled = pooled_density(stays, kStep_s, kLength);
+    for (std::size_t i = 0; i < pooled.size(); ++i) {
+        double mean = 0.0;
+        for (std::size_t k = 0; k < 4; ++k) mean += dense(stays[k], kLength, i + 3) / 4.0;
+        CHECK(pooled[i].mgal2_per_hz.value == Approx(mean).epsilon(1e-9));
+    }
+    CHECK(pooled_density({stays.back()}, kStep_s, kLength).empty());
+}
+
+TEST_CASE("limits of the density of several stays contain it", "[noise]") {
+    constexpr int kDays = 200;
+    int inside = 0, all = 0;
+    for (std::uint64_t day = 0; day < kDays; ++day) {
+        std::vector<std::vector<double>> stays;
+        for (std::uint64_t stay = 0; stay < 10; ++stay)
+            stays.push_back(white_noise(300, 2.0, 100 * day + stay));
+        for (const Density& one : pooled_density(stays, kStep_s, 120)) {
+            ++all;
+            inside +=
+                one.mgal2_per_hz.low <= 8.0 * kStep_s && 8.0 * kStep_s <= one.mgal2_per_hz.high ? 1
+                                                                                                : 0;
+        }
+    }
+    std::printf("pooled stays: %.4f\n", static_cast<double>(inside) / all);
+    CHECK(std::abs(static_cast<double>(inside) / all - 0.95) < 0.01);
+}
+
 TEST_CASE("a spectrogram shows when and at which frequency a signal is", "[noise]") {
     auto values = white_noise(6 * 180, 0.1, 3);  // 6 h
     for (std::size_t i = 540; i < values.size(); ++i)

@@ -1,6 +1,7 @@
 #include "corrector/reading/disturbance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include "tests/support/catch.hpp"
 #include "tests/support/white_noise.hpp"
@@ -32,6 +33,21 @@ TEST_CASE("noise on a drift of any slope is not a disturbance, not even at the e
     for (const double slope : {0.0, 0.05, -1.0, 20.0}) {
         CHECK(indices(find_disturbances(noisy_ramp(450, slope), 8.0)).empty());
     }
+}
+
+TEST_CASE("quiet parts end at knocks and at missing samples") {
+    std::vector<double> series = noisy_ramp(400, 0.0);
+    for (std::size_t i = 100; i < 104; ++i) series[i] += 50.0;  // a knock
+    for (const std::size_t i : {250UL, 251UL, 260UL}) series[i] = std::nan("");
+    const auto parts = quiet_parts(series, 8.0, 20);
+    REQUIRE(parts.size() == 3);
+    const std::array<std::size_t, 3> starts{0, 104, 261}, sizes{100, 146, 139};
+    for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(parts[k].size() == sizes.at(k));
+        CHECK(parts[k].front() == series[starts.at(k)]);
+    }
+    CHECK(quiet_parts(series, 8.0, 147).empty());
+    CHECK(quiet_parts({}, 8.0, 1).empty());
 }
 
 TEST_CASE("a ramp without any noise has no disturbance") {

@@ -48,7 +48,7 @@ TEST_CASE("the page of a long record is well-formed and has the publication's fi
         CHECK(document.load_string(html.c_str()));
         // Figures: raw and at 20 s, trend, decomposition, modes, their scatter and correlation, all
         // samples, response, two of the noise.
-        CHECK(document.select_nodes("//*[local-name()='svg']").size() == (is_raw ? 11U : 10U));
+        CHECK(document.select_nodes("//*[local-name()='svg']").size() == (is_raw ? 12U : 11U));
         CHECK_THAT(html, ContainsSubstring("rate of change") && ContainsSubstring("by spectrum") &&
                              ContainsSubstring("&lt;B&gt; is left out") &&
                              !ContainsSubstring("This figure is missing"));
