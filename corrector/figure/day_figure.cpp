@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 
 #include "corrector/figure/escaping.hpp"
+#include "corrector/figure/layout.hpp"
 #include "corrector/figure/record_figures.hpp"
 #include "corrector/figure/row_marks.hpp"
 #include "corrector/judgement/reading_grade.hpp"
@@ -210,7 +212,13 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
         panel.x = time_axis(first, last, print);
         panel.spans = spans;
     }
-    if (!figure.panels.empty()) figure.panels.front().names = names;
+    if (figure.panels.empty()) return figure;
+    figure.panels.front().names = names;
+    const std::vector<double> places = layout_of(figure).panels.front().names;
+    std::vector<std::string> left_out;
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (std::isnan(places[k])) left_out.push_back(names[k].second);
+    figure.caption += without_room(left_out);
     return figure;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "protocol/text/aligned_text.hpp"
@@ -40,6 +41,13 @@ double instant(UtcTime time) { return seconds_between(UtcTime{}, time); }
 std::string as_published(const std::string& number, const std::string& value) {
     return value.empty() ? text::tr(" (Publication's Fig. {}.)", number)
                          : text::tr(" (Publication's Fig. {}; value there: {}.)", number, value);
+}
+
+std::string without_room(const std::vector<std::string>& names) {
+    std::vector<std::string> once;
+    for (const std::string& name : names)
+        if (std::ranges::find(once, name) == once.end()) once.push_back(name);
+    return once.empty() ? "" : text::tr(" No room for the names of: {}.", text::joined(once));
 }
 
 double round_step(double limit) {

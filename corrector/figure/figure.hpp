@@ -172,6 +172,10 @@ struct Figure {
 /// @param value  only if it is the same quantity, else empty.
 [[nodiscard]] std::string as_published(const std::string& number, const std::string& value = "");
 
+/// Returns the end of a caption that lists the names for which a figure has no room, each once; empty
+/// without names.
+[[nodiscard]] std::string without_room(const std::vector<std::string>& names);
+
 /// Most points of a curve or scatter over a whole record.  Reason: a figure of weeks must stay
 /// small.
 inline constexpr std::size_t kMostPoints = 3000;

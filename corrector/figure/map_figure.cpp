@@ -18,6 +18,7 @@ namespace {
 using text::fixed, text::tr;
 
 constexpr double kLabel_mm = 3.0;               // height of a label
+constexpr double kNear_mm = 1.8;                // from a point to a label beside it
 constexpr double kKilometresPerDegree = 111.2;  // degree of latitude on a sphere of 6371 km radius
 
 /// A station of the survey on the map.
@@ -102,23 +103,33 @@ struct Box {
 
 /// Places of a label's near end relative to the point, mm, in the order of preference.
 std::vector<std::array<double, 2>> label_places() {
-    constexpr double kNear_mm = 1.8;
     std::vector<std::array<double, 2>> places{{kNear_mm, 0.0}, {-kNear_mm, 0.0}};
     for (int line = 1; line <= 6; ++line)
         for (const double right : {kNear_mm, -kNear_mm})
             for (const double up : {0.9 * kLabel_mm, -0.9 * kLabel_mm})
                 places.push_back({right * (line > 1 ? 2.0 : 1.0), up * line});
+    // Farther to the side; a pointer leads there.
+    for (const double across_mm : {8.0, 14.0, 20.0})
+        for (int line = 0; line <= 8; ++line)
+            for (const double side : {1.0, -1.0})
+                for (const double up : {0.9 * kLabel_mm, -0.9 * kLabel_mm})
+                    places.push_back({side * across_mm, up * line});
     return places;
 }
 
 /// Adds the labels of the stations.  Each is at the first place where it touches no other label,
 /// no point and no way; if none is free, at the first where it crosses ways only, and if there is
-/// none either, it is left out.  A pointer leads to a label that is not beside its point.
+/// none either, it is left out.  A pointer, which crosses no label, leads to a label that is not beside
+/// its point.
 /// @param ways  points in the order of the visits, mm.
-void add_labels(Panel& panel, const std::vector<MapStation>& stations, const Extent& extent,
-                const std::vector<std::array<double, 2>>& ways) {
+/// @return the labels that are left out.
+std::vector<std::string> add_labels(Panel& panel, const std::vector<MapStation>& stations,
+                                    const Extent& extent,
+                                    const std::vector<std::array<double, 2>>& ways) {
     constexpr double kPoint_mm = 1.3;
+    std::vector<std::string> left_out;
     std::vector<Box> taken;
+    std::vector<std::array<std::array<double, 2>, 2>> pointers;
     for (const MapStation& station : stations) {
         const auto [x, y] = extent.place_mm(station);
         taken.push_back({x - kPoint_mm, y - kPoint_mm, x + kPoint_mm, y + kPoint_mm});
@@ -129,6 +140,9 @@ void add_labels(Panel& panel, const std::vector<MapStation>& stations, const Ext
         if (!station.visits.empty()) name += fmt::format(" [{}]", text::joined(station.visits));
         const auto point = extent.place_mm(station);
         const double width = text_width_mm(name, kSmallLetters_pt);
+        const auto is_far = [](const std::array<double, 2>& place) {
+            return std::abs(place[1]) > kLabel_mm || std::abs(place[0]) > 2.0 * kNear_mm;
+        };
         const auto is_free = [&](const std::array<double, 2>& place, bool may_cross) {
             const double left = point[0] + place[0] - (place[0] < 0 ? width : 0.0);
             const double middle = point[1] + place[1];
@@ -139,6 +153,14 @@ void add_labels(Panel& panel, const std::vector<MapStation>& stations, const Ext
                 return false;
             for (std::size_t k = 1; !may_cross && k < ways.size(); ++k)
                 if (box.is_crossed(ways[k - 1], ways[k])) return false;
+            for (const auto& [from, to] : pointers)
+                if (box.is_crossed(from, to)) return false;
+            if (is_far(place)) {
+                const std::array<double, 2> end{point[0] + place[0], middle};
+                for (std::size_t k = stations.size(); k < taken.size(); ++k)
+                    if (taken[k].is_crossed(point, end)) return false;
+                pointers.push_back({point, end});
+            }
             taken.push_back(box);
             return true;
         };
@@ -147,15 +169,18 @@ void add_labels(Panel& panel, const std::vector<MapStation>& stations, const Ext
             if (place == places.end())
                 place = std::ranges::find_if(
                     places, [&](const auto& candidate) { return is_free(candidate, may_cross); });
-        if (place == places.end()) continue;
+        if (place == places.end()) {
+            left_out.push_back(station.site->name);
+            continue;
+        }
         const auto at = [&](double x, double y) -> Place {
             return {x / extent.width_mm, y / extent.height_mm};
         };
         const Place end = at(point[0] + (*place)[0], point[1] + (*place)[1]);
-        if (std::abs((*place)[1]) > kLabel_mm)
-            panel.lines.push_back({at(point[0], point[1]), end, Stroke::pointer});
+        if (is_far(*place)) panel.lines.push_back({at(point[0], point[1]), end, Stroke::pointer});
         panel.texts.push_back({name, end, (*place)[0] < 0 ? "right" : "left"});
     }
+    return left_out;
 }
 
 /// Adds a bar of a round length.
@@ -256,7 +281,7 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
     panel.y = {tr("Latitude (° north)"), extent.latitude, step_deg, format};
     panel.colours.range = {least.gravity_mgal - 0.5, greatest.gravity_mgal + 0.5};
     panel.colours.format = "%.0f";
-    add_labels(panel, stations, extent, ways);
+    figure.caption += without_room(add_labels(panel, stations, extent, ways));
     add_scale_bar(panel, extent);
     figure.panels = {panel};
     figure.plot("visits: longitude_deg latitude_deg number", route,

@@ -55,9 +55,9 @@ namespace a351::corrector::figure {
 /// same in both directions (by the cosine of the mean latitude) and is shown by a bar of a round
 /// length.
 ///
-/// Labels are placed so that they do not touch, as far as there is room.  The caption names
-/// stations that have no position (figures_test.cpp).  Near a pole the scale of the longitudes is
-/// limited.  Stations on both sides of the 180th meridian must have longitudes of one range, 0 to
+/// Labels are placed so that they touch neither each other nor a pointer.  The caption names stations
+/// whose label has no room, and those that have no position (figures_test.cpp).  Near a pole the scale of
+/// the longitudes is limited.  Stations on both sides of the 180th meridian must have longitudes of one range, 0 to
 /// 360.
 /// @param sites  those that are no station of the survey are not shown.
 /// @return std::nullopt if no station of the survey has a position in `sites`.

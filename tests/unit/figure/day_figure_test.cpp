@@ -64,6 +64,26 @@ TEST_CASE("a stay without a value is on the axis of the day", "[report][figures]
                                              "',graph 0 to '" + to_rfc3339(end) + "'"));
 }
 
+TEST_CASE("the caption of the day lists the names that have no room", "[report][figures]") {
+    SurveyCorrection result = corrected(made_up::day());
+    CHECK_THAT(day_figure(result, {}, {}, {}, {}).caption, !ContainsSubstring("No room"));
+    const UtcTime time = result.rows[0].row.time;
+    std::vector<reading::LeftOut> crowd;
+    for (int i = 0; i < 8; ++i)
+        crowd.push_back({"far " + std::to_string(i), 1, time, time, "no samples"});
+    add_left_out(result, crowd);
+    const Figure figure = day_figure(result, {}, {}, {}, {});
+    const std::string script = script_of(figure);
+    int listed = 0;
+    for (int i = 0; i < 8; ++i) {
+        const std::string name = "far " + std::to_string(i);
+        const bool is_listed = figure.caption.find(name) != std::string::npos;
+        listed += is_listed ? 1 : 0;
+        CHECK(is_listed == (count(script, "set label '" + name + "'") == 0));
+    }
+    CHECK(listed >= 2);  // six rows
+}
+
 TEST_CASE("the curve of the day's temperature is interrupted where nothing was recorded",
           "[report][figures]") {
     const SurveyCorrection result = corrected(made_up::day());

@@ -276,6 +276,31 @@ TEST_CASE("the labels of the map cover neither a point nor another label", "[rep
     }
 }
 
+TEST_CASE("the map names the stations whose label has no room, and no pointer crosses a label",
+          "[report][figures]") {
+    SurveyCorrection result;
+    std::vector<text::Site> sites;
+    for (int i = 0; i < 40; ++i) {
+        sites.push_back(site("Station " + std::to_string(i), 10.0, 45.0));
+        result.stations.emplace_back().site = sites.back().name;
+    }
+    const Figure crowded = map_figure(result, sites, {}).value();
+    const std::size_t shown = crowded.panels.front().texts.size() - 1;  // that of the scale
+    CHECK(shown < 40);
+    for (std::size_t i = 0; i < 40; ++i) {
+        const bool is_shown =
+            std::ranges::any_of(crowded.panels.front().texts,
+                                [&](const Text& one) { return one.text == sites[i].name; });
+        const std::string list =
+            crowded.caption.substr(crowded.caption.find("No room for the names of:"));
+        CHECK(is_shown != ((list + ',').find(sites[i].name + ',') != std::string::npos ||
+                           list.find(sites[i].name + '.') != std::string::npos));
+    }
+    sites.resize(2);
+    result.stations.resize(2);
+    CHECK_THAT(map_figure(result, sites, {})->caption, !ContainsSubstring("No room"));
+}
+
 TEST_CASE("a station without coordinates is not on the map", "[report][figures]") {
     SurveyCorrection result;
     for (const char* const name : {"A", "B"}) {
