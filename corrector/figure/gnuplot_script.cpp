@@ -89,11 +89,24 @@ std::string place_in(const Panel& panel, const Place& place) {
                        number(place.y));
 }
 
+/// Ratio of the ends of a logarithmic axis below which it has numbers at 1, 2 and 5.
+constexpr double kFewDecades = 100.0;
+
 std::string ticks_of(const Axis& axis) {
     std::vector<std::string> names;
     for (const auto& [value, text] : axis.names)
         names.push_back(expression(text) + ' ' + number(value));
     if (!names.empty()) return '(' + text::joined(names) + ')';
+    if (axis.scale == Scale::logarithmic && axis.range[1] < kFewDecades * axis.range[0] &&
+        !axis.format.empty()) {
+        // gnuplot has numbers at powers of ten only.
+        for (double power = std::pow(10.0, std::floor(std::log10(axis.range[0])));
+             power <= axis.range[1]; power *= 10.0)
+            for (const double digit : {1.0, 2.0, 5.0})
+                if (digit * power >= axis.range[0] && digit * power <= axis.range[1])
+                    names.push_back(fmt::format("{0:.6g}", digit * power));
+        return '(' + text::joined(names) + ')';
+    }
     if (axis.step == 0.0) return "autofreq";
     return number(axis.step);
 }
@@ -243,9 +256,9 @@ std::string place_texts(const Figure& figure, const Layout& layout, std::size_t 
         place.heading, "left");
     add(right_heading(panel), place.right, place.note, "right");
     if (index == 0 && figure.columns > 1 && figure.has_common_y)
-        add(panel.y.label, kBorder_mm, 0.5 * kTextLine_mm, "left");
+        add(label_of(panel.y), kBorder_mm, 0.5 * kTextLine_mm, "left");
     if (index + 1 == figure.panels.size())
-        add(panel.x.label, 0.5 * (layout.panels.front().left + rightmost(layout)),
+        add(label_of(panel.x), 0.5 * (layout.panels.front().left + rightmost(layout)),
             layout.height_mm - 0.5 * kTextLine_mm, "center");
     for (std::size_t k = 0; k < panel.names.size(); ++k)
         if (!std::isnan(place.names[k]))

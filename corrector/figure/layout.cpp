@@ -96,16 +96,23 @@ double panel_width_mm(double width_mm, const Panel& panel) {
     return width_mm - kLeft_mm - right_margin_mm(panel);
 }
 
+std::string label_of(const Axis& axis) {
+    std::string label = " " + axis.label;
+    for (std::size_t at = 0; (at = label.find(" - ", at)) != std::string::npos;)
+        label.replace(at, 3, " \u2212 ");
+    return label.substr(1);
+}
+
 std::string left_heading(const Figure& figure, std::size_t panel) {
     const Panel& one = figure.panels[panel];
     if (figure.columns > 1) return one.heading;
-    if (figure.panels.size() == 1 || panel > 25) return one.y.label;
-    return std::string("(") + static_cast<char>('a' + panel) + ") " + one.y.label;
+    if (figure.panels.size() == 1 || panel > 25) return label_of(one.y);
+    return std::string("(") + static_cast<char>('a' + panel) + ") " + label_of(one.y);
 }
 
 std::string right_heading(const Panel& panel) {
-    return panel.right.is_shown           ? panel.right.label
-           : !panel.colours.label.empty() ? panel.colours.label
+    return panel.right.is_shown           ? label_of(panel.right)
+           : !panel.colours.label.empty() ? label_of(panel.colours)
                                           : panel.note;
 }
 

@@ -35,6 +35,9 @@ struct Layout {
 /// Returns the width of a panel that has a row for itself, mm.
 [[nodiscard]] double panel_width_mm(double width_mm, const Panel& panel);
 
+/// Returns the label of an axis with a minus sign for a hyphen between blanks.
+[[nodiscard]] std::string label_of(const Axis& axis);
+
 /// Returns the heading at the left of a panel: its letter, if it is one of several in a column, and
 /// the label of its y axis; in several columns its own heading.
 [[nodiscard]] std::string left_heading(const Figure& figure, std::size_t panel);

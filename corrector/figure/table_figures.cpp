@@ -65,12 +65,13 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
     std::string ends;
     for (const double end : {std::ranges::min(all_x), std::ranges::max(all_x)})
         ends += data_line("44", {end, at(end)});
-    figure.plot("line through those in the fit: " + columns, ends,
-                {.look = Look::line,
-                 .colour = Colour::grey,
-                 .label = fmt::format("y = {} x {} {}, R² = {}", text::fixed(fit.slope, 4),
-                                      at(0.0) < 0.0 ? "-" : "+", text::fixed(std::abs(at(0.0)), 1),
-                                      text::fixed(fit.r2, 4))});
+    figure.plot(
+        "line through those in the fit: " + columns, ends,
+        {.look = Look::line,
+         .colour = Colour::grey,
+         .label = fmt::format("y = {}{} x {} {}, R² = {}", fit.slope < 0.0 ? "\u2212" : "",
+                              text::fixed(std::abs(fit.slope), 4), at(0.0) < 0.0 ? "\u2212" : "+",
+                              text::fixed(std::abs(at(0.0)), 1), text::fixed(fit.r2, 4))});
     return figure;
 }
 

@@ -167,6 +167,21 @@ TEST_CASE("texts above a panel get as many lines as they need", "[report][layout
     CHECK(place().key_rows == 2);
 }
 
+TEST_CASE("a logarithmic axis of less than two decades has numbers at 1, 2 and 5",
+          "[report][script]") {
+    Figure figure{"f", "", kColumn_mm};
+    Panel& panel = figure.panels.emplace_back();
+    panel.series = {{.source = kZero}};
+    panel.x = {.label = "x - 1", .range = {0.008, 0.3}, .scale = Scale::logarithmic};
+    panel.y = {.label = "- y", .range = {0.008, 30.0}, .scale = Scale::logarithmic};
+    const std::string script = script_of(figure);
+    CHECK_THAT(script,
+               ContainsSubstring("set xtics mirror norotate (0.01, 0.02, 0.05, 0.1, 0.2)") &&
+                   !ContainsSubstring("set ytics"));
+    // Their labels have a minus sign in place of a hyphen.
+    CHECK_THAT(script, ContainsSubstring("'x \u2212 1'") && ContainsSubstring("'\u2212 y'"));
+}
+
 TEST_CASE("all formats have the width and the letters that print_style.hpp says",
           "[report][script]") {
     Figure figure{"f", "", kColumn_mm};
