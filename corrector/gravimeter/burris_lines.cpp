@@ -1,7 +1,9 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 
 #include "corrector/gravimeter/fields.hpp"
 #include "corrector/gravimeter/line_readers.hpp"
@@ -13,6 +15,10 @@ namespace {
 /// Columns of the older programs: those of the Android program up to the longitude, and one less
 /// if the observer is missing.
 constexpr std::size_t kWithoutNames = 16;
+
+/// Remedy where a blank in a name can have moved the columns.
+constexpr std::string_view kNoBlanks =
+    "names without blanks, or commas or tabs between the columns";
 
 Layout layout_without_names(std::size_t width) {
     auto names = usual_names(Form::burris);
@@ -42,6 +48,10 @@ std::vector<std::string_view> split(std::string_view line) {
     return cells;
 }
 
+bool is_between_blanks(std::string_view line) {
+    return line.find_first_of(",\t") == std::string_view::npos;
+}
+
 /// Returns true for a line of names, also with some that nobody knows.
 bool is_names(const std::vector<std::string_view>& cells) {
     constexpr std::array<std::string_view, 5> kSeveral{"Serial Number", "Date", "Time", "ObsG",
@@ -59,15 +69,23 @@ void join_note(std::vector<std::string_view>& cells, std::string_view line, cons
     cells.resize(last + 1);
 }
 
-/// Returns true for a line that has the usual columns of a reading.
-bool is_reading(std::string_view line) {
-    auto cells = split(line);
+bool is_reading(std::vector<std::string_view> cells, std::string_view line) {
     const Layout& layout = layout_of_width(cells.size());
     if (layout.places.empty()) return false;
     join_note(cells, line, layout);
     Fields fields(layout, cells);
     (void)fields.time({}, true);
     return fields.trouble().empty();
+}
+
+/// Returns true for a line that has the usual columns of a reading, also one with further words in the
+/// names of station and observer.
+bool is_reading(std::string_view line) {
+    auto cells = split(line);
+    if (is_reading(cells, line)) return true;
+    if (cells.size() <= kWithoutNames || !is_between_blanks(line)) return false;
+    cells.erase(cells.begin() + 1, cells.end() - (kWithoutNames - 2));
+    return is_reading(cells, line);
 }
 
 /// Returns true if the dates of a file with the year last prove that the month is first: the second
@@ -104,17 +122,21 @@ public:
         // Without names the first line that can be read decides, and the others must be like it.
         const Layout layout = layout_.places.empty() ? layout_of_width(cells.size()) : layout_;
         if (layout.places.empty())
-            return Refusal{fmt::format("{} columns; allowed: 15, 16 or 20", cells.size())};
+            return Refusal{
+                fmt::format("{} columns; allowed: 15, 16 or 20, and {}", cells.size(), kNoBlanks)};
         join_note(cells, line, layout);
         Fields fields(layout, cells);
         const UtcTime time = fields.time({}, is_month_first_);
         if (!fields.trouble().empty()) return Refusal{fields.trouble()};
         if (const auto observer = fields.text("observer");
-            text::parse_number(observer) && line.find_first_of(",\t") == std::string_view::npos)
-            return Refusal{fmt::format(
-                "Observer ID = {}: a number, which can be the second word of the station; allowed: "
-                "columns between commas or tabs",
-                observer)};
+            !observer.empty() && is_between_blanks(line)) {
+            if (text::parse_number(observer))
+                return Refusal{
+                    fmt::format("Observer ID = {}: a number, which can be the second word of the "
+                                "station; allowed: {}",
+                                observer, kNoBlanks)};
+            observers_.emplace(observer);
+        }
         layout_ = layout;
         has_year_last_ = has_year_last_ || parse_day(fields.text("date"))->has_year_last;
         Reading reading = fields.reading();
@@ -126,10 +148,18 @@ public:
         return layout_.description + (has_year_last_ ? ", dates read as month/day/year" : "");
     }
 
+    /// An observer between blanks can be the second word of a station.
+    [[nodiscard]] std::string remark() const override {
+        return observers_.size() < 2 ? ""
+                                     : fmt::format("observers, if not second words of stations: {}",
+                                                   fmt::join(observers_, ", "));
+    }
+
 private:
     Layout layout_;
-    bool is_month_first_ = false;  ///< In dates with the year last.
-    bool has_year_last_ = false;   ///< In a reading.
+    std::set<std::string> observers_;  ///< Between blanks.
+    bool is_month_first_ = false;      ///< In dates with the year last.
+    bool has_year_last_ = false;       ///< In a reading.
 };
 
 }  // namespace

@@ -140,6 +140,23 @@ TEST_CASE(
     CHECK(read(line).readings.front().site == "BM");
 }
 
+TEST_CASE("a Burris between blanks with further words in its names is refused by its columns",
+          "[gravimeter]") {
+    const auto with = [](const std::string& station, const std::string& observer) {
+        std::string line = burris_reading(station, "10:00:00");
+        return line.replace(line.find("abc"), 3, observer);
+    };
+    for (const std::string& line :
+         {with("North Hill", "abc"), with("BM", "a b"), with("a b c", "d")})
+        CHECK_THROWS_WITH(read(line), ContainsSubstring("columns; allowed: 15, 16 or 20, and names "
+                                                        "without blanks, or commas or tabs"));
+    // The second word of a station can be the observer: all of them are listed.
+    const std::string one = with("North", "Hill"), other = with("South", "Gate");
+    CHECK_THAT(read(one + other).layout,
+               ContainsSubstring("observers, if not second words of stations: Gate, Hill"));
+    CHECK_THAT(read(one).layout, !ContainsSubstring("observers"));
+}
+
 TEST_CASE("a Burris is read by the names of its columns if the station is not the first",
           "[gravimeter]") {
     const auto file = read(
