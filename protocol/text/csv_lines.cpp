@@ -137,6 +137,8 @@ bool CsvLines::choose_separator() {
             "with metadata/station.xml";
     else if (has('\0'))
         trouble_ = fmt::format("UTF-16 without its mark, or no text; allowed: UTF-8{}", kHowToSave);
+    else if (has('\r'))  // as a spreadsheet writes CSV (Macintosh)
+        trouble_ = fmt::format("lines end in CR alone; allowed: LF or CRLF{}", kHowToSave);
     else if (has(',') && has(';'))
         trouble_ =
             fmt::format("the header has commas and semicolons; allowed: one of them{}", kHowToSave);

@@ -83,6 +83,8 @@ TEST_CASE("a table that can be read in two ways or none is refused with what to 
     CHECK_THROWS_WITH(
         parsed("site,latitude_deg;note\n"),
         "t.csv:1: the header has commas and semicolons; allowed: one of them" + kRemedy);
+    CHECK_THROWS_WITH(parsed("site,note\rA,1\rB,2\r"),
+                      "t.csv:1: lines end in CR alone; allowed: LF or CRLF" + kRemedy);
     CHECK_THROWS_WITH(parsed(std::string_view("s\0,\0t\0\n\0", 8)),
                       "t.csv:1: UTF-16 without its mark, or no text; allowed: UTF-8" + kRemedy);
     CHECK_THROWS_WITH(parsed(std::string_view("\xFF\xFE\x00\xDC\n\x00", 6)),
