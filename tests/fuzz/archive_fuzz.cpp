@@ -37,7 +37,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::file_of(fuzz::text_of(data, size),
                   std::filesystem::relative(sds_file("/", codes, "BNZ", day), "/"));
     const ChannelData read =
-        read_channel(fuzz::folder(), codes, "BNZ", day, day + std::chrono::days(1));
+        read_channel(fuzz::folder(), codes, "BNZ", day, day + std::chrono::days(1), 50.0);
+    if (read.rate_conflict) {
+        require(read.rate_conflict->observed_hz > 0.0);
+    }
     for (const Segment& segment : read.segments) {
         require(!segment.counts.empty() && !segment.anchors.empty());
     }
