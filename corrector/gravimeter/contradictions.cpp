@@ -35,28 +35,38 @@ text::Message tide_hint(const Readings& readings, const Reading& worst, const Ti
     // A hundred readings are enough for a curve of half days.
     constexpr std::size_t kMost = 100;
     const std::size_t step = readings.size() / kMost + 1;
-    const auto fits = [&](std::chrono::minutes shift, double latitude_sign, double longitude_sign) {
-        const auto does_fit = [&](const Reading& reading) {
-            return std::abs(tide_difference_mgal(reading, tide_of, shift, latitude_sign,
-                                                 longitude_sign)) <= kGreatestTideDifference_mgal;
-        };
-        // It differs without a shift, so that no shift of 0 fits.
-        if (!does_fit(worst)) return false;
-        for (std::size_t i = 0; i < readings.size(); i += step)
-            if (!does_fit(*readings[i])) return false;
+    // Takes a change if the tides agree with it.  It differs without one, so that no shift of 0 fits.
+    double least_mgal = 0.0;
+    text::Message best;
+    const auto take_if_it_fits = [&](const text::Message& change, std::chrono::minutes shift,
+                                     double latitude_sign, double longitude_sign) {
+        double largest_mgal = 0.0;
+        for (std::size_t i = 0; i <= readings.size(); i += step) {
+            const Reading& reading = i == 0 ? worst : *readings[i - 1];
+            largest_mgal = std::max(
+                largest_mgal, std::abs(tide_difference_mgal(reading, tide_of, shift, latitude_sign,
+                                                            longitude_sign)));
+            if (largest_mgal > kGreatestTideDifference_mgal) return false;
+        }
+        if (best.empty() || largest_mgal < least_mgal) {
+            best = change;
+            least_mgal = largest_mgal;
+        }
         return true;
     };
     constexpr std::chrono::minutes kStep{30}, kDay{24 * 60};
-    std::vector<std::chrono::minutes> shifts;
-    for (auto shift = -kDay; shift <= kDay; shift += kStep)
-        if (fits(shift, 1.0, 1.0)) shifts.push_back(shift);
-    if (shifts.size() == 1)
-        return text::message("; it fits if {:+.1f} h are added to the times",
-                             static_cast<double>(shifts[0].count()) / 60.0);
-    if (!shifts.empty()) return {};
-    if (fits({}, 1.0, -1.0)) return text::message("; it fits the other sign of the longitude");
-    if (fits({}, -1.0, 1.0)) return text::message("; it fits the other sign of the latitude");
-    return {};
+    std::size_t shifts = 0;
+    for (auto shift = -kDay; shift <= kDay; shift += kStep) {
+        const double hours = static_cast<double>(shift.count()) / 60.0;
+        if (take_if_it_fits(text::message("; it fits if {:+.1f} h are added to the times", hours),
+                            shift, 1.0, 1.0))
+            ++shifts;
+    }
+    if (shifts > 1) return {};
+    // The other sign of a longitude is much like some hours, so the best of all is named.
+    take_if_it_fits(text::message("; it fits the other sign of the longitude"), {}, 1.0, -1.0);
+    take_if_it_fits(text::message("; it fits the other sign of the latitude"), {}, -1.0, 1.0);
+    return best;
 }
 
 text::Message tide_remark(const GravimeterFile& file, const TideOf& tide_of) {
