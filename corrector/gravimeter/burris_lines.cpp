@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/algorithm/string/predicate.hpp>
 #include <set>
 #include <string>
 
@@ -37,11 +38,24 @@ const Layout& layout_of_width(std::size_t width) {
     return width >= android.places.size() ? android : none;
 }
 
+/// Joins the parts of a cell in quotation marks that has separators in it.
+void join_quoted(std::vector<std::string_view>& cells) {
+    for (auto first = cells.begin(); first != cells.end(); ++first) {
+        if (!first->starts_with('"') || (first->size() > 1 && first->ends_with('"'))) continue;
+        const auto last = std::find_if(first + 1, cells.end(),
+                                       [](std::string_view cell) { return cell.ends_with('"'); });
+        if (last == cells.end()) return;
+        *first = std::string_view(first->data(), last->data() + last->size());
+        cells.erase(first + 1, last + 1);
+    }
+}
+
 std::vector<std::string_view> split(std::string_view line) {
     auto cells = split_at_blanks(line);
     for (const char separator : {',', '\t'})
         if (line.find(separator) != std::string_view::npos) cells = split_at(line, separator);
     // A spreadsheet can have quoted the texts.
+    join_quoted(cells);
     for (std::string_view& cell : cells)
         if (cell.size() > 2 && cell.front() == '"' && cell.back() == '"')
             cell = cell.substr(1, cell.size() - 2);
@@ -52,12 +66,14 @@ bool is_between_blanks(std::string_view line) {
     return line.find_first_of(",\t") == std::string_view::npos;
 }
 
-/// Returns true for a line of names, also with some that nobody knows.
+/// Returns true for a line of names, also with some that nobody knows or in other capitals.
 bool is_names(const std::vector<std::string_view>& cells) {
     constexpr std::array<std::string_view, 5> kSeveral{"Serial Number", "Date", "Time", "ObsG",
                                                        "Dial"};
     return std::ranges::count_if(kSeveral, [&](std::string_view name) {
-               return std::ranges::find(cells, name) != cells.end();
+               return std::ranges::any_of(cells, [&](std::string_view cell) {
+                   return boost::algorithm::iequals(cell, name);
+               });
            }) >= 3;
 }
 

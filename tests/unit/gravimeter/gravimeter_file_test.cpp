@@ -166,6 +166,20 @@ TEST_CASE("a Burris is read by the names of its columns if the station is not th
     CHECK(file.readings.front().site == "P1");
 }
 
+TEST_CASE("a Burris can have a comma in a quoted name, and its names in other capitals are names",
+          "[gravimeter]") {
+    const std::string names = "Station ID,Serial Number,Date,Time,ObsG,Dial,Earthtide Correction\n";
+    const auto file = read(names + "\"Well 1, north\",B44,2017/12/05,10:00:00,2770.5,2800,-0.1\n");
+    CHECK(file.refused.empty());
+    CHECK(file.readings.front().site == "Well 1, north");
+
+    std::string small = names + "a,B44,2017/12/05,10:00:00,2770.5,2800,-0.1\n";
+    for (char& letter : small)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter + 32);
+    CHECK_THROWS_WITH(read(small + burris_reading("a", "10:00:00")),
+                      ContainsSubstring(":1: unknown columns: station id"));
+}
+
 TEST_CASE("columns without a name, as a spreadsheet adds at the end, are not used",
           "[gravimeter]") {
     const GravimeterFile file = read(
