@@ -62,8 +62,8 @@ bool is_same_rate(double one_hz, double other_hz) {
     return std::abs(one_hz / other_hz - 1.0) <= 0.001;
 }
 
-/// Returns the conflict of the headers with the metadata; absent if there is none, or if there are
-/// not two records to prove a rate.
+/// Returns the conflict of the first rate that differs from the metadata, proven by the records that
+/// have it; absent if there is none, or if there are not two such records.
 std::optional<RateConflict> rate_conflict(const std::vector<Segment>& segments,
                                           const std::string& channel, double metadata_hz) {
     const auto other = std::ranges::find_if(segments, [&](const Segment& segment) {
@@ -73,14 +73,18 @@ std::optional<RateConflict> rate_conflict(const std::vector<Segment>& segments,
     RateConflict conflict{channel, other->rate_hz, metadata_hz};
     std::vector<double> rates_hz;
     std::size_t longest = 0, count = 0;
-    std::optional<UtcTime> before;
+    const Segment::Anchor* before = nullptr;
     for (const Segment& segment : segments) {
+        if (segment.rate_hz != other->rate_hz) {
+            before = nullptr;
+            continue;
+        }
         for (std::size_t i = 0; i < segment.anchors.size(); ++i) {
             const Segment::Anchor& anchor = segment.anchors[i];
-            if (before && *before < anchor.time)
+            if (before != nullptr && before->time < anchor.time)
                 rates_hz.push_back(static_cast<double>(count) /
-                                   seconds_between(*before, anchor.time));
-            before = anchor.time;
+                                   seconds_between(before->time, anchor.time));
+            before = &anchor;
             count = (i + 1 < segment.anchors.size() ? segment.anchors[i + 1].offset
                                                     : segment.counts.size()) -
                     anchor.offset;
@@ -104,7 +108,8 @@ bool is_of(const journal::StationCodes& codes, const RecordHeader& header) {
 }  // namespace
 
 void RecordJoiner::take(const DecodedRecord& record) {
-    const double rate_hz = rate_hz_.value_or(record.rate_hz());
+    const bool is_wrong = wrong_ && record.rate_hz() == wrong_->header_hz;
+    const double rate_hz = is_wrong ? wrong_->used_hz : record.rate_hz();
     const UtcTime start = record.header.start;
     const auto time_of = [&](std::size_t i) {
         return start + from_seconds(static_cast<double>(i) / rate_hz);
@@ -142,13 +147,13 @@ std::string to_text(const Damage& damage) {
 namespace {
 
 /// Reads the records of a channel.
-/// @param rate_hz  rate of the samples; absent: that of each record.
+/// @param wrong  for RecordJoiner.
 ChannelData read_records(const fs::path& archive, const journal::StationCodes& codes,
                          const std::string& channel, UtcTime from, UtcTime to,
-                         std::optional<double> rate_hz) {
+                         const std::optional<RateConflict>& wrong) {
     ChannelData data;
     if (from >= to) return data;
-    RecordJoiner joiner(data, from, to, rate_hz);
+    RecordJoiner joiner(data, from, to, wrong);
     for (const auto& file :
          day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
         const auto bytes = files::read_bytes(file);
@@ -178,7 +183,7 @@ ChannelData read_channel(const fs::path& archive, const journal::StationCodes& c
     if (!metadata_hz) return data;
     const auto conflict = rate_conflict(data.segments, channel, *metadata_hz);
     if (conflict && conflict->used_hz == *metadata_hz)
-        data = read_records(archive, codes, channel, from, to, metadata_hz);
+        data = read_records(archive, codes, channel, from, to, conflict);
     data.rate_conflict = conflict;
     return data;
 }

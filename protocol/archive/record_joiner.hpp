@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/archive/miniseed.hpp"
 
@@ -10,9 +12,10 @@ class RecordJoiner {
 public:
     /// @param data      receives the samples; must outlive this.
     /// @param from, to  samples outside [from, to) are left out.
-    /// @param rate_hz   rate of the samples; absent: that of each record.
-    RecordJoiner(ChannelData& data, UtcTime from, UtcTime to, std::optional<double> rate_hz = {})
-        : data_(data), from_(from), to_(to), rate_hz_(rate_hz) {}
+    /// @param wrong     records with its header_hz have its used_hz instead.
+    RecordJoiner(ChannelData& data, UtcTime from, UtcTime to,
+                 std::optional<RateConflict> wrong = {})
+        : data_(data), from_(from), to_(to), wrong_(std::move(wrong)) {}
 
     /// Adds a record; one that begins within half a sample of the end of the last one continues it.
     void take(const DecodedRecord& record);
@@ -20,7 +23,7 @@ public:
 private:
     ChannelData& data_;
     UtcTime from_, to_;
-    std::optional<double> rate_hz_;
+    std::optional<RateConflict> wrong_;
 };
 
 }  // namespace a351::archive

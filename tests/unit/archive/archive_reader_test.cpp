@@ -95,6 +95,16 @@ TEST_CASE("a rate in headers that contradicts the metadata: the starts of the re
     CHECK(wrong_metadata.rate_conflict->used_hz == 50.0);
     CHECK_FALSE(read(50.005, 50.0).rate_conflict.has_value());  // a clock of 100 ppm
     CHECK(read(49.0, 49.0).segments.size() == 3);
+
+    // Records of another rate that is right do not decide about the wrong ones.
+    Archive archive;
+    for (int i = 0; i < 3; ++i) archive.add(kBegin + i * 100 * kStep, i * 100, "BNZ", 49.0);
+    for (int i = 0; i < 9; ++i) archive.add(kBegin + 1h + i * 100 * kStep, i * 100, "BNZ", 50.001);
+    const auto both =
+        read_channel(archive.path(), StationCodes{}, "BNZ", kBegin - 48h, kBegin + 48h, 50.0);
+    REQUIRE(both.segments.size() == 2);
+    CHECK(both.segments[0].rate_hz == 50.0);
+    CHECK(both.segments[1].rate_hz == Approx(50.001));
 }
 
 TEST_CASE("a day file that one channel lacks is named, once the day is longer than a record",

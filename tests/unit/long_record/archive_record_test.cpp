@@ -182,7 +182,10 @@ TEST_CASE("another rate begins a new stretch with its own times", "[long_record]
     CHECK(record.stretches[1].begins_with == "another rate: 5 Hz after 50 Hz");
     CHECK(record.stretches[1].times.back() == kStart + from_seconds(2.0 * kHalf_s - 20.0));
     CHECK(record.stretches[1].temperature_degc.at(15) == Approx(42.476).margin(0.001));
-    CHECK(record.warnings.size() == 1);
+    CHECK(record.warnings.size() == 2);
+    CHECK_THAT(record.warnings[0].english(),
+               ContainsSubstring("the headers of the records say 5 Hz, the metadata 50 Hz, and "
+                                 "their starts give 5.00 Hz. 5 Hz are used"));
     root.add(2.0 * kHalf_s, 52.0);
     CHECK_THROWS_AS(root.read(), InputError);
 }
