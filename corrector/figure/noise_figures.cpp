@@ -72,12 +72,14 @@ Figure spectrum_figure(const RecordResult& result, const Print& print) {
     return figure;
 }
 
-Figure allan_noise_figure(const RecordResult& result, const Print& print) {
-    Figure figure{"noise-allan",
-                  tr("Allan deviation of the acceleration, with 95 % limits if the three noises "
-                     "describe it, and that of white noise, flicker and random walk together."),
+Figure allan_noise_figure(const std::string& name, const std::string& part,
+                          const noise::AllanAnalysis& analysis, const Print& print) {
+    Figure figure{name,
+                  tr("Allan deviation of the acceleration{}, with 95 % limits if the three noises "
+                     "describe it, and that of white noise, flicker and random walk together.",
+                     part),
                   print.small_mm()};
-    const auto& allan = result.analysis.noise.allan.points;
+    const auto& allan = analysis.points;
     const Axis time{.label = tr("Averaging time (s)"),
                     .range = {0.8 * allan.front().averaging_s, 1.25 * allan.back().averaging_s},
                     .scale = Scale::logarithmic};
@@ -92,7 +94,7 @@ Figure allan_noise_figure(const RecordResult& result, const Print& print) {
                 {Look::strong_line, Colour::vermilion, tr("three noises")});
     figure.plot(
         "averaging_s deviation_mgal low high", points,
-        result.analysis.noise.allan.noises.describes_record
+        analysis.noises.describes_record
             ? Series{Look::discs_with_bars, Colour::blue, tr("record"), {{1}, {2}, {3}, {4}}}
             : Series{Look::discs, Colour::blue, tr("record")});
     return figure;
@@ -147,19 +149,26 @@ std::vector<Figure> quiet_noise_figures(const std::vector<ReadingRecord>& record
     }
     const std::vector<noise::Density> spectrum = noise::pooled_density(parts, step_s, kLength);
     if (spectrum.empty()) return {};
-    return {density_figure(
-        "noise-day",
-        tr("Amplitude spectral density of the acceleration in the quiet parts of the stays, "
-           "together, with 95 % limits: {} min in {} parts without motion, each in segments of {} "
-           "min; and the ground at the quietest and noisiest seismic stations (Peterson 1993).",
-           text::fixed(samples * step_s / 60.0, 0), parts.size(),
-           text::fixed(static_cast<double>(kLength) * step_s / 60.0, 0)),
-        spectrum, print.small_mm())};
+    const noise::AllanAnalysis allan = noise::pooled_allan(parts, step_s);
+    return {
+        density_figure(
+            "noise-day",
+            tr("Amplitude spectral density of the acceleration in the quiet parts of the stays, "
+               "together, with 95 % limits: {} min in {} parts without motion, each in segments of "
+               "{} "
+               "min; and the ground at the quietest and noisiest seismic stations (Peterson 1993).",
+               text::fixed(samples * step_s / 60.0, 0), parts.size(),
+               text::fixed(static_cast<double>(kLength) * step_s / 60.0, 0)),
+            spectrum, print.small_mm()),
+        allan_noise_figure("noise-day-allan", tr(" in the quiet parts of the stays, together"),
+                           allan, print)};
 }
 
 std::vector<Figure> noise_figures(const RecordResult& result, const Print& print) {
-    std::vector<Figure> figures{spectrum_figure(result, print), allan_noise_figure(result, print),
-                                spectrogram_figure(result, print)};
+    std::vector<Figure> figures{
+        spectrum_figure(result, print),
+        allan_noise_figure("noise-allan", "", result.analysis.noise.allan, print),
+        spectrogram_figure(result, print)};
     std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
     return figures;
 }

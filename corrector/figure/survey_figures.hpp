@@ -102,8 +102,9 @@ struct ReadingRecord {
                                                 const std::vector<ReadingRecord>& records,
                                                 const Print& print);
 
-/// Returns the figure noise-day: the spectral density of the records' parts between disturbances, pooled
-/// (noise::pooled_density()).  No segment reaches over a motion or from stay to stay.
+/// Returns the figures of the noise in the records' parts between disturbances, pooled: noise-day, the
+/// spectral density (noise::pooled_density()), and noise-day-allan (noise::pooled_allan()).  Nothing reaches
+/// over a motion or from stay to stay.
 /// @return none if no part is four minutes long.
 [[nodiscard]] std::vector<Figure> quiet_noise_figures(const std::vector<ReadingRecord>& records,
                                                       const Print& print);

@@ -27,21 +27,28 @@ Eigen::Vector3d variances_at(double t) {
 class Covariance {
 public:
     /// @param averages  numbers of samples of the averages.
-    Covariance(std::ptrdiff_t n, const std::vector<std::ptrdiff_t>& averages) {
+    explicit Covariance(const std::vector<std::ptrdiff_t>& averages) : averages_(averages) {
         const auto size = static_cast<Eigen::Index>(averages.size());
-        for (auto& matrix : of_products_) matrix.resize(size, size);
+        for (auto& matrix : of_products_) matrix = Eigen::MatrixXd::Zero(size, size);
+    }
+
+    /// Adds a part of n samples, independent of the others.
+    /// @param weights  its share in the variance of each average; 0: it is too short for it.
+    void add(std::ptrdiff_t n, const Eigen::VectorXd& weights) {
         std::vector<double> flicker(static_cast<std::size_t>(n) + 1, 0.0);
         for (std::size_t k = 1; k < flicker.size(); ++k) {
             const auto t = static_cast<double>(k);
             flicker[k] = t * t * std::log(t) / (2.0 * std::numbers::pi);
         }
-        for (Eigen::Index i = 0; i < size; ++i)
+        for (Eigen::Index i = 0; i < weights.size() && weights(i) > 0.0; ++i)
             for (Eigen::Index k = 0; k <= i; ++k) {
                 const auto products =
-                    sums_of_products(n, averages[static_cast<std::size_t>(i)],
-                                     averages[static_cast<std::size_t>(k)], flicker);
-                for (std::size_t p = 0; p < products.size(); ++p)
-                    of_products_[p](i, k) = of_products_[p](k, i) = products[p];
+                    sums_of_products(n, averages_[static_cast<std::size_t>(i)],
+                                     averages_[static_cast<std::size_t>(k)], flicker);
+                for (std::size_t p = 0; p < products.size(); ++p) {
+                    of_products_[p](i, k) += weights(i) * weights(k) * products[p];
+                    of_products_[p](k, i) = of_products_[p](i, k);
+                }
             }
     }
 
@@ -91,6 +98,7 @@ private:
         return sums;
     }
 
+    const std::vector<std::ptrdiff_t>& averages_;
     std::array<Eigen::MatrixXd, 6> of_products_;
 };
 
@@ -212,22 +220,41 @@ double ThreeNoises::density_mgal2_per_hz(double frequency_hz) const {
 }
 
 AllanAnalysis analyse_allan(const std::vector<double>& values, double step_s) {
-    const auto n = static_cast<std::ptrdiff_t>(values.size());
+    return pooled_allan({values}, step_s);
+}
+
+AllanAnalysis pooled_allan(const std::vector<std::vector<double>>& parts, double step_s) {
+    std::ptrdiff_t longest = 0;
+    for (const std::vector<double>& part : parts) longest = std::max(longest, std::ssize(part));
     std::vector<std::ptrdiff_t> averages;
-    for (std::ptrdiff_t m = 1; m <= n / 4; m *= 2) averages.push_back(m);
-    Eigen::VectorXd variances(static_cast<Eigen::Index>(averages.size()));
+    for (std::ptrdiff_t m = 1; m <= longest / 4; m *= 2) averages.push_back(m);
+    const auto size = static_cast<Eigen::Index>(averages.size());
+    // Numbers of differences of each part (row), 0 if it is shorter than four averages.
+    Eigen::MatrixXd counts = Eigen::MatrixXd::Zero(std::ssize(parts), size);
+    Eigen::VectorXd variances = Eigen::VectorXd::Zero(size);
     AllanAnalysis analysis;
-    for (const std::ptrdiff_t m : averages) {
-        const double deviation = allan_deviation(values, static_cast<std::size_t>(m));
-        variances(static_cast<Eigen::Index>(analysis.points.size())) = deviation * deviation;
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const std::ptrdiff_t m = averages[static_cast<std::size_t>(i)];
+        for (Eigen::Index p = 0; p < counts.rows(); ++p) {
+            const std::vector<double>& part = parts[static_cast<std::size_t>(p)];
+            if (std::ssize(part) < 4 * m) continue;
+            counts(p, i) = static_cast<double>(std::ssize(part) - 2 * m + 1);
+            const double deviation = allan_deviation(part, static_cast<std::size_t>(m));
+            variances(i) += counts(p, i) * deviation * deviation;
+        }
+        variances(i) /= counts.col(i).sum();
+        const double deviation = std::sqrt(variances(i));
         analysis.points.push_back({.averaging_s = static_cast<double>(m) * step_s,
                                    .deviation_mgal = {deviation, deviation, deviation}});
     }
-    if (!(variances.minCoeff() > 0.0)) {  // A constant record has no noise.
+    if (!(variances.size() > 0 && variances.minCoeff() > 0.0)) {  // A constant record has no noise.
         analysis.noises.describes_record = true;
         return analysis;
     }
-    const Covariance covariance(n, averages);
+    Covariance covariance(averages);
+    for (Eigen::Index p = 0; p < counts.rows(); ++p)
+        covariance.add(std::ssize(parts[static_cast<std::size_t>(p)]),
+                       counts.row(p).transpose().cwiseQuotient(counts.colwise().sum().transpose()));
     Eigen::Vector3d squares;
     ThreeNoises& noises = analysis.noises = fit_noises(variances, averages, covariance, squares);
     noises.white_mgal_sqrt_s = level(noises.white_mgal_sqrt_s, std::sqrt(step_s));

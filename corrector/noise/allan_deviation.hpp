@@ -68,6 +68,14 @@ struct AllanAnalysis {
 /// IEEE Std 952-1997, annex C.
 [[nodiscard]] AllanAnalysis analyse_allan(const std::vector<double>& values, double step_s);
 
+/// Returns that of several series of one noise, for example of stays: the variances are means over all
+/// differences, none of which reaches from one series to the next, and their covariance is that of
+/// independent series.
+/// @param parts  finite, the longest with at least 4 samples.  A part counts for averages up to a quarter
+///               of it.
+[[nodiscard]] AllanAnalysis pooled_allan(const std::vector<std::vector<double>>& parts,
+                                         double step_s);
+
 /// Returns the overlapping Allan deviation of averages over m = `samples` neighbours, in the unit
 /// of the values:
 ///

@@ -41,8 +41,8 @@ with Scratch() as scratch:
     print(f"report.html: {len(text)} bytes, {len(elements)} elements")
     pictures = [element for element in elements if element.tag == SVG + "svg"]
     scripts = sorted(file.stem for file in (scratch / "out" / "figures").glob("*.gp"))
-    demand(f"{len(pictures)} figures are in the report, one for each script (19 readings, 8 others)",
-           len(pictures) == len(scripts) == 27)
+    demand(f"{len(pictures)} figures are in the report, one for each script (19 readings, 9 others)",
+           len(pictures) == len(scripts) == 28)
     ids = collections.Counter(element.get("id") for element in elements if element.get("id"))
     demand(f"the {len(ids)} ids are unique", max(ids.values()) == 1)
     wanted = {element.get(XLINK) for element in elements if element.get(XLINK)}

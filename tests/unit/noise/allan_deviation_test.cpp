@@ -97,6 +97,40 @@ TEST_CASE("the limits contain the Allan deviation and the levels of known noises
     CHECK(std::abs(pooled.value() - 0.95) < (test::is_long() ? 0.01 : 0.025));
 }
 
+TEST_CASE("the Allan deviation of several stays, and its limits", "[noise]") {
+    // No difference reaches from stay to stay, so their levels have no effect.
+    std::vector<std::vector<double>> stays{
+        white_noise(200, 1.0, 1), white_noise(120, 1.0, 2), {5.0, 7.0}};
+    double squares = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto differences = static_cast<double>(stays[k].size() - 15);
+        const double deviation = allan_deviation(stays[k], 8);
+        squares += differences * deviation * deviation;
+        count += differences;
+        for (double& value : stays[k]) value += 1000.0 * static_cast<double>(k + 1);
+    }
+    const auto pooled = pooled_allan(stays, kStep_s).points;
+    REQUIRE(pooled.size() == 6);  // up to 50 samples
+    CHECK(pooled[3].deviation_mgal.value == Approx(std::sqrt(squares / count)).epsilon(1e-9));
+
+    const int days = test::is_long() ? 500 : 100;
+    Share share;
+    for (int day = 0; day < days; ++day) {
+        std::vector<std::vector<double>> parts;
+        for (std::uint64_t stay = 0; stay < 8; ++stay) {
+            const auto seed = 100 * static_cast<std::uint64_t>(day) + stay;
+            parts.push_back(white_noise(150 + 30 * stay, 2.0, seed));
+            const auto walk = random_walk(parts.back().size(), 0.1, seed);
+            for (std::size_t i = 0; i < walk.size(); ++i) parts.back()[i] += walk[i];
+        }
+        const ThreeNoises truth{{2.0 * std::sqrt(kStep_s)}, {}, {0.1 / std::sqrt(kStep_s)}};
+        for (const AllanPoint& point : pooled_allan(parts, kStep_s).points)
+            share.add(point.deviation_mgal, truth.deviation_mgal(point.averaging_s));
+    }
+    std::printf("stays together: %.4f\n", share.value());
+    CHECK(std::abs(share.value() - 0.95) < 0.025);
+}
+
 TEST_CASE("a cycle of the oven is not taken for noise", "[noise]") {
     std::vector<double> values = white_noise(4000, 0.5, 11);
     CHECK(analyse_allan(values, kStep_s).noises.describes_record);
