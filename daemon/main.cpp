@@ -183,12 +183,14 @@ void log_doubt(const survey::Occupations& occupations, const std::filesystem::pa
 
 /// Reads the configuration again after SIGHUP, and takes sites, the plan of a stay and thresholds
 /// from it.  A file that is refused changes nothing.
-void reload(const std::filesystem::path& config_file, spdlog::logger& log, live::Record& live,
+void reload(const config::Config& config, spdlog::logger& log, live::Record& live,
             survey::Occupations& occupations, gravity::GravitySoFar& gravity, page::Server& page) {
     try {
-        const config::Config fresh = config::read_config(config_file);
+        const config::Config fresh = config::read_config(config.file);
         live.judge_by(fresh.verdict);
-        gravity.use(gravity_options(fresh, log));
+        config::Config with_sites = config;
+        with_sites.survey.sites_file = fresh.survey.sites_file;
+        gravity.use(gravity_options(with_sites, log));
         page.post([&occupations, &log, survey = fresh.survey, options = occupation_options(fresh)] {
             occupations.use(survey.sites, options);
             log_doubt(occupations, survey.sites_file, log);
@@ -340,7 +342,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     notice.ready();
     report_until_end(
         recorder, notice, status_log, signals, [&] { page.post(log_signal); },
-        [&] { reload(config.file, log, live, occupations, gravity, page); });
+        [&] { reload(config, log, live, occupations, gravity, page); });
     log.info("stopping");
     notice.stopping();
     page.stop();

@@ -187,25 +187,34 @@ private:
 std::vector<GridRun> tilt_runs(const std::vector<std::vector<GridRun>>& axes, const Epoch& epoch,
                                std::size_t axis) {
     std::vector<GridRun> tilts;
-    for (const GridRun& x : axes[0])
-        for (const GridRun& y : axes[1])
-            for (const GridRun& z : axes[2]) {
-                const std::array<const GridRun*, 3> runs{&x, &y, &z};
-                GridRun tilt{std::max({x.first, y.first, z.first}), {}};
-                std::int64_t end = std::numeric_limits<std::int64_t>::max();
-                for (const GridRun* run : runs)
-                    end = std::min(end, run->first + std::ssize(run->values));
-                for (std::int64_t k = tilt.first; k < end; ++k) {
-                    std::array<double, 3> values{};
-                    for (std::size_t i = 0; i < 3; ++i)
-                        values.at(i) =
-                            epoch.channels[i].offset +
-                            epoch.channels[i].gain *
-                                runs.at(i)->values[static_cast<std::size_t>(k - runs.at(i)->first)];
-                    tilt.values.push_back(tilt_urad(values, axis));
-                }
-                tilts.push_back(std::move(tilt));
+    std::array<std::size_t, 3> place{};
+    const auto is_end = [&](std::size_t i) { return place.at(i) == axes[i].size(); };
+    while (!is_end(0) && !is_end(1) && !is_end(2)) {
+        std::array<const GridRun*, 3> runs{};
+        GridRun tilt{std::numeric_limits<std::int64_t>::min(), {}};
+        std::int64_t end = std::numeric_limits<std::int64_t>::max();
+        std::size_t ends_first = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const GridRun& run = axes[i][place.at(i)];
+            runs.at(i) = &run;
+            tilt.first = std::max(tilt.first, run.first);
+            if (const std::int64_t own = run.first + std::ssize(run.values); own < end) {
+                end = own;
+                ends_first = i;
             }
+        }
+        for (std::int64_t k = tilt.first; k < end; ++k) {
+            std::array<double, 3> values{};
+            for (std::size_t i = 0; i < 3; ++i)
+                values.at(i) =
+                    epoch.channels[i].offset +
+                    epoch.channels[i].gain *
+                        runs.at(i)->values[static_cast<std::size_t>(k - runs.at(i)->first)];
+            tilt.values.push_back(tilt_urad(values, axis));
+        }
+        if (!tilt.values.empty()) tilts.push_back(std::move(tilt));
+        ++place.at(ends_first);
+    }
     return tilts;
 }
 

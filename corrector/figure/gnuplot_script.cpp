@@ -105,7 +105,8 @@ std::string ticks_of(const Axis& axis) {
             for (const double digit : {1.0, 2.0, 5.0})
                 if (digit * power >= axis.range[0] && digit * power <= axis.range[1])
                     names.push_back(fmt::format("{0:.6g}", digit * power));
-        return '(' + text::joined(names) + ')';
+        if (names.size() > 1) return '(' + text::joined(names) + ')';
+        return "autofreq";
     }
     if (axis.step == 0.0) return "autofreq";
     return number(axis.step);

@@ -125,7 +125,7 @@ AveragedSetUp average(const Samples& samples, const Epoch& epoch,
     else if (!set_up.value->temperature)
         set_up.trouble = text::marked("no temperature");
     else if (!is_tumbled && std::abs(set_up.value->z.mean.value()) < kLeastVertical.value())
-        set_up.trouble = text::marked("the box lay on its side");
+        set_up.trouble = text::marked("the box lay on its side or was turned over within the set-up");
     else
         set_up.bins = bin_set_up(0, axes, kDisturbanceThreshold);
     return set_up;
@@ -228,8 +228,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.records.push_back(std::move(*set_up.value));
         averaged.push_back(std::move(set_up.window));
     }
-    // A sensor that is always upside down has one face: its reading is that of its mounting.
-    if (result.day && (source.is_tumbled || !is_turned(result.day->bins)))
+    // A tumble has no faces: it fits all axes.
+    if (result.day && source.is_tumbled)
         for (DayBin& bin : result.day->bins) bin.face = 1.0;
     if (result.rows.empty()) {
         const text::Message cause =

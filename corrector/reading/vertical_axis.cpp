@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/signal/median.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -17,32 +19,34 @@ using archive_series::kVertical;
 constexpr double kSteepDip_deg = 45.0;
 constexpr double kMps2PerG = kMilliGalPerStandardGravity * 1e-5;
 
-/// Means of an axis, g.
-struct AxisMean {
-    double value, size;  ///< With its sign, and without: the faces of the sensor may differ.
-};
-
-/// Returns the means of an axis over one sample per second in the windows; absent without one.
-std::optional<AxisMean> mean_g(const std::vector<archive::Segment>& segments,
-                               const station::ChannelScale& scale,
-                               const std::vector<OccupationWindow>& windows) {
-    double sum = 0.0, size = 0.0, count = 0.0;
+/// Returns the means of an axis over one sample per second of each window, g; none without samples.
+std::vector<double> means_g(const std::vector<archive::Segment>& segments,
+                            const station::ChannelScale& scale,
+                            const std::vector<OccupationWindow>& windows) {
+    std::vector<double> sums(windows.size()), counts(windows.size());
     for (const archive::Segment& segment : segments) {
         const auto step = static_cast<std::size_t>(std::max(1.0, segment.rate_hz));
         for (std::size_t i = 0; i < segment.counts.size(); i += step) {
             const UtcTime time = segment.time_of(i);
-            if (std::ranges::none_of(windows, [time](const OccupationWindow& window) {
-                    return window.start <= time && time < window.end;
-                }))
-                continue;
-            const double value = scale.offset + scale.gain * static_cast<double>(segment.counts[i]);
-            sum += value;
-            size += std::abs(value);
-            count += 1.0;
+            const auto window = std::ranges::find_if(windows, [time](const OccupationWindow& one) {
+                return one.start <= time && time < one.end;
+            });
+            if (window == windows.end()) continue;
+            const auto k = static_cast<std::size_t>(window - windows.begin());
+            sums[k] += scale.offset + scale.gain * static_cast<double>(segment.counts[i]);
+            counts[k] += 1.0;
         }
     }
-    if (count == 0.0) return std::nullopt;
-    return AxisMean{sum / count / kMps2PerG, size / count / kMps2PerG};
+    std::vector<double> means;
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        if (counts[k] > 0.0) means.push_back(sums[k] / counts[k] / kMps2PerG);
+    return means;
+}
+
+/// Returns the median size of the means.
+double size_g(std::vector<double> means) {
+    for (double& mean : means) mean = std::abs(mean);
+    return signal::median(std::move(means));
 }
 
 /// Returns the place of the axis that the metadata call vertical.
@@ -73,20 +77,21 @@ text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
                                 const std::vector<OccupationWindow>& windows,
                                 const std::filesystem::path& file) {
     const std::vector<station::ChannelScale>& axes = epoch.channels;
-    std::array<AxisMean, kVertical + 1> means{};
+    std::array<double, kVertical + 1> sizes{};
+    std::array<bool, kVertical + 1> is_down{};  ///< In all windows.
     std::string list;
-    bool is_complete = true;
-    for (std::size_t k = 0; k < means.size(); ++k) {
-        const auto mean = mean_g(samples[k].segments, axes[k], windows);
-        means[k] = mean.value_or(AxisMean{});
-        is_complete = is_complete && mean.has_value();
-        list += fmt::format("{}{} {}", k == 0 ? "" : ", ", axes[k].code, in_g(means[k].value));
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+        const std::vector<double> means = means_g(samples[k].segments, axes[k], windows);
+        if (means.empty()) return {};
+        sizes[k] = size_g(means);
+        is_down[k] = std::ranges::max(means) < 0.0;
+        list += fmt::format("{}{} {}", k == 0 ? "" : ", ", axes[k].code,
+                            in_g(is_down[k] ? -sizes[k] : sizes[k]));
     }
-    const auto distance = [](const AxisMean& mean) { return std::abs(mean.size - 1.0); };
-    const auto nearest =
-        static_cast<std::size_t>(std::ranges::min_element(means, {}, distance) - means.begin());
-    if (!is_complete) return {};
-    if (means[nearest].size < kLeastVertical.value())
+    const auto nearest = static_cast<std::size_t>(
+        std::ranges::min_element(sizes, {}, [](double size) { return std::abs(size - 1.0); }) -
+        sizes.begin());
+    if (sizes[nearest] < kLeastVertical.value())
         throw InputError(fmt::format(
             "{}: no axis is vertical: {}; allowed: an axis with at least {} along gravity",
             file.string(), list, in_g(kLeastVertical.value())));
@@ -97,10 +102,10 @@ text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
             "{}: {} is vertical by its dip, but gravity is along {} ({}); {} is used; the axis "
             "biases of a calibration belong to the usual mounting",
             file.string(), axes[*named].code, code, list, code);
-    if (means[nearest].value < -kLeastVertical.value())
+    if (is_down[nearest])
         warning += text::message("{}the sensor is mounted upside down: {} has {}",
                                  warning.empty() ? file.string() + ": " : "; ", code,
-                                 in_g(means[nearest].value));
+                                 in_g(-sizes[nearest]));
     put_last(samples, epoch, nearest);
     return warning;
 }

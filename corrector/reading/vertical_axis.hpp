@@ -24,16 +24,16 @@ namespace a351::corrector::reading {
 /// box is not level.
 inline constexpr StandardGravity kLeastVertical{0.9};
 
-/// Finds the axis whose mean size is nearest to 1 g, and exchanges axes of samples and epoch so
-/// that it is the last.  The horizontal axes keep their order.
+/// Finds the axis whose size is nearest to 1 g, and exchanges axes of samples and epoch so that it is
+/// the last.  The horizontal axes keep their order.
 ///
-/// The mean is over one sample per second, within the windows.  The sensor may be turned over between
-/// them.
+/// The size is the median of the windows' means without their signs, over one sample per second: the
+/// sensor may be turned over between windows, or lie on its side in some.
 /// @param windows  occupations; if an axis has no sample in them, nothing is exchanged.
 /// @param file     name of the metadata, for messages.
 /// @return a sentence for the user if another axis has a dip of more than 45 deg in the metadata, or
 ///         if the sensor is always upside down; the norm is the same then.  Otherwise empty.
-/// @throws InputError  no axis has a mean size >= kLeastVertical; the message has all three means.
+/// @throws InputError  no axis has a size >= kLeastVertical; the message has all three.
 [[nodiscard]] text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
                                               archive_series::Epoch& epoch,
                                               const std::vector<OccupationWindow>& windows,

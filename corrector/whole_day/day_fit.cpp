@@ -13,9 +13,9 @@ using Index = Eigen::Index;
 DayTerm term_of(const DayRegression& regression, Index coefficient) {
     if (coefficient < kTerms) return static_cast<DayTerm>(coefficient);
     if (coefficient < regression.states_begin()) return DayTerm::drift;  // steps
-    if (coefficient >= regression.shares_begin())
-        return DayRegression::kShares.at(
-            static_cast<std::size_t>(coefficient - regression.shares_begin()));
+    if (coefficient >= regression.on_scale_begin())
+        return DayRegression::kOnScale.at(
+            static_cast<std::size_t>(coefficient - regression.on_scale_begin()));
     if (coefficient >= regression.outer_begin()) return DayTerm::slow;
     // States after gaps are in turn of the fast and of the slow lag.
     return (coefficient - regression.states_begin()) % 2 == 0 ? DayTerm::fast : DayTerm::slow;
@@ -87,7 +87,7 @@ DayFit DayAdjustment::fit(std::size_t survey) const {
     for (Index k = regression.steps_begin(); k < regression.states_begin(); ++k)
         fit.steps_mgal.push_back(estimate(k));
     fit.outer = regression.outer_response(fit.point, part.values, errors);
-    for (Index k = regression.shares_begin(); k < regression.estimated(); ++k)
+    for (Index k = regression.on_scale_begin(); k < regression.estimated(); ++k)
         fit.on_scale.push_back(estimate(k));
     fit.noise_log_errors = found_.noise_log_errors;
     fit.shift << fit.point[kFastLag], fit.point[kSlowLag], part.scaled.head(kTerms);

@@ -98,7 +98,7 @@ struct DayFit {
     std::array<Estimate, kDayTerms> coefficients;  ///< Errors include those of the lags.
     std::vector<Estimate> steps_mgal;              ///< Offsets of the steps, in order of time.
     std::optional<OuterResponse> outer;            ///< Absent without an outer oven.
-    /// Slopes rA, rS, rF that act on the scale; empty if the sensor was not turned over.
+    /// Parts of rA, rS, rF that act on the scale; empty if the sensor was not turned over.
     std::vector<Estimate> on_scale;
     /// Standard errors of the logarithms of placement, flicker and white, from the curvature of the
     /// likelihood; absent if it has no maximum there.

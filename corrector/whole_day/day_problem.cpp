@@ -143,7 +143,8 @@ void DayProblem::set_hypers() {
 void DayProblem::set_columns() {
     for (std::size_t unit = 0; unit < unit_count_; ++unit) {
         unit_begin_.push_back(common_count_);
-        common_count_ += columns_of_unit() + (has_outer(unit) ? kOuterSlopes : 0) + shares_of(unit);
+        common_count_ +=
+            columns_of_unit() + (has_outer(unit) ? kOuterSlopes : 0) + on_scale_of(unit);
     }
     for (std::size_t k = 0; k < surveys_.size(); ++k)
         for (std::size_t number = 0; number < count_of(surveys_[k]); ++number) {
@@ -204,9 +205,9 @@ bool DayProblem::has_outer(std::size_t unit) const {
                                [this](std::size_t k) { return of(k).has_outer(); });
 }
 
-Index DayProblem::shares_of(std::size_t unit) const {
+Index DayProblem::on_scale_of(std::size_t unit) const {
     Index most = 0;
-    for (const std::size_t k : surveys_of_unit(unit)) most = std::max(most, of(k).shares());
+    for (const std::size_t k : surveys_of_unit(unit)) most = std::max(most, of(k).on_scale());
     return most;
 }
 
@@ -234,10 +235,10 @@ std::vector<Index> DayProblem::places_in_group(std::size_t survey, bool is_exten
             places[static_cast<std::size_t>(place) + 1] =
                 common + places_[gravity_of(survey, number)];
     for (Index k = problem.steps_begin(); k < problem.outer_begin(); ++k) places.push_back(own++);
-    for (Index k = problem.outer_begin(); k < problem.shares_begin(); ++k)
+    for (Index k = problem.outer_begin(); k < problem.on_scale_begin(); ++k)
         places.push_back(unit + columns_of_unit() + k - problem.outer_begin());
     const Index outer = has_outer(surveys_[survey].unit) ? kOuterSlopes : 0;
-    for (Index k = 0; k < problem.shares(); ++k)
+    for (Index k = 0; k < problem.on_scale(); ++k)
         places.push_back(unit + columns_of_unit() + outer + k);
     if (group.is_box())
         for (Index k = 0; k < static_cast<Index>(group.set_up_count); ++k) places.push_back(k);

@@ -167,7 +167,7 @@ private:
     [[nodiscard]] std::vector<std::size_t> surveys_of_unit(std::size_t unit) const;
     [[nodiscard]] bool has_outer(std::size_t unit) const;
     /// Returns the number of the unit's slopes that act on the scale.
-    [[nodiscard]] Eigen::Index shares_of(std::size_t unit) const;
+    [[nodiscard]] Eigen::Index on_scale_of(std::size_t unit) const;
 
     std::vector<DaySurvey> surveys_;
     std::vector<WhiteSurvey> white_surveys_;

@@ -20,11 +20,6 @@ constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the pub
 constexpr LogNormalPrior kFlickerPrior_mgal{kUsualNoise.flicker_mgal, 2.0};
 constexpr double kWhiteFactor = 2.0;
 
-/// DayRegression::kShares as terms of the unit.
-constexpr std::array kSharesOfUnit{unit::ThermalTerm::level, unit::ThermalTerm::slow,
-                                   unit::ThermalTerm::fast};
-static_assert(kSharesOfUnit.size() == DayRegression::kShares.size());
-
 /// Returns a robust scatter of the bins, mGal: 1.4826 median |difference of neighbours| / sqrt(2),
 /// at least 1e-3.  It is the median of the white noise's prior.
 double bin_scatter_mgal(const std::vector<reading::DayBin>& bins) {
@@ -160,7 +155,7 @@ void DayRegression::set_fixed_columns() {
         if (place >= 0) fixed_(i, place) = bin.face;
         fixed_.row(i)
             .segment(steps_begin(), static_cast<Index>(stations_[bin.set_up].steps))
-            .setOnes();
+            .setConstant(bin.face);
     }
 }
 
@@ -170,10 +165,22 @@ double DayRegression::lag_s(const Point& u, DayHyper lag) const {
                     priors_.factor(place, kSlowLag) * u[kSlowLag]);
 }
 
-Eigen::VectorXd DayRegression::share_sd() const {
-    Eigen::VectorXd deviations(shares());
-    for (Index k = 0; k < shares(); ++k)
-        deviations(k) = unit::day_prior(kSharesOfUnit.at(static_cast<std::size_t>(k))).deviation;
+Eigen::VectorXd DayRegression::on_scale_mean() const {
+    Eigen::VectorXd means(on_scale());
+    for (Index k = 0; k < on_scale(); ++k)
+        means(k) =
+            0.5 * priors_.mean(DayPriors::place_of(kOnScale.at(static_cast<std::size_t>(k))));
+    return means;
+}
+
+Eigen::VectorXd DayRegression::on_scale_sd() const {
+    Eigen::VectorXd deviations = on_scale_mean();
+    for (Index k = 0; k < on_scale(); ++k) {
+        const Index place = DayPriors::place_of(kOnScale.at(static_cast<std::size_t>(k)));
+        // An even share has the mean 1/2 and the mean square 1/3.
+        deviations(k) = std::sqrt(std::pow(deviations(k), 2) / 3.0 +
+                                  priors_.factor.row(place).squaredNorm() / 3.0);
+    }
     return deviations;
 }
 
@@ -215,9 +222,10 @@ Eigen::MatrixXd DayRegression::design(const Point& u, LagColumns& lagged) const 
                                       lag_s(u, lag));
         }
     if (has_outer()) columns.middleCols(outer_begin(), kOuterSlopes) = outer_columns(u);
-    for (Index k = 0; k < shares(); ++k)
-        columns.col(shares_begin() + k) = faces_.cwiseProduct(
-            columns.col(static_cast<Index>(kShares.at(static_cast<std::size_t>(k)))));
+    for (Index k = 0; k < on_scale(); ++k)
+        columns.col(on_scale_begin() + k) =
+            (faces_.array() - 1.0) *
+            columns.col(static_cast<Index>(kOnScale.at(static_cast<std::size_t>(k)))).array();
     return columns;
 }
 
@@ -238,6 +246,7 @@ Eigen::VectorXd DayRegression::unscaled(const Point& u, const Eigen::VectorXd& s
     all << scaled, u[kFastLag], u[kSlowLag];
     Eigen::VectorXd values = unscaling(u) * all;
     values.head(kTerms) += priors_.mean.tail<kTerms>();
+    values.tail(on_scale()) += on_scale_mean();
     return values;
 }
 
@@ -248,9 +257,9 @@ Eigen::MatrixXd DayRegression::unscaling(const Point& u) const {
     derivative.diagonal().segment(kTerms, gravity_sd_mgal_.size()) = gravity_sd_mgal_;
     derivative.diagonal().segment(states_begin(), states_sd_mgal_.size()) = states_sd_mgal_;
     derivative.diagonal()
-        .segment(outer_begin(), shares_begin() - outer_begin())
+        .segment(outer_begin(), on_scale_begin() - outer_begin())
         .setConstant(kOuterSize_mgal_per_degc.at(u[kOuterSize]));
-    derivative.diagonal().tail(shares()) = share_sd();
+    derivative.diagonal().tail(on_scale()) = on_scale_sd();
     derivative.topRightCorner(kTerms, kLags) = factor.bottomLeftCorner<kTerms, kLags>();
     return derivative;
 }
@@ -295,10 +304,10 @@ Eigen::MatrixXd DayRegression::scaled(const Point& u, LagColumns& lagged) const 
         x.middleCols(kTerms, gravity_sd_mgal_.size()) * gravity_sd_mgal_.asDiagonal();
     columns.middleCols(1 + states_begin(), states_sd_mgal_.size()) =
         x.middleCols(states_begin(), states_sd_mgal_.size()) * states_sd_mgal_.asDiagonal();
-    const Index outer = shares_begin() - outer_begin();
+    const Index outer = on_scale_begin() - outer_begin();
     columns.middleCols(1 + outer_begin(), outer) =
         kOuterSize_mgal_per_degc.at(u[kOuterSize]) * x.middleCols(outer_begin(), outer);
-    columns.rightCols(shares()) = x.rightCols(shares()) * share_sd().asDiagonal();
+    columns.rightCols(on_scale()) = x.rightCols(on_scale()) * on_scale_sd().asDiagonal();
     return columns;
 }
 
@@ -307,9 +316,9 @@ Eigen::MatrixXd DayRegression::lag_columns(const Point& u, const Eigen::VectorXd
     const auto slope = [&](DayTerm term) -> Eigen::VectorXd {
         Eigen::VectorXd of =
             Eigen::VectorXd::Constant(faces_.size(), values(static_cast<Index>(term)));
-        for (Index k = 0; k < shares(); ++k)
-            if (kShares.at(static_cast<std::size_t>(k)) == term)
-                of += values(shares_begin() + k) * faces_;
+        for (Index k = 0; k < on_scale(); ++k)
+            if (kOnScale.at(static_cast<std::size_t>(k)) == term)
+                of.array() += values(on_scale_begin() + k) * (faces_.array() - 1.0);
         return of;
     };
     const auto lagged_effects = [&](const Point& at) -> Eigen::VectorXd {

@@ -51,9 +51,9 @@ class DayRegression {
 public:
     using Point = SurveyPoint;
 
-    /// Terms whose slope has a part that acts on the scale.  It is seen only if the sensor is turned
-    /// over; in one face only the sum of both parts is.
-    static constexpr std::array kShares{DayTerm::level, DayTerm::slow, DayTerm::fast};
+    /// Terms whose slope has a part that acts on the scale.  The term is the sum of both parts, which is
+    /// what a day in one face and a calibration see; two faces show the part on the scale too.
+    static constexpr std::array kOnScale{DayTerm::level, DayTerm::slow, DayTerm::fast};
 
     /// The columns of two lags, kept from point to point of a search: many points differ in one of
     /// them or in neither.
@@ -67,13 +67,13 @@ public:
     ///                    readings.  Then a set-up must be held.
     explicit DayRegression(const DaySurvey& survey, const std::vector<double>& rough_mgal = {});
 
-    /// Returns the number of terms, gravities, states and slopes of an outer oven.
-    [[nodiscard]] Eigen::Index estimated() const { return shares_begin() + shares(); }
-    /// Returns the number of slopes that act on the scale: those of kShares, if the sensor was turned
+    /// Returns the number of all estimated quantities.
+    [[nodiscard]] Eigen::Index estimated() const { return on_scale_begin() + on_scale(); }
+    /// Returns the number of slopes that act on the scale: those of kOnScale, if the sensor was turned
     /// over.
-    [[nodiscard]] Eigen::Index shares() const { return is_turned_ ? std::ssize(kShares) : 0; }
+    [[nodiscard]] Eigen::Index on_scale() const { return is_turned_ ? std::ssize(kOnScale) : 0; }
     /// Returns the place of the first of them, the last of the estimated quantities.
-    [[nodiscard]] Eigen::Index shares_begin() const {
+    [[nodiscard]] Eigen::Index on_scale_begin() const {
         return outer_begin() + (has_outer() ? kOuterSlopes : 0);
     }
     [[nodiscard]] bool has_outer() const { return record_.outer.has_value(); }
@@ -116,9 +116,9 @@ public:
     [[nodiscard]] double lag_s(const Point& u, DayHyper lag) const;
 
     /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
-    /// the terms, then the face for the bins of each gravity and 1 for those after each step, then what
+    /// the terms, then the face for the bins of each gravity and for those after each step, then what
     /// remains of each state, then the outer oven's temperature without and with its lag, then the columns
-    /// of kShares times the face.
+    /// of kOnScale times face - 1.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
@@ -171,9 +171,10 @@ private:
     void set_states();
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
     [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
-    /// Returns the prior deviations of the slopes that act on the scale: those of the slopes
-    /// themselves, because nobody knows the share.
-    [[nodiscard]] Eigen::VectorXd share_sd() const;
+    /// Return the prior of the slopes that act on the scale: mean and deviation of an unknown share of the
+    /// term, between 0 and all of it.
+    [[nodiscard]] Eigen::VectorXd on_scale_mean() const;
+    [[nodiscard]] Eigen::VectorXd on_scale_sd() const;
     /// design(), as scaled().
     [[nodiscard]] Eigen::MatrixXd design(const Point& u, LagColumns& lagged) const;
     /// Returns the columns (n, kOuterSlopes) of an outer oven, without their means.

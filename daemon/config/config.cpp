@@ -318,6 +318,9 @@ SurveyConfig read_survey(TomlTable table) {
     survey.faces = table.string_or("faces", survey.faces);
     if (survey.faces.find_first_not_of("+-") != std::string::npos || !survey.faces.starts_with('+'))
         table.refuse("faces", "not a plan of faces", "signs + and -, beginning with +, as +--+");
+    if (survey.faces.size() > 1 && std::ssize(survey.faces) != survey.set_ups)
+        table.refuse("faces", "not one face for each of the set_ups",
+                     fmt::format("{} signs, or \"+\"", survey.set_ups));
     survey.gravity_every = std::chrono::duration_cast<std::chrono::milliseconds>(
         from_seconds(60.0 * table.number_or("gravity_every_min", 3.0, 0.0, 240.0)));
     table.require_all_read();

@@ -57,11 +57,12 @@ GravityOptions options_for(const std::filesystem::path& corrector, const SurveyF
 
 GravitySoFar::GravitySoFar(GravityOptions options) : options_(std::move(options)) { use(options_); }
 
-void GravitySoFar::use(GravityOptions options) {
+void GravitySoFar::use(const GravityOptions& options) {
     const std::lock_guard lock(mutex_);
     if (options.command == command_ && !command_.empty()) return;
-    command_ = std::move(options.command);
+    command_ = options.command;
     reason_ = command_.empty() ? options.reason : "not_yet";
+    cause_.clear();
     document_.clear();
     if (last_run_) now_ = steady_clock::now();
     woken_.notify_all();

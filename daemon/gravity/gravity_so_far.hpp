@@ -64,7 +64,7 @@ public:
     void stop();
 
     /// Takes the command of other options, or their reason for none.  Any thread.
-    void use(GravityOptions options);
+    void use(const GravityOptions& options);
 
     /// Says that the occupations have changed, and whether a stay runs now.  Any thread.
     void note_change(bool is_running);

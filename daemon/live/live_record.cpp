@@ -272,23 +272,25 @@ std::optional<Level> Record::level_against(UtcTime from, UtcTime to) const {
     return level;
 }
 
-std::optional<double> Record::face(UtcTime from, UtcTime to) const {
+std::optional<int> Record::face(UtcTime from, UtcTime to) const {
     const std::lock_guard lock(mutex_);
     constexpr std::size_t kFewest = 10;  // Values of 2 s: longer than any knock.
     std::array<double, 3> sums_mgal{};
     std::size_t count = 0;
-    for (const verdict::LiveSample& sample : thinned_) {
-        if (seconds_between(from, sample.time) < verdict::kReachSeconds) continue;
-        if (seconds_between(sample.time, to) < verdict::kReachSeconds) break;
+    for (auto one = std::ranges::lower_bound(thinned_, from + from_seconds(verdict::kReachSeconds),
+                                             {}, &verdict::LiveSample::time);
+         one != thinned_.end() && seconds_between(one->time, to) >= verdict::kReachSeconds; ++one) {
+        const verdict::LiveSample& sample = *one;
         if (!std::isfinite(sample.axes[0].value())) continue;
         for (std::size_t axis = 0; axis < sums_mgal.size(); ++axis)
             sums_mgal.at(axis) += sample.axes[axis].value();
         ++count;
     }
     if (count < kFewest) return std::nullopt;
-    const double most =
-        *std::ranges::max_element(sums_mgal, {}, [](double mgal) { return std::abs(mgal); });
-    return most < 0.0 ? -1.0 : 1.0;
+    const auto vertical =
+        std::ranges::max_element(sums_mgal, {}, [](double mgal) { return std::abs(mgal); });
+    const auto axis = static_cast<int>(vertical - sums_mgal.begin()) + 1;
+    return *vertical < 0.0 ? -axis : axis;
 }
 
 }  // namespace a351::daemon::live

@@ -20,6 +20,30 @@ std::vector<SetUp> set_ups_so_far(const events::RunningOccupation& running, UtcT
     return set_ups;
 }
 
+/// Where a stay is in its plan of faces.
+struct Faces {
+    int number = 0;  ///< Number of the running set-up in the plan: wrong faces before do not count.
+    bool is_wrong = false;    ///< It is known to be in the wrong face.
+    bool turns_next = false;  ///< The box is to be turned over for the next one.
+};
+
+Faces faces_of(const Occupations& occupations, const live::Record& live,
+               const std::vector<SetUp>& set_ups) {
+    Faces faces;
+    std::optional<int> first, face;
+    for (std::size_t k = 0; k < set_ups.size(); ++k) {
+        if (!faces.is_wrong) ++faces.number;
+        face = set_ups.size() == 1 ? std::nullopt : live.face(set_ups[k].start, set_ups[k].end);
+        if (k == 0) first = face;
+        const bool is_turned = occupations.is_turned(faces.number);
+        faces.is_wrong = first && face && *face != (is_turned ? -*first : *first);
+    }
+    const bool is_turned = faces.is_wrong ? *face == -*first : occupations.is_turned(faces.number);
+    faces.turns_next =
+        is_turned != occupations.is_turned(faces.is_wrong ? faces.number : faces.number + 1);
+    return faces;
+}
+
 void compare_level(FieldStatus& field, const Occupations& occupations, const live::Record& live,
                    UtcTime now) {
     const auto day = survey_day(occupations, now);
@@ -47,27 +71,24 @@ std::optional<PlannedStay> planned_stay(const Occupations& occupations, const li
     std::erase_if(set_ups, [at](const SetUp& one) { return one.start > at; });
     const SetUp last{set_ups.back().start, at};
     const double planned_s = std::chrono::duration<double>(occupations.planned()).count();
-    const int number = static_cast<int>(set_ups.size());
+    const Faces faces = faces_of(occupations, live, set_ups);
     return PlannedStay{
         running->site,
-        set_up_plan(occupations.planned_set_ups(), planned_s, number,
+        set_up_plan(occupations.planned_set_ups(), planned_s, faces.number,
                     seconds_between(running->start, at), seconds_between(last.start, at),
                     live.reading({&last, 1}).used_s),
-        false, occupations.is_turned(number) != occupations.is_turned(number + 1)};
+        false, faces.turns_next};
 }
 
 text::Message wrong_face(const Occupations& occupations, const live::Record& live, UtcTime now) {
     const auto& running = occupations.running();
     if (!running || running->set_ups.size() < 2) return {};
-    const auto set_ups = set_ups_so_far(*running, now);
-    const SetUp &first = set_ups.front(), last = set_ups.back();
-    const auto face = live.face(last.start, last.end), usual = live.face(first.start, first.end);
-    const int number = static_cast<int>(set_ups.size());
-    if (!face || !usual || (*face != *usual) == occupations.is_turned(number)) return {};
+    const Faces faces = faces_of(occupations, live, set_ups_so_far(*running, now));
+    if (!faces.is_wrong) return {};
     return text::message(
-        "the box is in the other face than planned for set-up {}: turn it over, set it down "
-        "level and press Next set-up, or say that you have checked it",
-        number);
+        "the box is not in the face that is planned for set-up {}: turn it over, set it down level "
+        "and press Next set-up, or press Checked",
+        faces.number);
 }
 
 std::optional<MovePrompt> moved_box(const Occupations& occupations, const live::Record& live,

@@ -46,7 +46,7 @@ struct FieldStatus {
                                                   const live::Record& live, UtcTime now);
 
 /// Returns that the running set-up is not in the face of the plan, as compared with the first of the
-/// stay; empty if it is, or if it is not known.
+/// stay; empty if it is, or if it is not known.  A set-up in the wrong face does not count in the plan.
 [[nodiscard]] text::Message wrong_face(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);
 

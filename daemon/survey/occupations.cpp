@@ -132,7 +132,7 @@ int Occupations::planned_set_ups() const noexcept {
 }
 
 bool Occupations::is_turned(int set_up) const noexcept {
-    const auto place = static_cast<std::size_t>(set_up - 1) % options_.faces.size();
+    const auto place = std::min(static_cast<std::size_t>(set_up), options_.faces.size()) - 1;
     return !(running() && running()->planned_set_ups) && options_.faces[place] == '-';
 }
 

@@ -54,8 +54,8 @@ inline constexpr Nanoseconds kTestSetUp = std::chrono::minutes(3);
 struct OccupationOptions {
     Nanoseconds planned = std::chrono::minutes(10);  ///< Planned length of a stay, all set-ups.
     int planned_set_ups = 1;                         ///< Planned set-ups of a stay, equally long.
-    /// Faces of the set-ups of a stay, + as the first one and - turned over, one after the other; the
-    /// plan begins again at its end.
+    /// Faces of the set-ups of a stay, + as the first one and - turned over, one after the other; further
+    /// ones have the last face.
     std::string faces = "+";
     std::filesystem::path sites_file = {};  ///< List that gets new sites; empty: there is none.
 };

@@ -38,7 +38,7 @@ std::vector<Contradiction> open_contradictions(const status::Status& status,
             {"other_unit " + to_rfc3339(status.unit_change->since), "", *unit, {kChecked}});
     const auto& running = occupations.running();
     if (moved && running) all.push_back(of_move(*moved, running->key));
-    // The operator may keep one set-up in the wrong face, and turn the next one.
+    // Each set-up has a question of its own.
     if (!wrong_face.empty())
         all.push_back({fmt::format("{} {}", kFace, running->set_ups.size()),
                        running->key,

@@ -143,7 +143,8 @@ Signal signal_of(const verdict::Verdict& verdict, const std::vector<text::Messag
         case Word::look:
             signal.look = contradictions.front();
             signal.sentence = signal.look->text;
-            if (stay && signal.look->code != kMoved) signal.sentence += ". " + of_plan(*stay);
+            if (stay && signal.look->code != kMoved && !signal.look->code.starts_with(kFace))
+                signal.sentence += ". " + of_plan(*stay);
             signal.buttons = signal.look->buttons;
             break;
     }

@@ -49,7 +49,7 @@ struct ScheduleParameters {
     double shortest_s = 0.0;
     double shortest_drive_s = 0.0;  ///< From the end of one stay to the start of the next.
     int set_ups = 1;  ///< Per occupation, of equal length; the box is lifted in between.
-    /// Faces of the set-ups, '+' or '-', one after the other; the list begins again at its end.
+    /// Faces of the set-ups of a stay, '+' or '-', one after the other; further ones have the last face.
     std::string faces;
     double ambient_before_degc = 0.0;  ///< Air inside the cool box at the start of the record.
     double ambient_after_degc = 0.0;   ///< Air inside the cool box at the end of the record.

@@ -148,7 +148,8 @@ std::vector<PlannedSetUp> plan_survey(const Scenario& scenario, std::uint64_t se
                 set_up.about_x_rad = angles.about_x_deg * kRadPerDeg;
             }
             const std::string& faces = scenario.schedule.faces;
-            set_up.face = faces[plan.size() % faces.size()] == '-' ? -1.0 : 1.0;
+            const auto number = std::min(static_cast<std::size_t>(part), faces.size());
+            set_up.face = faces[number - 1] == '-' ? -1.0 : 1.0;
             if (set_up.face < 0.0) set_up.about_x_rad += std::numbers::pi;
             plan.push_back(set_up);
         }

@@ -108,8 +108,9 @@ std::vector<Stay> walk(const std::string& name, int set_ups, std::uint64_t seed,
     for (const PlannedSetUp& set_up : source.plan())
         if (std::ranges::count(sites, set_up.site.name, &text::Site::name) == 0)
             sites.push_back(set_up.site);
-    survey::Occupations occupations(recorder, sites, {},
-                                    {.planned = from_seconds(kPlan_s), .planned_set_ups = set_ups});
+    survey::Occupations occupations(
+        recorder, sites, {},
+        {.planned = from_seconds(kPlan_s), .planned_set_ups = set_ups, .faces = faces});
     live::Record live(profile, sim::signal::Source::kRateHz, {});
     status::Status status;
     std::vector<Change> said;

@@ -18,7 +18,7 @@ struct Mounted {
     std::array<double, 3> sensed_g;
     std::array<std::size_t, 3> order;  ///< Order of the channels in the file.
     std::array<double, 3> dip_deg{0.0, 0.0, -90.0};
-    bool is_turned = false;  ///< In the second half of the stay.
+    bool is_turned = false;  ///< In the last two windows.
 
     std::vector<archive::ChannelData> samples = std::vector<archive::ChannelData>(3);
     corrector::archive_series::Epoch epoch = {};
@@ -36,12 +36,18 @@ struct Mounted {
                 std::for_each(segment.counts.begin() + 22'500, segment.counts.end(),
                               [](std::int32_t& count) { count = -count; });
             samples[k].segments = {segment};
-            epoch.channels.push_back({codes[axis], 1e-5, 0.0, "m/s**2", dip_deg[axis]});
+            epoch.channels.push_back({.code = codes[axis],
+                                      .gain = 1e-5,
+                                      .unit = "m/s**2",
+                                      .dip_deg = dip_deg[axis]});
         }
-        OccupationWindow window;
-        window.start = kDayStart + from_seconds(300.0);
-        window.end = kDayStart + from_seconds(600.0);
-        warning = put_vertical_last(samples, epoch, {window}, "station.xml");
+        // The first quarter of the time at the stay is a window, and so on.
+        std::vector<OccupationWindow> windows(4);
+        for (std::size_t k = 0; k < windows.size(); ++k) {
+            windows[k].start = kDayStart + from_seconds(300.0 + 75.0 * static_cast<double>(k));
+            windows[k].end = windows[k].start + from_seconds(75.0);
+        }
+        warning = put_vertical_last(samples, epoch, windows, "station.xml");
     }
 };
 

@@ -46,8 +46,8 @@ TEST_CASE("two faces separate what acts on the bias from what acts on the scale"
     const auto fit = fit_day(record, MadeUpDay::stations());
     REQUIRE(fit);
     CHECK(coefficient(*fit, DayTerm::constant) == Approx(day.constant).margin(0.01));
-    CHECK(coefficient(*fit, DayTerm::level) == Approx(0.7 * day.level).margin(0.1));
-    CHECK(coefficient(*fit, DayTerm::fast) == Approx(0.7 * day.fast).margin(0.02));
+    CHECK(coefficient(*fit, DayTerm::level) == Approx(day.level).margin(0.1));
+    CHECK(coefficient(*fit, DayTerm::fast) == Approx(day.fast).margin(0.02));
     CHECK(coefficient(*fit, DayTerm::drift) == Approx(day.drift).margin(0.01));
     REQUIRE(fit->on_scale.size() == 3);
     CHECK(fit->on_scale[0].value == Approx(0.3 * day.level).margin(0.1));

@@ -298,9 +298,9 @@ private:
                    scaled.col(term + 1));
         for (Eigen::Index step = regression.steps_begin(); step < regression.states_begin(); ++step)
             column(of_survey + "step " + std::to_string(step), scaled.col(step + 1));
-        for (Eigen::Index share = 0; share < regression.shares(); ++share)
-            column(of_unit + "share " + std::to_string(share),
-                   scaled.col(1 + regression.shares_begin() + share));
+        for (Eigen::Index share = 0; share < regression.on_scale(); ++share)
+            column(of_unit + "on scale " + std::to_string(share),
+                   scaled.col(1 + regression.on_scale_begin() + share));
         for (std::size_t site = 0; site < survey.gravities.size(); ++site) {
             Eigen::VectorXd ones = Eigen::VectorXd::Zero(count);
             for (Eigen::Index i = 0; i < count; ++i)

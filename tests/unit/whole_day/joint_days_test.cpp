@@ -166,6 +166,21 @@ TEST_CASE("the likelihood and the gravities of a box are those of dense matrices
     }
 }
 
+TEST_CASE("a day in one face and one in two have the same slopes", "[day][joint][faces]") {
+    // Half of the response acts on the scale, which the day in one face cannot see.
+    MadeUpDay two{.is_turned = true, .scale_share = 0.5}, one = two;
+    one.is_turned = false;
+    const DayRecord a = two.record(11), b = later(one.record(12), 1);
+    const DayAdjustment joint = adjust_days({survey_of(a, 0), survey_of(b, 0)});
+    for (const std::size_t survey : {0U, 1U})
+        CHECK(joint.fit(survey).coefficients.at(static_cast<std::size_t>(DayTerm::level)).value ==
+              Approx(two.level).margin(0.1));
+    CHECK(joint.fit(0).on_scale.at(0).value == Approx(0.5 * two.level).margin(0.1));
+    CHECK(joint.fit(1).on_scale.empty());
+    for (const std::size_t number : kUnknown)
+        CHECK(joint.gravity(number).value == Approx(MadeUpDay::gravity_mgal(number)).margin(0.01));
+}
+
 TEST_CASE("days of one unit share its response, and have their own constants", "[day][joint]") {
     const MadeUpDay first{.placement_mgal = 1.2, .white_mgal = 0.2};
     MadeUpDay second = first;
