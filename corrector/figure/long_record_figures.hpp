@@ -42,7 +42,7 @@ namespace a351::corrector::figure {
 [[nodiscard]] Figure response_figure(const long_record::RecordResult& result, const Print& print);
 
 /// Returns the figures of the noise of the acceleration: noise-spectrum, with the three noises of the
-/// Allan deviation Peterson's models of the ground and the data sheet, and noise-allan, both with 95 % limits, and
+/// Allan deviation, Peterson's models of the ground and the data sheet, and noise-allan, both with 95 % limits, and
 /// noise-spectrogram by the hour.
 [[nodiscard]] std::vector<Figure> noise_figures(const long_record::RecordResult& result,
                                                 const Print& print);

@@ -60,7 +60,7 @@ struct RecordStatistic {
 
 /// Returns record.csv, response.csv, and result.json, in which values that are not finite are null.
 ///
-/// Of a tilt there are record.csv and result.json only.
+/// A tilt has record.csv and result.json only.
 ///
 /// record.csv has one row per decimated sample of all stretches, response.csv one per band or mode,
 /// refused ones too.  Values in CSV of the record have all digits.

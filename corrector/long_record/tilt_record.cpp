@@ -27,7 +27,7 @@ struct Spectra {
     double power_per_density = 0.0;  ///< Expected |urad|^2 for a one-sided density of 1 urad^2/Hz.
 };
 
-/// Shortest period, s, as of the two paths: at shorter ones the thermometer shows its own noise.
+/// Shortest period, s, the same as for two paths: at shorter ones the thermometer shows its own noise.
 constexpr double kShortestOfTilt_s = 240.0;
 /// Mean square of the Hann window, and mean fourth power divided by the square of this: the number of
 /// frequencies that share the information of one.
