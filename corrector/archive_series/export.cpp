@@ -154,7 +154,10 @@ public:
         const archive::ChannelData data =
             archive::read_channel(options_.root / "archive", metadata_.codes, channel,
                                   begin - margin, end + margin, metadata_hz);
-        if (rate_.empty()) rate_ = rate_remark({&data, 1});
+        if (data.rate_conflict && std::ranges::none_of(conflicts_, [&](const auto& known) {
+                return known.rate_conflict->channel == channel;
+            }))
+            conflicts_.emplace_back().rate_conflict = data.rate_conflict;
         std::vector<GridRun> runs;
         for (const archive::Segment& segment : data.segments) {
             if (segment.rate_hz != source_rate_hz_) {
@@ -172,13 +175,13 @@ public:
     }
 
     /// Returns the remark on a rate that contradicts the metadata; empty if none does.
-    [[nodiscard]] const text::Message& rate() const { return rate_; }
+    [[nodiscard]] text::Message rate() const { return rate_remark(conflicts_); }
 
 private:
     const ExportOptions& options_;
     const station::Metadata& metadata_;
     ExportReport& report_;
-    text::Message rate_;
+    std::vector<archive::ChannelData> conflicts_;  ///< One of each channel, without samples.
     std::optional<UtcGrid> grid_;
     double source_rate_hz_ = 0.0;
 };
@@ -262,8 +265,10 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
         std::vector<std::vector<GridRun>> runs;
         for (const std::string& channel : channels)
             runs.push_back(reader.read(channel, begin, end));
-        for (const GridRun& run : tilted ? tilt_runs(runs, *epoch, *tilted) : runs.front())
-            take(run);
+        if (tilted) runs = {tilt_runs(runs, *epoch, *tilted)};
+        if (tilted && report.values == 0 && !runs.front().empty())
+            require_horizontal(runs.front().front().values, *tilted, "--channel");
+        for (const GridRun& run : runs.front()) take(run);
         begin = end;
     }
     if (tilted && report.twice)
@@ -274,7 +279,8 @@ ExportReport export_channel(const ExportOptions& options, const Write& write) {
     for (const auto& one : absent_files(options.root, options.from, options.to))
         if (std::ranges::count(channels, one.channel) > 0)
             report.remarks.push_back(to_message(one));
-    if (!reader.rate().empty()) report.remarks.push_back(reader.rate());
+    if (text::Message rate = reader.rate(); !rate.empty())
+        report.remarks.push_back(std::move(rate));
     if (report.values == 0) {
         throw InputError(
             fmt::format("{}: no samples of {} from {} to {}{}", options.root.string(),

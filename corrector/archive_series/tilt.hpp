@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace a351::corrector::archive_series {
 
@@ -35,5 +36,11 @@ namespace a351::corrector::archive_series {
     return kUradPerRad *
            std::atan2(along, std::hypot(axes.at((axis + 1) % 3), axes.at((axis + 2) % 3)));
 }
+
+/// Refuses an axis that is not horizontal: the median of its tilts is beyond 45 deg.
+/// @param tilts_urad  finite; none are accepted.
+/// @param option      option that asks for the tilt, for the message.
+/// @throws InputError
+void require_horizontal(std::vector<double> tilts_urad, std::size_t axis, std::string_view option);
 
 }  // namespace a351::corrector::archive_series

@@ -4,16 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "corrector/archive_series/tilt.hpp"
 #include "corrector/noise/spectral_density.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/signal/fourier.hpp"
-#include "protocol/signal/median.hpp"
 #include "protocol/signal/regression.hpp"
-#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::long_record {
 namespace {
@@ -98,13 +95,7 @@ LongRecord tilt_record(LongRecord record, std::size_t axis) {
         }
         stretch.raw.clear();
     }
-    constexpr double kDegPerUrad = 180.0 / std::numbers::pi * 1e-6, kMost_deg = 45.0;
-    const double usual_deg = finite.empty() ? 0.0 : kDegPerUrad * signal::median(std::move(finite));
-    if (std::abs(usual_deg) > kMost_deg)
-        throw InputError(fmt::format(
-            "--quantity = tilt-{}: this axis is {} deg from the horizontal; "
-            "allowed: a horizontal axis, within {} deg",
-            axis == 0 ? 'x' : 'y', text::fixed(usual_deg, 1), text::fixed(kMost_deg, 0)));
+    archive_series::require_horizontal(std::move(finite), axis, "--quantity");
     record.unit = "urad";
     record.is_tide_removed = false;
     return record;

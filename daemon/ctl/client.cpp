@@ -22,7 +22,7 @@ namespace http = page::http;
 using page::error_code;
 using page::into;
 
-// The longest wait for an answer.  Then the operator is told that the order waits.
+// Longest wait for an answer; after it the operator reads that the order is still waiting.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::chrono::seconds kPatience{15};
 #else

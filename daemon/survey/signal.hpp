@@ -38,7 +38,7 @@ struct Contradiction {
     std::vector<std::string> buttons;  ///< Codes of the answers, at most two.
 };
 
-/// Codes of the contradictions that the box was moved, and that it stands in the wrong face.
+/// Codes of two contradictions: the box was moved; the box is in the wrong face.
 inline constexpr const char* kMoved = "moved";
 inline constexpr const char* kFace = "face";
 /// The answer that the operator has looked at a contradiction.

@@ -84,7 +84,7 @@ private:
     std::size_t set_up_ = 0;
     double walk_mgal_ = 0.0;
     double face_;                      ///< Face at the last step.
-    double turn_mgal_ = 0.0;           ///< What the turns so far have left.
+    double turn_mgal_ = 0.0;           ///< Error left by all turns so far.
     std::array<plant::Lag, 3> links_;  ///< One behind the other, the first behind the body.
     double body_degc_;                 ///< Body at the last step.
     double wall_degc_ = 0.0;           ///< Wall of the outer oven at the last step.

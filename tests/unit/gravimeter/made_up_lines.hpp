@@ -2,8 +2,22 @@
 
 #include <string>
 
+#include "corrector/gravimeter/gravimeter_file.hpp"
+#include "tests/support/temporary_directory.hpp"
+
 /// Lines as the three makes write them, with made-up numbers.
 namespace a351::corrector::gravimeter::made_up {
+
+inline GravimeterFile read(const std::string& content) {
+    const test::TemporaryDirectory folder;
+    return read_gravimeter_file(folder.write("no-name", content));
+}
+
+inline std::string kept(const Reading& reading, const std::string& name) {
+    for (const auto& [key, text] : reading.kept)
+        if (key == name) return text;
+    return "not kept";
+}
 
 inline std::string cg5_header(const std::string& gmt_diff, const std::string& tide = "YES",
                               const std::string& serial = "123") {

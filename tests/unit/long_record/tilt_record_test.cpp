@@ -112,3 +112,14 @@ TEST_CASE("a tilt needs axes, and one that is horizontal", "[tilt]") {
     norm.stretches[0].axes_mgal.clear();
     CHECK_THROWS_AS(tilt_record(norm, 0), InputError);
 }
+
+TEST_CASE("an axis that is not horizontal has no tilt", "[tilt]") {
+    const auto require = [](std::vector<double> tilts_urad) {
+        archive_series::require_horizontal(std::move(tilts_urad), 1, "--channel");
+    };
+    CHECK_NOTHROW(require({}));
+    CHECK_NOTHROW(require({-1e5, 1.5e6, 2e5}));  // one knock
+    CHECK_THROWS_WITH(require({-1.5e6, -1.5e6, 0.0}),
+                      "--channel = tilt-y: this axis is -85.9 deg from the horizontal; allowed: a "
+                      "horizontal axis, within 45 deg");
+}
