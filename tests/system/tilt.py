@@ -58,8 +58,8 @@ with Scratch() as scratch:
         means.append(sum(parts) / len(parts))
     wanted = [1e6 * math.radians(float(row["about_y_deg"])) for row in truth]
     errors = [(mean - means[0]) - (angle - wanted[0]) for mean, angle in zip(means, wanted)]
-    demand(f"changes of the tilt differ from the emulated ones by {', '.join(f'{error:+.2f}' for error in errors[1:])} urad, limit 3",
-           len(means) == 3 and max(map(abs, errors)) < 3.0)
+    demand(f"changes of the tilt differ from the emulated ones by {', '.join(f'{error:+.2f}' for error in errors[1:])} urad, limit 1",
+           len(means) == 3 and max(map(abs, errors)) < 1.0)
     demand(f"the emulated axis has no effect of the temperature: {tilt['slope_urad_per_degc']:.1f} +- "
            f"{tilt['slope_error_urad_per_degc']:.1f} urad/degC, limit 3 u",
            abs(tilt["slope_urad_per_degc"]) < 3.0 * tilt["slope_error_urad_per_degc"])
