@@ -1,23 +1,31 @@
-"""The rooms (source directories) must include each other as in the map of CONTRIBUTING.md, and no room of a later row.
+"""The rooms (source directories) must include each other as in rooms.md, and no room of a later row.  --write brings the page up to date.
 
 Each room has a namespace of its own, so a name that is used elsewhere says where it comes from."""
 
 import collections
 import re
+import sys
 
 from programs import TOP, demand
 
 COMPONENTS = ("protocol", "daemon", "sim", "corrector")
 MOST_MODULES = 23  # Largest number of modules in a room; the largest room has as many today.
-ROW = re.compile(r"^\| `([a-z0-9_/]+)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
+PAGE = TOP / "tests/system/rooms.md"
+ROW = re.compile(r"^(\| `([a-z0-9_/]+)` \|[^|]*\|)([^|]*)\|$", re.MULTILINE)
 NAMESPACE = re.compile(r"^namespace (a351[a-z0-9_:]*) \{$", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)/[^/"]+"', re.MULTILINE)
 
 
-def rooms_of_map():
-    """Returns the rooms in the order of the map, each with the rooms that it includes."""
-    text = (TOP / "CONTRIBUTING.md").read_text()
-    return {room: set(re.findall(r"`([a-z0-9_/]+)`", below)) for room, below in ROW.findall(text)}
+def rooms_of_page():
+    """Returns the rooms in the order of the page, each with the rooms that it includes."""
+    return {room: set(re.findall(r"`([a-z0-9_/]+)`", below)) for _, room, below in ROW.findall(PAGE.read_text())}
+
+
+def write_page(included):
+    """Writes what each room of the page includes, in the order of the rows."""
+    order = list(rooms_of_page())
+    names = {room: " ".join(f"`{below}`" for below in order if below in included[room]) for room in order}
+    PAGE.write_text(ROW.sub(lambda row: f"{row[1]} {names[row[2]]} |", PAGE.read_text()))
 
 
 def rooms_of_sources():
@@ -48,13 +56,15 @@ def other_namespaces():
                 yield source.relative_to(TOP).as_posix()
 
 
-allowed = rooms_of_map()
 included, modules = rooms_of_sources()
-demand(f"the map lists the {len(modules)} rooms of the sources and no others", set(allowed) == set(modules))
+if sys.argv[1:] == ["--write"]:
+    write_page(included)
+allowed = rooms_of_page()
+demand(f"the page lists the {len(modules)} rooms of the sources and no others", set(allowed) == set(modules))
 above = set(allowed)
 for room, below in allowed.items():
     above.discard(room)
-    demand(f"{room} includes the rooms of its row: missing on the map {sorted(included[room] - below)}, "
+    demand(f"{room} includes the rooms of its row: missing on the page {sorted(included[room] - below)}, "
            f"no longer included {sorted(below - included[room])}", included[room] == below)
     demand(f"{room} includes no room of a later row", not below & above and room not in below)
 largest = max(modules, key=lambda room: len(modules[room]))
