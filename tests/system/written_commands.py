@@ -42,6 +42,7 @@ NOT_RUN = {
     r"xdg-open .*": "needs a desktop",
     r"ssh .*|rsync .*": "needs another computer or disk",
     r"a351ctl phone": "needs an address in a network",
+    r"sim/relive ROOT": "relive.py runs it",
     r"a351d --config \S+ --identify": "identify.py runs it",
     r"a351d --config FILE": "FILE is any configuration; others are run",
     r"a351-correct amend .*": "game_day.py runs it on a day with findings",
