@@ -15,7 +15,7 @@ import re
 import shutil
 import sys
 
-from simulated_units import correct, hide_references, rms, seeds_of, simulate, unit_of
+from simulated_units import correct, hide_references, rms, rms_by_day, seeds_of, simulate, unit_of
 from programs import BIN, TOP, Scratch, rows, run
 
 PROMISED = 0.9, 1.1
@@ -57,10 +57,11 @@ def errors_and_uncertainties(scratch, seed):
     return found
 
 
-def ratio_of(name, every):
-    error, u = rms(one[0] for one in every), rms(one[1] for one in every)
+def ratio_of(name, units):
+    every = [one for unit in units for one in unit]
+    (error, u_error), u = rms_by_day([error for error, _ in unit] for unit in units), rms(one[1] for one in every)
     within = sum(abs(error) <= 2.0 * u for error, u in every) / len(every)
-    print(f"{len(every)} differences {name}: rms error {error:.3f} mGal, rms of u {u:.3f} mGal, ratio {error / u:.3f}; "
+    print(f"{len(every)} differences {name}: rms error {error:.3f} +- {u_error:.3f} mGal, rms of u {u:.3f} mGal, ratio {error / u:.3f}; "
           f"{100.0 * within:.1f} % within 2 u")
     return error / u
 
@@ -70,7 +71,7 @@ known = sys.argv[2].split(",") if len(sys.argv) > 2 and sys.argv[2] else []
 second_model = sys.argv[3] if len(sys.argv) > 3 else "day"
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     every = list(pool.map(lambda seed: errors_and_uncertainties(scratch, seed), seeds))
-ratio = ratio_of("of single days", [one for single, _ in every for one in single])
-ratio_of("of two days together", [one for _, joint in every for one in joint])
+ratio = ratio_of("of single days", [single for single, _ in every])
+ratio_of("of two days together", [joint for _, joint in every])
 print(f"promised for single days: {PROMISED[0]} to {PROMISED[1]}")
 sys.exit(not PROMISED[0] <= ratio <= PROMISED[1])

@@ -21,7 +21,7 @@ import statistics
 import struct
 import sys
 
-from simulated_units import rms, simulate
+from simulated_units import rms, rms_by_day, simulate
 from programs import BIN, Scratch, read_json, rows, run
 
 SERIALS = ("00000001", "00000777")
@@ -149,8 +149,9 @@ with Scratch() as scratch:
 print("exchange at           exchanged, separate, mGal   e/u   apart, mGal   named")
 for times, (ours, separate), ratios, apart, is_named, _ in results:
     print(f"{' and '.join(f'{at:%H:%M:%S}' for at in times):21} {rms(ours):9.2f} {rms(separate):10.2f} {rms(ratios):12.2f} {apart:12.4f}   {is_named}")
-print(f"{len(results)} days: rms {rms([e for r in results for e in r[1][0]]):.3f} mGal with an exchange, "
-      f"{rms([e for r in results for e in r[1][1]]):.3f} as two separate days; e/u {rms([e for r in results for e in r[2]]):.2f}; "
+(ours, u_ours), (separate, _), (ratio, u_ratio) = (rms_by_day(r) for r in ([r[1][0] for r in results], [r[1][1] for r in results], [r[2] for r in results]))
+print(f"{len(results)} days: rms {ours:.3f} +- {u_ours:.3f} mGal with an exchange, "
+      f"{separate:.3f} as two separate days; e/u {ratio:.2f} +- {u_ratio:.2f}; "
       f"values differ by at most {max(r[3] for r in results):.4f} mGal; other_unit in {sum(r[4] for r in results)} days; in {sum(not r[5] for r in results)} days one unit had too few set-ups")
 # Standard error of the difference of the mean squares, from days, as a difference of the rms.
 squares = [rms(r[1][0]) ** 2 - rms(r[1][1]) ** 2 for r in results]

@@ -14,7 +14,7 @@ import shutil
 import struct
 import sys
 
-from simulated_units import correct, rms, seeds_of, simulate
+from simulated_units import correct, rms_by_day, seeds_of, simulate
 from programs import Scratch, rows
 
 MOST_MGAL = 1.75
@@ -83,9 +83,9 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count())
     days = list(pool.map(lambda seed: look_at(scratch, seed), seeds))
 failures = []
 for name in days[0]:
-    gap, complete = (rms(error for day in days for error in day[name][k]) for k in (0, 1))
-    print(f"an hour missing {name}: error {gap:.2f} mGal of {sum(len(day[name][0]) for day in days)} stays left out in turn, "
-          f"complete days {complete:.2f}")
+    (gap, u_gap), (complete, u_complete) = (rms_by_day(day[name][k] for day in days) for k in (0, 1))
+    print(f"an hour missing {name}: error {gap:.2f} +- {u_gap:.2f} mGal of {sum(len(day[name][0]) for day in days)} stays left out in turn, "
+          f"complete days {complete:.2f} +- {u_complete:.2f}")
     if gap > MOST_MGAL:
         failures.append(f"{name}: {gap:.2f} mGal, promised {MOST_MGAL}")
 print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")

@@ -102,3 +102,11 @@ def hide_references(day, known, name):
 def rms(values):
     """Returns the root mean square of the values."""
     return math.sqrt(statistics.fmean(value * value for value in values))
+
+
+def rms_by_day(days):
+    """Returns the root mean square of the values of all days, and its standard error from days left out in turn (jackknife)."""
+    days = [list(day) for day in days if day]
+    every = rms(value for day in days for value in day)
+    without = [rms(value for other in days if other is not day for value in other) for day in days] if len(days) > 1 else []
+    return every, math.sqrt((len(days) - 1) * statistics.pvariance(without)) if without else math.nan

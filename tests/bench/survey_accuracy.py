@@ -140,12 +140,12 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(len(os.sched_ge
             print(f"  seed {seeds[len(days)]}: " + ", ".join(f"{figure} {value:.3f}" for figure, value in day[0].items()),
                   flush=True)
             days.append(day)
-        print(f"  mean over {len(days)} days, mGal")
+        print(f"  mean rms over {len(days)} days with its standard error, mGal")
         for figure in days[0][0]:
             values = [found[figure] for found, *_ in days]
-            spread = statistics.stdev(values) if len(values) > 1 else 0.0
+            error = statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
             means[name, figure] = statistics.fmean(values)
-            print(f"    {figure}: {means[name, figure]:.3f} (from day to day +- {spread:.3f})")
+            print(f"    {figure}: {means[name, figure]:.3f} +- {error:.3f}")
         print("  " + coverage([one for _, stations, _ in days for one in stations])[0])
         worst = max(day[2] for day in days)
         print(f"  hidden references and left_out_mgal differ by {worst:.4f} mGal, limit {AGREEMENT_MGAL}", flush=True)
