@@ -6,7 +6,7 @@
 ///     const ExpectedErrors errors = expected_errors(plan, sites, usual_unit());
 ///     errors.u_unknown;            // rms over the unknown stations
 ///
-/// Accuracy on simulated days: tests/bench/design_bench.py, corrector/methods.md.
+/// Accuracy on simulated days: corrector/accuracy.md (design_bench.py).
 
 #include <array>
 #include <string>

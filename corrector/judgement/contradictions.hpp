@@ -32,7 +32,7 @@ inline constexpr double kContradictionRatio = 4.0;
 /// - two set-ups of a stay that differ by more than kContradictionRatio times what the other stays
 ///   show for their placement.
 ///
-/// Errors and power: corrector/methods.md, "What a stay can tell" (signal_bench.py).
+/// Errors and power: corrector/accuracy.md, "The signal".
 /// @param result       with its findings.
 /// @param running_key  key of the stay that runs: there the box can be set down again; empty: none.
 [[nodiscard]] std::vector<Contradiction> contradictions(const model::SurveyCorrection& result,

@@ -11,7 +11,7 @@
 /// class.  A mistake is kept if fewer than `alpha` of simulated surveys without one contain
 /// anything as clear.
 ///
-/// Method, false alarms and power: corrector/methods.md, "Search for mistakes".
+/// Method: corrector/methods.md, "Search for mistakes".  False alarms and power: accuracy.md.
 
 #include <cstddef>
 #include <optional>

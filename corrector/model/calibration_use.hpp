@@ -62,7 +62,7 @@ inline constexpr double kContradictionP = 0.01;
 
 /// Relative increase of the leave-one-station-out error above which the calibration is reported as
 /// harmful.  Source: a unit's own thermal calibration changed this error by -2.0 to +2.5 %
-/// (methods.md, 8101-8120).  Its own axis biases made two of those 20 days worse by more; such days
+/// (accuracy.md, 8101-8120).  Its own axis biases made two of those 20 days worse by more; such days
 /// are reported too.
 inline constexpr double kHarm = 0.03;
 

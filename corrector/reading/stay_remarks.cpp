@@ -9,7 +9,7 @@ namespace a351::corrector::reading {
 namespace {
 
 /// A stay is short if it is shorter than both kLongEnough and the median divided by kShortDivisor.
-/// Reason: from 6 min on the placement is the larger part of the error (methods.md, "Accuracy").
+/// Reason: from 6 min on the placement is the larger part of the error (accuracy.md).
 constexpr int kShortDivisor = 2;
 constexpr std::chrono::minutes kLongEnough(6);
 /// Fewest stays that are compared with their median.

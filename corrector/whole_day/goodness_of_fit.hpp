@@ -41,7 +41,7 @@ inline constexpr std::array<std::string_view, 3> kMisfitNames{"curvature", "step
 /// Probabilities below which a test counts as a misfit.  Reason: at most one ordinary day in 20 may
 /// be named, so their sum is 5 %.  The level of the step is the largest, because temperature and
 /// drift hide a step best; that of the tails is the smallest, because ordinary days are below it two
-/// to four times as often as it says (methods.md).
+/// to four times as often as it says (accuracy.md).
 inline constexpr std::array<double, 3> kMisfitProbabilities{0.016, 0.026, 0.008};
 
 /// A test of the fit.

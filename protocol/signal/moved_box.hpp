@@ -54,7 +54,7 @@ struct BoxMove {
 /// Cost: O(n).
 /// Accuracy (moved_box_test.cpp): of 67 made-up stays each that end with a drive, a lift by 10 cm
 /// and a kick of 0.05 deg, at least 95 % are found.  None of 200 stays with a lorry, knocks, and hands
-/// that tilt the box by 0.001 deg has a move.  corrector/methods.md has simulated days.
+/// that tilt the box by 0.001 deg has a move.  corrector/accuracy.md has simulated days.
 /// @param samples  one in 2 s, in order of time; neither is checked.
 /// @return none with fewer than 20 samples at rest.
 [[nodiscard]] std::vector<BoxMove> find_box_moves(std::span<const MotionSample> samples);

@@ -10,7 +10,7 @@ of tsukuba, whose stations are all known.
 A day is said not to fit by one of the three tests.  Days on which the search for mistakes finds something are counted too.
 e/u is the rms of error divided by stated uncertainty, at stations left out in turn.
 The bounds are the shares of steps and of heavy tails that the best possible tests would find in the first ordinary days
-(misfit_bound.cpp).  They know the size of the noise; a test that does not finds fewer heavy tails (methods.md).
+(misfit_bound.cpp).  They know the size of the noise; a test that does not finds fewer heavy tails (accuracy.md).
 """
 
 import concurrent.futures

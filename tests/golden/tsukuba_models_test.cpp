@@ -176,6 +176,21 @@ TEST_CASE("a network held at one or two benchmarks finds the others to 2.0-2.6 m
     CHECK(off_by({"No.0", "No.12"}, 1) == near_printed(2.20, 0.005));
 }
 
+TEST_CASE("the reading that methods.md computes by hand", "[golden][tsukuba]") {
+    SurveyOptions options;
+    options.model = "network";
+    options.datum = {"No.0"};
+    set_prior(options.priors, "test", "temperature_mgal_per_degc", {-29.274, 1e-4});
+    set_prior(options.priors, "test", "scale", {1.0, 1e-6});
+    auto rows = tsukuba::observations();
+    rows.resize(3);
+    const SurveyCorrection result = correct_survey(rows, options);
+    const StationValue& station = result.stations.at(1);
+    CHECK(station.site == "No.12");
+    CHECK(station.gravity.value() == near_printed(979767.131));
+    CHECK(station.u_gravity.value().value() == near_printed(2.48, 0.005));
+}
+
 TEST_CASE("No.2 (1) alone is significant on 19 rows with the temperature line",
           "[golden][tsukuba]") {
     // Student's t with n - p - 1 degrees of freedom at 0.05 / (2n): 3.56 for 19 rows, 3.57 for 18.

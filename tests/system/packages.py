@@ -23,7 +23,7 @@ MORE_FILES = {
              "usr/share/doc/a351/protocol/journal/journal-format.md"],
     "a351-correct": ["usr/share/a351/survey.toml", "usr/share/man/man1/a351-correct-survey.1.gz",
                      "usr/share/man/man5/a351-survey.toml.5.gz",
-                     "usr/share/doc/a351-correct/corrector/methods.md",
+                     "usr/share/doc/a351-correct/corrector/methods.md", "usr/share/doc/a351-correct/corrector/accuracy.md",
                      "usr/share/doc/a351-correct/daemon/field-guide.md"],
     "a351-sim": ["usr/share/a351/scenarios/tsukuba.toml", "usr/share/a351/faults/example.toml",
                  "usr/share/man/man1/a351-sim-device.1.gz", "usr/share/man/man5/a351-scenario.toml.5.gz",
