@@ -1,12 +1,15 @@
-"""The corrector's report fits into a laptop's window without a cut table, and into a phone's; its contents lead to its sections."""
+"""The corrector's report fits into a laptop's window without a cut table, and into a phone's; its contents lead to its sections.
 
+The card for the field is one page A5 in each language, with the signal's words of the page."""
+
+import base64
 import functools
 import http.server
 import shutil
 import threading
 
 from browser import LAPTOP, PHONE, Browser
-from programs import BIN, Scratch, demand, run
+from programs import BIN, TOP, Scratch, demand, run
 
 # Returns [text, px] of elements that end right of the window, and of tables whose place is narrower than they are.
 CUT = """
@@ -25,6 +28,13 @@ ASTRAY = """
 return Array.from(document.querySelectorAll("nav a"))
     .filter((link) => document.getElementById(link.hash.slice(1))?.textContent !== link.textContent)
     .map((link) => link.textContent);
+"""
+
+
+# Returns the words of the signal on the card, in both languages.
+SIGNAL = """
+return Array.from(document.querySelectorAll("section"))
+    .map((page) => Array.from(page.querySelector("table").rows, (row) => row.cells[0].textContent.trim()));
 """
 
 
@@ -53,6 +63,16 @@ def check(page, name):
     page.shot(f"{name}-{PHONE[0]}", is_whole=True)
 
 
+def check_card(page, folder):
+    printed = page.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})
+    (folder / "card.pdf").write_bytes(base64.b64decode(printed["data"]))
+    said = run("pdfinfo", folder / "card.pdf").stdout
+    demand(f"the card is one page A5 in each language: {said[-200:]}", "(A5)" in said and "Pages:           2" in said)
+    catalogue = (TOP / "protocol/text/ja.po").read_text()
+    for english, japanese in zip(*page.run(SIGNAL)):
+        demand(f"{english} and {japanese} are the words of the page", f'msgid "{english}"\nmsgstr "{japanese}"\n' in catalogue)
+
+
 with Scratch() as scratch, Browser(allowed_errors=["favicon.ico"]) as browser:
     run(BIN / "a351-sim", "survey", "--scenario", "tsukuba", "--seed", 3, "--out", scratch / "day")
     text = (scratch / "day" / "survey.toml").read_text()
@@ -65,3 +85,6 @@ with Scratch() as scratch, Browser(allowed_errors=["favicon.ico"]) as browser:
     for name in ("report", "joint"):
         browser.driver.get(f"http://127.0.0.1:{port}/{name}.html")
         check(browser, name)
+    shutil.copy(TOP / "daemon/field-card.html", scratch / "out")
+    browser.driver.get(f"http://127.0.0.1:{port}/field-card.html")
+    check_card(browser, scratch)
