@@ -14,7 +14,9 @@ endfunction()
 foreach(package IN LISTS CPACK_COMPONENTS_ALL)
   set(root ${CPACK_TEMPORARY_DIRECTORY}/${package})
   file(GLOB programs ${root}/usr/bin/*)
-  execute_process(COMMAND ${CPACK_A351_STRIP} --remove-section=.comment --remove-section=.note ${programs} COMMAND_ERROR_IS_FATAL ANY)
+  if(programs)
+    execute_process(COMMAND ${CPACK_A351_STRIP} --remove-section=.comment --remove-section=.note ${programs} COMMAND_ERROR_IS_FATAL ANY)
+  endif()
   file(GLOB_RECURSE pages ${root}/usr/share/man/*.[1-8])
   foreach(page IN LISTS pages)
     compress(${page})
@@ -31,14 +33,12 @@ foreach(package IN LISTS CPACK_COMPONENTS_ALL)
   compress(${doc}/changelog)
 endforeach()
 
-# Units and rules are below /lib on Debian 12, and below /usr/lib on Debian 13, whose dpkg is 1.22.
+# Units are below /lib on Debian 12, and below /usr/lib on Debian 13, whose dpkg is 1.22.
 execute_process(COMMAND dpkg-query -W -f "\${Version}" dpkg OUTPUT_VARIABLE dpkg_version COMMAND_ERROR_IS_FATAL ANY)
 if(dpkg_version VERSION_LESS 1.22)
   set(root ${CPACK_TEMPORARY_DIRECTORY}/a351)
   file(MAKE_DIRECTORY ${root}/lib)
-  foreach(folder IN ITEMS systemd udev)
-    file(RENAME ${root}/usr/lib/${folder} ${root}/lib/${folder})
-  endforeach()
+  file(RENAME ${root}/usr/lib/systemd ${root}/lib/systemd)
 endif()
 
 # Permissions do not depend on the umask; file times are that of the last change, not of the build.

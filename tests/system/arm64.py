@@ -111,7 +111,7 @@ def packages(root, suite):
     inside(root, "cd /a351/build/arm64 && cpack -B /debs")
     debs = sorted((root / "debs").glob("*.deb"))
     demand(f"packages: {', '.join(deb.name for deb in debs)}",
-           len(debs) == 3 and all(deb.name.endswith("_arm64.deb") for deb in debs))
+           len(debs) == 4 and all(deb.name.endswith(("_arm64.deb", "_all.deb")) for deb in debs))
     for deb in debs:
         fields = run("dpkg-deb", "-f", deb, "Architecture", "Depends").stdout
         print(deb.name, fields, sep="\n")

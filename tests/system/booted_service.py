@@ -16,7 +16,7 @@ class Recorder:
     def __init__(self, system):
         self.system = system
         system.run("sed -e 's#^port = .*by-id.*#port = \"/run/emulator/sensor\"#' -e 's#^root = .*#root = \"/var/lib/a351/box1\"#' "
-                   "/usr/share/a351/a351d.toml >/etc/a351/box1.toml")
+                   "/usr/share/doc/a351/examples/a351d.toml >/etc/a351/box1.toml")
         system.run("systemd-run --unit=emulator --uid=a351 -p RuntimeDirectory=emulator -p StateDirectory=emulator "
                    "a351-sim device --link /run/emulator/sensor --truth /var/lib/emulator/truth.bin")
         began = time.monotonic()

@@ -40,7 +40,7 @@ def installed_and_used(root, suite, debs, newer, architecture=None):
     demand("the user of the service exists", "a351" in inside(root, "getent passwd a351"))
     inside(root, f"install -d -o a351 -g a351 {BROUGHT_HOME} && "
            "sed -e 's#^port = .*by-id.*#port = \"/tmp/none\"#' -e 's#^root = .*#root = \"/var/lib/a351/base\"#' "
-           "/usr/share/a351/a351d.toml >/etc/a351/base.toml")
+           "/usr/share/doc/a351/examples/a351d.toml >/etc/a351/base.toml")
     demand("the example with port and root is a valid configuration",
            inside(root, "a351d --config /etc/a351/base.toml --check-config", "a351") == "ok\n")
     as_a_service(root, debs["a351"])

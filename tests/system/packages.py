@@ -12,35 +12,35 @@ import time
 from programs import BIN, IS_SANITIZED, Scratch, demand, read_json, run, skip
 
 BUILD = BIN.parent
-SYSTEM_FILES = ["systemd/system/a351d@.service", "systemd/system/a351-stream@.service", "udev/rules.d/60-a351.rules"]
-PACKAGES = ["a351", "a351-correct", "a351-sim"]
-PROGRAMS = {"a351": ["a351d", "a351ctl", "a351-stream"], "a351-correct": ["a351-correct"], "a351-sim": ["a351-sim"]}
+SYSTEM_FILES = ["systemd/system/a351d@.service", "systemd/system/a351-stream@.service"]
+PACKAGES = ["a351", "a351-correct", "a351-doc", "a351-sim"]
+PROGRAMS = {"a351": ["a351d", "a351ctl", "a351-stream"], "a351-correct": ["a351-correct"], "a351-sim": ["a351-sim"],
+            "a351-doc": []}
 MORE_FILES = {
-    "a351": ["usr/lib/sysusers.d/a351.conf", "usr/share/a351/a351d.toml", "usr/share/a351/sites.csv",
+    "a351": ["usr/lib/sysusers.d/a351.conf", "usr/share/doc/a351/examples/a351d.toml", "usr/share/doc/a351/examples/sites.csv",
              "usr/share/man/man1/a351-stream.1.gz",
              "usr/share/man/man5/a351d.toml.5.gz", "usr/share/man/man7/a351d-http.7.gz",
-             "usr/share/doc/a351/README.Debian", "usr/share/doc/a351/daemon/field-guide.md", "usr/share/doc/a351/daemon/field-guide.ja.md",
-             "usr/share/doc/a351/protocol/journal/journal-format.md"],
-    "a351-correct": ["usr/share/a351/survey.toml", "usr/share/man/man1/a351-correct-survey.1.gz",
-                     "usr/share/man/man5/a351-survey.toml.5.gz",
-                     "usr/share/doc/a351-correct/corrector/methods.md", "usr/share/doc/a351-correct/corrector/accuracy.md",
-                     "usr/share/doc/a351-correct/daemon/field-guide.md"],
+             "usr/share/doc/a351/README.Debian", "usr/share/doc/a351/examples/60-a351.rules"],
+    "a351-correct": ["usr/share/doc/a351-correct/examples/survey.toml", "usr/share/man/man1/a351-correct-survey.1.gz",
+                     "usr/share/man/man5/a351-survey.toml.5.gz"],
+    "a351-doc": ["usr/share/doc/a351/daemon/field-guide.md", "usr/share/doc/a351/daemon/field-guide.ja.md", "usr/share/doc/a351/daemon/field-card.html",
+                 "usr/share/doc/a351/corrector/methods.md", "usr/share/doc/a351/corrector/accuracy.md",
+                 "usr/share/doc/a351/protocol/journal/journal-format.md", "usr/share/doc/a351/sim/truth/truth-format.md"],
     "a351-sim": ["usr/share/a351/scenarios/tsukuba.toml", "usr/share/a351/faults/example.toml",
-                 "usr/share/man/man1/a351-sim-device.1.gz", "usr/share/man/man5/a351-scenario.toml.5.gz",
-                 "usr/share/doc/a351-sim/sim/truth/truth-format.md"],
+                 "usr/share/man/man1/a351-sim-device.1.gz", "usr/share/man/man5/a351-scenario.toml.5.gz"],
 }
 # Libraries that each package needs besides those of C and C++, and libraries of the other packages that it must not need.
 NEEDED = {"a351": ["libmodbus5", "libqrencode4", "libserialport0", "libmseed", "libzstd1"],
           "a351-correct": ["libnlopt0", "libmseed"],
-          "a351-sim": ["libmseed", "libzstd1"]}
-NOT_NEEDED = {"a351": ["libnlopt0"], "a351-correct": ["libmodbus5", "libserialport0"], "a351-sim": ["libserialport0", "libnlopt0"]}
+          "a351-sim": ["libmseed", "libzstd1"], "a351-doc": []}
+NOT_NEEDED = {"a351-doc": ["libc6"], "a351": ["libnlopt0"], "a351-correct": ["libmodbus5", "libserialport0"], "a351-sim": ["libserialport0", "libnlopt0"]}
 
 
 def build(out):
     began = time.monotonic()
     run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", out, cwd=BUILD)
     debs = {deb.name.split("_")[0]: deb for deb in out.glob("*.deb")}
-    demand(f"three packages of {', '.join(f'{deb.stat().st_size >> 10} KiB' for deb in debs.values())} in "
+    demand(f"four packages of {', '.join(f'{deb.stat().st_size >> 10} KiB' for deb in debs.values())} in "
            f"{time.monotonic() - began:.1f} s", sorted(debs) == PACKAGES)
     return debs
 
@@ -78,7 +78,7 @@ def look_into(package, deb, tree):
     depends = field(deb, "Depends")
     print(f"{package} depends on {depends}; recommends {field(deb, 'Recommends') or 'nothing'}")
     demand(f"{package} depends on the libraries that it links",
-           all(name in depends for name in NEEDED[package] + ["libc6", "libstdc++6"]))
+           all(name in depends for name in NEEDED[package] + (["libc6", "libstdc++6"] if PROGRAMS[package] else [])))
     demand(f"{package} does not depend on libraries of the other packages only",
            not any(name in depends for name in NOT_NEEDED[package]))
 
@@ -94,7 +94,7 @@ def same_bytes(first, scratch):
     names = sorted(file.name for file in first.iterdir() if file.is_file())
     different = [name for name in names if (first / name).read_bytes() != (scratch / "again" / name).read_bytes()]
     demand(f"{', '.join(names)} have the same bytes when made again (different: {different or 'none'})",
-           len(names) == 4 and not different)
+           len(names) == 5 and not different)
     listed = "".join(run("dpkg-deb", "-c", deb).stdout for deb in again.values())
     dates = set(re.findall(r"\d{4}-\d\d-\d\d \d\d:\d\d", listed))
     demand(f"all files in the packages have the same date: {dates}", len(dates) == 1)
@@ -120,23 +120,24 @@ def bill_of_materials(document, debs):
         print(package, related[package])
         # A dependency may be a name that the library's package only provides.
         linked = {name if is_installed(name) else re.sub("-fmt.*", "", name) for name in depends}
-        demand(f"{package}: the document lists the libraries that it depends on", related[package]["DYNAMIC_LINK"] == linked)
-        headers = "".join(sorted(related[package]["STATIC_LINK"]))
-        demand(f"{package}: the document lists the packages of its headers",
-               all(name in headers for name in ("libcli11-dev", "libstdc++", "libboost")))
+        demand(f"{package}: the document lists the libraries that it depends on", related[package].get("DYNAMIC_LINK", set()) == linked)
+        if PROGRAMS[package]:
+            headers = "".join(sorted(related[package]["STATIC_LINK"]))
+            demand(f"{package}: the document lists the packages of its headers",
+                   all(name in headers for name in ("libcli11-dev", "libstdc++", "libboost")))
     contained = {package: related[package].get("CONTAINS") for package in PACKAGES}
     demand(f"the only contained files of other packages are those of dygraphs in a351: {contained}",
-           contained == {"a351": {"libjs-dygraphs"}, "a351-correct": None, "a351-sim": None})
+           contained == {"a351": {"libjs-dygraphs"}, "a351-correct": None, "a351-doc": None, "a351-sim": None})
     versions = {entry["name"]: entry["versionInfo"] for entry in entries.values()}
     installed = run("dpkg-query", "-W", "-f", "${Version}", "libjs-dygraphs").stdout
     demand(f"the versions are those installed here: {installed}", versions["libjs-dygraphs"] == installed)
 
 
-def pages_refer_to_each_other(tree, package):
-    pages = sorted((tree / "usr/share/doc" / package).rglob("*.md"))
+def pages_refer_to_each_other(tree):
+    pages = sorted((tree / "usr/share/doc").rglob("*.md"))
     links = [(page, link) for page in pages for link in re.findall(r"\]\(([^):]+)\)", page.read_text())]
     lost = [f"{page.name}: {link}" for page, link in links if not (page.parent / link).is_file()]
-    demand(f"{package}: broken links among {len(links)} between {len(pages)} pages: {lost or 'none'}", pages and not lost)
+    demand(f"broken links among {len(links)} between {len(pages)} pages: {lost or 'none'}", pages and not lost)
 
 
 def completed(tree, *words):
@@ -168,7 +169,7 @@ with Scratch() as scratch, Scratch(in_memory=True) as other_scratch:
     tree = scratch / "tree"
     for package in PACKAGES:
         look_into(package, debs[package], tree)
-        pages_refer_to_each_other(tree, package)
+    pages_refer_to_each_other(tree)
     synopses = {field(deb, "Description").splitlines()[0] for deb in debs.values()}
     demand(f"each package has its own synopsis: {synopses}", len(synopses) == len(PACKAGES))
     demand("bash completes subcommands", completed(tree, "a351ctl", "st") == ["status", "start", "stop"])
