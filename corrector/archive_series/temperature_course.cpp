@@ -13,6 +13,7 @@ std::vector<MinuteTemperature> temperature_course(const std::vector<archive::Seg
         std::int64_t counts = 0, samples = 0;
     };
     std::map<std::chrono::sys_time<std::chrono::minutes>, Sum> sums;
+    auto minute = sums.end();  // Neighbouring samples are mostly of one minute.
     for (const archive::Segment& segment : segments) {
         for (std::size_t k = 0; k < segment.anchors.size(); ++k) {
             const archive::Segment::Anchor& anchor = segment.anchors[k];
@@ -21,17 +22,19 @@ std::vector<MinuteTemperature> temperature_course(const std::vector<archive::Seg
             for (std::size_t i = anchor.offset; i < end; ++i) {
                 const double after_s = static_cast<double>(i - anchor.offset) / segment.rate_hz;
                 const UtcTime time = anchor.time + from_seconds(after_s);
-                Sum& sum = sums[std::chrono::floor<std::chrono::minutes>(time)];
-                sum.counts += segment.counts[i];
-                ++sum.samples;
+                const auto of_sample = std::chrono::floor<std::chrono::minutes>(time);
+                if (minute == sums.end() || minute->first != of_sample)
+                    minute = sums.try_emplace(of_sample).first;
+                minute->second.counts += segment.counts[i];
+                ++minute->second.samples;
             }
         }
     }
     std::vector<MinuteTemperature> course;
-    for (const auto& [minute, sum] : sums) {
+    for (const auto& [begin, sum] : sums) {
         const double mean = static_cast<double>(sum.counts) / static_cast<double>(sum.samples);
         course.push_back(
-            {minute + std::chrono::seconds(30), DegC(scale.offset + scale.gain * mean)});
+            {begin + std::chrono::seconds(30), DegC(scale.offset + scale.gain * mean)});
     }
     return course;
 }

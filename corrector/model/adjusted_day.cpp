@@ -111,6 +111,9 @@ const AdjustedDay::Without* AdjustedDay::without(std::size_t row) const {
 whole_day::DaySurvey day_survey(const SurveyProblem& problem, const RowChoice& choice,
                                 const whole_day::DayPriors& priors) {
     whole_day::DaySurvey survey{problem.day, {}, priors};
+    survey.temperature = problem.temperature
+                             ? problem.temperature
+                             : std::make_shared<const whole_day::LaggedMeans>(*problem.day);
     std::map<std::string, std::size_t> numbers;
     for (std::size_t i = 0; i < problem.rows.size(); ++i) {
         const reading::SurveyRow& row = problem.rows[i];

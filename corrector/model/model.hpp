@@ -39,6 +39,8 @@ struct SurveyProblem {
     const reading::DayRecord* day;  ///< Record of the rows; null: there are only averages.
     /// Lags and noise of a similar survey day, with which a search may begin; null: not known.
     const whole_day::SurveyPoint* nearby = nullptr;
+    /// As whole_day::DaySurvey::temperature.
+    std::shared_ptr<const whole_day::LaggedMeans> temperature = {};
 };
 
 /// The rows of one fit.

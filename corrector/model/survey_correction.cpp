@@ -67,7 +67,8 @@ void fit_without_record(Chosen& chosen, const SurveyProblem& problem, const RowC
             adjustment::add_published_priors(options.priors)));
         chosen.priors = options.priors;
     }
-    chosen.fit = chosen.model->fit({problem.rows, options, problem.day}, rows);
+    chosen.fit =
+        chosen.model->fit({problem.rows, options, problem.day, nullptr, problem.temperature}, rows);
 }
 
 /// Comparison of the whole-day model with the linear model that `auto` would choose.
@@ -302,7 +303,8 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
             "model = {}: it does not fit the admittance of the air pressure; allowed: {}",
             applied.model, kNetwork));
 
-    const SurveyProblem problem{rows, applied, day};
+    SurveyProblem problem{rows, applied, day};
+    if (day != nullptr) problem.temperature = std::make_shared<const whole_day::LaggedMeans>(*day);
     const RowChoice unflagged = choose_rows(rows, applied.datum, true);
     const RowChoice all = choose_rows(rows, applied.datum, false);
     const RowChoice& in_fit = applied.use_flags ? unflagged : all;
@@ -332,7 +334,8 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
         SurveyOptions of_chosen = applied;
         if (chosen.priors) of_chosen.priors = *chosen.priors;
         const auto* const part = result.as<WholeDayPart>();
-        const SurveyProblem fitted{rows, of_chosen, day, part != nullptr ? &part->point : nullptr};
+        const SurveyProblem fitted{rows, of_chosen, day, part != nullptr ? &part->point : nullptr,
+                                   problem.temperature};
         const auto add = [&](const Model& model) {
             const auto score = &model != chosen.model ? model.score(problem, choice)
                                : choice == in_fit     ? result.score

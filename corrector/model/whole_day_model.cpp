@@ -236,7 +236,10 @@ public:
         : problem_(problem),
           choice_(choice),
           priors_(day_priors_of(problem.options)),
-          nearby_(problem.nearby == nullptr ? std::nullopt : std::optional(*problem.nearby)) {}
+          nearby_(problem.nearby == nullptr ? std::nullopt : std::optional(*problem.nearby)) {
+        if (!problem_.temperature)
+            problem_.temperature = std::make_shared<const whole_day::LaggedMeans>(*problem.day);
+    }
 
     [[nodiscard]] std::shared_ptr<const adjustment::Residuals> residuals(
         const std::vector<adjustment::Alternative>& known,
@@ -258,7 +261,9 @@ private:
         return refusal_of({survey.rows, survey.options, problem_.day}, survey.choice).has_value();
     }
     [[nodiscard]] whole_day::DaySurvey survey_of(const AmendedSurvey& survey) const {
-        return day_survey({survey.rows, survey.options, problem_.day}, survey.choice, priors_);
+        return day_survey(
+            {survey.rows, survey.options, problem_.day, nullptr, problem_.temperature},
+            survey.choice, priors_);
     }
     [[nodiscard]] std::optional<whole_day::DayFit> fit_of(const AmendedSurvey& survey) const {
         if (is_refused(survey)) return std::nullopt;

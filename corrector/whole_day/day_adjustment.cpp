@@ -59,11 +59,10 @@ void DayAdjustment::set_columns() {
     const DayProblem& problem = *problem_;
     std::vector<Eigen::MatrixXd> most_likely, expected;  // both points have the same lags
     for (std::size_t k = 0; k < problem.surveys().size(); ++k) {
-        DayRegression::LagColumns lagged;
         for (const bool is_expected : {false, true}) {
             const DayPoint& point = is_expected ? found_.expected : found_.most_likely;
             (is_expected ? expected : most_likely)
-                .push_back(problem.of(k).scaled(problem.part_of(point, k), lagged));
+                .push_back(problem.of(k).scaled(problem.part_of(point, k)));
         }
     }
     const DayProblem::Solution solution = problem.solve(found_.most_likely, most_likely),

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::whole_day {
 
@@ -32,6 +35,16 @@ Eigen::VectorXd BinMeans::of(const std::vector<double>& values) const {
         means(static_cast<Eigen::Index>(bin)) = sum / static_cast<double>(i - begin);
     }
     return means;
+}
+
+Eigen::VectorXd LaggedMeans::behind(double lag_s) const {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (const auto kept = kept_.find(lag_s); kept != kept_.end()) return kept->second;
+    }
+    Eigen::VectorXd means = means_.of(unit::lagged(record_.temperature.series, lag_s));
+    const std::scoped_lock lock(mutex_);
+    return kept_.emplace(lag_s, std::move(means)).first->second;
 }
 
 }  // namespace a351::corrector::whole_day

@@ -41,7 +41,8 @@ DayRegression::DayRegression(const DaySurvey& survey, const std::vector<double>&
       whitening_(record_.bins),
       white_mgal_{bin_scatter_mgal(record_.bins), kWhiteFactor},
       is_turned_(reading::is_turned(record_.bins)),
-      means_(record_.temperature.series, record_.bins) {
+      temperature_(survey.temperature ? survey.temperature
+                                      : std::make_shared<const LaggedMeans>(record_)) {
     faces_.resize(std::ssize(record_.bins));
     for (Index i = 0; i < faces_.size(); ++i)
         faces_(i) = record_.bins[static_cast<std::size_t>(i)].face;
@@ -131,7 +132,7 @@ void DayRegression::set_fixed_columns() {
     const auto column = [this](DayTerm term) { return fixed_.col(static_cast<Index>(term)); };
     column(DayTerm::constant).setOnes();
     column(DayTerm::level) =
-        means_.of(record_.temperature.series.values()).array() - kReferenceTemperature_degc;
+        means().of(record_.temperature.series.values()).array() - kReferenceTemperature_degc;
     const UtcTime begin = record_.temperature.series.start();
     const UtcTime middle =
         record_.bins.front().time + (record_.bins.back().time - record_.bins.front().time) / 2;
@@ -185,8 +186,7 @@ Eigen::VectorXd DayRegression::on_scale_sd() const {
 }
 
 Eigen::VectorXd DayRegression::slow_column(double lag_s) const {
-    return means_.of(unit::lagged(record_.temperature.series, lag_s)).array() -
-           kReferenceTemperature_degc;
+    return temperature_->behind(lag_s).array() - kReferenceTemperature_degc;
 }
 
 Eigen::VectorXd DayRegression::fast_column(double lag_s) const {
@@ -196,23 +196,15 @@ Eigen::VectorXd DayRegression::fast_column(double lag_s) const {
 
 Eigen::MatrixXd DayRegression::outer_columns(const Point& u) const {
     Eigen::MatrixXd columns(readings_mgal_.size(), kOuterSlopes);
-    columns << means_.of(record_.outer->values()),
-        means_.of(unit::lagged(*record_.outer, kOuterLag_s.at(u[kOuterLag])));
+    columns << means().of(record_.outer->values()),
+        means().of(unit::lagged(*record_.outer, kOuterLag_s.at(u[kOuterLag])));
     return columns.rowwise() - columns.colwise().mean();
 }
 
-Eigen::MatrixXd DayRegression::design(const Point& u, LagColumns& lagged) const {
-    if (const double fast_s = lag_s(u, kFastLag); fast_s != lagged.fast_s) {
-        lagged.fast_s = fast_s;
-        lagged.fast = fast_column(fast_s);
-    }
-    if (const double slow_s = lag_s(u, kSlowLag); slow_s != lagged.slow_s) {
-        lagged.slow_s = slow_s;
-        lagged.slow = slow_column(slow_s);
-    }
+Eigen::MatrixXd DayRegression::design(const Point& u) const {
     Eigen::MatrixXd columns = fixed_;
-    columns.col(static_cast<Index>(DayTerm::fast)) = lagged.fast;
-    columns.col(static_cast<Index>(DayTerm::slow)) = lagged.slow;
+    columns.col(static_cast<Index>(DayTerm::fast)) = fast_column(lag_s(u, kFastLag));
+    columns.col(static_cast<Index>(DayTerm::slow)) = slow_column(lag_s(u, kSlowLag));
     for (std::size_t k = 0; k < states_.size(); ++k)
         for (const DayHyper lag : {kFastLag, kSlowLag}) {
             auto column =
@@ -227,11 +219,6 @@ Eigen::MatrixXd DayRegression::design(const Point& u, LagColumns& lagged) const 
             (faces_.array() - 1.0) *
             columns.col(static_cast<Index>(kOnScale.at(static_cast<std::size_t>(k)))).array();
     return columns;
-}
-
-Eigen::MatrixXd DayRegression::design(const Point& u) const {
-    LagColumns lagged;
-    return design(u, lagged);
 }
 
 DayPriors::Matrix DayRegression::prior_factor(const Point& u) const {
@@ -294,8 +281,8 @@ double DayRegression::log_factor(DayHyper part) const {
     }
 }
 
-Eigen::MatrixXd DayRegression::scaled(const Point& u, LagColumns& lagged) const {
-    const Eigen::MatrixXd x = design(u, lagged);
+Eigen::MatrixXd DayRegression::scaled(const Point& u) const {
+    const Eigen::MatrixXd x = design(u);
     Eigen::MatrixXd columns(x.rows(), x.cols() + 1);
     columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
     columns.middleCols(1, kTerms) =

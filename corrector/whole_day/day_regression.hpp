@@ -17,6 +17,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -54,13 +55,6 @@ public:
     /// Terms whose slope has a part that acts on the scale.  The term is the sum of both parts, which is
     /// what a day in one face and a calibration see; two faces show the part on the scale too.
     static constexpr std::array kOnScale{DayTerm::level, DayTerm::slow, DayTerm::fast};
-
-    /// The columns of two lags, kept from point to point of a search: many points differ in one of
-    /// them or in neither.
-    struct LagColumns {
-        double fast_s = 0.0, slow_s = 0.0;  ///< Their lags; 0: none yet.
-        Eigen::VectorXd fast, slow;
-    };
 
     /// @param survey  kept by reference.
     /// @param rough_mgal  gravities from which the unknown ones count, by number; empty: from the
@@ -123,12 +117,7 @@ public:
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of
     /// coefficients whose priors are independent and of variance 1.
-    /// Columns of other lags than those in `lagged` are computed and kept there.
-    [[nodiscard]] Eigen::MatrixXd scaled(const Point& u, LagColumns& lagged) const;
-    [[nodiscard]] Eigen::MatrixXd scaled(const Point& u) const {
-        LagColumns lagged;
-        return scaled(u, lagged);
-    }
+    [[nodiscard]] Eigen::MatrixXd scaled(const Point& u) const;
 
     /// Returns the noise at a point.  The median of white noise is the scatter between neighbouring
     /// bins of a set-up, at least 1e-3 mGal; 1 mGal if no set-up has two bins.
@@ -151,7 +140,7 @@ public:
 
     /// Returns the object that averages a series over the bins.  The reference is valid as long as
     /// this object.
-    [[nodiscard]] const BinMeans& means() const { return means_; }
+    [[nodiscard]] const BinMeans& means() const { return temperature_->means(); }
     /// Returns the readings (n) minus tide and base_mgal(), times the face.
     [[nodiscard]] const Eigen::VectorXd& readings_mgal() const { return readings_mgal_; }
     /// Returns the gravity of each station from which its estimate counts, mGal: the reference, or a
@@ -175,8 +164,6 @@ private:
     /// term, between 0 and all of it.
     [[nodiscard]] Eigen::VectorXd on_scale_mean() const;
     [[nodiscard]] Eigen::VectorXd on_scale_sd() const;
-    /// design(), as scaled().
-    [[nodiscard]] Eigen::MatrixXd design(const Point& u, LagColumns& lagged) const;
     /// Returns the columns (n, kOuterSlopes) of an outer oven, without their means.
     [[nodiscard]] Eigen::MatrixXd outer_columns(const Point& u) const;
     /// Returns the priors' factor of lags and terms, with the size of the axis biases at a point.
@@ -196,7 +183,7 @@ private:
     Eigen::Index step_count_ = 0;
     std::vector<LagStates> states_;   ///< One per gap whose effect matters.
     Eigen::VectorXd states_sd_mgal_;  ///< Prior deviations of the effects, fast and slow per gap.
-    BinMeans means_;
+    std::shared_ptr<const LaggedMeans> temperature_;
     std::vector<double> base_mgal_;
     Eigen::VectorXd readings_mgal_;
     Eigen::MatrixXd fixed_;  ///< All columns of design(); 0 where one depends on the lags.

@@ -25,7 +25,6 @@ public:
     Walk(const DayProblem& problem, DayPoint point)
         : problem_(problem),
           point_(std::move(point)),
-          lagged_(problem.surveys().size()),
           scaled_(problem.surveys().size()),
           surveys_(problem.surveys().size()),
           groups_(problem.groups().size()) {
@@ -89,7 +88,7 @@ private:
         for (std::size_t k = 0; k < surveys_.size(); ++k) {
             if (!is_moved[k]) continue;
             if (is_of_unit)
-                scaled_[k] = problem_.of(k).scaled(problem_.part_of(point_, k), lagged_[k]);
+                scaled_[k] = problem_.of(k).scaled(problem_.part_of(point_, k));
             surveys_[k] = problem_.of_survey(point_, k, scaled_[k]);
             is_group_moved[problem_.group_of(k)] = true;
         }
@@ -101,7 +100,6 @@ private:
 
     const DayProblem& problem_;
     DayPoint point_;
-    std::vector<DayRegression::LagColumns> lagged_;     ///< One per survey.
     std::vector<Eigen::MatrixXd> scaled_;               ///< One per survey.
     std::vector<DayProblem::Normal> surveys_, groups_;  ///< Groups without their own columns.
 };

@@ -4,11 +4,13 @@
 /// those of other models, whose readings have white noise.
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "corrector/adjustment/helmert_block.hpp"
 #include "corrector/reading/day_record.hpp"
+#include "corrector/whole_day/day_columns.hpp"
 #include "corrector/whole_day/day_priors.hpp"
 
 namespace a351::corrector::whole_day {
@@ -48,6 +50,9 @@ struct DaySurvey {
     /// survey holds is held, with the same value, in all surveys that have it.
     std::vector<std::size_t> gravities = {};
     std::size_t unit = 0;  ///< Number of the unit from 0.
+    /// Lagged temperature of the record at its bins, which surveys of the same record share; null: the
+    /// survey has its own.
+    std::shared_ptr<const LaggedMeans> temperature = {};
 };
 
 /// A survey with white noise and terms of its own, as it acts on gravities.
