@@ -153,12 +153,12 @@ void add_restore(CLI::App& app, Arguments& a) {
 
 void add_not_moved(CLI::App& app, Arguments& a) {
     add_change(app, a, "not-moved",
-               "States that the box was not moved during a stay so far, in answer to the warning.");
+               "Confirms that the box was not moved during a stay so far (answers the warning).");
 }
 
 void add_checked(CLI::App& app, Arguments&) {
     app.add_subcommand("checked",
-                       "States that you have looked at what LOOK shows; the notes keep it.");
+                       "Confirms that you have looked at what LOOK shows; the notes keep it.");
 }
 
 void add_resume(CLI::App& app, Arguments& a) {
