@@ -9,6 +9,7 @@ Date and commit are those of the run; the sources must be committed.
 import datetime
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 
@@ -24,7 +25,7 @@ def git(*arguments):
 
 def measured(command, commit):
     """Returns the command line of a section with its date and commit, and below it the lines that are not of single days."""
-    done = subprocess.run(command.split(), cwd=TOP, stdout=subprocess.PIPE, text=True)
+    done = subprocess.run(shlex.split(command), cwd=TOP, stdout=subprocess.PIPE, text=True)
     lines = [line for line in done.stdout.splitlines() if not SINGLE_DAY.match(line)]
     if done.returncode not in (0, 1) or not lines:
         raise SystemExit(f"{command} ended with {done.returncode}")
