@@ -72,7 +72,7 @@ private:
     const reading::DayRecord& record_;
     BinMeans means_;
     mutable std::mutex mutex_;
-    mutable std::map<double, Eigen::VectorXd> kept_;  ///< By lag, s.
+    mutable std::map<double, Eigen::VectorXd> kept_;  ///< Means by lag, s.
 };
 
 }  // namespace a351::corrector::whole_day
