@@ -112,7 +112,7 @@ NormalEquations::NormalEquations(const Equations& equations)
 }
 
 double NormalEquations::least_pivot_of(Index term) const {
-    // A prior determines its term, however many readings do not.
+    // A prior determines its term, even if many readings contain nothing about it.
     const double prior = 0.5 * prior_weights_(term) * scale_(term) * scale_(term);
     return prior > kRounding ? std::min(prior, kLeastPivot) : kLeastPivot;
 }

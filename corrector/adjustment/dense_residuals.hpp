@@ -33,13 +33,13 @@ struct Direction {
 struct DenseResiduals {
     Eigen::VectorXd values;     ///< (k) Whitened, without their part in the space of `unknown`.
     Eigen::MatrixXd whitening;  ///< (k, n) Whitened effect of +1 mGal in each reading.
-    Eigen::MatrixXd unknown;    ///< (k, u) Orthonormal basis of what nobody knows.
+    Eigen::MatrixXd unknown;    ///< (k, u) Orthonormal basis of the unknown quantities.
     /// (k, k) Turns residuals into the scatter of the readings about the most likely course, in
     /// standard deviations of the noise alone.  What the priors expect and the readings do not need
     /// has no part in it, so that priors may be too wide.
     Eigen::MatrixXd to_scatter;
 
-    /// Removes what the unknown quantities explain.
+    /// Removes the part that the unknown quantities explain.
     void project(Eigen::VectorXd& whitened) const;
 
     /// Returns the direction of an effect.

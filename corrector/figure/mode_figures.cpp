@@ -25,7 +25,7 @@ Panel mode_panel(const std::string& heading, std::span<const double> values, dou
     double most = 0.0;
     for (const double value : values) most = std::max(most, factor * std::abs(value - offset));
     if (most == 0.0) most = 1.0;
-    // A panel is so low that it has room for three numbers.
+    // The height of a panel is enough for three numbers only.
     const double tick = round_step(most);
     Panel panel{.x = {.label = x_label}, .y = {.range = {-most, most}, .format = "%g"}};
     for (const double at : {-tick, 0.0, tick})

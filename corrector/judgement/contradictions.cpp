@@ -16,8 +16,8 @@ namespace {
 using reading::Finding;
 using reading::FindingKind;
 
-/// Placement of a box before the day shows its own, and the number of pairs of set-ups that this
-/// counts as.  Sources: the prior of whole_day::DayModel; four is a choice.
+/// Placement that is assumed of a box, mGal, and its weight as a number of pairs of set-ups.
+/// Sources: the prior of whole_day::DayModel; four is a choice.
 constexpr double kUsualPlacement_mgal = 1.2, kUsualWeight = 4.0;
 
 Contradiction about(const reading::SurveyRow& row, std::string code, text::Message text) {

@@ -12,10 +12,10 @@
 
 namespace a351::corrector::judgement {
 
-/// Returns what is said about a mistake: one finding, or two for swapped names.
+/// Returns the findings about a mistake: one, or two for swapped names.
 ///
-/// A stay that is off is said to be of another site if the reading is within two and a half standard
-/// uncertainties of that site's reference.  There is no amendment for rows without ListedSetUp::site.
+/// If a stay is off, another site is proposed whose reference is within two and a half standard
+/// uncertainties of the reading.  There is no amendment for rows without ListedSetUp::site.
 /// @param readings, rows, choice  all readings of the search, and those of its fit.
 /// @param sites  sites whose name may be right.
 [[nodiscard]] std::vector<reading::Finding> findings_of(const Mistake& mistake,

@@ -194,8 +194,8 @@ double size_range_mgal(const std::vector<Suspect>& suspects) {
     return std::min(kSizeRange_mgal, kLargestSize_u / *middle);
 }
 
-/// Sets what each suspect costs: ln(number of its class), and for an unknown size what one within
-/// size_range_mgal() costs.  Classes are readings and stations, swaps, steps.
+/// Sets the penalty of each suspect: ln(number of its class), plus that of an unknown size within
+/// size_range_mgal().  Classes are readings and stations, swaps, steps.
 void set_costs(std::vector<Suspect>& suspects) {
     const auto class_of = [](const Suspect& suspect) {
         const Kind kind = suspect.mistake.kind;

@@ -66,7 +66,7 @@ Finding misfit(const whole_day::FitTest& test, const SurveyRow& row) {
     return finding;
 }
 
-/// Says how the model does not fit the day, if so.
+/// Adds a finding for each test that reports a misfit of the model to the day.
 void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& findings) {
     const auto* const day = result.as<model::WholeDayPart>();
     if (day == nullptr) return;

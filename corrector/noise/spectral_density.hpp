@@ -55,11 +55,11 @@ struct Tile {
     double start_s = 0.0, end_s = 0.0, low_hz = 0.0, high_hz = 0.0, mgal2_per_hz = 0.0;
 };
 
-/// Returns the spectrogram of hours: spectral_density() of parts of two hours, each in segments of one,
-/// that begin an hour after another and are shown for the hour in their middle; in bands of a quarter
-/// octave, or of one frequency where these are wider.
+/// Returns the spectrogram: spectral_density() of parts of two hours, each in segments of one hour.
 ///
-/// A record of more than kMostColumns hours has longer parts.
+/// A part begins every hour, and is shown for the hour in its middle.  The bands are a quarter octave
+/// wide, or one frequency where this is wider.  A record of more than kMostColumns hours has longer
+/// parts.
 /// @param values  (n) mGal, finite.
 /// @param step_s  time between samples, at most 200.
 /// @return by time, then by frequency; empty for less than two hours.

@@ -62,7 +62,7 @@ enum class FindingKind {
 /// A mistake or a fault that was found in a day.
 struct Finding {
     FindingKind kind = FindingKind::moved_box;
-    std::string code = {};               ///< Which sentence the text is.
+    std::string code = {};               ///< Code of the sentence in `text`.
     std::string site = {};               ///< Site; empty if it concerns the whole day.
     std::optional<int> occupation = {};  ///< Number of the stay at this site.
     std::string key = {};                ///< Key of the stay in the event log; may be empty.

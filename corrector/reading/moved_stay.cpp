@@ -44,7 +44,7 @@ std::vector<signal::MotionSample> motion_of(const OccupationRecord& record,
     return samples;
 }
 
-/// Returns how a set-up was entered: *Next set-up* divides those of one stay.
+/// Returns the entries at begin and end of a set-up.  Within a stay they are *Next set-up*.
 signal::EnteredSetUp entered(const std::vector<OccupationWindow>& windows, std::size_t i) {
     const OccupationWindow& window = windows[i];
     const auto is_of_stay = [&](const OccupationWindow& other) {

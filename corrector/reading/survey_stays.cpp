@@ -64,7 +64,7 @@ std::vector<std::string> units_of(const SurveyStays& stays) {
     return units;
 }
 
-/// Returns that other sensors recorded in the time of the survey too, if so.
+/// Returns a finding if other sensors recorded in the time of the survey too.
 std::optional<Finding> other_units(const SurveyStays& stays, const std::string& unit) {
     const auto& windows = stays.list.windows;
     const auto* const first = &archive_series::span_at(stays.units, windows.front().start);

@@ -31,8 +31,8 @@ void add_answer(pugi::xml_node parent, const model::SurveyCorrection& result,
 /// Adds the line of each station (result::answer_table()).
 void add_answer_table(pugi::xml_node parent, const model::SurveyCorrection& result);
 
-/// Adds what must be known (result::notes()), the remarks, and the amendments to paste.
-/// @param warning_count  of the input, with a hint to the last section.
+/// Adds the notes (result::notes()), the remarks, and the amendments to paste.
+/// @param warning_count  number of warnings about the input; above 0 the last section is named.
 void add_notes(pugi::xml_node parent, const model::SurveyCorrection& result,
                std::size_t warning_count);
 

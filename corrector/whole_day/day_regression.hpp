@@ -52,8 +52,8 @@ class DayRegression {
 public:
     using Point = SurveyPoint;
 
-    /// Terms whose slope has a part that acts on the scale.  The term is the sum of both parts, which is
-    /// what a day in one face and a calibration see; two faces show the part on the scale too.
+    /// Terms with a part that acts on the scale.  A day in one face and a calibration determine only the
+    /// sum of both parts, which is the term.  Two faces also determine the part on the scale.
     static constexpr std::array kOnScale{DayTerm::level, DayTerm::slow, DayTerm::fast};
 
     /// @param survey  kept by reference.

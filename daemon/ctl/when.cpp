@@ -43,7 +43,7 @@ UtcTime on_local_day(int days_ago, const std::array<int, 3>& time, UtcTime now) 
         local.tm_sec = time[2];
         local.tm_isdst = is_summer_time;
         const std::time_t seconds = std::mktime(&local);
-        // With the other offset than the one in force mktime() gives another local time.
+        // If the other offset is in force at this time, mktime() changes the local time.
         if (is_summer_time >= 0 && (local.tm_hour != time[0] || local.tm_min != time[1]))
             return std::nullopt;
         return UtcTime(std::chrono::seconds(seconds));

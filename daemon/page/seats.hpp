@@ -26,7 +26,7 @@ public:
         std::string address;  ///< Address of the client.
         bool is_loopback = false;
         std::function<void()> leave;  ///< Closes the connection; it is called at most once.
-        bool is_streaming = false;    ///< It does not have to make room.
+        bool is_streaming = false;    ///< A live stream, which is not replaced.
         bool is_leaving = false;      ///< The seat was given to another connection.
     };
     using Place = std::list<Holder>::iterator;

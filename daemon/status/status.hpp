@@ -25,8 +25,8 @@ namespace a351::daemon::status {
 
 /// A step of the host's clock that the sample times followed.
 struct ClockStep {
-    UtcTime before;  ///< Time of the step by the clock as it was,
-    UtcTime after;   ///< and as it is since then.
+    UtcTime before;  ///< Time of the step by the old clock.
+    UtcTime after;   ///< The same by the new clock.
 };
 
 /// Another sensor, which records since then.

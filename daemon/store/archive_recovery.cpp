@@ -49,7 +49,7 @@ void ArchiveRecovery::note_fault(const std::string& trouble) {
     retry_.note_failure(options_.time.now());
 }
 
-/// @return false if the daemon is stopping, or the remaining space is the journal's.
+/// @return false if the daemon is stopping, or if the remaining space is needed for the journal.
 bool ArchiveRecovery::replay(archive::RecoveryReport& report) {
     while (records_.pop()) {  // Left by a try before.
     }

@@ -41,12 +41,13 @@ struct FieldStatus {
 [[nodiscard]] std::vector<events::Occupation> survey_day(const Occupations& occupations,
                                                          UtcTime now);
 
-/// Returns what is to be asked about a move of the box in the running set-up.
+/// Returns the question to the operator about a move of the box in the running set-up.
 [[nodiscard]] std::optional<MovePrompt> moved_box(const Occupations& occupations,
                                                   const live::Record& live, UtcTime now);
 
-/// Returns that the running set-up is not in the face of the plan, as compared with the first of the
-/// stay; empty if it is, or if it is not known.  A set-up in the wrong face does not count in the plan.
+/// Returns a sentence if the running set-up is not in the planned face, compared with the first set-up
+/// of the stay; empty if it is, or if the face is not known.  A set-up in the wrong face does not
+/// count in the plan.
 [[nodiscard]] text::Message wrong_face(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);
 

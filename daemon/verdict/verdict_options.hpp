@@ -28,15 +28,15 @@ struct Options {
     // Settled.
     double change_mgal = 2.0;        ///< Largest change in the next 10 min: the published scatter.
     double slope_degc_per_h = 0.25;  ///< Largest slope: three occupations left out had more.
-    double sure = 2.2;       ///< Margin below change_mgal, in standard errors: wrong 1 in 36.
-    double sure_stay = 1.4;  ///< The same margin while settled: wrong 1 in 6.
+    double sure = 2.2;       ///< Margin below change_mgal, in standard errors: 1 of 36 is wrong.
+    double sure_stay = 1.4;  ///< The same margin while settled: 1 of 6 is wrong.
     /// Error of the expected change per degC between the box and the level that it relaxes to.
     double doubt_mgal_per_degc = 20.0;
     double hold_s = 20.0;  ///< Time for which all limits must be met: one temperature average.
 
     // Quiet.
     double knock_gal = 2.0;  ///< Knock, half peak to peak of an axis: a hand gives 5 or more.
-    double quiet_s = 72.0;   ///< Time since the last knock: a minute and its invisible end.
+    double quiet_s = 72.0;   ///< Time since the last knock: 1 min, and 12 s for its unseen end.
     double shake_gal = 0.3;  ///< Shaking, half peak to peak: above sensor noise and quiet ground.
     double shake_factor = 1.6;      ///< Ratio to its usual level, which shaking must also exceed.
     double shake_s = 10.0;          ///< Time since the last shaking: the reach of the live filters.

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Gravity of the normal Earth: what a measured value is compared with.
+/// Gravity of the normal Earth, with which measured values are compared.
 ///
 ///     const MilliGal free_air_anomaly = gravity - normal_gravity(latitude, height);
 ///

@@ -116,7 +116,7 @@ void set_meaning_at_end(JudgedSetUp& judged, const Motion& motion, std::vector<B
             !motion.is_driven(from, end)) {
             judged.at_end = MoveMeaning::change_of_set_ups;
             if (late.size() <= 1) return;
-            late.pop_back();  // and before it the box was moved, too
+            late.pop_back();  // The box was moved before this change too.
             end = from;
         }
     }

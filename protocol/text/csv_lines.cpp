@@ -43,7 +43,7 @@ char named_separator(std::string_view line) {
     return line.back();
 }
 
-/// Returns a line without what is in quotation marks.
+/// Returns a line without its quoted parts.
 std::string unquoted_part(std::string_view line) {
     std::string part;
     bool is_quoted = false;

@@ -51,7 +51,7 @@ private:
 ///
 ///     at(k) = arrival + (1 + skew) (k - index) / rate
 ///
-/// A delay that no frame escapes cannot be seen in the arrivals.  The line excludes its likely
+/// A delay common to all frames cannot be seen in the arrivals.  The line excludes its likely
 /// part, and the uncertainty covers the rest.  A default-constructed line means nothing.
 struct EdgeLine {
     std::int64_t index = 0;         ///< Sample at which the line was fitted.

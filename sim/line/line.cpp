@@ -165,7 +165,7 @@ void Line::remove(std::size_t byte_count, Way way, UtcTime simulated) {
     queue_start_ = 0;
 }
 
-/// Leaves the first `byte_count` bytes behind.
+/// Removes the first `byte_count` bytes from the queue.
 void Line::pass(std::size_t byte_count) {
     transport_.take(byte_count);
     queue_start_ += byte_count;

@@ -393,7 +393,8 @@ TEST_CASE("leave-one-station-out of a network is the error found by hiding a dat
     }
     SurveyOptions options;
     options.model = "network";
-    // The prediction v / r is linear in gravity, and a free scale makes the adjustment not quite so.
+    // The prediction v / r is exact for an adjustment that is linear in gravity.  With a free scale
+    // the adjustment is not exactly linear.
     const bool is_scale_known = GENERATE(true, false);
     if (is_scale_known) set_prior(options.priors, "test", "scale", {1.0, 1e-6});
     double squares = 0.0;

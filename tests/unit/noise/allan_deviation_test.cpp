@@ -83,7 +83,7 @@ TEST_CASE("the limits contain the Allan deviation and the levels of known noises
             std::printf("    upper limit %.2f times the truth, none in %d of %d\n", share.width,
                         share.unlimited, share.all);
         CHECK(described >= 0.97 * records);
-        // The noise that is alone is known well.
+        // A noise without the other two is determined well.
         const std::array<double, 3> truths{known.white, known.flicker, known.walk};
         for (std::size_t i = 0; i < 3; ++i) {
             const bool is_alone = truths[i] > 0.0 && std::ranges::count(truths, 0.0) == 2;

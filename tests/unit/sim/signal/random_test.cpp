@@ -27,7 +27,7 @@ TEST_CASE("the quantile inverts the normal distribution function in all its bran
          {1e-300, 1e-20, 1e-12, 1e-6, 0.01, 0.07, 0.3, 0.5, 0.92, 0.99, 0.999999}) {
         const double x = normal_quantile(p);
         // erfc is Phi to full precision: Phi(x) = erfc(-x / sqrt 2) / 2.  A relative error d of x
-        // changes p by up to x^2 d, relatively.
+        // causes a relative error of p of up to x^2 d.
         CHECK(0.5 * std::erfc(-x / std::sqrt(2.0)) ==
               Approx(p).epsilon(1e-14 * (1.0 + x * x)).margin(0.0));
     }
