@@ -238,7 +238,7 @@ void report_until_end(const Recorder& recorder, service::ServiceNotice& notice,
     }
 }
 
-/// Logs what is left undone at the end.
+/// Logs unfinished work at the end.
 /// @param is_on_disk  result of Store::stop().
 ExitStatus report_end(store::Store& store, bool is_on_disk, bool is_recovered,
                       spdlog::logger& log) {

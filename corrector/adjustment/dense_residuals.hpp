@@ -46,7 +46,7 @@ struct DenseResiduals {
     /// @param effect_mgal  (n) effect on each reading.
     [[nodiscard]] Direction direction(const Eigen::VectorXd& effect_mgal) const;
 
-    /// Returns the whitened effect (k) without what the unknown quantities explain.
+    /// Returns the whitened effect (k) minus the part of the unknown quantities.
     [[nodiscard]] Eigen::VectorXd projected(const Eigen::VectorXd& effect_mgal) const;
 
     /// Returns the expected square of the scatter: its degrees of freedom.

@@ -3,7 +3,7 @@
 /// What the residuals of a survey say about an effect on some of its readings, without another fit.
 ///
 /// Let y be the readings, S the covariance of their errors and of what priors leave open, and B the
-/// effects of what nobody knows.  Everything that can be said about an effect d follows from
+/// effects of the unknown quantities.  Everything that can be said about an effect d follows from
 ///
 ///     M = S^-1 - S^-1 B (B' S^-1 B)^-1 B' S^-1,      q = M y
 ///     size of the effect  d'q / d'Md,   its standard uncertainty  1 / sqrt(d'Md)

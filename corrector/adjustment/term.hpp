@@ -46,7 +46,7 @@ struct Term {
     Scope scope = Scope::unit;
     /// Returns the column for a row.  Null for the scale, whose column is the gravity, and for a term
     /// whose column needs the record of the day (whole_day/day_priors.hpp).
-    /// @throws InputError  the row lacks what the term needs.
+    /// @throws InputError  the row lacks a value that the term needs.
     double (*column)(const TermInput&) = nullptr;
 };
 

@@ -78,7 +78,7 @@ std::vector<Effect> offsets_of(const Alternative& alternative, bool is_exact) {
     return offsets;
 }
 
-/// Alternatives put right: what they change in the residuals of a base.
+/// Changes in the residuals of a base if alternatives are put right.
 struct Correction {
     Eigen::MatrixXd basis;      ///< (rows, k) Orthonormal directions of the offsets.
     Eigen::VectorXd residuals;  ///< (rows) Without them, and with the names exchanged.

@@ -17,7 +17,7 @@ std::filesystem::path existing_part(std::filesystem::path path) {
     return path;
 }
 
-/// @param allowed  what the option may name.
+/// @param allowed  the names that are allowed.
 void require_folder(std::string_view name, const std::filesystem::path& path,
                     const std::filesystem::path& folder, std::string_view allowed) {
     const std::filesystem::path existing = existing_part(folder);

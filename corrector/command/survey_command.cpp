@@ -154,7 +154,7 @@ Day correct_day(const job::SurveyFile& survey, const figure::FigureOptions& figu
     return day;
 }
 
-/// Writes and prints what the corrected days have together.  The order of the days has no effect.
+/// Writes and prints the common results of the corrected days.  Their order has no effect.
 void write_joint(std::vector<Day> days, const std::filesystem::path& out,
                  const figure::FigureOptions& figures) {
     std::ranges::sort(days, {}, [](const Day& day) {

@@ -14,7 +14,7 @@
 ///     sum_ensemble(plan, threads, {});    // sum of the members: signal and noise
 ///     plan.continues = true;
 ///     plan.mode_count = 1;
-///     sum_ensemble(plan, threads, {});    // sum of what is left after one mode
+///     sum_ensemble(plan, threads, {});    // sum of the rest after one mode
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The columns of all gravimeters in one table: what each maker calls them and what they fill.
+/// The columns of all gravimeters in one table: the name by each maker, and the field.
 ///
 ///     const Layout layout = named_layout(Form::cg6, split_at(names, '\t'));
 ///     if (!layout.trouble.empty()) return Refusal{layout.trouble};

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] virtual Line read(std::string_view line) = 0;
     /// Returns which layout the last reading had, for people.
     [[nodiscard]] virtual std::string layout() const = 0;
-    /// Returns what a person should check in the whole file; empty if nothing.
+    /// Returns the points of the whole file that a person should check; empty if there are none.
     [[nodiscard]] virtual std::string remark() const { return {}; }
 };
 

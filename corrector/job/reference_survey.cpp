@@ -101,7 +101,7 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey, reading::Occupa
 
 void compare_with_reference(model::SurveyCorrection& result, const ReferenceNetwork& reference) {
     model::SideBySide side_by_side = reference.network;
-    // Several gravimeters: the best one determines what is not known of their common scale.
+    // Several gravimeters: the best one gives the unknown part of their common scale.
     double relative = HUGE_VAL;
     for (const model::ScaleEstimate& scale : side_by_side.scales)
         relative = std::min(relative, scale.u);

@@ -26,11 +26,11 @@ inline constexpr double kContradictionRatio = 4.0;
 
 /// Returns the contradictions of a survey so far, the newest last:
 ///
-/// - each mistake that the search found, but a moved box, which is asked about when it is moved;
+/// - each mistake that the search found, except a moved box: the question comes when it is moved;
 /// - a known station whose value, left out, is off its reference by more than kContradictionRatio
 ///   times its uncertainty.  With two known stations neither can be named alone, so both are;
-/// - two set-ups of a stay that differ by more than kContradictionRatio times what the other stays
-///   show for their placement.
+/// - two set-ups of a stay that differ by more than kContradictionRatio times the placement of the
+///   other stays.
 ///
 /// Errors and power: corrector/accuracy.md, "The signal".
 /// @param result       with its findings.

@@ -20,11 +20,11 @@ std::shared_ptr<const adjustment::Residuals> residuals_of(adjustment::Trials& tr
     return trials.residuals({known.begin(), known.end()}, {quiet.begin(), quiet.end()});
 }
 
-/// Returns the mistake that explains most of what the known ones leave, with its probability.
+/// Returns the mistake that explains most of the remaining scatter, with its probability.
 ///
-/// With the noise that it causes itself a mistake may be taken for another one; so the best few are
-/// each tried at the noise of the survey in which they are put right, where the right one is seen
-/// clearly.
+/// A mistake makes the noise of the survey larger and may then be taken for another one.  Therefore
+/// the best few are each tried at the noise of the survey in which they are put right.  There the
+/// right one is clear.
 std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings,
                                     adjustment::Trials& trials,
                                     const std::vector<Mistake>& known, bool is_known_sure,

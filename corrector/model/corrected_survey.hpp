@@ -49,7 +49,7 @@ inline constexpr int kGreatestDriftDegree = 3;
 /// Options of a network.
 struct NetworkOptions {
     /// Standard deviation of a reference that has none of its own, mGal.  Default: typical of gravity
-    /// networks, and a hundredth of what this sensor can achieve.  It must be above 0; this is not checked.
+    /// networks, and a hundredth of the error of this sensor.  It must be above 0 (not checked).
     double datum_sd_mgal = 0.01;
     /// True: the admittance of the air pressure is an unknown; the readings are not reduced for it.
     bool fits_admittance = false;

@@ -110,7 +110,7 @@ std::optional<Comparison> compare_with_linear(const SurveyProblem& problem, cons
             text::fixed(std::sqrt(squares / static_cast<double>(differences.size())), 2))};
 }
 
-/// Says that no other model was compared, and what the fit was tested with.
+/// Says that no other model was compared, and how the fit was tested.
 text::Message without_comparison(const Fit& day) {
     const bool is_tested = !day.as<WholeDayPart>()->fit_tests.empty();
     return text::message(

@@ -102,7 +102,7 @@ double slope_deviation(const whole_day::DayPriors& priors,
     return std::sqrt(sum.dot(covariance * sum));
 }
 
-/// Adds in words what the priors contribute and what gaps of the temperature leave unknown.
+/// Adds remarks on the part of the priors and on gaps of the temperature.
 void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::DayPriors& priors,
                     bool is_calibrated, const reading::DayTemperature& temperature) {
     const double prior = slope_deviation(priors, whole_day::DayPriors::Matrix::Identity());

@@ -36,7 +36,7 @@ void add_answer_table(pugi::xml_node parent, const model::SurveyCorrection& resu
 void add_notes(pugi::xml_node parent, const model::SurveyCorrection& result,
                std::size_t warning_count);
 
-/// Adds what the survey is, how certain its scatter is, and its scales.
+/// Adds a description of the survey, the uncertainty of its scatter, and its scales.
 void add_accuracy(pugi::xml_node parent, const model::SurveyCorrection& result);
 
 }  // namespace a351::corrector::report

@@ -28,7 +28,7 @@ Column<model::CorrectedRow> of_shape(std::string_view key, reading::TemperatureS
             }};
 }
 
-/// Returns a column of what only one model gives; its cells are empty for other models.
+/// Returns a column that only one model fills; its cells are empty for other models.
 template <class Part, class Value>
 Column<model::CorrectedRow> of_model(std::string_view key, Value Part::*member, Shown shown = {}) {
     const auto cell_of = [member](const model::CorrectedRow& row) {

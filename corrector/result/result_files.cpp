@@ -29,7 +29,7 @@ Json matrix_json(const Eigen::MatrixXd& matrix) {
     return rows;
 }
 
-/// Returns what a test's place means: temperature or time, or a reading.
+/// Returns the meaning of a test's place: temperature or time, or a reading.
 std::string place_of(const model::SurveyCorrection& result, const whole_day::FitTest& test) {
     if (test.misfit == whole_day::Misfit::curvature)
         return test.place == 0 ? "temperature" : "time";

@@ -11,7 +11,7 @@
 
 namespace a351::corrector::result {
 
-/// Returns what the comparison shows; none without reference gravimeters.
+/// Returns sentences on the comparison; none without reference gravimeters.
 [[nodiscard]] std::vector<std::string> side_by_side_sentences(
     const model::SurveyCorrection& result);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Terms of a unit by day: what the days of a season say of its constant, slopes, noise and scale.
+/// Terms of a unit by day over a season: constant, slopes, noise and scale.
 ///
 ///     const std::vector<UnitDay> days = unit_days(surveys);
 ///     const std::string csv = csv_table(unit_day_columns(), days);

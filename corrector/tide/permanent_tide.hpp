@@ -26,7 +26,7 @@ namespace a351::corrector::tide {
 /// @return mGal, positive if gravity is larger: -0.030 at the equator, +0.061 at the poles.
 [[nodiscard]] MilliGal permanent_tide(const Station& station);
 
-/// Returns the part of the permanent tide that gravity keeps in a system: what is not subtracted.
+/// Returns the part of the permanent tide that is not subtracted in a system:
 /// 0 for tide-free, (delta2 - 1) times the permanent tide for zero, delta2 times it for mean.
 [[nodiscard]] MilliGal kept_permanent_tide(System system, const Station& station, Factors factors);
 

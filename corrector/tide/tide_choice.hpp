@@ -37,7 +37,7 @@ struct Choice {
     Factors factors;
     std::filesystem::path series;  ///< CSV for Series::read(); empty: `source` is one of the names.
     /// System of the gravity that remains.  Only direct and longman can give another one than
-    /// tide_free: what a given tide contains is not known.
+    /// tide_free: the system of a given tide is not known.
     System system = System::tide_free;
 };
 

@@ -85,7 +85,7 @@ public:
     [[nodiscard]] const Eigen::VectorXd& scaled(std::size_t survey) const {
         return surveys_[survey].scaled;
     }
-    /// Returns what the adjustment says of a survey.
+    /// Returns the result of the adjustment for a survey.
     [[nodiscard]] DayFit fit(std::size_t survey = 0) const;
 
 private:

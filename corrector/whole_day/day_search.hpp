@@ -53,7 +53,7 @@ struct DaySearch {
 /// @param start  for example the points of the surveys alone.
 [[nodiscard]] DaySearch search_together(const DayProblem& problem, DayPoint start);
 
-/// Returns the point at which each number is the mean of what the surveys have.
+/// Returns the point at which each number is the mean over the surveys.
 /// @param parts  one for each survey.
 [[nodiscard]] DayPoint mean_point(const DayProblem& problem, const std::vector<SurveyPoint>& parts);
 

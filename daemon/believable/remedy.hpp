@@ -4,7 +4,7 @@
 
 namespace a351::daemon::believable {
 
-/// Return the end of a trouble: what the operator does against a wrong profile, and what he does if
+/// Return the end of a trouble: what the operator should do against a wrong profile, and what if
 /// the first remedy does not help.
 [[nodiscard]] inline text::Message identify() {
     return text::message("; check sensor.profile: stop the recorder and run a351d --identify");

@@ -22,7 +22,7 @@ bool is_near(double value, double expected, double tolerance) {
     return std::abs(value / expected - 1.0) <= tolerance;
 }
 
-/// Collects the lines and what a profile must have to fit.
+/// Collects the lines, and the values that a fitting profile must have.
 class Judge {
 public:
     Judge(const Observation& seen, const Expected& expected)

@@ -4,7 +4,7 @@
 /// port, and after DNS rebinding it does so as the same origin.  Therefore Host and Origin are
 /// compared with a list, never with each other, and a change needs a token that foreign pages
 /// cannot read.  Pages of other daemons may do both if the configuration names them.  The numeric address to which the client connected is in the list, because
-/// rebinding changes what a name means, not what an address means.
+/// rebinding changes the address of a name, but cannot change an address.
 
 #include <cstdint>
 #include <optional>

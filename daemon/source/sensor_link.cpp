@@ -319,7 +319,7 @@ void SensorLink::note_stall(End end) {
     back_off(trouble);
 }
 
-/// Returns what the operator is to know of a port that was there and is gone.
+/// Returns the message to the operator about a port that was there and is gone.
 text::Message SensorLink::unplugged() const {
     return text::message("sensor unplugged: the port is gone ({}); plug the cable in again",
                          options_.address.to_text());

@@ -88,7 +88,7 @@ public:
     void leave_out(const std::string& stream);
 
     /// Returns the damage that was skipped since the last call: also records of another station or
-    /// channel, and what the disk cannot read.
+    /// channel, and blocks that the disk cannot read.
     [[nodiscard]] std::vector<archive::Damage> take_damage();
 
     /// Returns the day files that grew since the last call, although they are more than two days

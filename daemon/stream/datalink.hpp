@@ -21,7 +21,7 @@ namespace a351::daemon::stream {
 /// Bytes before the header of each packet.
 inline constexpr std::size_t kPreheader = 3;
 
-/// Thrown if the ring does not answer, refuses, or answers what the protocol does not allow.
+/// Thrown if the ring does not answer, refuses, or answers against the protocol.
 class RingError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -1,11 +1,12 @@
 #pragma once
 /// @file
-/// The signal: what the operator is to do now.  Page, terminal, metrics, event log and report show
-/// this one.
+/// The signal, which says what the operator should do now.  Page, terminal, metrics, event log and
+/// report show it.
 ///
-/// A stay is over when its plan is: neither the temperature, its slope nor the scatter of the samples
-/// predicts the error of the corrected value (corrector/methods.md, "What a stay can tell").  What
-/// contradicts a reading is looked at while the box still stands there.
+/// A stay is complete when its plan is complete.  The temperature, its slope and the scatter of the
+/// samples have no part in this, because they do not predict the error of the corrected value
+/// (corrector/methods.md, "What a stay can tell").  A contradiction is shown while the box is still
+/// at the benchmark.
 
 #include <optional>
 #include <string>

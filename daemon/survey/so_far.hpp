@@ -27,7 +27,7 @@ struct SoFar {
     std::vector<Contradiction> contradictions;
 };
 
-/// Reads the body of GET /api/survey; what is not as expected is left out.
+/// Reads the body of GET /api/survey; members that are not as expected are left out.
 [[nodiscard]] SoFar read_so_far(std::string_view document);
 
 }  // namespace a351::daemon::survey

@@ -216,7 +216,7 @@ private:
     std::optional<int> status_;
 };
 
-/// Appends what a pipe has; closes it at its end.
+/// Appends the data that a pipe has; closes it at its end.
 void drain(Descriptor& pipe, std::string& text, std::size_t most) {
     std::array<char, 65536> buffer;
     while (pipe.get() >= 0 && text.size() <= most) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Checks of what the code itself guarantees, also in release builds.
+/// Checks of invariants, also in release builds.
 ///
 /// A check is for a law that follows from the code alone.  Input, files, the host's clocks and the
 /// operating system must not be able to break it; for these there are values and exceptions.  After

@@ -59,7 +59,7 @@ static_assert(kIsCoded<ChunkType::head, Header> && kIsCoded<ChunkType::rx, RxChu
 
 /// Appends the payload of a chunk.
 ///
-/// Only what the format cannot hold is refused.  Times, indices, station codes and the oven
+/// Only values that the format cannot hold are refused.  Times, indices, station codes and the oven
 /// interval are not checked here: a chunk with values out of range is encoded, and decode_payload()
 /// refuses it.  SampleTime::is_host_synchronised of a ModelChunk is not stored.
 ///

@@ -58,7 +58,7 @@ struct ChunkHeader {
 
 /// Returns the bytes of a chunk, header and payload.
 ///
-/// Only what the format cannot hold is refused, see append_payload().
+/// Only values that the format cannot hold are refused, see append_payload().
 ///
 /// @param sequence  number of the chunk in its segment; 0 for the Header and only for it,
 ///                  which is not checked.

@@ -24,7 +24,7 @@
 namespace a351::text {
 
 /// A sentence of several parts.  A part is an English text of the catalogue with its arguments, or a
-/// text that is not translated: a name, a number, what the system says.
+/// text that is not translated: a name, a number, a message of the system.
 class Message {
 public:
     Message() = default;

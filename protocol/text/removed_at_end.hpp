@@ -11,7 +11,7 @@
 
 namespace a351::text {
 
-/// Removes a path, and what is in it, at the end of its life.  A path that does not exist then, or
+/// Removes a path and its content at the end of its life.  A path that does not exist then, or
 /// cannot be removed, is no error.
 class RemovedAtEnd {
 public:

@@ -53,7 +53,8 @@ struct EdgeFit {
 ///     y - D <= L <= y   at every point that is kept,   slope of L within `limits`
 ///
 /// The estimate is the middle of all lines that these conditions allow.  The uncertainty is the
-/// distance to the farthest of them + 0.2 ms; it grows by what the points of a busy host exceed D.
+/// distance to the farthest of them + 0.2 ms.  On a busy host points can exceed D; this excess is
+/// added.
 /// Both bounds are found from the two convex hulls of the points, to 2 us over 900 s.
 ///
 /// The hidden delay D: an adapter that delivers every T delays frames of period P by values spaced

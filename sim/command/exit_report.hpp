@@ -10,7 +10,7 @@
 
 namespace a351::sim::command {
 
-/// Counts of what the emulator did; tests compare them with the counts of a host.
+/// Counts of the emulator's actions; tests compare them with the counts of a host.
 struct ExitReport {
     std::string scenario;
     std::uint64_t seed = 0;

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 constexpr std::int64_t kLineBitsPerByte = 10;
 constexpr int kUsualBaud = 460800;
 constexpr Nanoseconds kPunctual = 1ms;
-constexpr std::int64_t kFewFrames = 50;  // Half of what a receiver needs to set its clock at 50 Hz.
+constexpr std::int64_t kFewFrames = 50;  // Half the frames that set a receiver's clock at 50 Hz.
 
 Nanoseconds wire_time(std::size_t bytes, int baud) {
     return Nanoseconds(1s) * static_cast<std::int64_t>(bytes) * kLineBitsPerByte / baud;

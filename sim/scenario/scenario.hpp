@@ -182,7 +182,7 @@ struct OuterOvenParameters {
 /// The box in which a sensor is with others, or the sled.  Sensors of one box have its seed and
 /// different seeds of their own.
 struct BoxParameters {
-    int seed = 0;  ///< Seed of what they have in common: times, levelling, air, vibration, and
+    int seed = 0;  ///< Seed of their common quantities: times, levelling, air, vibration, and
     double placement_share = 0.0;  ///< this share of the placement's variance.
 };
 
@@ -207,7 +207,7 @@ struct Scenario {
     LineParameters line;
     std::optional<BoxParameters> box;  ///< Absent: the sensor is alone.
 
-    /// Returns the seed of what the sensors of a box have in common.
+    /// Returns the seed of the quantities that the sensors of a box have in common.
     /// @param seed  of the sensor, which a sensor alone has for all.
     [[nodiscard]] std::uint64_t box_seed(std::uint64_t seed) const {
         return box ? static_cast<std::uint64_t>(box->seed) : seed;

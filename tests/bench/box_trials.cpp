@@ -7,7 +7,8 @@
 /// common.  A day is `tilted` (axis biases of up to 2 Gal, which nobody has measured) with two set-ups
 /// of six minutes in each stay, sensors within +-25 % of the emulator's, and gravity known at No.0,
 /// No.7 and No.12.  The readings are the plant's slow signals once a second, with the sensor's noise
-/// and tilt, and without what the decimation removes: bursts, ground noise, the thermometer's noise.
+/// and tilt.  Bursts, ground noise and the thermometer's noise are left out: the decimation removes
+/// them.
 ///
 /// Prints a line for each day, and a last one: the rms error at the unknown stations, the rms of its
 /// uncertainty, their ratio with its 95 % limits from 2000 draws of days, and on how many days the

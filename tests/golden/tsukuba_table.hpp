@@ -35,7 +35,7 @@ inline std::vector<reading::SurveyRow> with_recovered_temperature() {
     return rows;
 }
 
-/// A column of expected.csv: what the publication prints.
+/// A column of expected.csv, as the publication prints it.
 inline std::vector<double> printed(const std::string& column) {
     const auto table = text::read_csv(A351_GOLDEN "/tsukuba/expected.csv");
     const auto rows = observations();

@@ -171,8 +171,8 @@ void Recorder::watch() {
     }
 }
 
-/// Notes what is said to be journaled.  A session is known by the order in which its samples came,
-/// so it counts from the second look on.
+/// Notes the data that are reported as journaled.  A session is known by the order in which its
+/// samples came, so it counts from the second look on.
 void Recorder::check_promises(const Status& status) {
     const bool is_same = status.session == watched_session_ && session_count_ == watched_count_;
     watched_session_ = status.session;

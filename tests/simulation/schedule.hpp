@@ -67,7 +67,7 @@ public:
     /// Gives the threads that the calling thread starts from now on to a new program.
     /// @return its number.
     int begin_program() { return program_of_children_ = ++programs_; }
-    /// Removes the threads of a program in the midst of what they do, as a kill does.  Their memory
+    /// Removes the threads of a program in the middle of their work, as a kill does.  Their memory
     /// is never freed.  Mutexes that they hold are released.
     void kill_program(int program);
 

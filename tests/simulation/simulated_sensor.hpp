@@ -57,7 +57,7 @@ public:
                     const sim::scenario::LineParameters& line);
 
     void apply(const sim::line::Fault& fault);
-    /// Passes the time in which the host does not listen: what the sensor sends is lost.
+    /// Passes the time in which the host does not listen: the bytes of the sensor are lost.
     void pass_unheard();
     /// Passes the time up to now without power.
     void pass_without_power();

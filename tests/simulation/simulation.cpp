@@ -151,7 +151,7 @@ private:
     std::vector<std::string> due_events_;
 };
 
-/// Notes what the archive and the event log must have from now on.
+/// Notes the data that archive and event log must have from now on.
 void Simulation::note_due() {
     auto& samples = promises_.samples;
     std::ranges::sort(samples);

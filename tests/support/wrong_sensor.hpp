@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Sensors whose profile or hardware is wrong, and what the recorder's watch says of them.
+/// Sensors whose profile or hardware is wrong, and the troubles that the recorder's watch reports.
 
 #include <cstdint>
 #include <optional>

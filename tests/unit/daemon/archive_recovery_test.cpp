@@ -73,7 +73,7 @@ TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journa
         feed(kFrames);
         REQUIRE(eventually([&] { return status_of(store).more_counters["archive_faults"] > 1; }));
         CHECK_FALSE(has_reason(status_of(store), "given up until the next start"));
-        feed(kFrames);  // More than half of what the queue holds.
+        feed(kFrames);  // More than half of the queue.
         REQUIRE(eventually(
             [&] { return has_reason(status_of(store), "given up until the next start"); }));
         const Status status = status_of(store);

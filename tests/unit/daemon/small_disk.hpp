@@ -13,7 +13,7 @@ class SmallDisk : public ForwardingFiles {
 public:
     explicit SmallDisk(std::uint64_t capacity) : capacity_(capacity) {}
 
-    /// Lets others fill the disk up to `free` bytes; empty() removes what they wrote.
+    /// Lets others fill the disk up to `free` bytes; empty() removes their data.
     void fill_up_to(std::uint64_t free) { others_ = capacity_ - used() - free; }
     void empty() { others_ = 0; }
     int error_of_allocate = 0;

@@ -19,7 +19,7 @@ Line line_of(const Report& report, const std::string& topic) {
     return *found;
 }
 
-/// Requires that one topic alone differs, and returns what is said of it.
+/// Requires that only one topic differs, and returns its sentence.
 std::string only_difference(const Report& report, const std::string& topic) {
     for (const Line& line : report.lines) {
         INFO(line.topic << ": " << line.finding);

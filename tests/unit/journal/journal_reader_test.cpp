@@ -228,7 +228,7 @@ TEST_CASE("chunks that a later segment repeats are read once and in order, whate
                 if (const auto* rx = std::get_if<RxChunk>(&*chunk))
                     read += static_cast<char>(rx->bytes.front());
             std::string expected = "bcdefghij";
-            // Only what no other segment repeats is lost.
+            // Only chunks that no other segment repeats are lost.
             if (damaged == 0 && k < 4) expected.erase(std::size_t(k - 1), 1);
             INFO("segment " << damaged + 1 << ", chunk " << k);
             CHECK(read == expected);

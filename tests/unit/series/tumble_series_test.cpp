@@ -46,7 +46,7 @@ std::vector<Eigen::Vector3d> directions(bool is_halfway_too) {
     return list;
 }
 
-/// Returns what the sensor shows in the positions, each up to a degree askew.
+/// Returns the sensor's values in the positions, each up to a degree off.
 OccupationRows tumbled(const Truth& truth, const std::vector<Eigen::Vector3d>& positions,
                        std::mt19937_64& random, double noise_mgal = 1.7) {
     std::normal_distribution<double> normal;

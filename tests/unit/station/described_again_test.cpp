@@ -39,8 +39,8 @@ const DeviceProfile& profile_with(const test::TemporaryDirectory& directory,
     return wire::load_profile(directory.path() / "mine.toml");
 }
 
-/// Writes what the daemon records with a profile: two sessions, between which the box was moved and
-/// an oven was switched on.
+/// Writes the data that the daemon records with a profile: two sessions.  Between them the box was
+/// moved and an oven was switched on.
 void record(const archive::DataRoot& root, const DeviceProfile& profile) {
     std::filesystem::create_directories(root.path() / "metadata");
     std::vector<journal::Chunk> chunks;

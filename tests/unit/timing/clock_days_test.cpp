@@ -210,7 +210,7 @@ TEST_CASE("times behind a 1 ms timer alone are right within 0.3 ms once it has s
         const Score result = score(scenario, live, std::exchange(seeds, kFewerSeeds));
         INFO(scenario.name);
         CHECK(quantile(result.late, 0.99) <= 0.3);
-        // Half of what timer and polling could hide together, and the slack of 0.1 ms.
+        // Half of the error that timer and polling together can hide, and the slack of 0.1 ms.
         CHECK(quantile(result.early, 0.99) <= 1.1);
         CHECK(result.covered >= 0.95);
     }

@@ -131,7 +131,7 @@ TEST_CASE("a planned day has the uncertainties of a measured one of the same uni
     usual.set_scale(1.0, 1e-6);  // the plan does not know where the unknown stations are
     const FittedDay fit = fit_day(measured, stations, nullptr, usual).value();
 
-    // The plan knows what the day has found: the means of the priors and the size of the biases.
+    // The plan uses the results of the day: the means of the priors and the size of the biases.
     const UnitPosterior found = unit_posterior(fit, usual);
     DayPriors priors = usual;
     priors.mean = found.priors().mean;

@@ -243,7 +243,7 @@ TEST_CASE("the share of the placement that a box has is found", "[day][joint]") 
         CHECK(joint.share()->highest >= share);
         CHECK(std::abs(joint.share()->expected - share) < 0.4);
         CHECK(joint.fit().noise.placement_mgal == Approx(1.2).epsilon(0.4));
-        // More sensors do not help against what they have in common.
+        // More sensors do not reduce their common error.
         const double u_mgal = joint.gravity(9).standard_error;
         CHECK(u_mgal > last_u_mgal);
         last_u_mgal = u_mgal;

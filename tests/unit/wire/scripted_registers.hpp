@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A device reduced to what the handshake needs: registers, modes, and faults on demand.
+/// A device with only the parts that the handshake needs: registers, modes, and faults on demand.
 
 #include <algorithm>
 #include <cstdint>

@@ -185,7 +185,7 @@ TEST_CASE("reading a value clears its new-data flag and no other", "[sim][regist
         static_cast<void>(bench.read(place));
         CHECK(bench.read("W0:06") == left);
     }
-    // A frame reads what it carries: here temperature and X.
+    // A frame counts as a read of its fields: here temperature and X.
     bench.sample();
     bench.send({"83 02", "FE 01", "8C 00", "8D 44", "FE 00", "83 01"});
     bench.sample(Bench::kTransient + 1);

@@ -127,7 +127,7 @@ inline std::string fault(const std::string& kind, const std::string& keys) {
     return "[[fault]]\nkind = \"" + kind + "\"\n" + keys + "\n";
 }
 
-/// Runs the rig up to 30 s and checks that the emulator's report agrees with what a host decodes.
+/// Runs the rig up to 30 s and checks the emulator's report against the frames that a host decodes.
 /// @return the result of the host
 inline Decoded check_report(Rig& rig) {
     rig.run_to(UtcTime(30s));
