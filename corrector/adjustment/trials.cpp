@@ -29,7 +29,8 @@ struct Base {
 
     [[nodiscard]] const std::vector<Equation>& rows() const { return solution.equations().rows; }
 
-    /// Returns a vector of the rows, in standard deviations, minus the part that the unknowns explain.
+    /// Returns a vector of the rows, in standard deviations, minus the part that the unknowns
+    /// explain.
     [[nodiscard]] Eigen::VectorXd projected(Eigen::VectorXd whitened) const {
         Eigen::VectorXd values = whitened;
         for (std::size_t i = 0; i < rows().size(); ++i)

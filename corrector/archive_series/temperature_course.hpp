@@ -41,8 +41,8 @@ struct MinuteTemperature {
 [[nodiscard]] std::vector<MinuteTemperature> temperature_course(
     const std::vector<archive::Segment>& segments, const station::ChannelScale& scale);
 
-/// Longest gap in the means of an outer oven that a straight line bridges: half the expected lag.  The
-/// lag damps the difference between the line and the true course.
+/// Longest gap in the means of an outer oven that a straight line bridges: half the expected lag.
+/// The lag damps the difference between the line and the true course.
 inline constexpr std::chrono::minutes kLongestOuterGap(10);
 
 /// Returns true if the longest time without a mean between two instants, both included, is at most

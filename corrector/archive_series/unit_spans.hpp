@@ -26,8 +26,8 @@ struct UnitSpan {
 /// @throws InputError  as station::read_station_epochs().
 [[nodiscard]] std::vector<UnitSpan> read_unit_spans(const std::filesystem::path& metadata);
 
-/// Returns the span of an instant.  An instant within a second before the begin of a span is of that
-/// span, because the begin is a reading of the host's clock and not the time of a sample.
+/// Returns the span of an instant.  A span also has the instants in the second before its begin,
+/// because the begin is a reading of the host's clock and not the time of a sample.
 /// @param spans  from read_unit_spans().
 [[nodiscard]] const UnitSpan& span_at(const std::vector<UnitSpan>& spans, UtcTime time);
 

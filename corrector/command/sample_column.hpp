@@ -23,9 +23,9 @@ namespace a351::corrector::command {
 
 /// The samples of one column of a CSV, a block at a time: a file of any length, or a pipe.
 ///
-/// An empty cell is a missing sample.  Where the table has a column `time`, `time_utc` (RFC 3339)
-/// or `time_s` (seconds), it must ascend in steps that are each within a quarter of the mean of
-/// those before.
+/// An empty cell is a missing sample.  If the table has a column `time`, `time_utc` (RFC 3339) or
+/// `time_s` (seconds), it must ascend.  Each step must be within a quarter of the mean of the
+/// earlier ones.
 ///
 /// Memory is that of one block of 16 384 samples.  The first of `time`, `time_utc` and `time_s` in
 /// the header is checked.  With it a missing row is refused: a missing sample needs a row with an

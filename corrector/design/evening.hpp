@@ -21,8 +21,8 @@ namespace a351::corrector::design {
 /// has the set-ups of the running stay.  The expected uncertainties are those of expected_errors()
 /// for the visits so far, with the priors of the correction and the noise that the day shows.
 ///
-/// Absent if another model than `day` corrects the day, if the stay has no reading or its station
-/// has a reference, or if no station with a reference was visited for two minutes.
+/// Absent in these cases: another model than `day` corrects the day; the stay has no reading; its
+/// station has a reference; no station with a reference was visited for two minutes.
 /// @param result  correction of the day so far.
 /// @param sites   table of the sites.
 /// @param key     key of the running stay; empty: none.

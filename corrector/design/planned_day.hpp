@@ -36,9 +36,10 @@ struct PlannedDay {
 
 /// Returns a course of the oven's temperature.
 ///
-/// It is 42.5 degC, a random walk from waves of 1 to 64 h, one per octave, and the oven's cycle of
-/// 900 s and 0.02 degC peak to peak.  The phases are parts of multiples of square roots of primes, so
-/// that the courses 0 to n - 1 cover all phases evenly.  There is no random number.
+/// It is the sum of 42.5 degC, a random walk and the oven's cycle (900 s, 0.02 degC peak to peak).
+/// The random walk consists of waves of 1 to 64 h, one per octave.  The phases are parts of
+/// multiples of square roots of primes, so that the courses 0 to n - 1 cover all phases evenly.
+/// There is no random number.
 /// @param start  of the record.
 /// @param end    of the day, after start.
 /// @param walk_degc_per_sqrt_h  rms change per square root of an hour.
@@ -48,10 +49,10 @@ struct PlannedDay {
 
 /// Returns the day of a plan.
 ///
-/// A set-up has the bins of its 2 s samples without 25 s at either end: a hand at the box for 15 s and
-/// the reach of the filters.  Its tilt has a fixed size and a direction that turns from set-up to set-up
-/// by the golden angle times the number of the course from 1, so that the differences of two set-ups
-/// cover all directions.
+/// A set-up has the bins of its 2 s samples without 25 s at either end: 15 s for a hand at the box,
+/// and the reach of the filters.  Its tilt has a fixed size.  The direction of the tilt turns from
+/// set-up to set-up by the golden angle times the number of the course from 1.  So the differences
+/// of two set-ups cover all directions.
 /// @param plan   as read_plan() gives it.
 /// @param sites  has every site of the plan; gravity and its uncertainty are those of the stations.
 /// @param course  number of the course, from 0.

@@ -43,9 +43,9 @@ struct FixedSifts {
     int count = 10;  ///< Sifts per mode, 1 ... kMaxSifts.
 };
 
-/// Stops when the numbers of maxima and of minima have together changed by at most one in each of
-/// `repeats` consecutive sifts, and every maximum is above zero and every minimum below.
-/// Source: N. E. Huang et al., Proc. R. Soc. A 459, 2317-2345, 2003 (S-number).
+/// Stops after `repeats` consecutive sifts in each of which the number of maxima plus minima
+/// changed by at most one, if every maximum is above zero and every minimum below.  Source: N. E.
+/// Huang et al., Proc. R. Soc. A 459, 2317-2345, 2003 (S-number).
 ///
 /// The number of sifts then differs between the modes and between the members of an ensemble.  A
 /// mode that never fulfils the rule ends after kMostSNumberSifts sifts.

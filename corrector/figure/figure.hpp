@@ -106,9 +106,9 @@ struct Span {
     Colour colour = Colour::stay;
 };
 
-/// A panel.  Nothing is turned and nothing is drawn over a curve: the label of the y axis is the
-/// heading at the left above the panel, that of the right axis or of the colours the one at the
-/// right, and the key is below them.
+/// A panel.  No text is rotated and nothing is drawn over a curve.  The label of the y axis is
+/// above the panel at the left, that of the right axis or of the colours at the right.  The key is
+/// below them.
 struct Panel {
     Axis x = {}, y = {};
     std::vector<Series> series = {};

@@ -28,8 +28,8 @@ struct SearchedSurvey {
 
 /// Searches a corrected survey for mistakes (mistake_search.hpp), with the model that was applied.
 ///
-/// A reading that is off by the difference between two references of the list is said to be of the
-/// other site, if this is within two and a half standard uncertainties.  `paper` is not searched.
+/// If a reading is off by the difference between two references of the list, within two and a half
+/// standard uncertainties, the other site is proposed.  `paper` is not searched.
 /// Remarks are added about a base with one stay, and benchmarks that were not visited.
 /// @param result  with the findings that are known already, for example moved boxes.
 /// @return these and the new ones, the worst first: an unusable day, headlines, other mistakes,

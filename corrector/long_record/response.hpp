@@ -73,9 +73,12 @@ struct ResponseOptions {
 /// nu is the number of resolutions that the temperature's power fills in the band, minus one, at
 /// least 2: a spectral line counts as little more than the tapers.
 ///
-/// A point is refused if the record has fewer than 6 cycles, if more than a fifth of the
-/// temperature's power is the thermometer's noise, if the limits of the gain reach 0, or if a
-/// series is constant.  Limits are always finite (response_test.cpp).
+/// A point is refused if one of these is true; limits are always finite (response_test.cpp):
+///
+/// - The record has fewer than 6 cycles.
+/// - More than a fifth of the temperature's power is the thermometer's noise.
+/// - The limits of the gain reach 0.
+/// - A series is constant.
 /// @param temperature_degc   (n) finite, n >= 3.
 /// @param acceleration_mgal  (n) finite.
 /// @param step_s             time between samples, s.

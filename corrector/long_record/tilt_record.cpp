@@ -26,8 +26,8 @@ struct Spectra {
 
 /// Shortest period, s, the same as for two paths: at shorter ones the thermometer shows its own noise.
 constexpr double kShortestOfTilt_s = 240.0;
-/// Mean square of the Hann window, and its mean fourth power divided by the square of this.  The second
-/// is the number of neighbouring frequencies that contain the information of one.
+/// Mean square of the Hann window, and its mean fourth power divided by the square of this.  The
+/// second is the number of neighbouring frequencies that contain the information of one.
 constexpr double kHannSquare = 3.0 / 8.0, kHannShared = 35.0 / 18.0;
 
 Spectra spectra_of(const RecordSegment& segment, double step_s) {

@@ -40,17 +40,19 @@ struct TiltFit {
 ///                     in the median.
 [[nodiscard]] LongRecord tilt_record(LongRecord record, std::size_t axis);
 
-/// Fits one slope of the tilt over the temperature for all segments, beside an own straight line over
-/// time of each, so that neither a step nor a constant rate is taken for an effect of the temperature:
+/// Fits one slope of the tilt over the temperature for all segments.  Each segment also has its own
+/// straight line over time, so that no step or constant rate is taken for an effect of the
+/// temperature.
 ///
 ///     slope = sum of Re(conj(T_k) a_k) / S_k / sum of |T_k|^2 / S_k
 ///     u^2 = 35 / 18 / (2 sum of |T_k|^2 / S_k)
 ///
-/// T_k and a_k are the transforms of temperature and tilt under a Hann window at periods from 240 s to
-/// the length of the segment (Whittle 1953); 35 / 18 is the loss by the window.  S_k is the noise there: white noise, flicker and random walk that fit the
-/// Allan deviation of the corrected tilt.
+/// T_k and a_k are the transforms of temperature and tilt under a Hann window, at periods from 240
+/// s to the length of the segment (Whittle 1953).  35 / 18 is the loss by the window.  S_k is the
+/// noise at these periods: white noise, flicker and random walk that fit the Allan deviation of the
+/// corrected tilt.
 ///
-/// A tilt that really moves with the temperature, as that of a wall in the sun, cannot be
+/// A real change of tilt with the temperature, for example of a wall in the sun, cannot be
 /// distinguished from an effect on the sensor.
 ///
 /// Accuracy: of 100 records of a day with white noise and random walk the limits of 95 % contain the

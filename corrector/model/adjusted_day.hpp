@@ -66,10 +66,10 @@ private:
 
 /// Sets stations, differences and covariance of the fit of a day.
 ///
-/// A station's value is the mean of its corrected rows; its uncertainty is that of its gravity as if
-/// the reference were unknown.  Degrees of freedom are those of Welch and Satterthwaite, nu =
-/// u^4 / sum(u_k^4 / nu_k), over placement, flicker and white noise with nu_k = 1 / (2 e_k^2), where
-/// e_k is the standard error of ln(standard deviation); the other parts come from priors, with
+/// A station's value is the mean of its corrected rows; its uncertainty is that of its gravity as
+/// if the reference were unknown.  Degrees of freedom are those of Welch and Satterthwaite: nu =
+/// u^4 / sum(u_k^4 / nu_k), over placement, flicker and white noise, with nu_k = 1 / (2 e_k^2).
+/// e_k is the standard error of ln(standard deviation).  The other parts come from priors, with
 /// infinite nu.  The coverage factor is 2, because u contains the expected variances of the noise,
 /// which are larger than the most likely ones (few_datums.py measures the coverage).
 ///

@@ -46,10 +46,10 @@ inline constexpr double kContradictionP = 0.01;
 
 /// Tests how far the day moved some lags and terms from their priors.
 ///
-/// With the shift s in units in which the priors are independent and of variance 1, and its
-/// posterior covariance V, s has the covariance D = 1 - V if the prior is true.  chi-square = s^T
-/// D^-1 s over the directions in which D is above 1e-10 (terms) or 1e-4 (lags); dof is their
-/// number.
+/// Let s be the shift, in units in which the priors are independent and of variance 1, and V its
+/// posterior covariance.  If the prior is true, s has the covariance D = 1 - V.  chi-square = s^T
+/// D^-1 s over the directions in which D is above 1e-10 (terms) or 1e-4 (lags).  dof is the number
+/// of these directions.
 ///
 /// If the prior is true, the p of a part is below kContradictionP on one day in a hundred.  A prior
 /// that is wrong is found also if its stated errors are much too small (calibration_use_test.cpp:

@@ -34,17 +34,18 @@ namespace a351::corrector::model {
 /// - Acceleration and temperature of a row become means over its bins; start and end become the
 ///   times of their first and last sample.  Its time does not change, because its tide belongs to
 ///   that time.
-/// - The adjustment is repeated without each station, its lags and noise searched again.  u_corrected is
-///   the uncertainty that the row has if the reference of its station is unknown.  The studentised residual is the error of this
-///   prediction divided by sqrt(u_corrected^2 + u_reference^2).
+/// - The adjustment is repeated without each station, and lags and noise are searched again.
+///   u_corrected is the uncertainty of the row if the reference of its station is unknown.  The
+///   studentised residual is the error of this prediction divided by
+///   sqrt(u_corrected^2 + u_reference^2).
 /// - A row that is excluded, or flagged and not used, gets its own unknown station, so that it has
 ///   a value and no influence.
 /// - If only one station is held, its rows have no such prediction: neither u_corrected nor a
 ///   studentised residual.  There is no LOSO then.
 /// - A station without an accepted row has the mean of its rows.  Its uncertainty neglects that the
 ///   errors of these rows are correlated.
-/// - A remark says how much of the temperature slope comes from the prior if it is more than a
-///   quarter, and how much of the temperature is missing if it is more than 5 min.
+/// - A remark gives the part of the temperature slope that comes from the prior, if it is more than
+///   a quarter.  Another one gives the missing time of the temperature, if it is more than 5 min.
 /// - goodness_of_fit() tests the fit.  A misfit is a remark, and enlarges the uncertainties of stations
 ///   and differences by the rms of the studentised residuals.
 /// - The slow term needs two hours of temperature before the first bin.  There is a remark if the

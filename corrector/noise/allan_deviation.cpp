@@ -126,8 +126,8 @@ constexpr double kMisfit = 0.001;
 
 /// Returns the squares s from which an estimate differs by at most kNormalLimit standard errors.
 ///
-/// The square of the standard error is variance[0] + variance[1] s + variance[2] s^2.  It belongs to
-/// s and not to the estimate, because it would be too small for an estimate of 0.
+/// The square of the standard error is variance[0] + variance[1] s + variance[2] s^2.  It belongs
+/// to s and not to the estimate, because it would be too small for an estimate of 0.
 Limits limits_of(double estimate, const std::array<double, 3>& variance) {
     constexpr double z2 = kNormalLimit * kNormalLimit;
     // (s - estimate)^2 = z^2 variance: a s^2 - 2 b s + c = 0

@@ -57,9 +57,9 @@ struct Tile {
 
 /// Returns the spectrogram: spectral_density() of parts of two hours, each in segments of one hour.
 ///
-/// A part begins every hour, and is shown for the hour in its middle.  The bands are a quarter octave
-/// wide, or one frequency where this is wider.  A record of more than kMostColumns hours has longer
-/// parts.
+/// A part begins every hour, and is shown for the hour in its middle.  The bands are a quarter
+/// octave wide, or one frequency where this is wider.  A record of more than kMostColumns hours has
+/// longer parts.
 /// @param values  (n) mGal, finite.
 /// @param step_s  time between samples, at most 200.
 /// @return by time, then by frequency; empty for less than two hours.

@@ -29,8 +29,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kRefusals
     {"no_reference", text::marked("no benchmark with known gravity was read yet")},
 }};
 
-/// Findings that say what is still to be done in the day, which mean nothing before its end, and that
-/// about the list of sites, which the recorder says itself.
+/// Findings that are left out: those on tasks that are still open in the day have no meaning before
+/// its end, and the recorder itself reports that on the list of sites.
 constexpr std::array kLeftOut{reading::FindingKind::not_visited,
                               reading::FindingKind::base_not_revisited,
                               reading::FindingKind::doubtful_site};

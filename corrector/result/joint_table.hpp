@@ -68,9 +68,10 @@ struct DayValue {
 
 /// Returns the covariance of the errors of one station on two days, mGal^2.
 ///
-/// With the whole-day model it is that of the unit's parameters (lags, slopes, axis biases, scale), if
-/// both days took them from priors of one kind, and that of the references that both days hold.  All
-/// days are taken as days of one unit.  Drift and noise are of one day.  With other models it is 0.
+/// With the whole-day model it has two parts.  The first comes from the unit's parameters (lags,
+/// slopes, axis biases, scale), if both days took them from priors of one kind.  The second comes
+/// from the references that both days hold.  All days are taken as days of one unit.  Drift and
+/// noise belong to one day.  With other models the covariance is 0.
 [[nodiscard]] double covariance_mgal2(const model::StationValue& a, const model::StationValue& b);
 
 }  // namespace a351::corrector::result

@@ -86,9 +86,9 @@ public:
     [[nodiscard]] double in_common_mgal(const DayPoint& point, std::size_t survey,
                                         std::size_t set_up, const Eigen::VectorXd& of_box) const;
 
-    /// Returns the numbers of a point: the lags of each unit, the placement of each group, flicker and
-    /// white noise of each survey, then of each unit the size of the axis biases, and lag and size of an
-    /// outer oven's effect if one of its surveys has its temperature.
+    /// Returns the numbers of a point: the lags of each unit, the placement of each group, flicker
+    /// and white noise of each survey.  For each unit the size of the axis biases follows.  Lag and
+    /// size of an outer oven's effect are last, if one of the unit's surveys has its temperature.
     [[nodiscard]] const std::vector<Hyper>& hypers() const { return hypers_; }
     /// Returns a survey's part of a point; 0 where it has none.
     [[nodiscard]] SurveyPoint part_of(const DayPoint& point, std::size_t survey) const;

@@ -28,11 +28,16 @@
 
 namespace a351::corrector::whole_day {
 
-/// Readings and columns of a survey with n bins.  The estimated quantities are the terms, then the
-/// gravities, then the steps, then for each gap of the temperature the effects of the fast and of
-/// the slow lag's state, mGal where the gap ends (lag_states.hpp), then the slopes of an outer oven, then
-/// those that act on the scale, if the sensor was turned over.  A reference that is held with an uncertainty is one of the gravities, with that prior; an exact one
-/// is none.
+/// Readings and columns of a survey with n bins.  The estimated quantities, in this order:
+///
+/// - the terms; the gravities; the steps;
+/// - for each gap of the temperature the effects of the fast and of the slow lag's state, mGal
+///   where the gap ends (lag_states.hpp);
+/// - the slopes of an outer oven;
+/// - those that act on the scale, if the sensor was turned over.
+///
+/// A reference that is held with an uncertainty is one of the gravities, with that prior.  An exact
+/// reference is not estimated.
 ///
 /// A reading is face x (gravity + scale) + bias, and the norm of the axes is face x this.  All rows are
 /// multiplied by the face of their bin, 1 or -1: the columns of the bias are then those of one face,
@@ -52,8 +57,9 @@ class DayRegression {
 public:
     using Point = SurveyPoint;
 
-    /// Terms with a part that acts on the scale.  A day in one face and a calibration determine only the
-    /// sum of both parts, which is the term.  Two faces also determine the part on the scale.
+    /// Terms with a part that acts on the scale.  A day in one face and a calibration determine
+    /// only the sum of both parts, which is the term.  Two faces also determine the part on the
+    /// scale.
     static constexpr std::array kOnScale{DayTerm::level, DayTerm::slow, DayTerm::fast};
 
     /// @param survey  kept by reference.
@@ -109,10 +115,13 @@ public:
     /// @param lag  kFastLag or kSlowLag.
     [[nodiscard]] double lag_s(const Point& u, DayHyper lag) const;
 
-    /// Returns the columns (n, estimated) in the units of the terms: derivatives of the readings by
-    /// the terms, then the face for the bins of each gravity and for those after each step, then what
-    /// remains of each state, then the outer oven's temperature without and with its lag, then the columns
-    /// of kOnScale times face - 1.
+    /// Returns the columns (n, estimated) in the units of the terms, in this order:
+    ///
+    /// - derivatives of the readings by the terms;
+    /// - the face, for the bins of each gravity and for those after each step;
+    /// - the remaining part of each state;
+    /// - the outer oven's temperature, without and with its lag;
+    /// - the columns of kOnScale times face - 1.
     [[nodiscard]] Eigen::MatrixXd design(const Point& u) const;
 
     /// Returns (n, 1 + estimated): readings minus their prior expectation, then the columns of

@@ -40,16 +40,16 @@ struct DaySearch {
 ///                0, 2 and 4 deviations that has the least cost.
 [[nodiscard]] DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby);
 
-/// Searches several surveys: in turn the lags and the size of the axis biases of each unit, the placement
-/// of each group, and flicker and white noise of each survey, until nothing moves by more than 0.02
-/// deviations, at most eight times.
+/// Searches several surveys in turn: the lags and the size of the axis biases of each unit, the
+/// placement of each group, and flicker and white noise of each survey.  This is repeated until
+/// nothing moves by more than 0.02 standard deviations, at most eight times.
 ///
-/// The share is searched at 0, 0.1, ... 1, each with the placement and the noise that suit it.  Its
-/// most likely value is the least of a parabola through three of them; its limits are where the
-/// logarithm of this likelihood is 1.92 below the largest (chi-square of one degree of freedom), so that
-/// 0 and 1 may be within them.  On simulated boxes they contain the share on 85 to 98 % of the days, least
-/// often a share of 1 (accuracy.md).  The adjustment takes its mean over the likelihood, because the expected
-/// variance of either part is linear in it.
+/// The share is searched at 0, 0.1, ... 1, each with its best placement and noise.  Its most likely
+/// value is the least of a parabola through three of them.  At its limits the logarithm of this
+/// likelihood is 1.92 below the largest (chi-square of one degree of freedom), so that 0 and 1 may
+/// be within them.  On simulated boxes they contain the share on 85 to 98 % of the days, least
+/// often a share of 1 (accuracy.md).  The adjustment takes the mean of the share over the
+/// likelihood, because the expected variance of either part is linear in it.
 /// @param start  for example the points of the surveys alone.
 [[nodiscard]] DaySearch search_together(const DayProblem& problem, DayPoint start);
 

@@ -14,7 +14,7 @@ namespace a351::daemon::believable {
 /// Watches the axes.  An axis is dead if it has not changed for kConfirm_s.  The
 /// quietest sensor of the family, the M-A370AD10, has a noise of one count: 0.02 uG/sqrt(Hz) over
 /// 9 Hz (its brief sheet).  A scale is wrong if the norm of the box at rest is outside its limits,
-/// or if an axis is beyond the rated range, to which the sensor limits its output.
+/// or if an axis is beyond the rated range: the sensor limits its output to this range.
 ///
 /// Bytes are exchanged if a higher byte of an axis changes more often than the lowest one for
 /// kConfirm_s; this trouble lasts until the watch begins again.

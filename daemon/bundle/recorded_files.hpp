@@ -32,11 +32,11 @@ struct RecordedFile {
     [[nodiscard]] std::string read(std::uint64_t offset, std::uint64_t count) const;
 };
 
-/// Returns the day files of the archive from the UTC day of `from` on, the station metadata, the
-/// event log from the month of `from` on, and the journal from the segment on in which `from` is.
+/// Returns the files of a day and its past: the day files of the archive from the UTC day of
+/// `from`, the event log from its month, the journal from its segment, and the station metadata.
 ///
-/// Segments are chosen by the time in their names, so with a host clock that was wrong there may be
-/// more of them.  Links are left out.
+/// Segments are chosen by the time in their names.  If the host clock was wrong, there may be more
+/// of them.  Links are left out.
 /// @throws std::system_error  a folder or a file cannot be read or synced.
 [[nodiscard]] std::vector<RecordedFile> recorded_files(const std::filesystem::path& root,
                                                        UtcTime from);

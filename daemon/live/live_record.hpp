@@ -93,8 +93,8 @@ public:
     /// Uses these thresholds from now on, and judges the stored series again.
     void judge_by(const verdict::Options& options);
 
-    /// Returns the verdict on the data so far, also if there are none.  The caller must check the age
-    /// of the data.
+    /// Returns the verdict on the data so far, also if there are none.  The caller must check the
+    /// age of the data.
     [[nodiscard]] verdict::Verdict verdict() const;
 
     /// Returns the state of the verdict at an instant of the data; the same for the same samples, at

@@ -39,8 +39,9 @@ public:
     }
     [[nodiscard]] bool is_certain() const { return frames_in_step_ >= kFramesInStep; }
 
-    /// Checks the first frame, which continues the known counter if the port stored the frames, and
-    /// the last frame, whose counter agrees with the elapsed time if it was received without delay.
+    /// Checks the first and the last frame.  If the port stored the frames, the first one continues
+    /// the known counter.  If the last one came without delay, its counter agrees with the elapsed
+    /// time.
     [[nodiscard]] bool fits() const { return fits(first_) || fits(last_); }
 
 private:

@@ -34,15 +34,17 @@ struct Listening {
 
 /// Listens on a port that was just opened or has just become silent.
 ///
-/// The stream counts as known when ten consecutive frames keep the counter step of its rate, and
-/// the counter of the first or the last of them has the value that timing::SampleIndex expects from
-/// `known`.  The stream is not known as soon as ten frames in step have another counter, after a
-/// silence of half a second or 20 frame periods, whichever is longer, or after some seconds of
-/// bytes without ten frames in step.
+/// The stream counts as known when ten consecutive frames keep the counter step of its rate.  The
+/// counter of the first or the last of them must also have the value that timing::SampleIndex
+/// expects from `known`.  The stream is not known in these cases:
 ///
-/// A device that restarted meanwhile can be mistaken for the known stream: when its new counter
-/// happens to be within a second of the expected one, or continues the old one.  How often:
-/// timing::SampleIndex, somewhat more here, because two frames are compared.
+/// - ten frames in step have another counter;
+/// - a silence of half a second or 20 frame periods, whichever is longer;
+/// - some seconds of bytes without ten frames in step.
+///
+/// A device that restarted meanwhile can be mistaken for the known stream, if its new counter is by
+/// chance within a second of the expected one, or continues the old one.  The frequency is that of
+/// timing::SampleIndex, and somewhat higher here, because two frames are compared.
 /// @param heard  reads of the port that the caller has made already, in order.
 /// @param stop   listening ends when it becomes true.
 [[nodiscard]] Listening listen_for(const journal::StreamEnd& known, std::vector<Read> heard,

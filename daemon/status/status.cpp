@@ -38,8 +38,8 @@ void assess_oven(Status& status, const char* name, const source::OvenLinkStatus&
     }
 }
 
-/// Reports a sample rate that is far from the configured one.  Compares the declared rate with a rate
-/// measured over a day, so that the daily course of the temperature is included.
+/// Reports a sample rate that is far from the configured one.  Compares the declared rate with a
+/// rate measured over a day, so that the daily course of the temperature is included.
 void assess_rate(Status& status) {
     // An emulator that is faster than real time may lag behind its clock.
     if (status.wrong_rate && status.is_in_real_time)

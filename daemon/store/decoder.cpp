@@ -125,8 +125,8 @@ void Decoder::expect_step(const status::ClockStep& step) {
     if (const Nanoseconds by = step.after - step.before; by < -survey::kLeastBack) expected_ = by;
 }
 
-/// Takes the time of the next sample.  If it is before that of the newest one, and no step was noted
-/// that explains it, the clock was set back while nothing was recorded, or while the host slept.
+/// Takes the time of the next sample.  If it is before that of the newest one and no noted step
+/// explains this, the clock was set back while nothing was recorded, or while the host slept.
 /// @param is_first  it is the first sample of a session.
 void Decoder::watch_time(UtcTime utc, bool is_first) {
     if (is_back(utc)) {

@@ -21,9 +21,9 @@
 
 namespace a351::daemon::store {
 
-/// Makes samples, their times and records of the chunks, and answers which sample belongs to a time.
-/// The journal gets the time of the newest sample (MODEL), the event log each step of the clock and
-/// each session with another result of the start-up test than the one before.
+/// Makes samples, their times and records from the chunks, and answers which sample belongs to a
+/// time.  The journal gets the time of the newest sample (MODEL).  The event log gets each step of
+/// the clock, and each session whose start-up test has another result than the one before.
 ///
 /// One thread decodes, any thread may ask.  The lock is held while a chunk is decoded.  This reads the
 /// archive during a replay, and never waits for the disk afterwards.

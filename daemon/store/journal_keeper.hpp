@@ -46,9 +46,9 @@ public:
     void keep_names(bool are_read) noexcept { are_names_read_ = are_read; }
 
     /// Removes old sessions, then compresses segments that are old enough, except the newest one.
-    /// A session is removed if it ended `keep_days` before the newest segment began, by headers
-    /// with synchronised clocks, and is completely in the archive, because a later session has a
-    /// MARK.  Its segments are removed from last to first, so that the remaining ones keep their
+    /// A session is removed if it ended `keep_days` before the newest segment began (by headers
+    /// with synchronised clocks) and is completely in the archive.  It is so if a later session has
+    /// a MARK.  Its segments are removed from last to first, so that the remaining ones keep their
     /// indices.  Faults are counted.
     void tidy() noexcept;
 

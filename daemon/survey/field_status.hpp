@@ -45,9 +45,9 @@ struct FieldStatus {
 [[nodiscard]] std::optional<MovePrompt> moved_box(const Occupations& occupations,
                                                   const live::Record& live, UtcTime now);
 
-/// Returns a sentence if the running set-up is not in the planned face, compared with the first set-up
-/// of the stay; empty if it is, or if the face is not known.  A set-up in the wrong face does not
-/// count in the plan.
+/// Returns a sentence if the running set-up is not in the planned face, compared with the first
+/// set-up of the stay; empty if it is, or if the face is not known.  A set-up in the wrong face
+/// does not count in the plan.
 [[nodiscard]] text::Message wrong_face(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);
 

@@ -79,11 +79,13 @@ struct Counters {
 /// Channels: band code by output rate (B below 80 Hz, H, C from 250, F from 1000), then N and the
 /// axis suffix of the header, or K1 for the raw temperature.  Only fields of the layout have one.
 ///
-/// A record ends when it is full, at a missing sample, at UTC midnight, when its oldest sample is as
-/// old as journal::Header::record_age or none came for that time (not before the times are fixed), at
-/// a change of header, and in close_records().  Frames
-/// flagged ALIASI_ERR, or with an axis at 0x64000000, are not data (M-A352AD10 data sheet, FLAG and
-/// output range): they leave a gap.
+/// A record ends when it is full, at a missing sample, at UTC midnight, at a change of header, and
+/// in close_records().  It also ends when its oldest sample is as old as
+/// journal::Header::record_age, or no sample came for that time, but not before the times are
+/// fixed.
+///
+/// Frames flagged ALIASI_ERR, or with an axis at 0x64000000, are not data (M-A352AD10 data sheet,
+/// FLAG and output range): they leave a gap.
 ///
 /// A frame arrives with the read that has its last byte, less the wire time of later bytes of that
 /// read.  SampleClock removes the fixed delay: group delay of the filter + delay of data ready +

@@ -31,8 +31,9 @@ struct Part {
     UtcTime begin;                   ///< Bytes that arrived before are skipped.
 };
 
-/// Returns the segments from the last one that began before `from - kWarmUp` on, or from the first
-/// one of its session if that began at most `longest_session` before `from`.
+/// Returns the segments, beginning with the last one that began before `from - kWarmUp`.  If its
+/// session began at most `longest_session` before `from`, they begin with the first one of the
+/// session.
 Part part_since(const fs::path& journal, UtcTime from, Nanoseconds longest_session) {
     std::vector<fs::path> segments = journal::segment_files(journal);
     const UtcTime begin = from - kWarmUp;

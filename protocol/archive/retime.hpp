@@ -2,8 +2,8 @@
 /// @file
 /// The archive of a data root again, with times computed afterwards.
 ///
-/// Use it when a recording is over and the best times are wanted, or when the host's clock was
-/// wrong while it was recorded, or when it was recorded with a wrong profile.  retime() does all; Retiming is its connection to the archiver.
+/// Use it after a recording for the best times, if the host's clock was wrong during the recording,
+/// or if the profile was wrong.  retime() does all; Retiming is its connection to the archiver.
 ///
 ///     const RetimeReport report = retime(posix_files(), "/data/box1", "/data/box1-retimed");
 ///     for (const journal::Damage& damage : report.damage) warn(damage.reason);

@@ -84,10 +84,10 @@ struct EventLog {
 };
 /// Reads all months of a directory; returns nothing if the directory does not exist.
 ///
-/// A start, stop or set-up that is there twice, as in a merged copy of a data root, counts once, and
-/// so do the equal lines before and after it.  A copy with none of these cannot be known as one.
-/// Only names of the shape `####-##.jsonl` are read.  A line that is not an event is skipped, and
-/// the lines after it are read; an empty line counts as damage.
+/// In a merged copy of a data root lines are there twice.  A repeated start, stop or set-up counts
+/// once, and so do the equal lines before and after it.  A copy with none of these cannot be
+/// recognised.  Only names of the shape `####-##.jsonl` are read.  A line that is not an event is
+/// skipped, and the lines after it are read; an empty line counts as damage.
 /// @throws std::system_error  the directory cannot be listed, or a file cannot be opened.
 [[nodiscard]] EventLog read_events(const std::filesystem::path& directory);
 

@@ -31,9 +31,9 @@ namespace a351::text {
 /// skipped.  In a table of one column a blank line is a row with an empty cell.  Empty rows at the
 /// end of the file and empty cells after the last column are skipped.
 ///
-/// CsvLines splits the lines, DecimalSign reads the numbers.  A form that can be read in two ways is
-/// refused, with the remedy in the spreadsheet.  Do not copy a reader: both would take lines from
-/// the same stream, and cells() of the copy refer to the line of the original.
+/// CsvLines splits the lines, DecimalSign reads the numbers.  A form that can be read in two ways
+/// is refused, with the remedy in the spreadsheet.  Do not copy a reader: both would take lines
+/// from the same stream, and cells() of the copy refer to the line of the original.
 class CsvReader {
 public:
     /// Reads the header line.  Blank lines before it are skipped.

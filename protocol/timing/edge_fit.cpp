@@ -160,8 +160,8 @@ std::vector<Point> without_pauses(const std::vector<Point>& points, const Strip&
     return kept;
 }
 
-/// Returns false if a single short timer explains the points: they cover enough time, and hardly any
-/// lies higher than this timer allows.
+/// Returns false if a single short timer explains the points: they cover enough time, and hardly
+/// any lies higher than this timer allows.
 bool may_be_polled(const std::vector<Point>& points, const Strip& strip) {
     if (points.back().x - points.front().x < kTimerKnown_ns) return true;
     const double slope = strip.flattest();

@@ -155,10 +155,13 @@ public:
     /// Returns true if the host's clock is synchronised now: UtcMapping::is_synchronised().
     [[nodiscard]] bool is_host_synchronised() const noexcept { return mapping_.is_synchronised(); }
 
-    /// Returns the rate of the sensor's oscillator, from the newest sample and that earlier one (of
-    /// the remembered 24 h, after the last break) which gives the least uncertainty.  std::nullopt
-    /// while the span is below 1 min or the uncertainty above 110 ppm, for times given by use(), and
-    /// if the rate is more than 100 ppm from the nominal one: the line cannot follow it.
+    /// Returns the rate of the sensor's oscillator, from the newest sample and an earlier one.  The
+    /// earlier one is within the remembered 24 h, after the last break, and gives the least
+    /// uncertainty.
+    ///
+    /// std::nullopt while the span is below 1 min or the uncertainty above 110 ppm, and for times
+    /// given by use().  Also if the rate is more than 100 ppm from the nominal one, which the line
+    /// cannot follow.
     ///
     /// Cost: O(n) for n remembered pieces, at most one per second of data.
     ///

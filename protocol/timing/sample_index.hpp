@@ -44,10 +44,11 @@ struct Placement {
 /// before may have come late.  An index agrees with elapsed time within 1 s + 100 ppm of the time
 /// since the last placed frame.
 ///
-/// Contiguous frames: the difference to the last placed frame decides.  If it is not a multiple of
-/// the step, or a step back by up to 4096 ticks, the loss is longer than a wrap if that agrees with
-/// elapsed time, else an anomaly.  After frames that came more than 10 s late, a loss is one of the
-/// receiver while the host did not read: there elapsed time decides first, if it agrees.
+/// Contiguous frames: the difference from the last placed frame decides.  It may be no multiple of
+/// the step, or a step back by up to 4096 ticks.  Then the loss is longer than a wrap if this
+/// agrees with elapsed time; otherwise it is an anomaly.  After frames that came more than 10 s
+/// late, bytes were lost in the receiver while the host did not read.  Then elapsed time decides
+/// first, if it agrees.
 ///
 /// Other frames: of the indices that match the counter, the one nearest to elapsed time, if it
 /// agrees.  Otherwise, if the counter continues with at most 1 s missing, the bytes were only late

@@ -16,8 +16,8 @@ namespace a351::unit {
 ///
 ///     C = (sum of C_i^-1)^-1,  x = C sum of C_i^-1 x_i
 ///
-/// A prior counts as an estimate, so no other estimate may contain it.  Disagreement of the estimates
-/// does not widen the covariance.  A single estimate is returned as it is.
+/// A prior counts as an estimate, so no other estimate may contain it.  Disagreement of the
+/// estimates does not widen the covariance.  A single estimate is returned as it is.
 /// @param estimates  at least one; covariances positive definite.
 template <int kCount>
 [[nodiscard]] CalibratedCoefficients<kCount> combined(

@@ -60,7 +60,8 @@ struct FirstTroubles {
 [[nodiscard]] std::optional<FirstTroubles> first_troubles(const WatchedRecord& record);
 
 /// Returns the time after which a wrong sample rate is reported; std::nullopt if it is not reported
-/// within ten minutes.  The adapter delivers every 16 ms and stalls for up to 0.4 s every two seconds.
+/// within ten minutes.  The adapter delivers every 16 ms and stalls for up to 0.4 s every two
+/// seconds.
 /// @param error  relative error of the rate
 [[nodiscard]] std::optional<double> rate_named_after_s(double error, std::uint64_t seed);
 

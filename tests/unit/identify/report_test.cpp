@@ -146,8 +146,8 @@ TEST_CASE("each format of the temperature is named from 7.5 to 60 degC by the pr
     for (std::size_t sent = 0; sent < formats.size(); ++sent) {
         for (double degc = 0.0; degc <= 60.0; degc += 2.5) {
             const Format& format = formats.at(sent);
-            // Below 7.2 degC the counts of both formats are ambiguous: those of the A352AD10, read as
-            // counts / 1024, give the temperature of a cold room, and the reverse.
+            // Below 7.2 degC the counts of both formats are ambiguous: those of the A352AD10, read
+            // as counts / 1024, give the temperature of a cold room, and the reverse.
             if (degc < 7.5 && sent != 1) continue;
             MadeUpSensor sensor;
             sensor.change = [&](int i, wire::BurstValues& values) {

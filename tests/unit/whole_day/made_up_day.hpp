@@ -119,8 +119,8 @@ inline std::optional<FittedDay> fit_day(const reading::DayRecord& record,
     return FittedDay(*adjusted);
 }
 
-/// Returns the day in a box with an outer oven.  Its temperature To has a slow course and a cycle.  Its
-/// effect on the readings is level To + slow lag(To, 900 s), without a constant.
+/// Returns the day in a box with an outer oven.  Its temperature To has a slow course and a cycle.
+/// Its effect on the readings is level To + slow lag(To, 900 s), without a constant.
 inline reading::DayRecord with_outer_oven(reading::DayRecord day, double level, double slow) {
     const auto& grid = day.temperature.series;
     std::vector<double> degc(grid.size());
