@@ -30,7 +30,7 @@ void add_calibrate_command(CLI::App& program);
 /// `decimate`: one column of a CSV at a lower rate, as CSV `index,value,valid`.  Memory does not
 /// grow with the length of the input.
 void add_decimate_command(CLI::App& program);
-/// `design`: expected uncertainty of a survey that is planned, and what would improve it.
+/// `design`: expected uncertainty of a planned survey, and changes that would improve it.
 void add_design_command(CLI::App& program);
 /// `emd`: the modes and the residue of one column of a CSV, as CSV `imf1,...,residue`.  Prints
 /// period and energy of each; no cell of the column may be empty.

@@ -50,7 +50,7 @@ void design_survey(const DesignOptions& options) {
 void add_design_command(CLI::App& program) {
     CLI::App& command = *program.add_subcommand(
         "design",
-        "Computes the uncertainty of a survey that is planned, and what would improve it.");
+        "Computes the uncertainty of a planned survey, and finds changes that would improve it.");
     const auto options = std::make_shared<DesignOptions>();
     add_required(
         command, "PLAN", "", options->plan,

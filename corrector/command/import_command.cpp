@@ -111,8 +111,9 @@ void add_import_command(CLI::App& program) {
                      "without this column, so that the command table computes the tide")
         ->check(CLI::IsMember({"keep", "remove"}));
     add_tide_system(command, options->tide_system);
-    add_with_default(command, "--zone", "ZONE", options->zone,
-                     "Zone of the times in files that do not say it: +hh:mm, -hh:mm or Z");
+    add_with_default(
+        command, "--zone", "ZONE", options->zone,
+        "Zone of the times of GCYM tables, which do not state it: +hh:mm, -hh:mm or Z");
     command.callback([options] { import_files(*options); });
 }
 

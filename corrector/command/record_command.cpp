@@ -183,8 +183,8 @@ void add_record_command(CLI::App& program) {
     add_option(command, "--to", "UTC", options->to,
                "End of the interval, not included (RFC 3339; default: the end of the record)");
     add_with_default(command, "--quantity", "NAME", options->quantity,
-                     "What is analysed: the norm, or the angle of a horizontal axis above the "
-                     "horizontal with its effect of the temperature, in urad")
+                     "Quantity to analyse: the norm, or the angle of a horizontal axis above the "
+                     "horizontal (urad) and its dependence on the temperature")
         ->check(CLI::IsMember({"norm", "tilt-x", "tilt-y"}));
     add_option(command, "--apply", "FILE", options->apply,
                "Correct the record with this calibration of the unit, in two ways")
@@ -195,8 +195,8 @@ void add_record_command(CLI::App& program) {
     add_with_default(command, "--shift", "S", options->analysis.shift_s,
                      "Time by which the acceleration is moved earlier, as published");
     add_option(command, "--mode", "N", options->analysis.mode,
-               "Mode of both decompositions that is compared, 1 is the fastest (default: the one "
-               "whose period is nearest to the cycle)");
+               "Number of the modes that are compared, the same in both decompositions; 1 is the "
+               "fastest (default: in each the mode whose period is nearest to the cycle)");
     add_with_default(command, "--ensemble", "N", options->analysis.ensemble_size,
                      "Number of noise realisations that are averaged");
     add_with_default(command, "--seed", "N", options->analysis.seed, "Seed of the noise generator");

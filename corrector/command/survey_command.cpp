@@ -261,8 +261,8 @@ void add_survey_command(CLI::App& program) {
                "Table of the sites of a data root (default: sites.csv in the folder that contains "
                "the root)");
     command.add_flag("--json", options->is_json,
-                     "Print the gravity so far as one JSON document and write nothing. The stay "
-                     "that runs is used, and data that are only in the journal");
+                     "Print the gravity so far as one JSON document and write no file. Includes "
+                     "the running stay and data that are not archived yet");
     add_option(command, "--out", "DIR", options->out,
                "Folder of the result (default: result beside the first survey file); several days "
                "have one folder each in it");

@@ -58,7 +58,7 @@ struct Report {
 
 /// Makes the report.
 ///
-/// The order is: the answer with what is wrong with the day, a line per station and a map; the day in
+/// The order is: the answer with the problems of the day, a line per station and a map; the day in
 /// one figure; readings with repeated stations and corrections; accuracy with uncertainties and
 /// models; comparison with the references, records, and settings with inputs and warnings.
 ///

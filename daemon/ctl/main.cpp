@@ -202,8 +202,8 @@ void add_sites(CLI::App& app, Arguments& a) {
 
 void add_survey(CLI::App& app, Arguments& a) {
     add_json(app.add_subcommand("survey",
-                                "Shows the corrected gravity of each stay so far, and what is "
-                                "wrong with the day."),
+                                "Shows the corrected gravity of each stay so far, and the "
+                                "problems of the day."),
              a);
 }
 

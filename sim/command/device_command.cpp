@@ -207,9 +207,7 @@ void add_device_command(CLI::App& app, UntilStopped until_stopped) {
         ->check(CLI::Range(1e-3, 1e6))
         ->excludes(clock)
         ->capture_default_str();
-    device
-        ->add_option("--truth", command->truth,
-                     "File to write with every frame and what happened to it")
+    device->add_option("--truth", command->truth, "File to write: every frame and its fate")
         ->type_name("FILE");
     device->add_option("--report", command->report, "JSON file to write at the end")
         ->type_name("FILE");
