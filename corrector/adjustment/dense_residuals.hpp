@@ -35,8 +35,8 @@ struct DenseResiduals {
     Eigen::MatrixXd whitening;  ///< (k, n) Whitened effect of +1 mGal in each reading.
     Eigen::MatrixXd unknown;    ///< (k, u) Orthonormal basis of the unknown quantities.
     /// (k, k) Turns residuals into the scatter of the readings about the most likely course, in
-    /// standard deviations of the noise alone.  What the priors expect and the readings do not need
-    /// has no part in it, so that priors may be too wide.
+    /// standard deviations of the noise alone.  Variance that the priors expect and the readings
+    /// do not need has no part in it, so that priors may be too wide.
     Eigen::MatrixXd to_scatter;
 
     /// Removes the part that the unknown quantities explain.

@@ -75,8 +75,8 @@ std::vector<Mistake> without(std::vector<Mistake> mistakes, std::size_t k) {
     return mistakes;
 }
 
-/// Replaces each mistake by the one that explains most of what the others leave: an early one may
-/// have been taken for two that were not known yet.
+/// Replaces each mistake by the one that explains most of the scatter left by the others, because
+/// one may have been taken for two at first.
 void refine(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
             adjustment::Trials& trials) {
     for (std::size_t k = 0; k < mistakes.size(); ++k) {

@@ -301,7 +301,8 @@ double pressure_correlation(const std::vector<CorrectedRow>& rows) {
     return (pg - p * g / n) / std::sqrt((pp - p * p / n) * (gg - g * g / n));
 }
 
-/// Returns the fitted admittance in words, and if the readings can distinguish it from gravity.
+/// Returns the fitted admittance in words.  The sentence also says whether the readings can
+/// distinguish it from gravity.
 text::Message admittance_remark(const Fit& result) {
     // Real admittances are -0.0002 to -0.0004 mGal/hPa: a value whose error is larger than half
     // this range is not better than the usual one.

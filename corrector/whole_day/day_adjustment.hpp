@@ -136,8 +136,8 @@ private:
 
     /// Columns that only a group has.
     struct GroupPart {
-        Eigen::MatrixXd answer;  ///< (own, common) How the own columns answer to the common ones.
-        Eigen::MatrixXd covariance;        ///< (own, own) Of the own ones, the common ones known.
+        Eigen::MatrixXd answer;  ///< (own, common) Change of the own columns with the common ones.
+        Eigen::MatrixXd covariance;        ///< (own, own) With the common ones known.
         std::vector<ErrorSource> sources;  ///< Sources of the priors of the own columns.
     };
     /// The equations of a survey at the expected noise.

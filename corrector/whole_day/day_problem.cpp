@@ -158,7 +158,7 @@ void DayProblem::set_columns() {
         }
     own_begin_.resize(surveys_.size());
     for (Group& group : groups_) {
-        // A single sensor has no need of the columns of its set-ups.
+        // A single sensor does not need the columns of its set-ups.
         group.own_count = group.is_box() ? static_cast<Index>(group.set_up_count) : Index{0};
         for (const std::size_t k : group.surveys) {
             own_begin_[k] = group.own_count;

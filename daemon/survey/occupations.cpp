@@ -198,7 +198,7 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     }
     const text::Message clock = remark_on_clock();
     using Minutes = std::chrono::duration<double, std::ratio<60>>;
-    // Whoever stops when the countdown is at zero has kept the plan.
+    // A stop when the countdown shows zero keeps the plan.
     constexpr std::chrono::seconds kShorter{3};  // 0.05 min, below the last digit.
     const Nanoseconds stay = utc - running()->start;
     if (clock.empty() && planned() - stay >= kShorter) {

@@ -58,8 +58,9 @@ void set_timing(RecordHeader& header, const timing::SampleTime& time);
 
 /// Packs the samples of one channel into records.
 ///
-/// A record never reaches over UTC midnight, and ends where one of the archive ends that begins at
-/// the same time.  Start times are rounded down to 1 us.  The destructor drops samples not packed.
+/// A record never reaches over UTC midnight.  If the archive has a record that begins at the same
+/// time, it ends where that one ends.  Start times are rounded down to 1 us.  The destructor drops
+/// samples not packed.
 class ChannelPacker {
 public:
     /// Begins a series without samples: its first record gets the flag of a start.

@@ -16,8 +16,8 @@ namespace a351::timing {
 /// error.
 inline constexpr Nanoseconds kShortestSleep = std::chrono::milliseconds(100);
 
-/// Largest departure of a clock, beyond the possible slewing, that is not a step.  A larger one is
-/// doubted first while samples arrive, see UtcMapping.
+/// Departure of a clock, beyond the possible slewing, above which it counts as a step.  While
+/// samples arrive, a step must first be confirmed, see UtcMapping.
 inline constexpr Nanoseconds kClockStep = std::chrono::milliseconds(50);
 
 /// Largest jump of sample times that is removed by slewing; a larger one is a break, if there is a

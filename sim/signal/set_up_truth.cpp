@@ -62,8 +62,8 @@ std::vector<SetUpTruth> slow_means(const scenario::Scenario& scenario,
     return truth;
 }
 
-/// Adds the terms that the vertical component alone does not give: biases, bursts, and noise across
-/// the vertical.
+/// Adds the terms that do not follow from the vertical component alone: biases, bursts, and noise
+/// across the vertical.
 void add_vector_terms(const scenario::Scenario& scenario, const scenario::PlannedSetUp& set_up,
                       const Vector& bias_mgal, Disturbances& disturbances, SetUpTruth& truth) {
     const Vector vertical = tilted_vertical(set_up);

@@ -175,7 +175,8 @@ TEST_CASE("unknowns that depend on each other are named, and the others are not"
 }
 
 TEST_CASE("two readings do not determine three terms, whatever rounding leaves", "[adjustment]") {
-    // A station left out of a day that lost half of its stays: constant, temperature and its rate.
+    // From a day that lost half of its stays, with a station left out.  The terms are the constant,
+    // the temperature and its rate.
     Equations equations{0, 3, {}};
     for (const auto& [value, temperature, rate] :
          {std::array{1841.3336206222541, -0.21549073789026352, -0.053757961056488973},

@@ -281,7 +281,7 @@ TEST_CASE("a box that is colder after a gap was switched off", "[verdict]") {
     REQUIRE(find(series.judge.verdict(), kAgain) != nullptr);
     CHECK(find(series.judge.verdict(), kAgain)->value == Approx(1.0 / 3.0).margin(0.01));
 
-    // A box that was cold before the gap, or is warm after it, was not.
+    // A box that was cold before the gap, or is warm after it, was not switched off.
     for (const auto& [before_degc, after_degc] : {std::pair{41.2, 40.8}, {43.2, 42.4}}) {
         Series other;
         other.degc = before_degc;
