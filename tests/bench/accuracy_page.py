@@ -2,7 +2,8 @@
 
 usage: accuracy_page.py [WORD...]    (A351_BIN, A351_TOOLS)
 Runs the commands of the sections whose headings contain one of the words; default: all, which takes a night.
-A section has a heading, sentences, a line `Command: ...`, and the output of the bench without its lines for single days.
+A section has a heading, sentences, a line `Command: ...`, and in a block the output of the bench without its lines for single days.
+A run replaces line and block.  All else is written by hand, such as a table of an earlier program.
 Date and commit are those of the run; the sources must be committed.
 """
 
@@ -15,7 +16,7 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PAGE = TOP / "corrector/accuracy.md"
-COMMAND = re.compile(r"^Command: `([^`]*)`.*?(?=^## |\Z)", re.MULTILINE | re.DOTALL)
+COMMAND = re.compile(r"^Command: `(python3 tests/bench/[^`]*)`[^\n]*\n(?:\n```\n.*?\n```\n)?", re.MULTILINE | re.DOTALL)
 SINGLE_DAY = re.compile(r"\s*(seed |unit )?\d+(:| done)|holds: ")
 
 
@@ -29,7 +30,7 @@ def measured(command, commit):
     lines = [line for line in done.stdout.splitlines() if not SINGLE_DAY.match(line)]
     if done.returncode not in (0, 1) or not lines:
         raise SystemExit(f"{command} ended with {done.returncode}")
-    return "\n".join([f"Command: `{command}`, {datetime.date.today()}, commit {commit}", "", "```", *lines, "```", "", ""])
+    return "\n".join([f"Command: `{command}`, {datetime.date.today()}, commit {commit}", "", "```", *lines, "```", ""])
 
 
 if changed := git("status", "--porcelain", "--", "corrector", "protocol", "sim", "tests/bench").replace("M corrector/accuracy.md", "").strip():
@@ -42,5 +43,5 @@ for heading in re.findall(r"^## (.*)$", PAGE.read_text(), re.MULTILINE):
     if command := COMMAND.search(section[:section.find("\n## ") + 1 or None]):
         now = measured(command[1], commit)
         before, begin, section = PAGE.read_text().partition(f"## {heading}\n")  # The run took long: others may have written.
-        PAGE.write_text(before + begin + COMMAND.sub(lambda _: now, section, count=1).rstrip("\n") + "\n")
+        PAGE.write_text(before + begin + COMMAND.sub(lambda _: now, section, count=1))
         print(f"{heading}: {command[1]}", flush=True)
