@@ -41,6 +41,7 @@ void set_options(TableOptions& options, const std::vector<reading::SurveyRow>& r
     job::SurveyFile& survey = options.survey;
     if (options.tide.empty()) options.tide = rows.front().given_tide ? "given" : "direct";
     tide::set_tide_option(survey.tide, options.tide);
+    tide::take_given_system(survey.tide, rows, options.observations);
     survey.tide.factors = tide_factor_options(survey.tide.factors);
     survey.survey.base = text::plain_text(survey.survey.base);
     for (std::string& name : survey.survey.datum) name = text::plain_text(name);

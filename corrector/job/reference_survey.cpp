@@ -51,9 +51,10 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey, reading::Occupa
         throw InputError(origin + ":1: no column instrument; allowed: a table of gravimeters");
     tide::Choice tide = survey.tide;
     if (rows.front().given_tide) {
+        const std::string system(tide::name_of(tide.system));
         tide::set_tide_option(tide, "given");
-        tide::set_tide_system(tide, std::string(tide::name_of(tide.system)),
-                              origin + ": tide_system");
+        tide::take_given_system(tide, rows, origin);
+        tide::set_tide_system(tide, system, origin + ": tide_system of the survey");
     }
     tide::apply_tide(rows, read.sites, tide);
     reduction::ReductionChoice reduction = survey.reduction;

@@ -117,6 +117,10 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         if (table.has_column("earth_tide_mgal")) {
             // No solid-Earth tide exceeds 0.3 mGal; the limit 1 finds a wrong unit.
             row.given_tide = MilliGal(table.number(i, "earth_tide_mgal", -1.0, 1.0));
+            if (table.has_column("tide_system"))
+                row.given_tide_system = table.cell(i, "tide_system");
+            if (i > 0 && row.given_tide_system != rows.front().given_tide_system)
+                table.refuse(i, "tide_system", "not that of the first row", "one system");
         }
         // Gravity on Earth is 976000-984000 mGal, biases are some thousands.
         row.acceleration =
@@ -160,7 +164,8 @@ text::Message impossible_temperature(const std::vector<SurveyRow>& rows) {
         if (row.temperature < kLeast || row.temperature > kMost)
             return text::message(
                 "the temperature at {} reads {:.1f} degC, but a sensor can have only -40 to +90 "
-                "degC: its profile was wrong; find the right one with a351d --identify, and write the "
+                "degC: its profile was wrong; find the right one with a351d --identify, and write "
+                "the "
                 "archive again with a351-correct retime --profile",
                 row.site, row.temperature.value());
     return {};

@@ -44,6 +44,8 @@ struct SetUp {
     std::vector<std::string> notes = {};  ///< Reasons for doubt, e.g. "fallback" or "no-stop".
     /// Tide that came with it, effect on gravity; used by the tide `given` only.
     std::optional<MilliGal> given_tide = {};
+    /// What gravity keeps of the permanent tide after given_tide, as the table names it; empty: not known.
+    std::string given_tide_system = {};
     std::optional<Metres> instrument_height =
         {};  ///< Height of the sensor above the mark, if given.
 };
@@ -126,7 +128,7 @@ inline constexpr double kGreatestInstrumentHeight_m = 10.0;
 /// @throws InputError  not a number, or beyond kGreatestInstrumentHeight_m.
 [[nodiscard]] std::optional<Metres> instrument_height(const text::CsvTable& table, std::size_t row);
 
-/// Reads a table `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal],
+/// Reads a table `site,occupation[,outlier],time_utc|time_jst|time[,earth_tide_mgal[,tide_system]],
 /// acceleration_mgal,temperature_degc[,instrument[,loop]][,instrument_height_m][,pressure_hpa]
 /// [,sd_mgal[,readings]]` and sorts its rows by time.
 ///

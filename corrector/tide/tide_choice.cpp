@@ -47,10 +47,16 @@ std::string_view model_text(const Choice& choice) {
 
 /// Returns what a result contains of the constant part of the tide, which not all programs remove.
 std::string_view permanent_tide_text(const Choice& choice) {
-    if (!choice.series.empty() || choice.source == "given") return "as in the given tide";
+    if (!choice.given_system && (!choice.series.empty() || choice.source == "given"))
+        return "as in the given tide";
     if (choice.source == "none" || choice.system == System::mean) return "not removed";
-    return choice.system == System::zero ? "attraction removed, deformation kept"
-                                         : "removed, with the factor delta2";
+    if (choice.system == System::zero) return "attraction removed, deformation kept";
+    return choice.given_system ? "removed" : "removed, with the factor delta2";
+}
+
+System required_system(const std::string& text, const std::string& origin) {
+    if (const auto system = system_named(text)) return *system;
+    throw InputError(fmt::format("{} = {}: unknown; allowed: {}", origin, text, kTideSystems));
 }
 
 bool is_computed(const Choice& choice) {
@@ -75,16 +81,27 @@ void set_tide_option(Choice& choice, const std::string& text) {
         fmt::format("--tide = {}: neither a source nor a file; allowed: {}", text, kTideSources));
 }
 
+void take_given_system(Choice& choice, const std::vector<reading::SurveyRow>& rows,
+                       const std::string& origin) {
+    choice.given_system.reset();
+    if (choice.source != "given" || rows.empty() || rows.front().given_tide_system.empty()) return;
+    choice.given_system = required_system(rows.front().given_tide_system, origin + ": tide_system");
+    choice.system = *choice.given_system;
+}
+
 void set_tide_system(Choice& choice, const std::string& text, const std::string& origin) {
-    const auto system = system_named(text);
-    if (!system)
-        throw InputError(fmt::format("{} = {}: unknown; allowed: {}", origin, text, kTideSystems));
-    if (*system != System::tide_free && !is_computed(choice))
+    const System system = required_system(text, origin);
+    if (choice.given_system && system != *choice.given_system)
+        throw InputError(
+            fmt::format("{} = {}: the given tide has the tide_system {}; allowed: "
+                        "that one, or the tide direct or longman",
+                        origin, text, name_of(*choice.given_system)));
+    if (system != System::tide_free && !is_computed(choice) && !choice.given_system)
         throw InputError(fmt::format(
             "{} = {}: the tide is {}, and what it contains of the permanent tide is not known; "
             "allowed: with the tide direct or longman",
             origin, text, choice.source));
-    choice.system = *system;
+    choice.system = system;
 }
 
 Model tide_model(const std::string& source) {
@@ -120,7 +137,8 @@ void describe_tide(Json& settings, const Choice& choice) {
     settings["tide"] = choice.source;
     settings["tide_model"] = model_text(choice);
     settings["tide_sign"] = "effect on gravity: positive where gravity is larger; subtracted";
-    settings["tide_system"] = is_computed(choice) ? name_of(choice.system) : "as given";
+    settings["tide_system"] =
+        is_computed(choice) || choice.given_system ? name_of(choice.system) : "as given";
     settings["permanent_tide"] = permanent_tide_text(choice);
     const bool has_factors = is_computed(choice);
     settings["delta2"] = has_factors ? Json(choice.factors.delta2) : Json(nullptr);

@@ -14,6 +14,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,9 +37,10 @@ struct Choice {
     /// here if those are wanted.  Other sources ignore them.
     Factors factors;
     std::filesystem::path series;  ///< CSV for Series::read(); empty: `source` is one of the names.
-    /// System of the gravity that remains.  Only direct and longman can give another one than
-    /// tide_free: the system of a given tide is not known.
+    /// System of the gravity that remains.  Only direct and longman can give each one; a given tide has
+    /// the one that its table names, or tide_free if it names none.
     System system = System::tide_free;
+    std::optional<System> given_system = {};  ///< From the table of a given tide; absent: not known.
 };
 
 /// Allowed values of a tide, for messages and help.
@@ -65,11 +67,18 @@ void set_tide_option(Choice& choice, const std::string& text);
 /// Allowed names of a tide system, for messages and help.
 inline constexpr std::string_view kTideSystems = "tide-free, zero or mean";
 
+/// Takes the system that the rows name for their given tide, if the source is `given`; call it after
+/// the source is set.
+/// @param origin  name of the table, for the message.
+/// @throws InputError  the rows name something that is no system.
+void take_given_system(Choice& choice, const std::vector<reading::SurveyRow>& rows,
+                       const std::string& origin);
+
 /// Sets the system from the text of the option --tide-system or of the key tide_system; call it
-/// after the source is set.
+/// after the source is set, and after take_given_system().
 /// @param origin  what begins the message: "--tide-system", or file and key.
-/// @throws InputError  the text is no system, or it is another one than tide-free and the tide is
-///                     not computed.
+/// @throws InputError  the text is no system, or the tide is not computed and its system is another
+///                     one or, beside tide-free, not known.
 void set_tide_system(Choice& choice, const std::string& text, const std::string& origin);
 
 /// Returns the model of a computed source: direct, catalogue, longman or none.

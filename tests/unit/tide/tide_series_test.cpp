@@ -162,6 +162,21 @@ TEST_CASE("the settings name the tide's source, model, factors and sign", "[surv
     CHECK(settings["tide_model"] == "column earth_tide_mgal");
     CHECK(settings["permanent_tide"] == "as in the given tide");
     CHECK(settings["delta2"].is_null());
+    SurveyRow row;
+    row.given_tide_system = "mean";
+    take_given_system(choice, {row}, "day.csv");
+    describe_tide(settings, choice);
+    CHECK(settings["tide_system"] == "mean");
+    CHECK(settings["permanent_tide"] == "not removed");
+    CHECK_NOTHROW(set_tide_system(choice, "mean", "--tide-system"));
+    CHECK_THROWS_WITH(
+        set_tide_system(choice, "tide-free", "--tide-system"),
+        "--tide-system = tide-free: the given tide has the tide_system mean; allowed: "
+        "that one, or the tide direct or longman");
+    row.given_tide_system = "free";
+    CHECK_THROWS_WITH(take_given_system(choice, {row}, "day.csv"),
+                      "day.csv: tide_system = free: unknown; allowed: tide-free, zero or mean");
+    choice = {};
     choice.source = "none";
     describe_tide(settings, choice);
     CHECK(settings["permanent_tide"] == "not removed");
