@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 namespace a351::corrector::archive_series {
 namespace {
@@ -14,8 +13,15 @@ constexpr double kShortestForRate_s = 60.0;
 
 /// Returns the offset of the first sample at or after `time`; the size if there is none.
 std::size_t first_at_or_after(const archive::Segment& segment, UtcTime time) {
-    return *std::ranges::partition_point(std::views::iota(std::size_t{0}, segment.counts.size()),
-                                         [&](std::size_t i) { return segment.time_of(i) < time; });
+    std::size_t first = 0, end = segment.counts.size();
+    while (first < end) {
+        const std::size_t middle = first + (end - first) / 2;
+        if (segment.time_of(middle) < time)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first;
 }
 
 /// Returns the rate between the first and the last time stamp of samples [first, end).

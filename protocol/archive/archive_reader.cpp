@@ -40,10 +40,10 @@ public:
             return bytes_.subspan(at + kNumber, kRecordSize - kNumber);
         };
         // In a file of one recorder the times ascend, and nothing is compared.
-        const auto [first, last] = std::ranges::equal_range(seen_, start, {}, &Seen::start);
-        for (const Seen& one : std::ranges::subrange(first, last))
-            if (std::ranges::equal(body(one.offset), body(offset))) return false;
-        seen_.insert(last, {start, offset});
+        auto at = std::ranges::lower_bound(seen_, start, {}, &Seen::start);
+        for (; at != seen_.end() && at->start == start; ++at)
+            if (std::ranges::equal(body(at->offset), body(offset))) return false;
+        seen_.insert(at, {start, offset});
         return true;
     }
 
@@ -205,9 +205,9 @@ std::vector<AbsentFile> absent_day_files(const fs::path& archive,
         }
     }
     for (const auto& [day, there] : present) {
-        const auto is_long = [&](const std::string& channel) {
+        const auto is_long = [&, from_day = day](const std::string& channel) {
             const auto data =
-                read_channel(archive, codes, channel, day, day + std::chrono::days(1));
+                read_channel(archive, codes, channel, from_day, from_day + std::chrono::days(1));
             if (data.segments.empty()) return false;
             const Segment& last = data.segments.back();
             return last.time_of(last.counts.size()) - data.segments.front().time_of(0) >=

@@ -11,25 +11,25 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <source_location>
 
 namespace a351 {
 
 /// Writes one line to standard error and ends the program by abort().
-[[noreturn, gnu::cold]] inline void end_by_broken_invariant(
-    const char* law, const std::source_location& where) noexcept {
-    std::fprintf(stderr, "a351: internal error, please report it: not true that %s (%s:%u)\n", law,
-                 where.file_name(), static_cast<unsigned>(where.line()));
+[[noreturn, gnu::cold]] inline void end_by_broken_invariant(const char* law, const char* file,
+                                                            int line) noexcept {
+    std::fprintf(stderr, "a351: internal error, please report it: not true that %s (%s:%d)\n", law,
+                 file, line);
     std::abort();
 }
 
 /// Ends the program unless a law holds.
 /// @param law  the law as a clause in plain words; a literal.
-inline void require_invariant(
-    bool holds, const char* law,
-    const std::source_location& where = std::source_location::current()) noexcept {
+/// @param file, line  place of the caller.  They are not a std::source_location, which clang 14 does not
+///                    have with the library of GCC 12.
+inline void require_invariant(bool holds, const char* law, const char* file = __builtin_FILE(),
+                              int line = __builtin_LINE()) noexcept {
     if (!holds) [[unlikely]]
-        end_by_broken_invariant(law, where);
+        end_by_broken_invariant(law, file, line);
 }
 
 }  // namespace a351
