@@ -197,6 +197,12 @@ def show_figures(stub, browser):
     demand(f"benchmarks fill in on the map: {marks}", [marks.count(one) for one in ("read", "doubt", "open", "here")] == [2, 2, 10, 1])
     demand("their number is said", browser.text("map-caption") == "4 of 14 benchmarks were read today")
     demand("the place of the running stay has its name", browser.run("return document.querySelector('#map text').textContent") == "No.5")
+    across = [{"site": name, "latitude_deg": 36.2 + 0.01 * k, "longitude_deg": longitude}
+              for k, (name, longitude) in enumerate([("A", 179.99), ("B", -179.99), ("C", 180.0), ("D", -180.0)])]
+    a, b, c, d = browser.driver.execute_async_script(
+        "const done = arguments[1]; import('/figures.js').then((page) => { page.show_map(arguments[0], [], '');"
+        "done([...document.querySelectorAll('#map circle')].map((one) => Number(one.getAttribute('cx')))); })", across)
+    demand(f"a map across 180 degrees is one piece: {a:.1f} {c:.1f} {d:.1f} {b:.1f}", abs(c - d) < 0.1 and b - c > 20 and c - a > 20)
     browser.shot("figures-1366", is_whole=True)
     browser.open_details(False)
 
