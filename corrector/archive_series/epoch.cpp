@@ -6,6 +6,7 @@
 
 #include "protocol/archive/channel_code.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::archive_series {
@@ -36,8 +37,10 @@ station::ChannelScale channel_with(const station::Metadata& station, const std::
 }  // namespace
 
 Epoch epoch_of(UtcTime start, const station::Metadata& station, const std::filesystem::path& file) {
-    Epoch epoch{start, station.serial_number, station.codes, {}, station.position,
-                station.noise_ug_per_sqrt_hz};
+    Epoch epoch{start, station.serial_number, station.codes, {}, station.position};
+    if (station.noise_ug_per_sqrt_hz)
+        epoch.data_sheet_mgal_per_sqrt_hz =
+            1e-6 * *station.noise_ug_per_sqrt_hz * kMilliGalPerStandardGravity;
     for (const std::string& axis : station.codes.axes)
         epoch.channels.push_back(channel_with(station, "N" + axis, "m/s**2", file));
     epoch.channels.push_back(channel_with(station, "K1", "degC", file));

@@ -38,7 +38,8 @@ struct Epoch {
     std::vector<station::ChannelScale> channels;
     std::optional<station::Position> position = {};  ///< Absent if the file has none.
 
-    std::optional<double> noise_ug_per_sqrt_hz = {};  ///< Metadata::noise_ug_per_sqrt_hz.
+    /// Metadata::noise_ug_per_sqrt_hz.
+    std::optional<double> data_sheet_mgal_per_sqrt_hz = {};
 
     [[nodiscard]] bool has_outer() const { return channels.size() > kOuter; }
 };

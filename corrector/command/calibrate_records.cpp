@@ -39,8 +39,7 @@ long_record::RecordSegment without_begin(long_record::RecordSegment segment, dou
     const auto cut =
         std::min(segment.size(), static_cast<std::size_t>(kSettled_h * kSecondsPerHour / step_s));
     const auto end = static_cast<std::ptrdiff_t>(cut);
-    segment.acceleration_mgal.erase(segment.acceleration_mgal.begin(),
-                                    segment.acceleration_mgal.begin() + end);
+    segment.quantity.erase(segment.quantity.begin(), segment.quantity.begin() + end);
     segment.temperature_degc.erase(segment.temperature_degc.begin(),
                                    segment.temperature_degc.begin() + end);
     if (!segment.outer_degc.empty())
@@ -50,8 +49,8 @@ long_record::RecordSegment without_begin(long_record::RecordSegment segment, dou
 }
 
 long_record::TwoPathFit fitted(const long_record::RecordSegment& segment, double step_s) {
-    return long_record::fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, step_s,
-                                      kCycle_s, segment.outer_degc);
+    return long_record::fit_two_paths(segment.temperature_degc, segment.quantity, step_s, kCycle_s,
+                                      segment.outer_degc);
 }
 
 /// @throws InputError  the record is of several units.
@@ -134,8 +133,8 @@ std::string calibrate_from_records(unit::Calibration& calibration,
                       "too short for the response to temperature; needed: 3 h that begin "
                       "{} h after power-on or later",
                       text::fixed(kSettled_h, 0))
-                : long_record::reason_against_two_paths(segment.temperature_degc,
-                                                        segment.acceleration_mgal, record.step_s);
+                : long_record::reason_against_two_paths(segment.temperature_degc, segment.quantity,
+                                                        record.step_s);
         if (!lack.empty()) {
             lacks.push_back(fmt::format("{}: {}", name, lack));
             text += lacks.back() + '\n';

@@ -147,7 +147,8 @@ Day correct_day(const job::SurveyFile& survey, const figure::FigureOptions& figu
     const report::Report report = report::make_report(
         result, settings,
         {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
-         std::move(read.signal), read.inputs, read.warnings, figures});
+         std::move(read.signal), read.data_sheet_mgal_per_sqrt_hz, read.inputs, read.warnings,
+         figures});
     day.files.insert(day.files.end(), report.files.begin(), report.files.end());
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     print_warnings(read.warnings, survey.name + ": ");

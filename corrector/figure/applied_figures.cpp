@@ -29,7 +29,7 @@ std::string mean_lines(const std::vector<double>& values, double step_s) {
 }
 
 Figure series_figure(const long_record::RecordResult& result, const Print& print) {
-    const std::vector<double>& before = result.segment().acceleration_mgal;
+    const std::vector<double>& before = result.segment().quantity;
     const double low = std::ranges::min(before), high = std::ranges::max(before),
                  mean = signal::mean_of(before);
     Figure figure{"before-after",

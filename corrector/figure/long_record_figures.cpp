@@ -19,7 +19,7 @@ using text::tr;
 
 /// Returns the mean acceleration rounded to whole mGal, so that the axis is easy to read.
 double reference_of(const RecordResult& result) {
-    return std::round(signal::mean_of(result.segment().acceleration_mgal));
+    return std::round(signal::mean_of(result.segment().quantity));
 }
 
 std::string above_reference(const RecordResult& result) {
@@ -91,7 +91,7 @@ Figure samples_figure(const RecordResult& result, const Print& print) {
     for (const long_record::RecordSegment& segment : result.parts.segments) {
         const double first_h = seconds_between(start, segment.start) / kSecondsPerHour;
         acceleration +=
-            curve_lines({segment.acceleration_mgal, step_h, first_h, reference_of(result)}) + '\n';
+            curve_lines({segment.quantity, step_h, first_h, reference_of(result)}) + '\n';
         temperature += curve_lines({segment.temperature_degc, step_h, first_h}) + '\n';
     }
     Figure figure = two_panels("record-20s",
@@ -132,7 +132,7 @@ Figure scatter_figure(const std::string& name, const std::string& caption,
 Figure trend_figure(const RecordResult& result, const Print& print) {
     const long_record::RecordSegment& segment = result.segment();
     const double step_h = step_h_of(result), moved_h = -result.options.shift_s / kSecondsPerHour;
-    const std::vector<double>&a = segment.acceleration_mgal, &t = segment.temperature_degc;
+    const std::vector<double>&a = segment.quantity, &t = segment.temperature_degc;
     Figure figure = two_panels("trend",
                                tr("Acceleration, sign reversed and moved {} s earlier, and "
                                   "temperature, each with the residue of its decomposition.",
@@ -167,7 +167,7 @@ Figure tilt_figure(const RecordResult& result, const Print& print) {
         std::vector<double>& values = corrected.emplace_back(segment.size());
         for (std::size_t i = 0; i < values.size(); ++i)
             sum += values[i] =
-                tilt.corrected_urad(segment.acceleration_mgal[i], segment.temperature_degc[i]);
+                tilt.corrected_urad(segment.quantity[i], segment.temperature_degc[i]);
         count += values.size();
     }
     const double mean = std::round(sum / static_cast<double>(count));
@@ -175,7 +175,7 @@ Figure tilt_figure(const RecordResult& result, const Print& print) {
     for (std::size_t k = 0; k < corrected.size(); ++k) {
         const long_record::RecordSegment& segment = result.parts.segments[k];
         const double first_h = seconds_between(start, segment.start) / kSecondsPerHour;
-        measured += curve_lines({segment.acceleration_mgal, step_h, first_h, mean}) + '\n';
+        measured += curve_lines({segment.quantity, step_h, first_h, mean}) + '\n';
         without += curve_lines({corrected[k], step_h, first_h, mean}) + '\n';
         temperature += curve_lines({segment.temperature_degc, step_h, first_h}) + '\n';
     }
@@ -219,7 +219,7 @@ std::vector<Figure> long_record_figures(const RecordResult& result, const Print&
     figures.push_back(scatter_figure("scatter",
                                      tr("All samples at 20 s, with regression line.") +
                                          as_published("3", published_line(result, "raw")),
-                                     segment.temperature_degc, segment.acceleration_mgal,
+                                     segment.temperature_degc, segment.quantity,
                                      result.analysis.raw, reference_of(result),
                                      above_reference(result), print));
     return figures;

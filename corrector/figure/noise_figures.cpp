@@ -16,9 +16,11 @@ namespace {
 using long_record::RecordResult;
 using text::tr;
 
-/// Returns the figure of a spectrum with its limits and the models of the ground.
+/// Returns the figure of a spectrum with its limits, the models of the ground and, if it is known, the
+/// noise of the data sheet.
 Figure density_figure(const std::string& name, const std::string& caption,
-                      const std::vector<noise::Density>& spectrum, double width_mm) {
+                      const std::vector<noise::Density>& spectrum,
+                      const std::optional<double>& data_sheet_mgal_per_sqrt_hz, double width_mm) {
     Figure figure{name, caption, width_mm};
     figure.panels = {
         {{.label = tr("Frequency (Hz)"),
@@ -43,6 +45,13 @@ Figure density_figure(const std::string& name, const std::string& caption,
                 {Look::dashed_line, Colour::black, "NHNM"});
     figure.plot("NLNM: frequency_hz mgal_per_sqrt_hz", low,
                 {Look::dotted_line, Colour::grey, "NLNM"});
+    if (data_sheet_mgal_per_sqrt_hz) {
+        std::string line;
+        for (const noise::Density* end : {&spectrum.front(), &spectrum.back()})
+            line += data_line("96", {end->frequency_hz, *data_sheet_mgal_per_sqrt_hz});
+        figure.plot("data sheet: frequency_hz mgal_per_sqrt_hz", line,
+                    {Look::thin_line, Colour::black, tr("data sheet")});
+    }
     return figure;
 }
 
@@ -54,7 +63,7 @@ Figure spectrum_figure(const RecordResult& result, const Print& print) {
            "noises of the Allan deviation, the ground at the quietest and noisiest "
            "seismic stations (Peterson 1993), and the noise of the sensor by its data "
            "sheet, which is for faster signals."),
-        noise.spectrum, print.wide_mm());
+        noise.spectrum, result.record.data_sheet_mgal_per_sqrt_hz, print.wide_mm());
     std::string model;
     for (const noise::Density& one : noise.spectrum)
         model +=
@@ -62,13 +71,6 @@ Figure spectrum_figure(const RecordResult& result, const Print& print) {
                              std::sqrt(noise.allan.noises.density_mgal2_per_hz(one.frequency_hz))});
     figure.plot("three noises: frequency_hz mgal_per_sqrt_hz", model,
                 {Look::strong_line, Colour::vermilion, tr("three noises")});
-    if (const auto level = result.record.data_sheet_mgal_per_sqrt_hz) {
-        std::string line;
-        for (const noise::Density* end : {&noise.spectrum.front(), &noise.spectrum.back()})
-            line += data_line("96", {end->frequency_hz, *level});
-        figure.plot("data sheet: frequency_hz mgal_per_sqrt_hz", line,
-                    {Look::thin_line, Colour::black, tr("data sheet")});
-    }
     return figure;
 }
 
@@ -102,7 +104,7 @@ Figure allan_noise_figure(const std::string& name, const std::string& part,
 
 Figure spectrogram_figure(const RecordResult& result, const Print& print) {
     const std::vector<noise::Tile> tiles =
-        noise::spectrogram(result.segment().acceleration_mgal, result.record.step_s);
+        noise::spectrogram(result.segment().quantity, result.record.step_s);
     Figure figure{"noise-spectrogram",
                   tr("Spectral density of the acceleration by hour, each of two hours about it, in "
                      "bands of a quarter octave or one frequency."),
@@ -132,13 +134,16 @@ Figure spectrogram_figure(const RecordResult& result, const Print& print) {
 
 }  // namespace
 
-std::vector<Figure> quiet_noise_figures(const std::vector<ReadingRecord>& records,
+std::vector<Figure> quiet_noise_figures(const model::SurveyCorrection& result,
+                                        const std::vector<ReadingRecord>& records,
+                                        const std::optional<double>& data_sheet_mgal_per_sqrt_hz,
                                         const Print& print) {
     // 4 min of samples of 2 s: five segments in a stay of 12 min.
     constexpr std::size_t kLength = 120;
     std::vector<std::vector<double>> parts;
     double step_s = 0.0, samples = 0.0;
     for (const ReadingRecord& record : records) {
+        if (!result.rows[record.row].is_used) continue;
         const auto& series = record.value->series;
         step_s = 1.0 / series.rate().value();
         for (auto& part :
@@ -153,15 +158,18 @@ std::vector<Figure> quiet_noise_figures(const std::vector<ReadingRecord>& record
     return {
         density_figure(
             "noise-day",
-            tr("Amplitude spectral density of the acceleration in the quiet parts of the stays, "
-               "together, with 95 % limits: {} min in {} parts without motion, each in segments of "
-               "{} "
-               "min; and the ground at the quietest and noisiest seismic stations (Peterson 1993).",
+            tr("Amplitude spectral density of the acceleration in the quiet parts of the stays "
+               "that are used in the fit, together, with 95 % limits: {} min in {} parts without "
+               "motion, each in segments of {} min; the ground at the quietest and noisiest "
+               "seismic stations (Peterson 1993); and the noise of the sensor by its data sheet, "
+               "which is for faster signals.",
                text::fixed(samples * step_s / 60.0, 0), parts.size(),
                text::fixed(static_cast<double>(kLength) * step_s / 60.0, 0)),
-            spectrum, print.small_mm()),
-        allan_noise_figure("noise-day-allan", tr(" in the quiet parts of the stays, together"),
-                           allan, print)};
+            spectrum, data_sheet_mgal_per_sqrt_hz, print.small_mm()),
+        allan_noise_figure(
+            "noise-day-allan",
+            tr(" in the quiet parts of the stays that are used in the fit, together"), allan,
+            print)};
 }
 
 std::vector<Figure> noise_figures(const RecordResult& result, const Print& print) {

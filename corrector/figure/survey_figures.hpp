@@ -104,10 +104,12 @@ struct ReadingRecord {
 
 /// Returns the figures of the noise in the records' parts between disturbances, pooled: noise-day, the
 /// spectral density (noise::pooled_density()), and noise-day-allan (noise::pooled_allan()).  Nothing reaches
-/// over a motion or from stay to stay.
+/// over a motion or from stay to stay.  Only rows in the fit take part.
+/// @param data_sheet_mgal_per_sqrt_hz  noise of an axis by the data sheet; absent: no line.
 /// @return none if no part is four minutes long.
-[[nodiscard]] std::vector<Figure> quiet_noise_figures(const std::vector<ReadingRecord>& records,
-                                                      const Print& print);
+[[nodiscard]] std::vector<Figure> quiet_noise_figures(
+    const model::SurveyCorrection& result, const std::vector<ReadingRecord>& records,
+    const std::optional<double>& data_sheet_mgal_per_sqrt_hz, const Print& print);
 
 /// Returns the figure of the day: errors of the readings, their samples, the temperature of
 /// the sensor and the signal of the recorder on one axis of time, with the stays.

@@ -41,15 +41,29 @@ Figure scatter(const std::string& name, const std::string& x_label, const std::s
     return figure;
 }
 
+/// Counts an axis from a whole 1000, which its label then says, if its numbers have six digits.
+/// @param column  of the axis in the data, from 1.
+void shorten(Panel& panel, Axis& axis, int column, const std::vector<double>& values) {
+    constexpr double kSixDigits = 1e5, kOffset = 1e3;
+    const auto [least, greatest] = std::ranges::minmax(values);
+    if (least < kSixDigits || greatest - least > 10.0 * kOffset) return;
+    const double offset = kOffset * std::floor(least / kOffset);
+    axis.label.insert(axis.label.rfind(" ("), fmt::format(" - {}", text::fixed(offset, 0)));
+    for (Series& series : panel.series)
+        for (Column& one : series.columns)
+            if (one.number == column) one.plus -= offset;
+}
+
 /// Adds the points of the rows and their least-squares line.
 std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& result,
                                 const std::string& columns, const PointOf& point_of) {
-    std::vector<double> all_x, x, y;  // of all points, and of those in the fit
+    std::vector<double> all_x, all_y, x, y;  // of all points, and of those in the fit
     bool has_bars = false;
     plot_rows(figure, result, columns, [&](const model::CorrectedRow& row) -> std::string {
         const Point point = point_of(row);
         if (!std::isfinite(point.x) || !std::isfinite(point.y)) return {};
         all_x.push_back(point.x);
+        all_y.push_back(point.y);
         if (row.is_used) {
             x.push_back(point.x);
             y.push_back(point.y);
@@ -59,19 +73,25 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
     });
     if (has_bars) add_bars(figure.panels.front());
     if (figure.data.empty()) return std::nullopt;
-    if (x.size() < 3 || !(std::ranges::min(x) < std::ranges::max(x))) return figure;
-    const auto fit = signal::fit_line(x, y);
-    const auto at = [&fit](double where) { return fit.mean_y + fit.slope * (where - fit.mean_x); };
-    std::string ends;
-    for (const double end : {std::ranges::min(all_x), std::ranges::max(all_x)})
-        ends += data_line("44", {end, at(end)});
-    figure.plot(
-        "line through those in the fit: " + columns, ends,
-        {.look = Look::line,
-         .colour = Colour::grey,
-         .label = fmt::format("y = {}{} x {} {}, R² = {}", fit.slope < 0.0 ? "\u2212" : "",
-                              text::fixed(std::abs(fit.slope), 4), at(0.0) < 0.0 ? "\u2212" : "+",
-                              text::fixed(std::abs(at(0.0)), 1), text::fixed(fit.r2, 4))});
+    if (x.size() >= 3 && std::ranges::min(x) < std::ranges::max(x)) {
+        const auto fit = signal::fit_line(x, y);
+        std::string ends;
+        for (const double end : {std::ranges::min(all_x), std::ranges::max(all_x)})
+            ends += data_line("44", {end, fit.mean_y + fit.slope * (end - fit.mean_x)});
+        // About the mean: at x = 0 the line is far from every reading.
+        const auto sign = [](double value) { return value < 0.0 ? "\u2212" : "+"; };
+        figure.plot("line through those in the fit: " + columns, ends,
+                    {.look = Look::line,
+                     .colour = Colour::grey,
+                     .label = fmt::format(
+                         "y = {}{} (x {} {}) {} {}, R² = {}", fit.slope < 0.0 ? "\u2212" : "",
+                         text::fixed(std::abs(fit.slope), 4), sign(-fit.mean_x),
+                         text::fixed(std::abs(fit.mean_x), 2), sign(fit.mean_y),
+                         text::fixed(std::abs(fit.mean_y), 1), text::fixed(fit.r2, 4))});
+    }
+    Panel& panel = figure.panels.front();
+    shorten(panel, panel.x, 1, all_x);
+    shorten(panel, panel.y, 2, all_y);
     return figure;
 }
 

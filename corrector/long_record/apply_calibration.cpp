@@ -79,7 +79,7 @@ std::vector<double> by_two_paths(const RecordSegment& segment, const unit::Therm
     const std::vector<double> temperature = smoothed(segment.temperature_degc);
     const TimeSeries<DegC> series({}, Hertz(1.0 / step_s), temperature);
     const std::vector<double> effect = response.of(series, signal::mean_of(temperature));
-    std::vector<double> corrected = segment.acceleration_mgal;
+    std::vector<double> corrected = segment.quantity;
     for (std::size_t i = 0; i < corrected.size(); ++i) corrected[i] -= effect[i];
     return corrected;
 }
@@ -91,7 +91,7 @@ bool is_short(const eemd::Component& mode, double step_s, double averaged_below_
 std::vector<double> mode_by_mode(const RecordSegment& segment, const RecordAnalysis& analysis,
                                  const unit::ThermalEffect& response, double averaged_below_s) {
     const double step_s = analysis.step_s;
-    std::vector<double> corrected = segment.acceleration_mgal;
+    std::vector<double> corrected = segment.quantity;
     for (const eemd::Component& mode : analysis.acceleration.modes) {
         if (!is_short(mode, step_s, averaged_below_s)) continue;
         for (std::size_t i = 0; i < corrected.size(); ++i) corrected[i] -= mode.values[i];
@@ -147,7 +147,7 @@ AppliedCalibration apply_calibration(const unit::ThermalResponse& thermal,
     applied.by_modes_mgal = mode_by_mode(segment, analysis, response, averaged_below_s);
 
     const std::array<const std::vector<double>*, 3> series{
-        &segment.acceleration_mgal, &applied.parametric_mgal, &applied.by_modes_mgal};
+        &segment.quantity, &applied.parametric_mgal, &applied.by_modes_mgal};
     const std::vector<double> edges_s{kShortestPeriod_s, 240.0,   600.0, 1500.0, 3600.0,
                                       10800.0,           HUGE_VAL};
     std::array<std::vector<double>, 3> squares;
@@ -159,11 +159,10 @@ AppliedCalibration apply_calibration(const unit::ThermalResponse& thermal,
                                  {std::sqrt(squares[0][band]), std::sqrt(squares[1][band]),
                                   std::sqrt(squares[2][band])}});
     for (std::size_t samples = 1; samples <= segment.size() / 4; samples *= 2)
-        applied.allan.push_back(
-            {static_cast<double>(samples) * analysis.step_s,
-             {noise::allan_deviation(*series[0], samples),
-              noise::allan_deviation(*series[1], samples),
-              noise::allan_deviation(*series[2], samples)}});
+        applied.allan.push_back({static_cast<double>(samples) * analysis.step_s,
+                                 {noise::allan_deviation(*series[0], samples),
+                                  noise::allan_deviation(*series[1], samples),
+                                  noise::allan_deviation(*series[2], samples)}});
     return applied;
 }
 

@@ -215,8 +215,7 @@ void remove_tide(LongRecord& record, const station::Position& position, tide::Sy
     const MilliGal kept = tide::kept_permanent_tide(system, station, tide::Factors());
     for (RecordStretch& stretch : record.stretches)
         for (std::size_t i = 0; i < stretch.size(); ++i)
-            stretch.acceleration_mgal[i] -=
-                (tide::direct_tide(stretch.times[i], station) - kept).value();
+            stretch.quantity[i] -= (tide::direct_tide(stretch.times[i], station) - kept).value();
     record.is_tide_removed = true;
 }
 
@@ -294,8 +293,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     else
         record.warnings.push_back(
             text::message("{}: no position: the tide is not removed", metadata.string()));
-    if (const auto noise_ug = epochs.front().noise_ug_per_sqrt_hz)
-        record.data_sheet_mgal_per_sqrt_hz = 1e-6 * *noise_ug * kMilliGalPerStandardGravity;
+    record.data_sheet_mgal_per_sqrt_hz = epochs.front().data_sheet_mgal_per_sqrt_hz;
     record.source = root;
     record.inputs.push_back(text::describe_input("metadata", metadata));
     describe_inputs(record, root, epochs, begin, end);

@@ -34,7 +34,7 @@ void append(RecordStretch& to, std::size_t missing, double step_s, const RecordS
     if (!to.raw.empty()) append(to.raw, missing, {kNaN, kNaN, kNaN, kNaN}, from.raw);
     for (std::size_t k = 0; k < to.axes_mgal.size(); ++k)
         append(to.axes_mgal[k], missing, kNaN, from.axes_mgal[k]);
-    append(to.acceleration_mgal, missing, kNaN, from.acceleration_mgal);
+    append(to.quantity, missing, kNaN, from.quantity);
     append(to.temperature_degc, missing, kNaN, from.temperature_degc);
     if (!to.outer_degc.empty() || !from.outer_degc.empty()) {
         to.outer_degc.resize(to.size(), kNaN);

@@ -54,9 +54,9 @@ struct RecordStretch {
     std::string serial_number;  ///< Serial number of the sensor; empty: not known.
     /// Change at the start of the stretch, e.g. "another sensor: ..."; empty: start or gap.
     text::Message begins_with;
-    std::vector<UtcTime> times;             ///< (n) Times of the samples.
+    std::vector<UtcTime> times;  ///< (n) Times of the samples.
     /// (n) Norm of the decimated axes, in LongRecord::unit; the tilt in its place after tilt_record().
-    std::vector<double> acceleration_mgal;
+    std::vector<double> quantity;
     /// Axes x, y, z (n each) as the sensor gave them, with the tide; empty if only the norm is
     /// known.
     std::vector<std::vector<double>> axes_mgal;
@@ -83,7 +83,7 @@ struct LongRecord {
     /// Noise of an axis by the data sheet of the sensor of the first part, mGal / sqrt(Hz); absent if it
     /// is not known.
     std::optional<double> data_sheet_mgal_per_sqrt_hz;
-    std::vector<text::InputFile> inputs;   ///< Files that were read.
+    std::vector<text::InputFile> inputs;  ///< Files that were read.
     std::vector<text::Message> warnings;  ///< Skipped data, divisions and other facts, with reason.
 };
 

@@ -119,15 +119,15 @@ RecordAnalysis analyse_record(const RecordSegment& segment, double step_s,
         throw std::invalid_argument("analyse_record: segment shorter than eight cycles");
     const std::vector<double>& temperature = segment.temperature_degc;
     // Minus the first sample, to keep the last digits: the norm is near a million mGal.
-    std::vector<double> acceleration = segment.acceleration_mgal;
-    for (double& value : acceleration) value -= segment.acceleration_mgal.front();
+    std::vector<double> acceleration = segment.quantity;
+    for (double& value : acceleration) value -= segment.quantity.front();
 
     RecordAnalysis analysis;
     analysis.step_s = step_s;
     const auto correlated = static_cast<std::size_t>(4.0 * options.cycle_s / step_s);
     analysis.raw = signal::fit_line(temperature, acceleration, correlated);
     analysis.noise = noise::record_noise(acceleration, step_s);
-    analysis.raw.mean_y += segment.acceleration_mgal.front();
+    analysis.raw.mean_y += segment.quantity.front();
 
     const double shortest_s = shortest_of_band_s(options.cycle_s),
                  longest_s = longest_of_band_s(options.cycle_s);

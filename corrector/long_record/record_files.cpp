@@ -174,15 +174,13 @@ std::string record_csv(const RecordResult& result) {
     const bool has_outer = std::ranges::any_of(
         result.record.stretches,
         [](const RecordStretch& stretch) { return !stretch.outer_degc.empty(); });
-    std::string csv = std::string("time_utc,") +
-                      (result.tilt ? "tilt_urad" : "acceleration_mgal") +
+    std::string csv = std::string("time_utc,") + (result.tilt ? "tilt_urad" : "acceleration_mgal") +
                       ",temperature_degc,segment" + (result.tilt ? ",corrected_urad,u_urad" : "") +
                       std::string(result.applied ? ",parametric_mgal,by_modes_mgal" : "") +
                       std::string(has_outer ? ",outer_degc\n" : "\n");
     for (const RecordStretch& stretch : result.record.stretches) {
         for (std::size_t i = 0; i < stretch.size(); ++i) {
-            csv += to_rfc3339(stretch.times[i], 6) + ',' +
-                   exact_cell(stretch.acceleration_mgal[i]) + ',' +
+            csv += to_rfc3339(stretch.times[i], 6) + ',' + exact_cell(stretch.quantity[i]) + ',' +
                    exact_cell(stretch.temperature_degc[i]) + ',';
             for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
                 const RecordSegment& segment = result.parts.segments[k];
@@ -192,8 +190,7 @@ std::string record_csv(const RecordResult& result) {
             csv += applied_cells(result, stretch.times[i]);
             if (result.tilt) {
                 const double degc = stretch.temperature_degc[i],
-                             corrected = result.tilt->corrected_urad(
-                                 stretch.acceleration_mgal[i], degc);
+                             corrected = result.tilt->corrected_urad(stretch.quantity[i], degc);
                 csv += ',' + cell(corrected, 3) + ',' +
                        (std::isfinite(corrected) ? cell(result.tilt->u_urad(degc), 3) : "");
             }

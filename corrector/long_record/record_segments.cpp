@@ -38,7 +38,7 @@ double median_of(const std::vector<double>& values, std::size_t first, std::size
 /// Valid samples of a stretch.
 struct Valid {
     std::vector<std::size_t> places;  ///< Their numbers in the stretch.
-    std::vector<double> acceleration_mgal, temperature_degc;
+    std::vector<double> quantity, temperature_degc;
 
     [[nodiscard]] std::size_t size() const noexcept { return places.size(); }
 };
@@ -102,11 +102,11 @@ void remove_coarse_runs(std::vector<EqualRun>& runs, const std::vector<double>& 
 Valid valid_samples(const RecordStretch& stretch, const std::vector<bool>& is_stuck) {
     Valid valid;
     for (std::size_t i = 0; i < stretch.size(); ++i) {
-        if (is_stuck[i] || !std::isfinite(stretch.acceleration_mgal[i]) ||
+        if (is_stuck[i] || !std::isfinite(stretch.quantity[i]) ||
             !std::isfinite(stretch.temperature_degc[i]))
             continue;
         valid.places.push_back(i);
-        valid.acceleration_mgal.push_back(stretch.acceleration_mgal[i]);
+        valid.quantity.push_back(stretch.quantity[i]);
         valid.temperature_degc.push_back(stretch.temperature_degc[i]);
     }
     return valid;
@@ -173,7 +173,7 @@ private:
         const std::vector<bool> is_stuck = refuse_stuck_channels(stretch);
         const Valid valid = valid_samples(stretch, is_stuck);
         if (valid.size() == 0) return;
-        const std::vector<double> steps = find_steps(valid.acceleration_mgal);
+        const std::vector<double> steps = find_steps(valid.quantity);
         std::size_t first = 0;
         Begin begin = begin_of(stretch, valid);
         for (std::size_t i = 1; i <= valid.size(); ++i) {
@@ -182,7 +182,8 @@ private:
                 if (valid.places[i] - valid.places[i - 1] - 1 > kLongestBridge)
                     next = begin_at(stretch, is_stuck, valid, i);
                 else if (steps[i] != 0.0)
-                    next.why = text::message("step of {} {}", text::fixed(steps[i], 1), record_.unit);
+                    next.why =
+                        text::message("step of {} {}", text::fixed(steps[i], 1), record_.unit);
                 if (next.why.empty()) continue;
             }
             add(stretch, valid, first, i, begin);
@@ -204,9 +205,9 @@ private:
         constexpr std::array kNames{text::marked("the x axis"), text::marked("the y axis"),
                                     text::marked("the z axis")};
         if (stretch.axes_mgal.empty())
-            refuse_stuck(is_stuck, stretch, stretch.acceleration_mgal,
-                         equal_runs(stretch.acceleration_mgal, kSame_mgal),
-                         text::marked("the acceleration"), "mGal");
+            refuse_stuck(is_stuck, stretch, stretch.quantity,
+                         equal_runs(stretch.quantity, kSame_mgal), text::marked("the acceleration"),
+                         "mGal");
         for (std::size_t k = 0; k < stretch.axes_mgal.size(); ++k)
             refuse_stuck(is_stuck, stretch, stretch.axes_mgal[k],
                          equal_runs(stretch.axes_mgal[k], kSame_mgal), kNames.at(k), "mGal");
@@ -273,7 +274,7 @@ private:
         }
         // Within the segment only: beside a step the median is that of the other side.
         const reading::Disturbances knocks = reading::find_disturbances(
-            std::span(valid.acceleration_mgal).subspan(first, end - first), kKnockThreshold);
+            std::span(valid.quantity).subspan(first, end - first), kKnockThreshold);
         std::size_t previous = first;
         for (std::size_t i = first; i < end; ++i) {
             const bool is_end = i == first || i + 1 == end;
@@ -304,13 +305,12 @@ private:
             return from + (to - from) * static_cast<double>(k) / static_cast<double>(steps);
         };
         for (std::size_t k = 1; k < steps; ++k) {
-            segment.acceleration_mgal.push_back(
-                line(valid.acceleration_mgal[previous], valid.acceleration_mgal[i], k));
+            segment.quantity.push_back(line(valid.quantity[previous], valid.quantity[i], k));
             segment.temperature_degc.push_back(
                 line(valid.temperature_degc[previous], valid.temperature_degc[i], k));
             ++segment.bridged;
         }
-        segment.acceleration_mgal.push_back(valid.acceleration_mgal[i]);
+        segment.quantity.push_back(valid.quantity[i]);
         segment.temperature_degc.push_back(valid.temperature_degc[i]);
     }
 

@@ -31,19 +31,19 @@ struct SegmentOptions {
 /// Both series are finite and have the length n.  Sample i is at start + i x LongRecord::step_s,
 /// within half a step.  The first and the last sample are measured ones.
 struct RecordSegment {
-    UtcTime start;              ///< Time of the first sample.
-    UtcTime end;                ///< Time of the last sample.
-    std::string serial_number;  ///< Serial number of the sensor; empty: not known.
-    text::Message begins_with;  ///< Reason of its start: "the record begins", "gap of 512 s" ...
-    std::vector<double> acceleration_mgal;  ///< (n)
-    std::vector<double> temperature_degc;   ///< (n)
-    std::vector<double> outer_degc;         ///< (n), or empty without an outer oven.
-    std::size_t bridged = 0;                ///< Number of samples from straight lines.
-    std::size_t disturbed = 0;              ///< Number of these that replace knocks.
-    bool is_restart = false;                ///< True: the sensor was switched on before it.
+    UtcTime start;                 ///< Time of the first sample.
+    UtcTime end;                   ///< Time of the last sample.
+    std::string serial_number;     ///< Serial number of the sensor; empty: not known.
+    text::Message begins_with;     ///< Reason of its start: "the record begins", "gap of 512 s" ...
+    std::vector<double> quantity;  ///< (n) As RecordStretch::quantity.
+    std::vector<double> temperature_degc;  ///< (n)
+    std::vector<double> outer_degc;        ///< (n), or empty without an outer oven.
+    std::size_t bridged = 0;               ///< Number of samples from straight lines.
+    std::size_t disturbed = 0;             ///< Number of these that replace knocks.
+    bool is_restart = false;               ///< True: the sensor was switched on before it.
 
     /// Returns n.
-    [[nodiscard]] std::size_t size() const noexcept { return acceleration_mgal.size(); }
+    [[nodiscard]] std::size_t size() const noexcept { return quantity.size(); }
 };
 
 /// A part that is not analysed, from its first to its last sample.  Parts may overlap if several

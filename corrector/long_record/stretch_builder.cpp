@@ -68,8 +68,8 @@ RecordStretch StretchBuilder::finish(double step_s) {
     times_.resize(count);
     for (const auto& time : times_)
         stretch.times.push_back(time ? *time : stretch.times.back() + from_seconds(step_s));
-    stretch.acceleration_mgal.resize(count);
-    for (std::size_t k = 0; k < count; ++k) stretch.acceleration_mgal[k] = norm_at(outputs_, k);
+    stretch.quantity.resize(count);
+    for (std::size_t k = 0; k < count; ++k) stretch.quantity[k] = norm_at(outputs_, k);
     stretch.temperature_degc = std::move(outputs_.back());
     outputs_.pop_back();
     if (outputs_.size() > 1) stretch.axes_mgal = std::move(outputs_);

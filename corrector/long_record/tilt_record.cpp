@@ -40,7 +40,7 @@ Spectra spectra_of(const RecordSegment& segment, double step_s) {
         return signal::half_spectrum(rest, size);
     };
     const signal::Spectrum degc = spectrum(segment.temperature_degc),
-                           urad = spectrum(segment.acceleration_mgal);
+                           urad = spectrum(segment.quantity);
     const double length_s = static_cast<double>(size) * step_s;
     Spectra spectra;
     spectra.power_per_density = kHannSquare * static_cast<double>(size) / (2.0 * step_s);
@@ -88,7 +88,7 @@ LongRecord tilt_record(LongRecord record, std::size_t axis) {
                 "axes "
                 "x_g, y_g, z_g or an archive in every part");
         for (std::size_t i = 0; i < stretch.size(); ++i) {
-            double& tilt = stretch.acceleration_mgal[i];
+            double& tilt = stretch.quantity[i];
             tilt = archive_series::tilt_urad(
                 {stretch.axes_mgal[0][i], stretch.axes_mgal[1][i], stretch.axes_mgal[2][i]}, axis);
             if (std::isfinite(tilt)) finite.push_back(tilt);
@@ -115,7 +115,7 @@ TiltFit fit_tilt(const RecordSegments& parts, double step_s, std::size_t axis) {
         segments.push_back(spectra_of(segment, step_s));
     constexpr int kRounds = 3;  // the third changes the slope by less than a hundredth of its error
     for (int round = 0; round < kRounds; ++round) {
-        std::vector<double> rest = longest->acceleration_mgal;
+        std::vector<double> rest = longest->quantity;
         for (std::size_t i = 0; i < rest.size(); ++i)
             rest[i] = fit.corrected_urad(rest[i], longest->temperature_degc[i]);
         fit.noise = noise::analyse_allan(rest, step_s);

@@ -5,7 +5,7 @@
 ///     LongRecord tilt = tilt_record(record, 0);
 ///     RecordSegments parts = divide_record(tilt);
 ///     TiltFit fit = fit_tilt(parts, tilt.step_s, 0);
-///     fit.corrected_urad(tilt.stretches[0].acceleration_mgal[i], tilt.stretches[0].temperature_degc[i]);
+///     fit.corrected_urad(tilt.stretches[0].quantity[i], tilt.stretches[0].temperature_degc[i]);
 
 #include <cstddef>
 

@@ -3,7 +3,7 @@
 /// The noise of a record at one point: spectrum, Allan deviation, a model of three noises, and how
 /// long a stay gains from a longer average.
 ///
-///     const RecordNoise noise = record_noise(segment.acceleration_mgal, step_s);
+///     const RecordNoise noise = record_noise(segment.quantity, step_s);
 ///     if (noise.useful) noise.useful->averaging_s;  // a longer average scatters hardly less
 
 #include <optional>

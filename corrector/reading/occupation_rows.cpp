@@ -171,6 +171,7 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     OccupationRows result;
     Epoch epoch = epoch_of_file;
     result.serial_number = epoch.serial_number;
+    result.data_sheet_mgal_per_sqrt_hz = epoch.data_sheet_mgal_per_sqrt_hz;
     const bool is_running =
         !list.running_key.empty() && list.windows.back().key == list.running_key;
     const archive_series::Span span = span_of(list.windows, is_running);

@@ -98,6 +98,8 @@ struct OccupationRows {
     /// of the root made at this instant gives the same rows.
     std::optional<UtcTime> as_of;
     std::string serial_number;  ///< Sensor; empty if not in the metadata.
+    /// Noise of an axis by the data sheet of its profile; absent if that is not known.
+    std::optional<double> data_sheet_mgal_per_sqrt_hz = {};
 };
 
 /// Reads the table of sites, the occupations and the station's metadata.

@@ -44,7 +44,7 @@ struct SetUp {
     std::vector<std::string> notes = {};  ///< Reasons for doubt, e.g. "fallback" or "no-stop".
     /// Tide that came with it, effect on gravity; used by the tide `given` only.
     std::optional<MilliGal> given_tide = {};
-    /// What gravity keeps of the permanent tide after given_tide, as the table names it; empty: not known.
+    /// Part of the permanent tide that gravity keeps after given_tide, as the table names it; empty: not known.
     std::string given_tide_system = {};
     std::optional<Metres> instrument_height =
         {};  ///< Height of the sensor above the mark, if given.

@@ -40,7 +40,8 @@ SurveyFigures figures_of(const model::SurveyCorrection& result, const ReportSour
           figure::corrected_figure(result, print)})
         if (figure) figures.publication.push_back(*figure);
     figures.records = figure::panel_figures(result, records, print);
-    for (figure::Figure& figure : figure::quiet_noise_figures(records, print))
+    for (figure::Figure& figure :
+         figure::quiet_noise_figures(result, records, sources.data_sheet_mgal_per_sqrt_hz, print))
         figures.records.push_back(std::move(figure));
     for (figure::Figure& figure : figure::reading_figures(result, records, print))
         figures.records.push_back(std::move(figure));

@@ -42,6 +42,8 @@ struct ReportSources {
     /// Temperature of the sensor.
     std::vector<archive_series::MinuteTemperature> temperature_course;
     std::vector<reading::SignalSpan> signal;  ///< Words of the recorder.
+    /// Noise of an axis by the data sheet of the sensor; absent if its profile is not known.
+    std::optional<double> data_sheet_mgal_per_sqrt_hz = {};
     std::vector<text::InputFile> inputs;
     /// Entries skipped or left out, with reasons; the report adds the remarks of the result.
     std::vector<text::Message> warnings;

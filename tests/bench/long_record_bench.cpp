@@ -49,7 +49,7 @@ bool statistics_are_in_range(Seeds seeds) {
         const sim::IndoorRecord record = sim::indoor_record(scenario, seed);
         corrector::long_record::RecordResult result;
         result.parts.segments.emplace_back();
-        result.parts.segments[0].acceleration_mgal = record.difference_mgal;
+        result.parts.segments[0].quantity = record.difference_mgal;
         result.parts.segments[0].temperature_degc = record.temperature_degc;
         result.options.ensemble_size = 60;
         result.analysis = corrector::long_record::analyse_record(

@@ -58,12 +58,28 @@ text::Site site(const std::string& name, double longitude, double latitude, bool
 TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines printed there",
           "[report][figures]") {
     const SurveyCorrection result = corrected(tsukuba::observations());
-    // Lines in the publication: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.
+    // Lines in the publication: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.  At the means of x,
+    // 979892.35 and 42.67, these are 981730.6 and 1836.0.
     CHECK_THAT(script_of(acceleration_figure(result, {}).value()),
-               ContainsSubstring("'y = 0.9735 x + 27825.7, R² = 0.9748'") &&
+               ContainsSubstring("'y = 0.9735 (x \u2212 979892.35) + 981728.3, R² = 0.9748'") &&
                    ContainsSubstring("left out of the fit"));
     CHECK_THAT(script_of(difference_figure(result, {}).value()),
-               ContainsSubstring("'y = \u221229.2309 x + 3083.3, R² = 0.9257'"));
+               ContainsSubstring("'y = \u221229.2309 (x \u2212 42.67) + 1836.0, R² = 0.9257'"));
+}
+
+TEST_CASE("an axis of six digits counts from a whole thousand, and the data stay whole",
+          "[report][figures]") {
+    const auto figure = acceleration_figure(corrected(tsukuba::observations()), {});
+    const std::string script = script_of(figure.value());
+    CHECK_THAT(script, ContainsSubstring("'Reference gravity \u2212 979000 (mGal)'") &&
+                           ContainsSubstring("'Acceleration \u2212 981000 (mGal)'") &&
+                           ContainsSubstring("($1-979000)") && ContainsSubstring("($2-981000)"));
+    CHECK_THAT(figure->data, ContainsSubstring("979860.2100"));
+}
+
+TEST_CASE("a figure of small numbers keeps them", "[report][figures]") {
+    CHECK_THAT(script_of(difference_figure(corrected(tsukuba::observations()), {}).value()),
+               ContainsSubstring("'Temperature (°C)'"));
 }
 
 TEST_CASE("corrected gravity over reference has u as bars and the publication's number",
@@ -324,4 +340,19 @@ TEST_CASE("the steps of an axis are round numbers", "[report][figures]") {
     CHECK(round_step(4.9) == Approx(2.0));
     CHECK(round_step(999.0) == Approx(500.0));
     CHECK(round_step(0.0015) == Approx(0.001));
+}
+
+TEST_CASE("the noise of a day is that of the readings in the fit, beside the data sheet's",
+          "[report][figures]") {
+    SurveyCorrection result = corrected(tsukuba::observations());
+    const RepresentativeValue value = record_at(result.rows[0].row.time);
+    const std::vector<ReadingRecord> records{{0, &value}, {1, &value}};
+    const auto density = [&] { return quiet_noise_figures(result, records, 0.37, {}).front(); };
+    const Figure both = density();
+    CHECK_THAT(script_of(both), ContainsSubstring("data sheet"));
+    CHECK_THAT(both.data, ContainsSubstring("0.370000"));
+    result.rows[1].is_used = false;
+    CHECK(density().caption != both.caption);  // fewer minutes
+    result.rows[0].is_used = false;
+    CHECK(quiet_noise_figures(result, records, 0.37, {}).empty());
 }

@@ -57,7 +57,7 @@ TEST_CASE("a part that the calibration leaves open is not applied, with a remark
     const RecordAnalysis analysis = analysed(segment);
     const AppliedCalibration applied = apply_calibration(open, segment, analysis, kAveraged_s);
     CHECK(applied.remarks.size() == 2);
-    CHECK(applied.parametric_mgal == segment.acceleration_mgal);
+    CHECK(applied.parametric_mgal == segment.quantity);
 }
 
 TEST_CASE("a sine that only the temperature rate explains is removed by the two-path response",
@@ -68,9 +68,9 @@ TEST_CASE("a sine that only the temperature rate explains is removed by the two-
         const double turn = 2.0 * M_PI / 1800.0 * 43.0;
         // 10 mGal/(degC/h) with a lag of 43 s.
         segment.temperature_degc.push_back(42.5 + 0.02 * std::sin(angle));
-        segment.acceleration_mgal.push_back(0.02 * 10.0 * 3600.0 * 2.0 * M_PI / 1800.0 /
-                                            (1.0 + turn * turn) *
-                                            (std::cos(angle) + turn * std::sin(angle)));
+        segment.quantity.push_back(0.02 * 10.0 * 3600.0 * 2.0 * M_PI / 1800.0 /
+                                   (1.0 + turn * turn) *
+                                   (std::cos(angle) + turn * std::sin(angle)));
     }
     ThermalResponse response = true_response();
     response.values << 0.0, 0.0, 10.0, std::log(43.0), std::log(2700.0);

@@ -88,7 +88,7 @@ private:
 };
 
 /// Returns the value in the middle of ten minutes, where the filters are filled.
-double middle_mgal(const RecordStretch& stretch) { return stretch.acceleration_mgal.at(15); }
+double middle_mgal(const RecordStretch& stretch) { return stretch.quantity.at(15); }
 
 }  // namespace
 

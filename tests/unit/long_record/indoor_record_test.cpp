@@ -51,7 +51,7 @@ TEST_CASE("two correlation peaks of one narrow band are interpreted as one respo
 
 TEST_CASE("a record shorter than eight cycles is not analysed", "[long_record]") {
     RecordSegment segment;
-    segment.acceleration_mgal.assign(359, 1.0);
+    segment.quantity.assign(359, 1.0);
     segment.temperature_degc.assign(359, 1.0);
     CHECK_THROWS_AS(analyse_record(segment, kRecordStep_s, {}), std::invalid_argument);
 }
@@ -60,7 +60,7 @@ TEST_CASE("a record without a cycle is not interpreted as if it had one", "[long
     RecordSegment segment;
     for (int i = 0; i < 1200; ++i) {
         segment.temperature_degc.push_back(42.5 + 1e-4 * i);
-        segment.acceleration_mgal.push_back(979763.0 + 0.01 * i + 0.1 * std::sin(0.7 * i * i));
+        segment.quantity.push_back(979763.0 + 0.01 * i + 0.1 * std::sin(0.7 * i * i));
     }
     RecordAnalysisOptions options;
     options.ensemble_size = 4;

@@ -25,7 +25,7 @@ Eigen::Matrix<double, 5, 1> true_values(const sim::TwoPathTruth& truth) {
 
 TwoPathFit fitted(const sim::scenario::Scenario& scenario, std::uint64_t seed) {
     const RecordSegment segment = simulated_segment(scenario, seed);
-    return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
+    return fit_two_paths(segment.temperature_degc, segment.quantity, kRecordStep_s, 900.0);
 }
 
 TwoPathFit fitted(const std::string& scenario, std::uint64_t seed) {
@@ -141,12 +141,12 @@ TEST_CASE("a record at constant temperature calibrates nothing, and the reason s
     RecordSegment segment = simulated_segment("indoor", 705);
     for (std::size_t i = 0; i < segment.size(); ++i)
         segment.temperature_degc[i] = 42.5 + 0.0015 * std::sin(0.7 * static_cast<double>(i * i));
-    const std::string lack = reason_against_two_paths(segment.temperature_degc,
-                                                      segment.acceleration_mgal, kRecordStep_s);
+    const std::string lack =
+        reason_against_two_paths(segment.temperature_degc, segment.quantity, kRecordStep_s);
     CHECK_THAT(lack, ContainsSubstring("no response") && ContainsSubstring("needed: "));
     segment = simulated_segment("indoor", 705);
-    CHECK(reason_against_two_paths(segment.temperature_degc, segment.acceleration_mgal,
-                                   kRecordStep_s) == "");
+    CHECK(reason_against_two_paths(segment.temperature_degc, segment.quantity, kRecordStep_s) ==
+          "");
 }
 
 TEST_CASE("a fit that does not determine rate and static slope calibrates nothing",

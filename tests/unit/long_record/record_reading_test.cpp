@@ -62,13 +62,13 @@ TEST_CASE("the stretch does not depend on the size of the blocks in which sample
     CHECK(whole.axes_mgal[2][25] == Approx(979763.0).epsilon(0.0).margin(1e-6));
     CHECK(whole.times[3] == kReadingStart + from_seconds(6.0));
     for (std::size_t k = 0; k < 50; ++k) {
-        CHECK(std::isnan(whole.acceleration_mgal[k]) == (k < 5 || k > 45));
+        CHECK(std::isnan(whole.quantity[k]) == (k < 5 || k > 45));
         if (k < 5 || k > 45) continue;
-        CHECK(whole.acceleration_mgal[k] == cut.acceleration_mgal[k]);
+        CHECK(whole.quantity[k] == cut.quantity[k]);
         CHECK(whole.temperature_degc[k] == cut.temperature_degc[k]);
         // The axes are decimated first, so that vibration of 1 mGal across the vertical has no
         // effect.
-        CHECK(whole.acceleration_mgal[k] == Approx(979763.0).epsilon(0.0).margin(1e-6));
+        CHECK(whole.quantity[k] == Approx(979763.0).epsilon(0.0).margin(1e-6));
         CHECK(whole.raw[k].acceleration_high_mgal == cut.raw[k].acceleration_high_mgal);
         CHECK(whole.raw[k].temperature_low_degc <= whole.temperature_degc[k]);
     }
@@ -82,10 +82,10 @@ TEST_CASE("a CSV at 2 s is decimated once, and missing rows are a gap", "[long_r
     const RecordStretch& stretch = record.stretches[0];
     REQUIRE(stretch.size() == 300);
     CHECK(stretch.times[200] == kReadingStart + from_seconds(4000.0));
-    CHECK(std::isnan(stretch.acceleration_mgal[100]));
-    CHECK(std::isfinite(stretch.acceleration_mgal[95]));
-    CHECK(std::isfinite(stretch.acceleration_mgal[108]));
-    CHECK(stretch.acceleration_mgal[50] == Approx(979766.0).epsilon(0.0).margin(0.1));
+    CHECK(std::isnan(stretch.quantity[100]));
+    CHECK(std::isfinite(stretch.quantity[95]));
+    CHECK(std::isfinite(stretch.quantity[108]));
+    CHECK(stretch.quantity[50] == Approx(979766.0).epsilon(0.0).margin(0.1));
 }
 
 TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch",
@@ -94,7 +94,7 @@ TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch"
     const auto file = folder.write("r.csv", kHeader + rows(20.0, 0, 50) + rows(20.0, 300, 350));
     const LongRecord record = read_csv_record(file, {}, kSilent);
     REQUIRE(record.stretches.size() == 2);
-    CHECK(record.stretches[0].acceleration_mgal[13] == 979769.0);
+    CHECK(record.stretches[0].quantity[13] == 979769.0);
     CHECK(record.stretches[0].raw.empty());
     RecordWindow window;
     window.from = kReadingStart + from_seconds(200.0);

@@ -18,7 +18,7 @@ LongRecord night() {
     for (std::size_t i = 0; i < segment.size(); ++i)
         stretch.times.push_back(kSegmentStart +
                                 from_seconds(kRecordStep_s * static_cast<double>(i)));
-    stretch.acceleration_mgal = segment.acceleration_mgal;
+    stretch.quantity = segment.quantity;
     stretch.temperature_degc = segment.temperature_degc;
     LongRecord record;
     record.stretches.push_back(std::move(stretch));
@@ -27,7 +27,7 @@ LongRecord night() {
 
 void erase(LongRecord& record, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i)
-        record.stretches[0].acceleration_mgal[i] = std::numeric_limits<double>::quiet_NaN();
+        record.stretches[0].quantity[i] = std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -45,21 +45,20 @@ TEST_CASE("short gaps and knocks are bridged, long gaps divide the record",
     LongRecord record = night();
     erase(record, 200, 215);
     erase(record, 1000, 1016);
-    record.stretches[0].acceleration_mgal[500] += 1000.0;
+    record.stretches[0].quantity[500] += 1000.0;
     const RecordSegments parts = divide_record(record);
     REQUIRE(parts.segments.size() == 2);
     CHECK(parts.segments[0].size() == 1000);
     CHECK(parts.segments[0].bridged == 16);
     CHECK(parts.segments[0].disturbed == 1);
-    CHECK(std::abs(parts.segments[0].acceleration_mgal[500] -
-                   parts.segments[0].acceleration_mgal[499]) < 5.0);
+    CHECK(std::abs(parts.segments[0].quantity[500] - parts.segments[0].quantity[499]) < 5.0);
     CHECK(parts.segments[1].begins_with == "gap of 340 s");
     CHECK_FALSE(parts.segments[1].is_restart);
 }
 
 TEST_CASE("a step of the acceleration divides the record at the step", "[long_record][segments]") {
     LongRecord record = night();
-    for (std::size_t i = 900; i < 2160; ++i) record.stretches[0].acceleration_mgal[i] += 60.0;
+    for (std::size_t i = 900; i < 2160; ++i) record.stretches[0].quantity[i] += 60.0;
     const RecordSegments parts = divide_record(record);
     REQUIRE(parts.segments.size() == 2);
     CHECK(parts.segments[0].size() == 900);
@@ -122,7 +121,7 @@ TEST_CASE("a record without samples has no segments", "[long_record][segments]")
 
 TEST_CASE("a stuck acceleration is refused", "[long_record][segments]") {
     LongRecord record = night();
-    record.stretches[0].acceleration_mgal.assign(2160, 979763.0);
+    record.stretches[0].quantity.assign(2160, 979763.0);
     const RecordSegments parts = divide_record(record);
     CHECK(parts.segments.empty());
     REQUIRE(parts.refused.size() == 1);
@@ -133,11 +132,11 @@ TEST_CASE("a stuck axis is refused, even if a changing tide was taken off the no
           "[long_record][segments]") {
     LongRecord record = night();
     RecordStretch& stretch = record.stretches[0];
-    stretch.axes_mgal.assign(3, stretch.acceleration_mgal);
+    stretch.axes_mgal.assign(3, stretch.quantity);
     CHECK(divide_record(record).segments.size() == 1);
     stretch.axes_mgal[2].assign(2160, 979763.0);
     for (std::size_t i = 0; i < 2160; ++i)
-        stretch.acceleration_mgal[i] = 979763.0 - 0.1 * std::sin(static_cast<double>(i) / 700.0);
+        stretch.quantity[i] = 979763.0 - 0.1 * std::sin(static_cast<double>(i) / 700.0);
     const RecordSegments parts = divide_record(record);
     CHECK(parts.segments.empty());
     REQUIRE(parts.refused.size() == 1);

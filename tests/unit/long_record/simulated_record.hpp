@@ -18,7 +18,7 @@ inline RecordSegment simulated_segment(const sim::scenario::Scenario& scenario,
                                        std::uint64_t seed) {
     const sim::IndoorRecord record = sim::indoor_record(scenario, seed);
     RecordSegment segment;
-    segment.acceleration_mgal = record.difference_mgal;
+    segment.quantity = record.difference_mgal;
     segment.temperature_degc = record.temperature_degc;
     return segment;
 }

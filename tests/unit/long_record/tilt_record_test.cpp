@@ -44,7 +44,7 @@ LongRecord tilted(double hours, double white, double walk, std::uint64_t seed,
         stretch.axes_mgal[0].push_back(kMilliGalPerStandardGravity * std::sin(1e-6 * tilt));
         stretch.axes_mgal[1].push_back(100.0 + 0.1 * stream.normal());
         stretch.axes_mgal[2].push_back(kMilliGalPerStandardGravity * std::cos(1e-6 * tilt));
-        stretch.acceleration_mgal.push_back(kMilliGalPerStandardGravity);
+        stretch.quantity.push_back(kMilliGalPerStandardGravity);
     }
     LongRecord record;
     record.stretches = {stretch};
@@ -79,7 +79,7 @@ TEST_CASE("a known history of tilts comes back, without the effect of the temper
         const double degc = stretch.temperature_degc[i];
         const double truth = kBias + history_urad(kStep_h * static_cast<double>(i)) +
                              kSlope * (fit.temperature_degc - 42.5);
-        const double found = fit.corrected_urad(stretch.acceleration_mgal[i], degc);
+        const double found = fit.corrected_urad(stretch.quantity[i], degc);
         REQUIRE(std::abs(found - truth) < 5.0 * fit.u_urad(degc));
     }
 }

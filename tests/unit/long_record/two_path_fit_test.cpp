@@ -17,7 +17,7 @@ constexpr double k95 = 1.96;  // standard errors
 
 TwoPathFit fitted(const sim::scenario::Scenario& scenario, std::uint64_t seed) {
     const RecordSegment segment = simulated_segment(scenario, seed);
-    return fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
+    return fit_two_paths(segment.temperature_degc, segment.quantity, kRecordStep_s, 900.0);
 }
 
 std::string words(const TwoPathFit& fit, const sim::TwoPathTruth& truth, TwoPathTerm term) {
@@ -83,7 +83,7 @@ TEST_CASE("a week has smaller errors than a night and determines the static slop
 TEST_CASE("slopes and lag of an outer oven are found, and are missing without one",
           "[long_record][two_paths]") {
     const RecordSegment segment = simulated_segment(of_drawn_units("indoor"), 7);
-    std::vector<double> outer, reading = segment.acceleration_mgal;
+    std::vector<double> outer, reading = segment.quantity;
     for (std::size_t i = 0; i < segment.size(); ++i) {
         const double time_h = static_cast<double>(i) * kRecordStep_s / 3600.0;
         outer.push_back(38.0 + 0.6 * std::sin(1.3 * time_h) + 0.6 * std::sin(25.0 * time_h));
@@ -174,10 +174,10 @@ TEST_CASE("a response that the model does not contain is found in the residual",
     RecordSegment segment = simulated_segment("indoor", 1);
     // A delay of 700 s, which no first-order lag can give at 900 s.
     for (std::size_t i = segment.size() - 1; i >= 35; --i)
-        segment.acceleration_mgal[i] +=
+        segment.quantity[i] +=
             400.0 * (segment.temperature_degc[i - 35] - segment.temperature_degc[i]);
     const TwoPathFit fit =
-        fit_two_paths(segment.temperature_degc, segment.acceleration_mgal, kRecordStep_s, 900.0);
+        fit_two_paths(segment.temperature_degc, segment.quantity, kRecordStep_s, 900.0);
     CAPTURE(fit[TwoPathTerm::fast].value, fit[TwoPathTerm::fast_lag].value);
     CHECK_FALSE(fit.unexplained.empty());
 }

@@ -21,8 +21,7 @@ RecordResult night(bool is_raw) {
         const double phase = 2.0 * M_PI * 20.0 * i / 900.0;
         stretch.times.push_back(UtcTime(from_seconds(20.0 * i)));
         stretch.temperature_degc.push_back(42.5 + 0.01 * std::sin(phase) + 1e-3 * normal(random));
-        stretch.acceleration_mgal.push_back(979763.0 + 2.5 * std::cos(phase) +
-                                            0.5 * normal(random));
+        stretch.quantity.push_back(979763.0 + 2.5 * std::cos(phase) + 0.5 * normal(random));
         if (is_raw) stretch.raw.push_back({979700.0, 979800.0, 42.4, 42.6});
     }
     RecordResult result;
