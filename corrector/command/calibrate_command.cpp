@@ -121,6 +121,7 @@ void take_over(unit::Calibration& calibration, AxisBiasChoice& axis_bias, const 
     if (!calibration.warm_up) calibration.warm_up = other.warm_up;
     if (!calibration.placement) calibration.placement = other.placement;
     if (!calibration.scale) calibration.scale = other.scale;
+    if (!calibration.faces) calibration.faces = other.faces;
     for (const unit::CalibrationData& data : other.data) unit::list_data(calibration, data);
     calibration.valid_from = std::max(calibration.valid_from, other.valid_from);
     calibration.valid_to = other.valid_to;
@@ -188,37 +189,33 @@ std::string tumble_text(const series::Tumble& tumble, const std::string& name) {
                              ? ""
                              : "; needed for the quadratic term: twelve more positions, two axes "
                                "at about 45 deg in each");
+    if (tumble.faces) {
+        const unit::Faces& faces = *tumble.faces;
+        const auto error = [&faces](Eigen::Index k) { return std::sqrt(faces.covariance(k, k)); };
+        const unit::ScaleShare share = unit::scale_share_of(faces);
+        lines += fmt::format(
+            "  z by temperature: bias {} +- {}, scale {} +- {} mGal/degC; share of the scale {}\n",
+            text::fixed(faces.values(2), 2), text::fixed(error(2), 2),
+            text::fixed(faces.values(3), 2), text::fixed(error(3), 2),
+            share.is_measured ? fmt::format("{} +- {}", text::fixed(share.mean, 2),
+                                            text::fixed(share.deviation, 2))
+                              : "not determined");
+    }
     return lines + (tumble.axis_bias ? ""
                                      : "  biases of the horizontal axes: not determined with their "
                                        "angles to z, so not written; --tilt measures them\n");
 }
 
-/// Returns the mean of several tumbles, with weights from their errors and the larger of error and
-/// scatter.
-unit::Scale mean_scale(const std::vector<series::Tumble>& all) {
-    double weights = 0.0, mean = 0.0, least = HUGE_VAL, squares = 0.0;
-    for (const series::Tumble& tumble : all) {
-        const double weight = std::pow(tumble.scale.standard_error, -2);
-        weights += weight;
-        mean += weight / weights * (tumble.scale.value - mean);
-        least = std::min(least, tumble.scale.standard_error);
-    }
-    for (const series::Tumble& tumble : all) squares += std::pow(tumble.scale.value - mean, 2);
-    if (all.size() == 1) return {mean, least};
-    // The prior of the quadratic term is common to all, so the mean is not better than the best.  At
-    // other temperatures the scale may differ.
-    return {mean, std::max(least, std::sqrt(squares / static_cast<double>(all.size() - 1)))};
-}
-
 void calibrate_from_tumble(unit::Calibration& calibration, AxisBiasChoice& axis_bias,
                            const std::vector<std::string>& files) {
-    std::vector<series::Tumble> all;
+    reading::OccupationRows all;
+    series::Tumble tumble;
     read_series(
         calibration, files,
         [&](const reading::OccupationRows& read, const std::string& name, const std::string& file) {
-            all.push_back(series::measure_tumble(read, file));
-            const series::Tumble& tumble = all.back();
+            tumble = series::measure_tumble(read, file);
             std::cout << tumble_text(tumble, name);
+            all.rows.insert(all.rows.end(), read.rows.begin(), read.rows.end());
             if (!tumble.u_gravity)
                 std::cerr << fmt::format(
                     "a351-correct: {}: {} has no u_gravity_mgal in the table of sites, so the "
@@ -227,7 +224,12 @@ void calibrate_from_tumble(unit::Calibration& calibration, AxisBiasChoice& axis_
             axis_bias.offer(tumble.axis_bias, file);
         },
         true);
-    calibration.scale = mean_scale(all);
+    if (files.size() > 1) {
+        tumble = series::measure_tumble(all, "--tumble");
+        std::cout << tumble_text(tumble, "all together");
+    }
+    calibration.scale = tumble.scale;
+    calibration.faces = tumble.faces;
 }
 
 std::string placement_text(const unit::Placement& placement) {

@@ -99,6 +99,7 @@ whole_day::DayPriors day_priors_of(const std::optional<unit::Calibration>& calib
         priors.placement_mgal = {placement->mgal, std::exp(placement->log_error())};
     if (const auto& scale = calibration->scale)
         priors.set_scale(scale->value, scale->standard_error);
+    if (calibration->faces) priors.scale_share = unit::scale_share_of(*calibration->faces);
     return priors;
 }
 
@@ -145,8 +146,11 @@ void report_prior_use(Fit& result, const unit::Calibration& calibration,
     for (std::size_t i = 0; i < fit.set_ups.size(); ++i)
         squares += std::pow((fit.set_ups[i].corrected - without.set_ups[i].corrected).value(), 2);
     use.effect_rms_mgal = std::sqrt(squares / static_cast<double>(fit.set_ups.size()));
+    const unit::ScaleShare share = calibration.faces && !fit.on_scale.empty()
+                                       ? unit::scale_share_of(*calibration.faces)
+                                       : unit::ScaleShare{};
     result.remarks.push_back(text::message(
-        "{} as prior: {}{}{}{}; it changes the corrected values by {} mGal rms{}",
+        "{} as prior: {}{}{}{}{}; it changes the corrected values by {} mGal rms{}",
         name_of(calibration),
         calibration.axis_bias ? text::message("axis biases") : text::message("no axis biases"),
         calibration.thermal ? text::message(", thermal response with its errors doubled")
@@ -157,6 +161,10 @@ void report_prior_use(Fit& result, const unit::Calibration& calibration,
         calibration.scale
             ? text::message(", scale {} +- {}", text::fixed(calibration.scale->value, 5),
                             text::fixed(calibration.scale->standard_error, 5))
+            : text::Message(),
+        share.is_measured
+            ? text::message(", share of the scale in the response {} +- {}",
+                            text::fixed(share.mean, 2), text::fixed(share.deviation, 2))
             : text::Message(),
         text::fixed(use.effect_rms_mgal, 2),
         calibration.axis_bias

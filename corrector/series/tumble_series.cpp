@@ -12,6 +12,7 @@
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::series {
 namespace {
@@ -21,10 +22,10 @@ using Index = Eigen::Index;
 // Least share of gravity along an axis that is up or down: within 26 deg.
 constexpr double kUpright = 0.9;
 
-// Places of the parameters: three biases, scales, quadratic terms, angles, changes of the biases with
-// temperature, and the error of gravity.
+// Places of the parameters: three biases, scales, quadratic terms, angles, changes of the biases and of
+// the scales with temperature, and the error of gravity.
 constexpr Index kBias = 0, kScale = 3, kQuadratic = 6, kAngle = 9, kByTemperature = 12,
-                kGravity = 15, kParameters = 16;
+                kScaleByTemperature = 15, kGravity = 18, kParameters = 19;
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Covariance = Eigen::Matrix<double, kParameters, kParameters>;
 
@@ -42,6 +43,12 @@ constexpr double kLeastGravityError_mgal = 1e-3;
 constexpr double kDeterminedShare = 0.5;
 // Bias of a horizontal axis that the whole-day model expects, mGal/g: a larger error is no help.
 constexpr double kUsefulBias_mgal_per_g = 300.0;
+// Error of a change with temperature above which it is not written: a tenth of a usual unit's steady
+// response would be this.  A larger error says little about the share of the scale.
+constexpr double kUsefulSlope_mgal_per_degc =
+    -0.1 * (unit::kTypicalUnit.level_mgal_per_degc + unit::kTypicalUnit.slow_mgal_per_degc);
+// Temperature at which unit::Faces has its constants.
+constexpr double kFacesTemperature_degc = 42.5;
 
 /// A position: mean vector, temperature above the mean, gravity with its tide, error of the reading.
 struct Position {
@@ -101,6 +108,7 @@ Parameters prior_deviations(double u_gravity_mgal) {
     deviations << Eigen::Vector3d::Constant(kFreeBias_mgal), Eigen::Vector3d::Constant(kFreeScale),
         Eigen::Vector3d::Constant(kQuadratic_mgal), Eigen::Vector3d::Constant(kAngle_rad),
         Eigen::Vector3d::Constant(kByTemperature_mgal_per_degc),
+        Eigen::Vector3d::Constant(kByTemperature_mgal_per_degc / kMilliGalPerStandardGravity),
         std::max(u_gravity_mgal, kLeastGravityError_mgal);
     return deviations;
 }
@@ -110,7 +118,9 @@ Eigen::Vector3d true_vector(const Position& position, const Parameters& at) {
     constexpr int kRounds = 20;  // each leaves at most 10 % of the change of the round before
     const Eigen::Vector3d bias =
         at.segment<3>(kBias) + position.degc * at.segment<3>(kByTemperature);
-    Eigen::Matrix3d cross = Eigen::Matrix3d(at.segment<3>(kScale).asDiagonal());
+    const Eigen::Vector3d scale =
+        at.segment<3>(kScale) + position.degc * at.segment<3>(kScaleByTemperature);
+    Eigen::Matrix3d cross = Eigen::Matrix3d(scale.asDiagonal());
     for (std::size_t k = 0; k < kPairs.size(); ++k)
         cross(kPairs[k][0], kPairs[k][1]) = cross(kPairs[k][1], kPairs[k][0]) =
             0.5 * at(kAngle + Index(k));
@@ -135,6 +145,7 @@ Parameters row_of(const Position& position, const Eigen::Vector3d& a) {
     for (std::size_t k = 0; k < kPairs.size(); ++k)
         row(kAngle + Index(k)) = n(kPairs[k][0]) * a(kPairs[k][1]);
     row.segment<3>(kByTemperature) = position.degc * n;
+    row.segment<3>(kScaleByTemperature) = position.degc * n.cwiseProduct(a);
     row(kGravity) = 1.0;
     return row;
 }
@@ -195,6 +206,9 @@ void set_terms(Tumble& tumble, const Solution& found, const Parameters& deviatio
         axis.bias_mgal.is_determined =
             axis.bias_mgal.standard_error < kDeterminedShare * kQuadratic_mgal;
         axis.quadratic_mgal = named(along(kQuadratic + k));
+        axis.bias_mgal_per_degc = named(along(kByTemperature + k));
+        axis.scale_mgal_per_degc =
+            named(along(kScaleByTemperature + k, kMilliGalPerStandardGravity));
         tumble.angle_rad.at(std::size_t(k)) = named(along(kAngle + k));
     }
     // d|m| / dg with z upwards.
@@ -214,6 +228,17 @@ void set_terms(Tumble& tumble, const Solution& found, const Parameters& deviatio
     bias.covariance << covariance(0, 0), covariance(0, 1), covariance(0, 1), covariance(1, 1);
     if (std::sqrt(covariance.diagonal().maxCoeff()) < kUsefulBias_mgal_per_g)
         tumble.axis_bias = bias;
+    const double above = kFacesTemperature_degc - tumble.mean_degc;
+    const Parameters bias_slope = along(kByTemperature + 2),
+                     scale_slope = along(kScaleByTemperature + 2, kMilliGalPerStandardGravity);
+    Eigen::Matrix<double, 4, kParameters> faces;
+    faces
+        << (along(kBias + 2) + along(kQuadratic + 2, in_g * in_g) + above * bias_slope).transpose(),
+        (along(kScale + 2, kMilliGalPerStandardGravity) + above * scale_slope).transpose(),
+        bias_slope.transpose(), scale_slope.transpose();
+    const Eigen::Matrix4d of_faces = faces * found.covariance * faces.transpose();
+    if (std::sqrt(of_faces.diagonal().tail<2>().maxCoeff()) < kUsefulSlope_mgal_per_degc)
+        tumble.faces = {faces * found.values, 0.5 * (of_faces + of_faces.transpose())};
 }
 
 }  // namespace

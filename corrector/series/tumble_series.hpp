@@ -7,6 +7,7 @@
 ///
 /// m is the mean vector of a position, a the true acceleration along the axes, in mGal.
 /// - b: biases, mGal; q: quadratic terms, mGal at g0 = 980665 mGal.
+/// - b and the diagonal of S change with the temperature in straight lines.
 /// - S: symmetric; scale factors minus 1 on its diagonal, half the angles between axes minus 90 deg
 ///   (with the opposite sign, rad) beside it.
 ///
@@ -40,6 +41,8 @@ struct TumbleAxis {
     TumbleTerm scale;           ///< Half the difference of up and down, divided by gravity.
     TumbleTerm bias_mgal;       ///< Bias alone.
     TumbleTerm quadratic_mgal;  ///< Quadratic term at 1 g.
+    /// Changes of the bias and, times 980665 mGal, of the scale with temperature.
+    TumbleTerm bias_mgal_per_degc, scale_mgal_per_degc;
 };
 
 /// Result of a tumble.
@@ -50,6 +53,8 @@ struct Tumble {
     unit::Scale scale;  ///< `slope`, for calibration.toml.
     /// Change of the norm by 1 g along x and y, z upwards; absent if not determined.
     std::optional<unit::AxisBias> axis_bias;
+    /// Bias and scale of z with their changes by temperature; absent if these are not determined.
+    std::optional<unit::Faces> faces;
     std::size_t positions = 0;                 ///< Number of positions used.
     double mean_degc = 0.0, range_degc = 0.0;  ///< Temperature of the positions.
     MilliGal gravity;                          ///< Gravity of the site.
@@ -62,8 +67,8 @@ struct Tumble {
 ///
 /// Weighted least squares with priors, iterated until no error of linearisation is left.  Deviations of
 /// the priors: bias 1e5 mGal and scale 0.1, which decide nothing; quadratic term 300 mGal and angle 3 mrad,
-/// from the data sheet; change of each bias with temperature 100 mGal/degC, from the data sheet;
-/// gravity its uncertainty.  Errors of a position: placement and flicker of a usual unit, and the
+/// from the data sheet; changes of each bias and scale with temperature 100 mGal/degC at 1 g, from the
+/// data sheet; gravity its uncertainty.  Errors of a position: placement and flicker of a usual unit, and the
 /// standard error of its mean.  Residuals larger than expected enlarge these errors, smaller ones do not
 /// make them smaller.
 ///
@@ -72,9 +77,14 @@ struct Tumble {
 /// gravity, so its error is that of the prior, 6e-4.  Twelve more positions, each with two axes at
 /// 45 deg, determine all terms.
 ///
-/// Accuracy (tumble_series_test.cpp): in twenty made-up tumbles of eighteen positions the 95 % limits
+/// Positions at two or more temperatures give the changes with temperature, and so the share of the scale
+/// in them (unit::scale_share_of()).
+///
+/// Accuracy (tumble_series_test.cpp): of 100 made-up units at 20, 30 and 42.5 degC the errors of bias,
+/// scale and their changes are 0.95 to 1.05 of their uncertainties (rms).  In twenty made-up tumbles of eighteen positions the 95 % limits
 /// contain the truth of each term in at least 17.
-/// @param read    rows and records; SurveySource::is_tumbled.
+/// @param read    rows and records, SurveySource::is_tumbled; or those of several tumbles of one unit,
+///                one after the other.
 /// @param origin  name of the series, for messages.
 /// @throws InputError  if positions are at several points or gravity is not known, or if an axis has
 ///                     no position up or none down.

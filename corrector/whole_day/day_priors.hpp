@@ -10,6 +10,7 @@
 
 #include "corrector/adjustment/term.hpp"
 #include "corrector/whole_day/day_noise.hpp"
+#include "protocol/unit/calibration.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::whole_day {
@@ -93,6 +94,8 @@ struct DayPriors {
     /// alike.  1: the standard deviations in `factor` are used as they are.
     double bias_factor = 1.0;
     LogNormalPrior placement_mgal = kUsualPlacement_mgal;  ///< Prior of the placement.
+    /// Prior of the share of rA, rS and rF that acts on the scale.
+    unit::ScaleShare scale_share = {};
 
     /// Gives bx and by independent deviations of 2000 mGal/g, the limit of the data sheet, whatever
     /// the day says about their size.  Call it before observe() of an axis.

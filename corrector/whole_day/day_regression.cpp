@@ -169,18 +169,20 @@ double DayRegression::lag_s(const Point& u, DayHyper lag) const {
 Eigen::VectorXd DayRegression::on_scale_mean() const {
     Eigen::VectorXd means(on_scale());
     for (Index k = 0; k < on_scale(); ++k)
-        means(k) =
-            0.5 * priors_.mean(DayPriors::place_of(kOnScale.at(static_cast<std::size_t>(k))));
+        means(k) = priors_.scale_share.mean *
+                   priors_.mean(DayPriors::place_of(kOnScale.at(static_cast<std::size_t>(k))));
     return means;
 }
 
 Eigen::VectorXd DayRegression::on_scale_sd() const {
-    Eigen::VectorXd deviations = on_scale_mean();
+    const unit::ScaleShare& share = priors_.scale_share;
+    Eigen::VectorXd deviations(on_scale());
     for (Index k = 0; k < on_scale(); ++k) {
         const Index place = DayPriors::place_of(kOnScale.at(static_cast<std::size_t>(k)));
-        // An even share has the mean 1/2 and the mean square 1/3.
-        deviations(k) = std::sqrt(std::pow(deviations(k), 2) / 3.0 +
-                                  priors_.factor.row(place).squaredNorm() / 3.0);
+        // The deviation of a product of two independent factors.
+        deviations(k) =
+            std::hypot(share.deviation * priors_.mean(place),
+                       std::hypot(share.mean, share.deviation) * priors_.factor.row(place).norm());
     }
     return deviations;
 }

@@ -169,8 +169,8 @@ private:
     void set_states();
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
     [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
-    /// Return the prior of the slopes that act on the scale: mean and deviation of an unknown share of the
-    /// term, between 0 and all of it.
+    /// Return the prior of the slopes that act on the scale: mean and deviation of the share
+    /// DayPriors::scale_share of the term.
     [[nodiscard]] Eigen::VectorXd on_scale_mean() const;
     [[nodiscard]] Eigen::VectorXd on_scale_sd() const;
     /// Returns the columns (n, kOuterSlopes) of an outer oven, without their means.

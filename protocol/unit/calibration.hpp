@@ -105,6 +105,33 @@ struct Scale {
 /// assumption: the data sheet gives none for a small range.
 inline constexpr double kUsualScaleDeviation = 2e-3;
 
+/// Errors of the vertical axis in two faces, each a straight line in the temperature T in degC:
+///
+///     z up: reading = gravity (1 + scale) + bias,   z down: gravity (1 + scale) - bias
+///     bias = bias_mgal + bias_mgal_per_degc (T - 42.5)
+///     980665 scale = scale_mgal + scale_mgal_per_degc (T - 42.5)
+///
+/// A quadratic term of the axis is part of the bias.
+inline constexpr std::array<std::string_view, 4> kFacesNames{
+    "bias_mgal", "scale_mgal", "bias_mgal_per_degc", "scale_mgal_per_degc"};
+/// These coefficients with their covariance.  Range in a file: constants +-1e5, slopes +-1e4.
+using Faces = CalibratedCoefficients<4>;
+
+/// Share of the scale in a unit's steady response to temperature; the rest acts on the bias.
+///
+/// The default is that of a unit that nobody has measured: evenly distributed from 0 to 1.
+struct ScaleShare {
+    double mean = 0.5;
+    double deviation = 0.28867513459481287;  ///< Standard deviation, > 0; here 1 / sqrt(12).
+    bool is_measured = false;
+
+    bool operator==(const ScaleShare&) const = default;
+};
+
+/// Returns K / (B + K) with its standard deviation, from the slopes B of the bias and K of the scale;
+/// the default if that is not worse.  The share is not limited: B and K may have opposite signs.
+[[nodiscard]] ScaleShare scale_share_of(const Faces& faces);
+
 /// Time to wait after power-on: from then on the reading, corrected for temperature, is within
 /// `within_mgal` of its final value, with 95 % confidence.
 struct WarmUpGuidance {
@@ -124,7 +151,7 @@ struct CalibrationData {
 
 /// Calibration of one unit.
 ///
-/// A file has at least one of axis_bias, thermal, warm_up, placement and scale.  A default-constructed object is not
+/// A file has at least one of axis_bias, thermal, warm_up, placement, scale and faces.  A default-constructed object is not
 /// a valid calibration: to_toml() writes it, but parse_calibration() refuses the text.
 struct Calibration {
     std::string serial_number;  ///< Serial number of the unit; not empty.
@@ -137,6 +164,7 @@ struct Calibration {
     std::optional<WarmUpGuidance> warm_up;   ///< Absent: not measured.
     std::optional<Placement> placement;      ///< Absent: not measured.
     std::optional<Scale> scale;              ///< Absent: not measured.
+    std::optional<Faces> faces;              ///< Absent: not measured.
 
     bool operator==(const Calibration&) const = default;
 };

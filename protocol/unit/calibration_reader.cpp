@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "protocol/linear_algebra/cholesky.hpp"
@@ -32,6 +33,9 @@ constexpr std::array<Range, 2> kAxisBiasRanges{kBiasRange, kBiasRange};
 /// logarithms of lags in seconds, from 1 s to two days.
 constexpr Range kSlopeRange{-1e4, 1e4}, kLagRange{0.0, 12.0};
 constexpr std::array kThermalRanges{kSlopeRange, kSlopeRange, kSlopeRange, kLagRange, kLagRange};
+
+/// Constants within a tenth of g, slopes as above.
+constexpr std::array kFacesRanges{kBiasRange, kBiasRange, kSlopeRange, kSlopeRange};
 
 std::string required(text::TomlTable& table, std::string_view key) {
     std::string value = table.string_or(key, "");
@@ -141,6 +145,15 @@ std::vector<CalibrationData> data_of(text::TomlTable& document) {
 
 }  // namespace
 
+ScaleShare scale_share_of(const Faces& faces) {
+    const double bias = faces.values(2), scale = faces.values(3), sum = bias + scale;
+    const Eigen::Vector2d gradient(-scale, bias);  // of the share, times sum^2
+    const double variance =
+        gradient.dot(faces.covariance.bottomRightCorner<2, 2>() * gradient) / std::pow(sum, 4);
+    const ScaleShare measured{scale / sum, std::sqrt(variance), true};
+    return measured.deviation < ScaleShare{}.deviation ? measured : ScaleShare{};
+}
+
 Calibration parse_calibration(std::string_view text, std::filesystem::path origin) {
     text::TomlTable document = text::parse_toml(text, std::move(origin));
     if (!document.has("format")) document.refuse("format", "missing", "1");
@@ -167,11 +180,13 @@ Calibration parse_calibration(std::string_view text, std::filesystem::path origi
     }
     calibration.placement = placement_of(document);
     calibration.scale = scale_of(document);
+    calibration.faces = coefficients_of<4>(document, "faces", kFacesNames, kFacesRanges);
     document.require_all_read();
     if (!calibration.axis_bias && !calibration.thermal && !calibration.warm_up &&
-        !calibration.placement && !calibration.scale)
-        document.refuse("axis_bias", "missing, and so are thermal, warm_up, placement and scale",
-                        "at least one of axis_bias, thermal, warm_up, placement or scale");
+        !calibration.placement && !calibration.scale && !calibration.faces)
+        document.refuse("axis_bias",
+                        "missing, and so are thermal, warm_up, placement, scale and faces",
+                        "at least one of axis_bias, thermal, warm_up, placement, scale or faces");
     return calibration;
 }
 

@@ -56,6 +56,7 @@ std::string to_toml(const Calibration& calibration) {
     if (calibration.scale)
         text += "\n[scale]\n" + number_line("value", calibration.scale->value) +
                 number_line("standard_error", calibration.scale->standard_error);
+    if (calibration.faces) text += table("faces", kFacesNames, *calibration.faces);
     for (const CalibrationData& data : calibration.data)
         text += fmt::format("\n[[data]]\nname = {}\nsha256 = {}\n", text::toml_string(data.name),
                             text::toml_string(data.sha256));

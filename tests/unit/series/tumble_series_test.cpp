@@ -8,6 +8,7 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
+#include "tests/support/long_tests.hpp"
 
 using namespace a351;
 using namespace a351::corrector::series;
@@ -17,9 +18,11 @@ namespace {
 
 constexpr double kTumbledGravity_mgal = 979763.0;
 
-/// A sensor: bias and quadratic term at 1 g in mGal, scale, angles as Tumble::angle_rad.
+/// A sensor: bias and quadratic term at 1 g in mGal, scale, angles as Tumble::angle_rad; changes of bias
+/// and scale with temperature, mGal/degC.
 struct Truth {
     Eigen::Vector3d bias, scale, quadratic, angle;
+    Eigen::Vector3d bias_by_degc = Eigen::Vector3d::Zero(), scale_by_degc = bias_by_degc;
 };
 
 Truth drawn(std::mt19937_64& random) {
@@ -48,19 +51,21 @@ std::vector<Eigen::Vector3d> directions(bool is_halfway_too) {
 
 /// Returns the sensor's values in the positions, each up to a degree off.
 OccupationRows tumbled(const Truth& truth, const std::vector<Eigen::Vector3d>& positions,
-                       std::mt19937_64& random, double noise_mgal = 1.7) {
+                       std::mt19937_64& random, double noise_mgal = 1.7, double degc = 42.5) {
     std::normal_distribution<double> normal;
     OccupationRows read;
     for (const Eigen::Vector3d& position : positions) {
         const Eigen::Vector3d askew(normal(random), normal(random), normal(random));
         const Eigen::Vector3d a = kTumbledGravity_mgal * (position + 0.01 * askew).normalized();
         const Eigen::Vector3d in_g = a / kMilliGalPerStandardGravity;
-        Eigen::Matrix3d cross = truth.scale.asDiagonal();
+        Eigen::Matrix3d cross =
+            (truth.scale + (degc - 42.5) / kMilliGalPerStandardGravity * truth.scale_by_degc)
+                .asDiagonal();
         cross(0, 1) = cross(1, 0) = 0.5 * truth.angle(0);
         cross(0, 2) = cross(2, 0) = 0.5 * truth.angle(1);
         cross(1, 2) = cross(2, 1) = 0.5 * truth.angle(2);
-        Eigen::Vector3d mean =
-            cross * a + truth.bias + truth.quadratic.cwiseProduct(in_g.cwiseProduct(in_g));
+        Eigen::Vector3d mean = cross * a + truth.bias + (degc - 42.5) * truth.bias_by_degc +
+                               truth.quadratic.cwiseProduct(in_g.cwiseProduct(in_g));
         mean += noise_mgal * normal(random) * a.normalized();
         RecordSummary record;
         record.x.mean = to_standard_gravity(MilliGal(mean(0)));
@@ -69,7 +74,7 @@ OccupationRows tumbled(const Truth& truth, const std::vector<Eigen::Vector3d>& p
         SurveyRow row;
         row.site = "laboratory";
         row.reference = MilliGal(kTumbledGravity_mgal);
-        row.temperature = DegC(42.5);
+        row.temperature = DegC(degc);
         row.record = record;
         read.rows.push_back(row);
     }
@@ -175,6 +180,51 @@ TEST_CASE(
     CHECK(slopes >= 17);
     std::printf("six positions: scale of z within 95 %% limits in %d of 20, of the reading in %d\n",
                 within, slopes);
+}
+
+TEST_CASE("tumbles at three temperatures give the changes of bias and scale with right errors",
+          "[survey][tumble]") {
+    const int units = test::is_long() ? 100 : 20;
+    const double most_off = test::is_long() ? 0.15 : 0.35;  // two standard errors of a ratio
+    Eigen::Array4d squares = Eigen::Array4d::Zero();
+    double of_share = 0.0, u_share = 0.0;
+    for (int seed = 1; seed <= units; ++seed) {
+        std::mt19937_64 random(static_cast<std::uint64_t>(200 + seed));
+        std::normal_distribution<double> normal;
+        Truth truth = drawn(random);
+        for (Eigen::Index k = 0; k < 3; ++k) {
+            truth.bias_by_degc(k) = -20.0 + 5.0 * normal(random);
+            truth.scale_by_degc(k) = -10.0 + 5.0 * normal(random);
+        }
+        OccupationRows all;
+        for (const double degc : {20.0, 30.0, 42.5}) {
+            const OccupationRows read = tumbled(truth, directions(true), random, 1.7, degc);
+            CHECK_FALSE(measure_tumble(read, "one temperature").faces);
+            all.rows.insert(all.rows.end(), read.rows.begin(), read.rows.end());
+        }
+        const Tumble found = measure_tumble(all, "tumbles");
+        REQUIRE(found.faces);
+        const double in_g = kTumbledGravity_mgal / kMilliGalPerStandardGravity;
+        Eigen::Vector4d expected;
+        expected << truth.bias(2) + truth.quadratic(2) * in_g * in_g,
+            (truth.scale(2) - 1.0) * kMilliGalPerStandardGravity, truth.bias_by_degc(2),
+            truth.scale_by_degc(2);
+        squares += (found.faces->values - expected).array().square() /
+                   found.faces->covariance.diagonal().array();
+        const unit::ScaleShare share = unit::scale_share_of(*found.faces);
+        CHECK(share.is_measured);
+        of_share +=
+            std::pow((share.mean - expected(3) / (expected(2) + expected(3))) / share.deviation, 2);
+        u_share = std::max(u_share, share.deviation);
+    }
+    const Eigen::Array4d ratios = (squares / units).sqrt();
+    for (const double ratio : ratios) CHECK(std::abs(ratio - 1.0) < most_off);
+    CHECK(std::abs(std::sqrt(of_share / units) - 1.0) < most_off);
+    CHECK(u_share < 0.02);
+    std::printf(
+        "%d units at 20, 30, 42.5 degC, error over u: bias %.2f, scale %.2f, by degC %.2f, %.2f, "
+        "share of the scale %.2f (u at most %.4f)\n",
+        units, ratios(0), ratios(1), ratios(2), ratios(3), std::sqrt(of_share / units), u_share);
 }
 
 TEST_CASE("a wrong gravity within its uncertainty is within that of the scale",

@@ -30,6 +30,9 @@ Calibration whole() {
     calibration.warm_up = WarmUpGuidance{0.5, 7.25};
     calibration.placement = Placement{1.1, 0.8, 1.0 / 0.7};
     calibration.scale = Scale{1.0 + 1.0 / 300.0, 1.0 / 7000.0};
+    calibration.faces.emplace();
+    calibration.faces->values << 1838.0, -300.1, -21.0, -9.0;
+    calibration.faces->covariance = 0.01 * Eigen::Matrix4d::Identity();
     return calibration;
 }
 
@@ -98,7 +101,7 @@ TEST_CASE("invalid values in a calibration are refused with file, line and key",
     }
     CHECK_THAT(refusal_of("format = 1\nserial_number = '1'\nprogram = 'p'\n"
                           "valid_from_utc = '2026-01-01T00:00:00Z'\n"),
-               ContainsSubstring("axis_bias, thermal, warm_up, placement or scale"));
+               ContainsSubstring("axis_bias, thermal, warm_up, placement, scale or faces"));
 }
 
 TEST_CASE("SHA-256 of a file agrees with the example of the standard", "[calibration]") {
@@ -124,4 +127,15 @@ TEST_CASE("independent estimates are combined with weights from their covariance
     const AxisBias mean = combined(std::vector{one, other});
     CHECK(mean.values(0) == Approx(20.0));
     CHECK(mean.covariance(0, 0) == Approx(2.0 / 3.0));
+}
+
+TEST_CASE("the share of the scale comes from both slopes, or is not known", "[calibration]") {
+    const ScaleShare share = scale_share_of(*whole().faces);
+    CHECK(share.mean == Approx(0.3));
+    // (0.7^2 + 0.3^2)^0.5 0.1 / 30
+    CHECK(share.deviation == Approx(0.002539).epsilon(1e-3));
+    Faces faces = *whole().faces;
+    faces.values(3) = 20.9;  // no response together, so every share is possible
+    CHECK(scale_share_of(faces) == ScaleShare{});
+    CHECK(ScaleShare{}.deviation == Approx(std::sqrt(1.0 / 12.0)));
 }

@@ -157,6 +157,23 @@ TEST_CASE("a planned day has the uncertainties of a measured one of the same uni
               Approx(priors.mean(DayPriors::place_of(static_cast<DayTerm>(k)))).margin(1e-3));
 }
 
+TEST_CASE("a measured share of the scale makes a turned day more certain", "[day][faces]") {
+    const auto u_with = [](const unit::ScaleShare& share, bool is_turned) {
+        DayRecord record = MadeUpDay{.is_turned = is_turned}.record();
+        auto stations = MadeUpDay::stations();
+        for (std::size_t s = 1; s < stations.size(); ++s)
+            if (s != MadeUpDay::kSites) stations[s].gravity.reset();  // one known site
+        DayPriors priors = usual_day_priors();
+        priors.scale_share = share;
+        const FittedDay fit(
+            adjust_planned_day(record, {nullptr, stations, priors}, kUsualNoise).value());
+        return fit.gravity_mgal[5].standard_error;
+    };
+    const unit::ScaleShare measured{0.0, 1e-3, true};
+    CHECK(u_with(measured, true) < 0.9 * u_with({}, true));
+    CHECK(u_with(measured, false) == u_with({}, false));
+}
+
 TEST_CASE("a day finds the scale of its sensor, and the unknown stations with it", "[day]") {
     DayRecord record = MadeUpDay{.white_mgal = 0.01}.record();
     for (DayBin& bin : record.bins)
