@@ -54,7 +54,8 @@ void add_design_command(CLI::App& program) {
     const auto options = std::make_shared<DesignOptions>();
     add_required(
         command, "PLAN", "", options->plan,
-        "Plan (CSV): site, start_utc, set_ups, minutes_each; one line per visit, in order");
+        "Plan (CSV): site, start_utc, set_ups, minutes_each and, if the box is turned over, faces; "
+        "one line per visit, in order");
     add_required(command, "--sites", "CSV", options->sites,
                  "Benchmarks; those with a gravity are known");
     add_option(command, "--unit", "FILE", options->unit,

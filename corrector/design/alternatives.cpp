@@ -23,6 +23,7 @@ constexpr std::size_t kMostNewStations = 3;
 struct Change {
     std::string text;
     Plan plan;
+    double least_gain = kLeastGain;
 };
 
 const text::Site& site_of(const std::vector<text::Site>& sites, const Visit& visit) {
@@ -123,11 +124,48 @@ std::vector<NewStation> nearest_new_stations(const Plan& plan,
     return found;
 }
 
+/// Returns the plan of the same minutes with the box turned over: its set-ups in the faces + - - +, a
+/// single one cut into four or two that are long enough.  Empty if it cannot be cut.
+Plan turned(const Plan& plan) {
+    Plan all = plan;
+    for (Visit& visit : all) {
+        const int parts = visit.set_ups > 1                               ? 1
+                          : visit.minutes_each >= 4.0 * kShortestHalf_min ? 4
+                                                                          : 2;
+        visit.set_ups *= parts;
+        visit.minutes_each /= parts;
+        if (visit.minutes_each < kShortestHalf_min && parts > 1) return {};
+        visit.faces.clear();
+        for (int k = 0; k < visit.set_ups; ++k) visit.faces += "+--+"[k % 4];
+    }
+    return all;
+}
+
+/// Returns the plan without turning, or with it.
+std::optional<Change> change_of_faces(const Plan& plan) {
+    if (is_turned(plan))
+        return Change{"the same set-ups in one face",
+                      with_visits(plan, [](Visit& visit) { visit.faces = "+"; })};
+    Plan faces = turned(plan);
+    if (faces.empty()) return std::nullopt;
+    const bool is_cut = std::ranges::any_of(plan, [](const Visit& v) { return v.set_ups == 1; });
+    return Change{fmt::format("turning the box over between the set-ups{}",
+                              is_cut ? ", single ones cut into two or four" : ""),
+                  std::move(faces), kLeastGainOfTurning};
+}
+
+/// Adds a set-up in the face of the last one.
+void one_more(Visit& visit) {
+    if (visit.faces.size() > 1) visit.faces += visit.faces.back();
+    ++visit.set_ups;
+}
+
 std::vector<Change> changes_of(const Plan& plan, const std::vector<text::Site>& sites) {
     std::vector<Change> changes;
     const auto all = [&plan](const auto& condition) {
         return std::ranges::all_of(plan, condition);
     };
+    if (auto faces = change_of_faces(plan)) changes.push_back(std::move(*faces));
     if (all([](const Visit& visit) {
             return visit.minutes_each >= 2.0 * kShortestHalf_min &&
                    2 * visit.set_ups <= kMostSetUps;
@@ -138,14 +176,14 @@ std::vector<Change> changes_of(const Plan& plan, const std::vector<text::Site>& 
                            with_visits(plan, [](Visit& visit) {
                                visit.set_ups *= 2;
                                visit.minutes_each /= 2.0;
+                               if (visit.faces.size() > 1) visit.faces += visit.faces;
                            })});
     }
     if (all([](const Visit& visit) { return visit.set_ups < kMostSetUps; })) {
-        changes.push_back({"one more set-up at each visit",
-                           with_visits(plan, [](Visit& visit) { ++visit.set_ups; })});
+        changes.push_back({"one more set-up at each visit", with_visits(plan, one_more)});
         changes.push_back({"one more set-up at each visit of a known station",
                            with_visits(plan, [&sites](Visit& visit) {
-                               if (is_known(sites, visit)) ++visit.set_ups;
+                               if (is_known(sites, visit)) one_more(visit);
                            })});
     }
     if (all([](const Visit& visit) { return 2.0 * visit.minutes_each <= kMostMinutes; }))
@@ -177,7 +215,7 @@ std::vector<Alternative> alternatives(const Plan& plan, const std::vector<text::
     for (Change& change : changes_of(plan, sites)) {
         const MilliGal changed =
             expected_errors(change.plan, sites, unit, Detail::stations).u_unknown;
-        if (changed.value() > (1.0 - kLeastGain) * u.value()) continue;
+        if (changed.value() > (1.0 - change.least_gain) * u.value()) continue;
         const double extra_minutes = 60.0 * (duration_h(change.plan) - duration_h(plan));
         found.push_back({fmt::format("{}: {} instead of {} mGal, {}", change.text,
                                      text::fixed(changed.value(), 2), text::fixed(u.value(), 2),

@@ -26,9 +26,14 @@ struct Alternative {
 
 /// Least improvement of an alternative, as a part of u.  Less is below the accuracy of a prediction.
 inline constexpr double kLeastGain = 0.01;
+/// The same for turning the box over.  Reason: it is work at each benchmark, and what it does to an oven is
+/// not known.
+inline constexpr double kLeastGainOfTurning = 0.1;
 
 /// Returns the changes that improve a plan by kLeastGain or more, the best first:
 ///
+/// - the box turned over between the set-ups in the same minutes, if that is better by
+///   kLeastGainOfTurning; or, if the plan turns it, the same set-ups in one face,
 /// - twice as many set-ups of half the length; only if each keeps three minutes,
 /// - one more set-up at each visit, or at those of known stations only,
 /// - set-ups twice as long,

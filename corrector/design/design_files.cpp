@@ -93,12 +93,15 @@ std::string design_json(const Design& design, const std::vector<text::InputFile>
                                   {"byte_count", input.byte_count},
                                   {"crc32", input.crc32}});
     const PlannedUnit& unit = design.unit;
-    json["unit"] = {{"origin", unit.origin},
-                    {"placement_mgal", unit.noise.placement_mgal},
-                    {"flicker_mgal", unit.noise.flicker_mgal},
-                    {"white_mgal", unit.noise.white_mgal},
-                    {"walk_degc_per_sqrt_h", unit.walk_degc_per_sqrt_h},
-                    {"tilt_g", unit.tilt_g}};
+    json["unit"] = {
+        {"origin", unit.origin},
+        {"placement_mgal", unit.noise.placement_mgal},
+        {"flicker_mgal", unit.noise.flicker_mgal},
+        {"white_mgal", unit.noise.white_mgal},
+        {"walk_degc_per_sqrt_h", unit.walk_degc_per_sqrt_h},
+        {"tilt_g", unit.tilt_g},
+        {"scale_share",
+         unit.priors.scale_share.is_measured ? Json(unit.priors.scale_share.mean) : Json(nullptr)}};
     json["hours"] = duration_h(design.plan);
     json["u_mgal"] = design.errors.u_unknown.value();
     json["stations"] = result::json_array(station_columns(), design.errors.stations);
@@ -110,13 +113,18 @@ std::string design_json(const Design& design, const std::vector<text::InputFile>
 
 std::string design_text(const Design& design) {
     const whole_day::DayNoise& noise = design.unit.noise;
+    const unit::ScaleShare& share = design.unit.priors.scale_share;
     std::string text = fmt::format(
         "{} visits of {} stations ({} known), {} set-ups, {} h\n"
-        "unit: {}; placement {}, flicker {}, white noise {} mGal\n\n",
+        "unit: {}; placement {}, flicker {}, white noise {} mGal; share of the scale in its errors "
+        "{}\n\n",
         design.plan.size(), design.errors.stations.size(), count_known(design),
         count_set_ups(design), text::fixed(duration_h(design.plan), 1), design.unit.origin,
         text::fixed(noise.placement_mgal, 2), text::fixed(noise.flicker_mgal, 2),
-        text::fixed(noise.white_mgal, 2));
+        text::fixed(noise.white_mgal, 2),
+        share.is_measured
+            ? fmt::format("{} +- {}", text::fixed(share.mean, 2), text::fixed(share.deviation, 2))
+            : "not known");
     text += result::aligned_text(result::table_of(station_columns(), design.errors.stations));
     text += fmt::format("\nexpected standard uncertainty of the unknown stations (rms): {} mGal\n",
                         text::fixed(design.errors.u_unknown.value(), 2));

@@ -31,6 +31,14 @@ Visit visit_of(const text::CsvTable& table, std::size_t row, const std::vector<t
         table.refuse(row, "set_ups", "not whole",
                      fmt::format("a whole number, 1 to {}", kMostSetUps));
     visit.minutes_each = table.number(row, "minutes_each", kFewestMinutes, kMostMinutes);
+    if (!table.has_column("faces") || table.cell(row, "faces").empty()) return visit;
+    visit.faces = table.cell(row, "faces");
+    if (visit.faces.find_first_not_of("+-") != std::string::npos || visit.faces.front() != '+')
+        table.refuse(row, "faces", "not a plan of faces",
+                     "signs + and -, beginning with +, as +--+");
+    if (visit.faces.size() > 1 && std::ssize(visit.faces) != visit.set_ups)
+        table.refuse(row, "faces", "not one face for each of the set_ups",
+                     fmt::format("{} signs, or + alone", visit.set_ups));
     return visit;
 }
 
@@ -73,13 +81,21 @@ Plan read_plan(const std::filesystem::path& file, const std::vector<text::Site>&
 }
 
 std::string plan_csv(const Plan& plan) {
-    std::string csv = "site,start_utc,set_ups,minutes_each\n";
+    const bool has_faces = is_turned(plan);
+    std::string csv =
+        fmt::format("site,start_utc,set_ups,minutes_each{}\n", has_faces ? ",faces" : "");
     for (const Visit& visit : plan) {
         const bool is_whole = visit.start == std::chrono::floor<std::chrono::seconds>(visit.start);
-        csv += fmt::format("{},{},{},{}\n", visit.site, to_rfc3339(visit.start, is_whole ? 0 : 3),
-                           visit.set_ups, text::shortest(visit.minutes_each));
+        csv += fmt::format("{},{},{},{}{}\n", visit.site, to_rfc3339(visit.start, is_whole ? 0 : 3),
+                           visit.set_ups, text::shortest(visit.minutes_each),
+                           has_faces ? "," + visit.faces : "");
     }
     return csv;
+}
+
+bool is_turned(const Plan& plan) {
+    return std::ranges::any_of(
+        plan, [](const Visit& visit) { return visit.faces.find('-') != std::string::npos; });
 }
 
 double duration_h(const Plan& plan) {

@@ -8,6 +8,7 @@
 /// A visit is a stay at a site.  It has one or several set-ups, which follow each other without a
 /// pause: the time to lift and level the box is part of a set-up.
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,11 +32,19 @@ struct Visit {
     UtcTime start;              ///< The box is on the ground.
     int set_ups = 1;            ///< 1 to kMostSetUps.
     double minutes_each = 0.0;  ///< Duration of a set-up, kFewestMinutes to kMostMinutes.
+    /// Faces of the set-ups, signs + and - that begin with +; the last one holds for further set-ups.
+    std::string faces = "+";
 
     /// Returns the duration of the visit, min.
     [[nodiscard]] double minutes() const { return set_ups * minutes_each; }
     /// Returns the instant at which the box is taken away.
     [[nodiscard]] UtcTime end() const { return start + from_seconds(60.0 * minutes()); }
+    /// Returns the face of a set-up, 1 or -1.
+    /// @param set_up  from 0.
+    [[nodiscard]] double face(int set_up) const {
+        return faces[std::min(static_cast<std::size_t>(set_up), faces.size() - 1)] == '-' ? -1.0
+                                                                                          : 1.0;
+    }
 
     bool operator==(const Visit&) const = default;
 };
@@ -51,8 +60,11 @@ using Plan = std::vector<Visit>;
 [[nodiscard]] Plan read_plan(const std::filesystem::path& file,
                              const std::vector<text::Site>& sites);
 
-/// Returns the plan as the table that read_plan() reads.
+/// Returns the plan as the table that read_plan() reads, with the column faces if the box is turned.
 [[nodiscard]] std::string plan_csv(const Plan& plan);
+
+/// Returns true if a visit has two faces.
+[[nodiscard]] bool is_turned(const Plan& plan);
 
 /// Returns the time from the first start to the last end, h.
 /// @param plan  at least one visit.

@@ -89,6 +89,7 @@ PlannedDay planned_day(const Plan& plan, const std::vector<text::Site>& sites,
             for (reading::DayBin& bin :
                  planned_bins(set_up, visit.start + from_seconds(60.0 * part * visit.minutes_each),
                               visit.minutes_each)) {
+                bin.face = visit.face(part);
                 bin.x = StandardGravity(tilt * std::cos(direction));
                 bin.y = StandardGravity(tilt * std::sin(direction));
                 day.record.bins.push_back(std::move(bin));

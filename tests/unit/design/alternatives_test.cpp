@@ -72,3 +72,23 @@ TEST_CASE("what the plan has already is not proposed", "[design]") {
     CHECK(named(list, "a return to A at the end") == nullptr);
     CHECK(named(list, "K, which is known too") == nullptr);
 }
+
+TEST_CASE("turning the box is proposed with its effect", "[design][faces]") {
+    const auto sites = made_up_sites();
+    const auto found_with = [&](const Plan& plan, const unit::ScaleShare& share) {
+        PlannedUnit unit = usual_unit();
+        unit.priors.scale_share = share;
+        return alternatives(plan, sites, unit, expected_errors(plan, sites, unit).u_unknown);
+    };
+    const Plan plan = made_up_plan("ABCDA", 1, 12.0);
+    const unit::ScaleShare none{0.0, 0.01, true};
+    const auto unknown = found_with(plan, {}), known = found_with(plan, none);
+    const std::string turning = "turning the box over between the set-ups";
+    REQUIRE(named(unknown, turning) != nullptr);
+    REQUIRE(named(known, turning) != nullptr);
+    CHECK(named(unknown, turning)->extra_minutes == 0.0);
+    CHECK(named(unknown, turning)->plan[0].faces == "+--+");
+    CHECK(named(known, turning)->u < named(unknown, turning)->u);
+    CHECK(named(found_with(named(unknown, turning)->plan, {}), "the same set-ups in one") ==
+          nullptr);
+}

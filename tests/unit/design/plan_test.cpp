@@ -45,6 +45,23 @@ TEST_CASE("a written plan is read as the same", "[design]") {
     CHECK(read(plan_csv(plan)) == plan);
 }
 
+TEST_CASE("a plan of faces is read and written, and another one is refused", "[design][faces]") {
+    const std::string header = "site,start_utc,set_ups,minutes_each,faces\n";
+    const Plan plan =
+        read(header + "A,2026-05-01T00:00:00Z,4,3,+--+\nB,2026-05-01T00:30:00Z,2,6,\n");
+    CHECK(is_turned(plan));
+    CHECK(plan[0].face(0) == 1.0);
+    CHECK(plan[0].face(2) == -1.0);
+    CHECK(plan[1].face(1) == 1.0);
+    CHECK(read(plan_csv(plan)) == plan);
+    CHECK(refusal_of(header + "A,2026-05-01T00:00:00Z,2,6,-+\n") ==
+          "plan.csv:2: faces = -+: not a plan of faces; allowed: signs + and -, beginning with +, "
+          "as +--+");
+    CHECK(refusal_of(header + "A,2026-05-01T00:00:00Z,3,6,+-\n") ==
+          "plan.csv:2: faces = +-: not one face for each of the set_ups; allowed: 3 signs, or + "
+          "alone");
+}
+
 TEST_CASE("a mistake in a plan is one line with line, column, value and what is allowed",
           "[design]") {
     const std::string first = "A,2026-05-01T00:00:00Z,1,12\n";
