@@ -208,15 +208,15 @@ text::Message temperature_remark(const std::vector<CorrectedRow>& rows,
 }
 
 /// Returns true if the readings are of both faces, which only the whole-day model knows.
-bool is_turned(const reading::DayRecord* day) {
-    return day != nullptr && reading::is_turned(day->bins);
+bool has_two_faces(const reading::DayRecord* day) {
+    return day != nullptr && reading::has_two_faces(day->bins);
 }
 
 Chosen choose_and_fit(const SurveyProblem& problem, const RowChoice& rows) {
     Chosen chosen;
     const SurveyOptions& options = problem.options;
     const bool is_automatic = options.model == kAutomatic;
-    if (is_turned(problem.day)) {
+    if (has_two_faces(problem.day)) {
         chosen.model = find_model(is_automatic ? kWholeDay : options.model);
         chosen.fit = chosen.model->name == kWholeDay
                          ? chosen.model->fit(problem, rows)
@@ -343,7 +343,7 @@ SurveyCorrection correct_survey(const std::vector<reading::SurveyRow>& rows,
             if (score) set.scores.push_back(*score);
         };
         for (const Model& model : models())
-            if (model.is_always_scored && !is_turned(day)) add(model);
+            if (model.is_always_scored && !has_two_faces(day)) add(model);
         if (!chosen.model->is_always_scored) add(*chosen.model);
         return set;
     };

@@ -73,7 +73,7 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, do
         DayBin bin;
         bin.set_up = set_up;
         // 1 g is subtracted before summing, to keep the last digits.
-        double reading_g = 0.0, x_g = 0.0, y_g = 0.0, z_g = 0.0, after_s = 0.0;
+        double reading_g = 0.0, x_g = 0.0, y_g = 0.0, after_s = 0.0;
         const std::size_t end = std::min(size.size(), first + kBinSamples);
         for (std::size_t i = first; i < end; ++i) {
             if (!is_quiet[i]) continue;
@@ -82,7 +82,6 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, do
             reading_g += size.values()[i] - 1.0;
             x_g += axes.x.values()[i];
             y_g += axes.y.values()[i];
-            z_g += axes.z.values()[i];
         }
         if (bin.times.size() < kFewestOfBin) continue;
         const auto n = static_cast<double>(bin.times.size());
@@ -90,7 +89,6 @@ std::vector<DayBin> bin_set_up(std::size_t set_up, const DecimatedAxes& axes, do
         bin.reading = MilliGal((1.0 + reading_g / n) * kMilliGalPerStandardGravity);
         bin.x = StandardGravity(x_g / n);
         bin.y = StandardGravity(y_g / n);
-        bin.face = z_g < 0.0 ? -1.0 : 1.0;
         bins.push_back(std::move(bin));
     }
     return bins;
@@ -102,7 +100,7 @@ std::vector<double> faces_of(const std::vector<DayBin>& bins, std::size_t set_up
     return faces;
 }
 
-bool is_turned(const std::vector<DayBin>& bins) {
+bool has_two_faces(const std::vector<DayBin>& bins) {
     return std::ranges::any_of(
         bins, [&bins](const DayBin& bin) { return bin.face != bins.front().face; });
 }

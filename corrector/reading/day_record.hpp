@@ -33,7 +33,7 @@ struct DayBin {
     std::vector<UtcTime> times;  ///< Times of the 2 s samples that it averages.
     MilliGal reading;            ///< Mean norm of the decimated axes.
     StandardGravity x, y;        ///< Means of the horizontal axes.
-    double face = 1.0;           ///< 1, or -1 if the vertical axis points down.
+    double face = 1.0;           ///< events::face_of() its set-up.
     MilliGal tide;               ///< Effect of the tide on gravity at `time`; to be subtracted.
 };
 
@@ -99,7 +99,7 @@ struct DayTemperature {
 [[nodiscard]] std::vector<double> faces_of(const std::vector<DayBin>& bins, std::size_t set_ups);
 
 /// Returns true if the sensor was turned over between bins.
-[[nodiscard]] bool is_turned(const std::vector<DayBin>& bins);
+[[nodiscard]] bool has_two_faces(const std::vector<DayBin>& bins);
 
 /// A day as the whole-day model takes it.
 /// The temperature should begin hours before the first set-up (a survey takes eight), because the

@@ -14,6 +14,7 @@
 #include "corrector/reading/stay_remarks.hpp"
 #include "corrector/reading/vertical_axis.hpp"
 #include "protocol/archive/journal_tail.hpp"
+#include "protocol/events/face.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -98,6 +99,7 @@ struct AveragedSetUp {
     std::optional<Finding> moved = {};  ///< A move of the box; absent if there was none to name.
     /// Its value, with a temperature unless there is trouble.
     std::optional<RepresentativeValue> value = {};
+    int face = 1;
     std::vector<DayBin> bins = {};
     std::string trouble = {};  ///< Reason why it has no row; empty if it has one.
 };
@@ -124,10 +126,15 @@ AveragedSetUp average(const Samples& samples, const Epoch& epoch,
         set_up.trouble = text::marked("too few samples in a row");
     else if (!set_up.value->temperature)
         set_up.trouble = text::marked("no temperature");
-    else if (!is_tumbled && std::abs(set_up.value->z.mean.value()) < kLeastVertical.value())
-        set_up.trouble = text::marked("the box lay on its side or was turned over within the set-up");
-    else
+    // A tumble has no faces: it fits all axes.
+    else if (const auto face = is_tumbled ? set_up.face : events::face_of(set_up.value->z.mean);
+             !face)
+        set_up.trouble = events::kOnItsSide;
+    else {
+        set_up.face = *face;
         set_up.bins = bin_set_up(0, axes, kDisturbanceThreshold);
+        for (DayBin& bin : set_up.bins) bin.face = set_up.face;
+    }
     return set_up;
 }
 
@@ -144,6 +151,7 @@ SurveyRow row_of(const AveragedSetUp& set_up, const SurveyStays& stays) {
     row.time = value.interval_start + (value.interval_end - value.interval_start) / 2;
     for (const OccupationFlag flag : value.flags) row.notes.emplace_back(flag_name(flag));
     row.acceleration = value.curve_mean;
+    row.face = set_up.face;
     row.temperature = temperature.mean;
     row.rate_degc_per_h = temperature.slope_degc_per_h;
     row.record = static_cast<const RecordSummary&>(value);
@@ -229,9 +237,6 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.records.push_back(std::move(*set_up.value));
         averaged.push_back(std::move(set_up.window));
     }
-    // A tumble has no faces: it fits all axes.
-    if (result.day && source.is_tumbled)
-        for (DayBin& bin : result.day->bins) bin.face = 1.0;
     if (result.rows.empty()) {
         const text::Message cause =
             absent.empty() ? result.warnings.back() : archive_series::to_message(absent.front());

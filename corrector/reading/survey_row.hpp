@@ -59,6 +59,7 @@ struct SurveyRow : SetUp {
     std::optional<UtcTime> end;
     /// Mean with the reductions below.  The full value, or from a gravimeter the value above the zero of its own scale.
     MilliGal acceleration;
+    int face = 1;  ///< events::face_of(); 1 in a table of averages.
     /// Standard deviation of the average, from the scatter of its readings; 0 if not given.
     MilliGal u_average{};
     std::string instrument;  ///< Name of the gravimeter; empty for the sensor.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/events/face.hpp"
 #include "protocol/signal/median.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -78,23 +79,21 @@ text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
                                 const std::filesystem::path& file) {
     const std::vector<station::ChannelScale>& axes = epoch.channels;
     std::array<double, kVertical + 1> sizes{};
-    std::array<bool, kVertical + 1> is_down{};  ///< In all windows.
+    std::array<bool, kVertical + 1> is_upside_down{};  ///< In all windows.
     std::string list;
     for (std::size_t k = 0; k < sizes.size(); ++k) {
         const std::vector<double> means = means_g(samples[k].segments, axes[k], windows);
         if (means.empty()) return {};
         sizes[k] = size_g(means);
-        is_down[k] = std::ranges::max(means) < 0.0;
+        is_upside_down[k] = std::ranges::max(means) < 0.0;
         list += fmt::format("{}{} {}", k == 0 ? "" : ", ", axes[k].code,
-                            in_g(is_down[k] ? -sizes[k] : sizes[k]));
+                            in_g(is_upside_down[k] ? -sizes[k] : sizes[k]));
     }
-    const auto nearest = static_cast<std::size_t>(
-        std::ranges::min_element(sizes, {}, [](double size) { return std::abs(size - 1.0); }) -
-        sizes.begin());
-    if (sizes[nearest] < kLeastVertical.value())
+    const std::size_t nearest = events::vertical_axis(sizes);
+    if (!events::face_of(StandardGravity(sizes[nearest])))
         throw InputError(fmt::format(
             "{}: no axis is vertical: {}; allowed: an axis with at least {} along gravity",
-            file.string(), list, in_g(kLeastVertical.value())));
+            file.string(), list, in_g(events::kLeastVertical.value())));
     const std::string code = axes[nearest].code;
     text::Message warning;
     if (const auto named = named_vertical(epoch); named && *named != nearest)
@@ -102,7 +101,7 @@ text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
             "{}: {} is vertical by its dip, but gravity is along {} ({}); {} is used; the axis "
             "biases of a calibration belong to the usual mounting",
             file.string(), axes[*named].code, code, list, code);
-    if (is_down[nearest])
+    if (is_upside_down[nearest])
         warning += text::message("{}the sensor is mounted upside down: {} has {}",
                                  warning.empty() ? file.string() + ": " : "; ", code,
                                  in_g(-sizes[nearest]));

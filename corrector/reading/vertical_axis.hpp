@@ -15,16 +15,11 @@
 #include "corrector/archive_series/epoch.hpp"
 #include "corrector/reading/occupation_list.hpp"
 #include "protocol/archive/archive_reader.hpp"
-#include "protocol/core/units.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::reading {
 
-/// Least mean of the vertical axis, g.  Reason: less means more than 25 deg from the vertical, so the
-/// box is not level.
-inline constexpr StandardGravity kLeastVertical{0.9};
-
-/// Finds the axis whose size is nearest to 1 g, and exchanges axes of samples and epoch so that it is
+/// Finds the vertical axis (events::vertical_axis()), and exchanges axes of samples and epoch so that it is
 /// the last.  The horizontal axes keep their order.
 ///
 /// The size is the median of the windows' means without their signs, over one sample per second: the
@@ -33,7 +28,7 @@ inline constexpr StandardGravity kLeastVertical{0.9};
 /// @param file     name of the metadata, for messages.
 /// @return a sentence for the user if another axis has a dip of more than 45 deg in the metadata, or
 ///         if the sensor is always upside down; the norm is the same then.  Otherwise empty.
-/// @throws InputError  no axis has a size >= kLeastVertical; the message has all three.
+/// @throws InputError  no axis has a size >= events::kLeastVertical; the message has all three.
 [[nodiscard]] text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
                                               archive_series::Epoch& epoch,
                                               const std::vector<OccupationWindow>& windows,

@@ -5,6 +5,7 @@
 
 #include "corrector/judgement/reading_grade.hpp"
 #include "corrector/model/calibration_use.hpp"
+#include "protocol/events/face.hpp"
 #include "protocol/text/catalogue.hpp"
 
 namespace a351::corrector::result {
@@ -193,14 +194,11 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         columns.push_back({"used_min",
                            [](const Row& row) { return cell(used_minutes(row)); },
                            {text::marked("Min used"), 1}});
-    const auto is_down = [](const Row& row) {
-        return row.row.record && row.row.record->z.mean.value() < 0.0;
-    };
     if (std::ranges::any_of(result.rows,
-                            [&](const Row& row) { return is_down(row) != is_down(first); }))
+                            [&](const Row& row) { return row.row.face != first.row.face; }))
         columns.push_back(
             {"face",
-             [is_down](const Row& row) -> Cell { return std::string(is_down(row) ? "-" : "+"); },
+             [](const Row& row) -> Cell { return std::string(events::sign_of(row.row.face)); },
              {text::marked("Face"), 0, 'l'}});
     if (first.row.record) append(columns, columns_of_records());
     if (first.as<model::WholeDayRow>() != nullptr)

@@ -40,7 +40,7 @@ DayRegression::DayRegression(const DaySurvey& survey, const std::vector<double>&
       priors_(survey.priors),
       whitening_(record_.bins),
       white_mgal_{bin_scatter_mgal(record_.bins), kWhiteFactor},
-      is_turned_(reading::is_turned(record_.bins)),
+      has_two_faces_(reading::has_two_faces(record_.bins)),
       temperature_(survey.temperature ? survey.temperature
                                       : std::make_shared<const LaggedMeans>(record_)) {
     faces_.resize(std::ssize(record_.bins));
@@ -142,7 +142,7 @@ void DayRegression::set_fixed_columns() {
     const reading::DayBin& zero =
         first_held == record_.bins.end() ? record_.bins.front() : *first_held;
     // In one face the constant takes the scale's part in all gravities; in two it cannot.
-    const double zero_mgal = is_turned_ ? 0.0 : base_mgal_[stations_[zero.set_up].number];
+    const double zero_mgal = has_two_faces_ ? 0.0 : base_mgal_[stations_[zero.set_up].number];
     for (Index i = 0; i < count; ++i) {
         const reading::DayBin& bin = record_.bins[static_cast<std::size_t>(i)];
         column(DayTerm::scale)(i) =

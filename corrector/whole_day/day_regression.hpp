@@ -71,7 +71,7 @@ public:
     [[nodiscard]] Eigen::Index estimated() const { return on_scale_begin() + on_scale(); }
     /// Returns the number of slopes that act on the scale: those of kOnScale, if the sensor was turned
     /// over.
-    [[nodiscard]] Eigen::Index on_scale() const { return is_turned_ ? std::ssize(kOnScale) : 0; }
+    [[nodiscard]] Eigen::Index on_scale() const { return has_two_faces_ ? std::ssize(kOnScale) : 0; }
     /// Returns the place of the first of them, the last of the estimated quantities.
     [[nodiscard]] Eigen::Index on_scale_begin() const {
         return outer_begin() + (has_outer() ? kOuterSlopes : 0);
@@ -183,7 +183,7 @@ private:
     const DayPriors& priors_;
     Whitening whitening_;
     LogNormalPrior white_mgal_;
-    bool is_turned_;
+    bool has_two_faces_;
     Eigen::VectorXd faces_;             ///< Face of each bin.
     std::vector<bool> is_held_;         ///< One per number: one of its set-ups has a reference.
     std::vector<Eigen::Index> places_;  ///< place_of() each number.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "protocol/events/face.hpp"
+
 namespace a351::daemon::survey {
 namespace {
 
@@ -23,24 +25,32 @@ std::vector<SetUp> set_ups_so_far(const events::RunningOccupation& running, UtcT
 /// Where a stay is in its plan of faces.
 struct Faces {
     int number = 0;  ///< Number of the running set-up in the plan: wrong faces before do not count.
-    bool is_wrong = false;    ///< It is known to be in the wrong face.
-    bool turns_next = false;  ///< The box is to be turned over for the next one.
+    bool is_wrong = false;        ///< It is known to be in another face than planned.
+    bool is_on_its_side = false;  ///< It is in none.
+    bool turns_next = false;      ///< The box is to be turned over for the next one.
 };
 
 Faces faces_of(const Occupations& occupations, const live::Record& live,
                const std::vector<SetUp>& set_ups) {
+    const auto planned_face = [&](int number) { return occupations.planned_face(number); };
     Faces faces;
     std::optional<int> first, face;
-    for (std::size_t k = 0; k < set_ups.size(); ++k) {
+    std::size_t vertical = 0;
+    for (std::size_t k = 0; k < set_ups.size() && set_ups.size() > 1; ++k) {
         if (!faces.is_wrong) ++faces.number;
-        face = set_ups.size() == 1 ? std::nullopt : live.face(set_ups[k].start, set_ups[k].end);
+        const auto means_g = live.means_g(set_ups[k].start, set_ups[k].end);
+        if (k == 0 && means_g) vertical = events::vertical_axis(*means_g);
+        face = means_g ? events::face_of(StandardGravity(means_g->at(vertical))) : std::nullopt;
         if (k == 0) first = face;
-        const bool is_turned = occupations.is_turned(faces.number);
-        faces.is_wrong = first && face && *face != (is_turned ? -*first : *first);
+        faces.is_on_its_side = first && means_g && !face;
+        faces.is_wrong =
+            faces.is_on_its_side || (first && face && *face != *first * planned_face(faces.number));
     }
-    const bool is_turned = faces.is_wrong ? *face == -*first : occupations.is_turned(faces.number);
-    faces.turns_next =
-        is_turned != occupations.is_turned(faces.is_wrong ? faces.number : faces.number + 1);
+    // The first set-up of a stay is in the face of the plan.
+    faces.number = std::max(faces.number, 1);
+    const int number = faces.is_wrong ? faces.number : faces.number + 1;
+    const int now = faces.is_wrong && face ? *face * *first : planned_face(faces.number);
+    faces.turns_next = now != planned_face(number);
     return faces;
 }
 
@@ -84,6 +94,9 @@ text::Message wrong_face(const Occupations& occupations, const live::Record& liv
     const auto& running = occupations.running();
     if (!running || running->set_ups.size() < 2) return {};
     const Faces faces = faces_of(occupations, live, set_ups_so_far(*running, now));
+    if (faces.is_on_its_side)
+        return text::message("{}: set it down level and press Next set-up, or press Checked",
+                             text::marked_message(events::kOnItsSide));
     if (!faces.is_wrong) return {};
     return text::message(
         "the box is not in the face that is planned for set-up {}: turn it over, set it down level "

@@ -46,8 +46,8 @@ struct FieldStatus {
                                                   const live::Record& live, UtcTime now);
 
 /// Returns a sentence if the running set-up is not in the planned face, compared with the first
-/// set-up of the stay; empty if it is, or if the face is not known.  A set-up in the wrong face
-/// does not count in the plan.
+/// set-up of the stay, or if the box lies on its side; empty if it is, or if the face is not known.
+/// A set-up in the wrong face does not count in the plan.
 [[nodiscard]] text::Message wrong_face(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);
 

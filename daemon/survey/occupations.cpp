@@ -131,9 +131,10 @@ int Occupations::planned_set_ups() const noexcept {
                      : options_.planned_set_ups;
 }
 
-bool Occupations::is_turned(int set_up) const noexcept {
+int Occupations::planned_face(int set_up) const noexcept {
+    if (running() && running()->planned_set_ups) return 1;
     const auto place = std::min(static_cast<std::size_t>(set_up), options_.faces.size()) - 1;
-    return !(running() && running()->planned_set_ups) && options_.faces[place] == '-';
+    return options_.faces[place] == '-' ? -1 : 1;
 }
 
 Outcome Occupations::start(std::string_view entered, const Remark& remark,

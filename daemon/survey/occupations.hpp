@@ -123,9 +123,9 @@ public:
     [[nodiscard]] Nanoseconds planned() const noexcept;
     /// Returns the planned number of set-ups of the same stay.
     [[nodiscard]] int planned_set_ups() const noexcept;
-    /// Returns true if the set-up of this number, from 1, is to be turned over, as compared with the
-    /// first.  A stay with a plan of its own has one face.
-    [[nodiscard]] bool is_turned(int set_up) const noexcept;
+    /// Returns the planned face of the set-up of this number, from 1: 1 as the first one of the stay, -1
+    /// turned over.  A stay with a plan of its own has one face.
+    [[nodiscard]] int planned_face(int set_up) const noexcept;
 
     /// Logs that another sensor records, and ends the running stay.
     /// @param event  `other_unit`, with the last sample of the sensor before.

@@ -122,15 +122,15 @@ std::string truth_csv(const scenario::Scenario& scenario,
         "site,occupation,start_utc,end_utc,gravity_mgal,used,set_up,ambient_degc,"
         "temperature_degc,about_y_deg,about_x_deg";
     // A day without an outer oven or without turns has no such columns.
-    const bool is_turned = scenario.schedule.faces.find('-') != std::string::npos;
+    const bool has_two_faces = scenario.schedule.faces.find('-') != std::string::npos;
     std::vector<std::size_t> terms;
     for (std::size_t k = 0; k < kTermCount; ++k)
         if ((static_cast<Term>(k) != Term::outer_oven || scenario.outer_oven) &&
-            (static_cast<Term>(k) != Term::turn || is_turned))
+            (static_cast<Term>(k) != Term::turn || has_two_faces))
             terms.push_back(k);
     for (const std::size_t k : terms) csv += fmt::format(",{}", kTermColumns[k]);
     csv += ",tilt_mgal,burst_mgal,rectification_mgal";
-    csv += is_turned ? ",face\n" : "\n";
+    csv += has_two_faces ? ",face\n" : "\n";
     const std::vector<SetUpTruth> truth = set_up_truth(scenario, plan, seed);
     const std::vector<scenario::PlannedSetUp> rows = by_true_time(scenario, plan, seed);
     for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -149,7 +149,7 @@ std::string truth_csv(const scenario::Scenario& scenario,
         cell(mean.tilt_mgal);
         cell(mean.burst_mgal);
         cell(mean.rectification_mgal);
-        if (is_turned) csv += set_up.face < 0.0 ? ",-" : ",+";
+        if (has_two_faces) csv += set_up.face < 0.0 ? ",-" : ",+";
         csv += "\n";
     }
     return csv;

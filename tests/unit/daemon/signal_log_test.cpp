@@ -42,7 +42,7 @@ TEST_CASE("the log has each word with the time of the data, however seldom it is
 
 TEST_CASE("a turn that was forgotten is LOOK and does not count, and a planned one is not",
           "[daemon][page][faces]") {
-    const auto words_of = [](bool is_turned) {
+    const auto words_of = [](bool turns) {
         Page page;
         std::vector<std::string> words;
         survey::SignalLog log(page.occupations, page.live, [&](const events::Event& event) {
@@ -65,9 +65,9 @@ TEST_CASE("a turn that was forgotten is LOOK and does not count, and a planned o
                              : "";
                 page.ask(post("/api/occupation/setup", R"({"site":"No.0"})"));
             }
-            if (second == 1740 && !is_turned)
+            if (second == 1740 && !turns)
                 page.ask(post("/api/occupation/setup", R"({"site":"No.0"})"));
-            const double z_mgal = second >= (is_turned ? 1650 : 1740) ? -980000.0 : 980000.0;
+            const double z_mgal = second >= (turns ? 1650 : 1740) ? -980000.0 : 980000.0;
             for (std::int64_t i = 50 * second; i < 50 * (second + 1); ++i) {
                 auto sample = live::placed(i, 100.0, 0.0, z_mgal);
                 sample.counts[3] += second / 60 % 2;

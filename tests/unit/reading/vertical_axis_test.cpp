@@ -18,7 +18,7 @@ struct Mounted {
     std::array<double, 3> sensed_g;
     std::array<std::size_t, 3> order;  ///< Order of the channels in the file.
     std::array<double, 3> dip_deg{0.0, 0.0, -90.0};
-    bool is_turned = false;  ///< In the last two windows.
+    bool turns_later = false;  ///< In the last two windows.
 
     std::vector<archive::ChannelData> samples = std::vector<archive::ChannelData>(3);
     corrector::archive_series::Epoch epoch = {};
@@ -32,7 +32,7 @@ struct Mounted {
             archive::Segment segment{50.0, {}, {{0, kDayStart}}};
             segment.counts.assign(30'000, static_cast<std::int32_t>(counts));
             std::fill_n(segment.counts.begin(), 15'000, 980'665);  // on the way: not looked at
-            if (is_turned)
+            if (turns_later)
                 std::for_each(segment.counts.begin() + 22'500, segment.counts.end(),
                               [](std::int32_t& count) { count = -count; });
             samples[k].segments = {segment};
@@ -84,7 +84,7 @@ TEST_CASE("the vertical axis is found in six mountings and three orders of the c
 TEST_CASE("the vertical axis is found if the sensor is turned over between the windows",
           "[survey][vertical][faces]") {
     Mounted sensor{{0.002, -0.003, 1.0018}, kOrders[1]};
-    sensor.is_turned = true;
+    sensor.turns_later = true;
     sensor.look();
     CHECK(sensor.epoch.channels[2].code == "BNZ");
     CHECK(sensor.warning.empty());

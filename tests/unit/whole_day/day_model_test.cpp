@@ -40,9 +40,9 @@ TEST_CASE("the whole-day model finds the parameters of made-up readings", "[day]
 }
 
 TEST_CASE("two faces separate what acts on the bias from what acts on the scale", "[day][faces]") {
-    const MadeUpDay day{.is_turned = true, .scale_share = 0.3};
+    const MadeUpDay day{.has_two_faces = true, .scale_share = 0.3};
     const DayRecord record = day.record();
-    CHECK(is_turned(record.bins));
+    CHECK(has_two_faces(record.bins));
     const auto fit = fit_day(record, MadeUpDay::stations());
     REQUIRE(fit);
     CHECK(coefficient(*fit, DayTerm::constant) == Approx(day.constant).margin(0.01));
@@ -59,9 +59,10 @@ TEST_CASE("two faces separate what acts on the bias from what acts on the scale"
 }
 
 TEST_CASE("reading, flicker and effects of a set-up add up to its corrected value", "[day]") {
-    const bool is_turned = GENERATE(false, true);
-    const auto fit = fit_day(MadeUpDay{.placement_mgal = 1.0, .is_turned = is_turned}.record(),
-                             MadeUpDay::stations());
+    const bool has_two_faces = GENERATE(false, true);
+    const auto fit =
+        fit_day(MadeUpDay{.placement_mgal = 1.0, .has_two_faces = has_two_faces}.record(),
+                MadeUpDay::stations());
     for (const DaySetUp& set_up : fit.value().set_ups) {
         double effects = 0.0;
         for (const double effect : set_up.effect_mgal) effects += effect;

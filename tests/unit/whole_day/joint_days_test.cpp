@@ -168,8 +168,8 @@ TEST_CASE("the likelihood and the gravities of a box are those of dense matrices
 
 TEST_CASE("a day in one face and one in two have the same slopes", "[day][joint][faces]") {
     // Half of the response acts on the scale, which the day in one face cannot see.
-    MadeUpDay two{.is_turned = true, .scale_share = 0.5}, one = two;
-    one.is_turned = false;
+    MadeUpDay two{.has_two_faces = true, .scale_share = 0.5}, one = two;
+    one.has_two_faces = false;
     const DayRecord a = two.record(11), b = later(one.record(12), 1);
     const DayAdjustment joint = adjust_days({survey_of(a, 0), survey_of(b, 0)});
     for (const std::size_t survey : {0U, 1U})

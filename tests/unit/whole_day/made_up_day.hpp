@@ -17,11 +17,11 @@ struct MadeUpDay {
     double fast_lag_s = 55.0, slow_lag_s = 2200.0;
     double constant = 1838.0;
     double placement_mgal = 0.0, white_mgal = 1e-4;
-    bool is_turned = false;    ///< The faces of the set-ups are + - - +, again and again.
+    bool has_two_faces = false;  ///< The faces of the set-ups are + - - +, again and again.
     double scale_share = 0.0;  ///< Share of the thermal effects that acts on the scale.
 
     [[nodiscard]] double face(std::size_t set_up) const {
-        return is_turned && (set_up % 4 == 1 || set_up % 4 == 2) ? -1.0 : 1.0;
+        return has_two_faces && (set_up % 4 == 1 || set_up % 4 == 2) ? -1.0 : 1.0;
     }
 
     static constexpr std::size_t kSetUps = 16;

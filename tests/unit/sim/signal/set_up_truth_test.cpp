@@ -55,12 +55,13 @@ double sum_of(const text::CsvTable& table, std::size_t row) {
 TEST_CASE("the terms of the truth add up to the mean norm of the samples", "[sim][truth]") {
     // Everything at once: axis biases, two set-ups, traffic without pause, drift, an open lid; and all
     // this with each second set-up in the other face.
-    const bool is_turned = GENERATE(false, true);
+    const bool has_two_faces = GENERATE(false, true);
     const Scenario scenario = parse_scenario(
         "base = \"tilted\"\nname = \"x\"\n"
         "[schedule]\nsetups = 2\nlead_in_h = 0.5\n" +
-            std::string(is_turned ? "faces = \"+-\"\n[sensor]\nscale_share = 0.3\nturn_mgal = 5\n"
-                                  : "") +
+            std::string(has_two_faces
+                            ? "faces = \"+-\"\n[sensor]\nscale_share = 0.3\nturn_mgal = 5\n"
+                            : "") +
             "[slow_noise]\ndrift_linear_mgal_per_h = 5.0\ndrift_walk_mgal_per_sqrt_h = 1.0\n"
             "resonant_mgal = 1.4\nwhite_20s_mgal = 0.4\n"
             "[vibration]\nvehicles_per_h = 60\nground_mgal = 300\nspike_probability = 0\n"
@@ -83,9 +84,9 @@ TEST_CASE("the terms of the truth add up to the mean norm of the samples", "[sim
             CHECK(table.number(row, "rectification_mgal") > 0.09);  // 300^2 / g alone.
             // The margin covers the mean of 12 000 samples of ground noise, which has little power
             // below 1 Hz, the cross terms of noise and axis bias, and means by the second.
-            const double turn_mgal = is_turned ? table.number(row, "turn_mgal") : 0.0;
+            const double turn_mgal = has_two_faces ? table.number(row, "turn_mgal") : 0.0;
             CHECK(norms[row] == Approx(sum_of(table, row) + turn_mgal).margin(0.15));
-            if (!is_turned) continue;
+            if (!has_two_faces) continue;
             CHECK((table.number(row, "bias_mgal") < 0.0) == (row % 2 == 1));
             CHECK(table.cell(row, "face") == (row % 2 == 1 ? "-" : "+"));
             CHECK((turn_mgal != 0.0) == (row > 0));
