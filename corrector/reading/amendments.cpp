@@ -118,6 +118,7 @@ public:
             windows_[i].listed = {};  // no amendment can name a part
             OccupationWindow after = windows_[i];
             after.start = time;
+            after.face = {};  // nothing was said of this part
             windows_[i].end = time;
             windows_.insert(windows_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                             std::move(after));

@@ -23,6 +23,7 @@ namespace a351::corrector::reading {
 /// - unusable_day: the day is not usable as it is.
 /// - scale: a coefficient is far from its prior, and is held there.
 /// - start_up_test: the sensor failed its start-up test, or the result is not known.
+/// - turned: the set-up is in another face than entered or planned.
 ///
 /// From here on they are remarks, which are never headlines:
 ///
@@ -45,6 +46,7 @@ enum class FindingKind {
     unusable_day,
     scale,
     start_up_test,
+    turned,
     not_visited,
     no_stop,
     early_start,

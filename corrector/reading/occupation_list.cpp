@@ -144,6 +144,11 @@ OccupationList read_occupation_table(const std::filesystem::path& file,
         }
         if (table.has_column("instrument_height_m"))
             window.instrument_height = instrument_height(table, row);
+        if (const std::string face = table.has_column("face") ? table.cell(row, "face") : "";
+            !face.empty()) {
+            window.face.entered = events::parse_face(face);
+            if (!window.face.entered) table.refuse(row, "face", "not a face", "+, - or empty");
+        }
         list.windows.push_back(std::move(window));
     }
     sort_by_start(list.windows);
@@ -174,6 +179,7 @@ OccupationList read_logged_occupations(const std::filesystem::path& events,
             list.windows.push_back(
                 {{occupation.site, occupation.number, occupation.key}, set_up.start, set_up.end});
             list.windows.back().not_moved_until = occupation.not_moved_until;
+            list.windows.back().face = set_up.face;
         }
         if (list.windows.empty() || list.windows.back().key != occupation.key) continue;
         list.windows.back().is_last = is_last;

@@ -19,6 +19,7 @@
 
 #include "corrector/reading/survey_row.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/events/face.hpp"
 #include "protocol/text/message.hpp"
 #include "protocol/text/sites.hpp"
 
@@ -36,6 +37,8 @@ struct OccupationWindow : SetUp {
     bool is_last = false;  ///< The log ends without its stop.
     /// The operator says that the box was not moved before this instant.
     std::optional<UtcTime> not_moved_until = {};
+    /// Face by the operator and by the daemon's plan.  The data decide which one it is.
+    events::StatedFace face = {};
 };
 
 /// The set-ups of a survey.  Each set-up of the input is in `windows` or in `left_out`, except those
@@ -48,7 +51,7 @@ struct OccupationList {
 };
 
 /// Reads a table `site,occupation,start_utc,end_utc,used,note`.  `used` is 1, 0 or empty (= 1).  A
-/// column `earth_tide_mgal` is optional, and `instrument_height_m` too.
+/// column `earth_tide_mgal` is optional, `instrument_height_m` too, and `face`, which is +, - or empty.
 ///
 /// `used` is optional too, and `note` is not read.  Times without a zone are UTC.  The tide is from
 /// -1 to 1 mGal or empty, the number of the stay from 1 to 10^6.  An end before its start is not

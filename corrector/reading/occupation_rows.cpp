@@ -233,6 +233,8 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
             if (result.day && !result.day->temperature.is_bridged(bin.time))
                 result.day->bins.push_back(std::move(bin));
         }
+        if (auto finding = source.is_tumbled ? std::nullopt : other_face(windows[i], set_up.face))
+            result.findings.push_back(std::move(*finding));
         result.rows.push_back(row_of(set_up, stays));
         result.records.push_back(std::move(*set_up.value));
         averaged.push_back(std::move(set_up.window));

@@ -141,4 +141,24 @@ std::vector<Finding> stay_remarks(const std::vector<OccupationWindow>& windows,
     return findings;
 }
 
+std::optional<Finding> other_face(const OccupationWindow& window, int face) {
+    const auto expected = window.face.expected();
+    if (!expected || *expected == face) return std::nullopt;
+    Finding finding = remark(FindingKind::turned, window, window.start);
+    finding.code = window.face.entered ? "face_entered" : "turn_forgotten";
+    const std::string time = to_rfc3339(window.start);
+    const auto is = events::sign_of(face), other = events::sign_of(*expected);
+    finding.text =
+        window.face.entered
+            ? text::message(
+                  "{} ({}): the set-up at {} is in face {}, but face {} was entered; the "
+                  "data decide, so the reading is right",
+                  window.site, window.occupation, time, is, other)
+            : text::message(
+                  "{} ({}): the set-up at {} is in face {}, but the plan asked for face "
+                  "{}: a turn was forgotten; the reading is used as it is",
+                  window.site, window.occupation, time, is, other);
+    return finding;
+}
+
 }  // namespace a351::corrector::reading

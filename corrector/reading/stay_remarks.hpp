@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "corrector/reading/finding.hpp"
@@ -21,5 +22,9 @@ namespace a351::corrector::reading {
 /// @param axis     samples of one axis.
 [[nodiscard]] std::vector<Finding> stay_remarks(const std::vector<OccupationWindow>& windows,
                                                 const archive::ChannelData& axis);
+
+/// Returns the finding turned if a set-up is in another face than entered or planned.  It does not change
+/// the reading: the data decide.
+[[nodiscard]] std::optional<Finding> other_face(const OccupationWindow& window, int face);
 
 }  // namespace a351::corrector::reading

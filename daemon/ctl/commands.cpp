@@ -88,6 +88,7 @@ json order(const Client& client, const Arguments& arguments) {
     add("operator", arguments.operator_name);
     add("note", arguments.note);
     add("reason", arguments.reason);
+    add("face", arguments.face);
     if (arguments.set_ups) body["set_ups"] = std::to_string(*arguments.set_ups);
     // Only the daemon knows its time: the host's differs if the daemon runs on simulated time.
     std::optional<UtcTime> now;

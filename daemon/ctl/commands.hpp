@@ -25,6 +25,7 @@ struct Arguments {
     std::string operator_name;
     std::string note;
     std::string reason;
+    std::string face;
     std::string address;
     std::string out;
     std::optional<int> set_ups;

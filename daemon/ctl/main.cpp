@@ -59,6 +59,15 @@ void add_at(CLI::App* command, Arguments& a) {
         ->type_name("WHEN");
 }
 
+void add_face(CLI::App* command, Arguments& a) {
+    command
+        ->add_option("--face", a.face,
+                     "Face of the set-up: + if the vertical axis points up, - if the box is turned "
+                     "over; default: as the data say")
+        ->type_name("+|-")
+        ->check(CLI::IsMember({"+", "-"}).description(""));
+}
+
 void add_operator(CLI::App* command, Arguments& a) {
     command->add_option("--operator", a.operator_name, "Name of the operator")->type_name("NAME");
 }
@@ -127,6 +136,7 @@ void add_start(CLI::App& app, Arguments& a) {
                      "Planned set-ups of this stay, three minutes each (2-100); 20 for a placement "
                      "test; default: as configured")
         ->type_name("N");
+    add_face(start, a);
 }
 
 void add_stop(CLI::App& app, Arguments& a) {
@@ -136,9 +146,10 @@ void add_stop(CLI::App& app, Arguments& a) {
 }
 
 void add_setup(CLI::App& app, Arguments& a) {
-    add_at(app.add_subcommand("setup",
-                              "Begins a further set-up: the box was lifted and set down again."),
-           a);
+    auto* setup = app.add_subcommand(
+        "setup", "Begins a further set-up: the box was lifted and set down again.");
+    add_at(setup, a);
+    add_face(setup, a);
 }
 
 void add_discard(CLI::App& app, Arguments& a) {

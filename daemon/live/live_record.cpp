@@ -199,7 +199,7 @@ std::vector<text::Message> Record::troubles() const {
 verdict::RunningReading Record::reading(std::span<const events::Occupation::SetUp> set_ups) const {
     const std::lock_guard lock(mutex_);
     verdict::RunningValue value(options_);
-    for (const auto& [from, to] : set_ups) {
+    for (const auto& [from, to, face] : set_ups) {
         value.begin_set_up(from);
         auto one = std::ranges::lower_bound(thinned_, from, {}, &verdict::LiveSample::time);
         for (; one != thinned_.end() && seconds_between(one->time, to) >= verdict::kReachSeconds;

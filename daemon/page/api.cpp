@@ -251,19 +251,23 @@ Response Api::change(std::string_view path, const std::string& body) {
     if (sources_.changing) sources_.changing();
     survey::Outcome outcome;
     if (path == "/api/occupation/start") {
-        const auto order = parse_order(body, {"site", "operator", "note", "at", "set_ups"});
+        const auto order = parse_order(body, {"site", "operator", "note", "at", "set_ups", "face"});
         if (order.site.empty()) throw InputError("body: key site is missing");
-        outcome = occupations.start(order.site, order.remark, order.at, order.set_ups);
+        outcome = occupations.start(order.site, order.remark, order.at, order.set_ups, order.face);
     } else if (path == "/api/occupation/stop") {
         const auto order = parse_order(body, {"key", "site", "operator", "note", "at"});
         if (const auto other = other_stay(order, occupations.running()); !other.empty())
             return refusal(409, other);
         outcome = occupations.stop(order.remark, order.at);
     } else if (path == "/api/occupation/setup") {
-        const auto order = parse_order(body, {"key", "site", "at"});
+        const auto order = parse_order(body, {"key", "site", "at", "face"});
         if (const auto other = other_stay(order, occupations.running()); !other.empty())
             return refusal(409, other);
-        outcome = occupations.setup(order.at);
+        const auto last = sources_.live.last_sample();
+        const auto at = order.at ? order.at : last;
+        outcome = occupations.setup(
+            order.at, {order.face, at ? survey::next_planned_face(occupations, sources_.live, *at)
+                                      : std::nullopt});
     } else if (path == "/api/occupation/checked") {
         outcome = check(parse_order(body, {"code", "key"}));
     } else if (path == "/api/sites") {

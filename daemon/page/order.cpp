@@ -28,6 +28,14 @@ int parse_set_ups(const std::string& key, const std::string& text) {
     return count;
 }
 
+int parse_face(const std::string& key, const std::string& text) {
+    const auto face = events::parse_face(text);
+    if (!face)
+        throw InputError(
+            fmt::format("body: key {} = {}: not a face; allowed: + or -", key, text::echoed(text)));
+    return *face;
+}
+
 }  // namespace
 
 Order parse_order(std::string_view body, const std::vector<std::string>& allowed) {
@@ -46,6 +54,7 @@ Order parse_order(std::string_view body, const std::vector<std::string>& allowed
         if (key == "note") order.remark.note = text;
         if (key == "reason") order.remark.reason = text;
         if (key == "set_ups" && !text.empty()) order.set_ups = parse_set_ups(key, text);
+        if (key == "face" && !text.empty()) order.face = parse_face(key, text);
         for (const auto& [name, instant] :
              {std::pair{"at", &order.at}, {"from", &order.from}, {"to", &order.to}})
             if (key == name && !text.empty()) *instant = parse_instant("body", key, text);

@@ -23,12 +23,14 @@ struct Order {
     survey::Remark remark;  ///< Keys operator, note and reason.
     std::optional<UtcTime> at, from, to;
     std::optional<int> set_ups;  ///< Planned set-ups of this stay.
+    std::optional<int> face;     ///< Face of the set-up that begins, see events::face_of().
 };
 
 /// Reads the body of a POST.
 /// @param allowed  keys that may be given; others are refused.
 /// @throws InputError  not a JSON object, a key that is not allowed, a value that is not a text, or
-///                     a time that is not RFC 3339, or set_ups that is not a whole number.
+///                     a time that is not RFC 3339, set_ups that is not a whole number, or a face
+///                     that is neither + nor -.
 [[nodiscard]] Order parse_order(std::string_view body, const std::vector<std::string>& allowed);
 
 /// Reads the body {"site": text, "latitude_deg": number, "longitude_deg": number}, optionally with

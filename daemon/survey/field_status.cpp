@@ -24,34 +24,41 @@ std::vector<SetUp> set_ups_so_far(const events::RunningOccupation& running, UtcT
 
 /// Where a stay is in its plan of faces.
 struct Faces {
-    int number = 0;  ///< Number of the running set-up in the plan: wrong faces before do not count.
-    bool is_wrong = false;        ///< It is known to be in another face than planned.
-    bool is_on_its_side = false;  ///< It is in none.
-    bool turns_next = false;      ///< The box is to be turned over for the next one.
+    int number = 1;  ///< Number of the running set-up in the plan: wrong faces before do not count.
+    std::optional<int> first, face;  ///< Faces of the first and the running set-up, if known.
+    bool is_on_its_side = false;     ///< The running set-up has no face.
+    bool is_entered = false;         ///< Its face was entered.
+    bool is_wrong = false;           ///< It is in another face than entered or planned, or in none.
+    int planned = 1, next = 1;       ///< Planned faces of it and of the next one, 1 as the first.
 };
 
 Faces faces_of(const Occupations& occupations, const live::Record& live,
                const std::vector<SetUp>& set_ups) {
-    const auto planned_face = [&](int number) { return occupations.planned_face(number); };
     Faces faces;
-    std::optional<int> first, face;
     std::size_t vertical = 0;
-    for (std::size_t k = 0; k < set_ups.size() && set_ups.size() > 1; ++k) {
-        if (!faces.is_wrong) ++faces.number;
+    for (std::size_t k = 0; k < set_ups.size(); ++k) {
+        if (k > 0 && !faces.is_wrong) ++faces.number;
+        const std::optional<int> entered = occupations.running()->face_at(set_ups[k].start).entered;
+        faces.is_entered = entered.has_value();
+        faces.planned = occupations.planned_face(faces.number);
         const auto means_g = live.means_g(set_ups[k].start, set_ups[k].end);
         if (k == 0 && means_g) vertical = events::vertical_axis(*means_g);
-        face = means_g ? events::face_of(StandardGravity(means_g->at(vertical))) : std::nullopt;
-        if (k == 0) first = face;
-        faces.is_on_its_side = first && means_g && !face;
-        faces.is_wrong =
-            faces.is_on_its_side || (first && face && *face != *first * planned_face(faces.number));
+        faces.face =
+            means_g ? events::face_of(StandardGravity(means_g->at(vertical))) : std::nullopt;
+        if (k == 0) faces.first = faces.face;
+        faces.is_on_its_side = faces.first && means_g && !faces.face;
+        const std::optional<int> expected =
+            entered || !faces.first ? entered : std::optional(*faces.first * faces.planned);
+        faces.is_wrong = faces.is_on_its_side || (faces.face && expected && faces.face != expected);
     }
-    // The first set-up of a stay is in the face of the plan.
-    faces.number = std::max(faces.number, 1);
-    const int number = faces.is_wrong ? faces.number : faces.number + 1;
-    const int now = faces.is_wrong && face ? *face * *first : planned_face(faces.number);
-    faces.turns_next = now != planned_face(number);
+    faces.next = occupations.planned_face(faces.is_wrong ? faces.number : faces.number + 1);
     return faces;
+}
+
+/// Returns true if the box is to be turned over for the next set-up.
+bool turns_next(const Faces& faces) {
+    const bool is_seen = faces.is_wrong && faces.face && faces.first;
+    return (is_seen ? *faces.face * *faces.first : faces.planned) != faces.next;
 }
 
 void compare_level(FieldStatus& field, const Occupations& occupations, const live::Record& live,
@@ -87,21 +94,34 @@ std::optional<PlannedStay> planned_stay(const Occupations& occupations, const li
         set_up_plan(occupations.planned_set_ups(), planned_s, faces.number,
                     seconds_between(running->start, at), seconds_between(last.start, at),
                     live.reading({&last, 1}).used_s),
-        false, faces.turns_next};
+        false, turns_next(faces)};
 }
 
 text::Message wrong_face(const Occupations& occupations, const live::Record& live, UtcTime now) {
     const auto& running = occupations.running();
-    if (!running || running->set_ups.size() < 2) return {};
+    if (!running) return {};
     const Faces faces = faces_of(occupations, live, set_ups_so_far(*running, now));
+    if (!faces.is_wrong) return {};
     if (faces.is_on_its_side)
         return text::message("{}: set it down level and press Next set-up, or press Checked",
                              text::marked_message(events::kOnItsSide));
-    if (!faces.is_wrong) return {};
+    if (faces.is_entered)
+        return text::message(
+            "the box is in face {}, but face {} was entered: turn it over, set it down level and "
+            "press Next set-up, or press Checked",
+            events::sign_of(*faces.face), events::sign_of(-*faces.face));
     return text::message(
         "the box is not in the face that is planned for set-up {}: turn it over, set it down level "
         "and press Next set-up, or press Checked",
         faces.number);
+}
+
+std::optional<int> next_planned_face(const Occupations& occupations, const live::Record& live,
+                                     UtcTime at) {
+    const auto& running = occupations.running();
+    if (!running || !occupations.has_planned_faces()) return std::nullopt;
+    const Faces faces = faces_of(occupations, live, set_ups_so_far(*running, at));
+    return faces.first ? std::optional(*faces.first * faces.next) : std::nullopt;
 }
 
 std::optional<MovePrompt> moved_box(const Occupations& occupations, const live::Record& live,

@@ -45,11 +45,16 @@ struct FieldStatus {
 [[nodiscard]] std::optional<MovePrompt> moved_box(const Occupations& occupations,
                                                   const live::Record& live, UtcTime now);
 
-/// Returns a sentence if the running set-up is not in the planned face, compared with the first
-/// set-up of the stay, or if the box lies on its side; empty if it is, or if the face is not known.
-/// A set-up in the wrong face does not count in the plan.
+/// Returns a sentence if the running set-up is not in the face that was entered, or without one in that
+/// of the plan, compared with the first set-up of the stay, or if the box lies on its side; empty if it
+/// is, or if the face is not known.  A set-up in the wrong face does not count in the plan.
 [[nodiscard]] text::Message wrong_face(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);
+
+/// Returns the face that the plan asks for in a set-up that begins at an instant; std::nullopt without a
+/// plan of faces, and if the face of the first set-up is not known.
+[[nodiscard]] std::optional<int> next_planned_face(const Occupations& occupations,
+                                                   const live::Record& live, UtcTime at);
 
 /// Returns the information for the operator at this time.
 [[nodiscard]] FieldStatus field_status(const Occupations& occupations, const live::Record& live,

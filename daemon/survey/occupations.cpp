@@ -25,6 +25,11 @@ std::string detail(const events::Event& event, const std::string& key) {
     return event.details.contains(key) ? event.details.at(key) : "";
 }
 
+void add_face(events::Event& event, const events::StatedFace& face) {
+    if (face.entered) add(event, "face", std::string(events::sign_of(*face.entered)));
+    if (face.planned) add(event, "planned_face", std::string(events::sign_of(*face.planned)));
+}
+
 Outcome unchanged(text::Message message) { return {Outcome::Kind::done, std::move(message)}; }
 
 }  // namespace
@@ -132,13 +137,14 @@ int Occupations::planned_set_ups() const noexcept {
 }
 
 int Occupations::planned_face(int set_up) const noexcept {
-    if (running() && running()->planned_set_ups) return 1;
+    if (!has_planned_faces()) return 1;
     const auto place = std::min(static_cast<std::size_t>(set_up), options_.faces.size()) - 1;
     return options_.faces[place] == '-' ? -1 : 1;
 }
 
 Outcome Occupations::start(std::string_view entered, const Remark& remark,
-                           std::optional<UtcTime> at, std::optional<int> set_ups) {
+                           std::optional<UtcTime> at, std::optional<int> set_ups,
+                           std::optional<int> face) {
     const std::string site = text::plain_text(entered);
     if (running()) {
         // An order to several boxes is repeated for those that did not answer.
@@ -166,6 +172,7 @@ Outcome Occupations::start(std::string_view entered, const Remark& remark,
     add(event, "key", replay_.key_for(event.utc));
     add(event, "site", site);
     if (set_ups) add(event, "set_ups", std::to_string(*set_ups));
+    add_face(event, {face, std::nullopt});
     add(event, remark);
     auto outcome = commit(std::move(event),
                           text::message("started {} at {}", site, shown(placed.instant->utc)));
@@ -209,7 +216,7 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     return commit(std::move(event), message + clock);
 }
 
-Outcome Occupations::setup(std::optional<UtcTime> at) {
+Outcome Occupations::setup(std::optional<UtcTime> at, const events::StatedFace& face) {
     if (running() && running()->set_ups.size() > 1 && is_at(at, running()->set_ups.back()))
         return unchanged(text::message("further set-up at {} from {}, as ordered before",
                                        named(*running()), shown(running()->set_ups.back())));
@@ -217,6 +224,7 @@ Outcome Occupations::setup(std::optional<UtcTime> at) {
     if (!placed.instant) return refused(placed.trouble);
     auto event = event_at("setup", *placed.instant);
     add(event, "site", running()->site);
+    add_face(event, face);
     auto message = text::message("further set-up at {} from {}", named(*running()),
                                  shown(placed.instant->utc));
     message += remark_on_clock();

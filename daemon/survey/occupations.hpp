@@ -86,11 +86,12 @@ public:
 
     /// @param set_ups  planned number of set-ups of this stay, 2 to 100, each kTestSetUp long;
     ///                 absent: as configured.  A placement test has 20.
+    /// @param face     face of the first set-up, as the operator says.
     Outcome start(std::string_view entered, const Remark& remark, std::optional<UtcTime> at,
-                  std::optional<int> set_ups = {});
+                  std::optional<int> set_ups = {}, std::optional<int> face = {});
     Outcome stop(const Remark& remark, std::optional<UtcTime> at);
     /// Begins a further set-up of the running occupation: the sensor was lifted and set down again.
-    Outcome setup(std::optional<UtcTime> at);
+    Outcome setup(std::optional<UtcTime> at, const events::StatedFace& face = {});
 
     // Changes of any stay (occupation_changes.cpp).  Its data are kept in any case.
     /// Discards a stay; a running one ends.
@@ -126,6 +127,10 @@ public:
     /// Returns the planned face of the set-up of this number, from 1: 1 as the first one of the stay, -1
     /// turned over.  A stay with a plan of its own has one face.
     [[nodiscard]] int planned_face(int set_up) const noexcept;
+    /// Returns true if the plan of the running stay has faces.
+    [[nodiscard]] bool has_planned_faces() const noexcept {
+        return options_.faces.size() > 1 && !(running() && running()->planned_set_ups);
+    }
 
     /// Logs that another sensor records, and ends the running stay.
     /// @param event  `other_unit`, with the last sample of the sensor before.

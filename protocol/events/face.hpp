@@ -17,6 +17,14 @@ namespace a351::events {
 /// so the box is not level.
 inline constexpr StandardGravity kLeastVertical{0.9};
 
+/// What is said of the face of a set-up.  The data decide which one it is.
+struct StatedFace {
+    std::optional<int> entered = {};  ///< Face that the operator entered.
+    std::optional<int> planned = {};  ///< Face in the plan of the daemon.
+    /// Returns the face to be expected: the one entered, or else the planned one.
+    [[nodiscard]] std::optional<int> expected() const { return entered ? entered : planned; }
+};
+
 /// Reason why a set-up has no face.
 extern const char* const kOnItsSide;
 

@@ -32,12 +32,17 @@ void add_text(std::string& notes, const std::string& text) {
 
 void add_note(std::string& notes, const Event& event) { add_text(notes, detail(event, "note")); }
 
-/// Returns the set-ups between these limits, without those of no duration.
-std::vector<Occupation::SetUp> set_ups_of(const std::vector<UtcTime>& starts, UtcTime end) {
+StatedFace face_of(const Event& event) {
+    return {parse_face(detail(event, "face")), parse_face(detail(event, "planned_face"))};
+}
+
+/// Returns the set-ups of a stay between these limits, without those of no duration.
+std::vector<Occupation::SetUp> set_ups_of(const RunningOccupation& stay,
+                                          const std::vector<UtcTime>& starts, UtcTime end) {
     std::vector<Occupation::SetUp> set_ups;
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const UtcTime next = i + 1 < starts.size() ? starts[i + 1] : end;
-        if (starts[i] != next) set_ups.push_back({starts[i], next});
+        if (starts[i] != next) set_ups.push_back({starts[i], next, stay.face_at(starts[i])});
     }
     return set_ups;
 }
@@ -65,6 +70,12 @@ std::string key_text(UtcTime start) {
 }
 
 }  // namespace
+
+StatedFace RunningOccupation::face_at(UtcTime time) const {
+    if (faces.empty()) return {};
+    const auto after = faces.upper_bound(time);
+    return (after == faces.begin() ? after : std::prev(after))->second;
+}
 
 std::optional<int> parse_planned_set_ups(std::string_view text) noexcept {
     int count = 0;
@@ -102,7 +113,10 @@ void OccupationReplay::apply(const Event& event) {
                                      detail(event, "before"));
         return end_running(std::max(event.utc, running_->set_ups.back()), true);
     }
-    if (event.type == "setup") running_->set_ups.push_back(event.utc);
+    if (event.type == "setup") {
+        running_->set_ups.push_back(event.utc);
+        running_->faces[event.utc] = face_of(event);
+    }
     if (event.type == "stop") {
         const std::string site = site_of(event);
         if (!site.empty() && site != running_->site)
@@ -124,10 +138,15 @@ void OccupationReplay::start(const Event& event) {
     std::string key = detail(event, kKey);
     if (key.empty() || keys_.contains(key)) key = key_for(event.utc);
     keys_.insert(key);
-    running_ =
-        RunningOccupation{key,         site_of(event), 1,           event.utc,
-                          {event.utc}, event.session,  event.index, detail(event, "operator"),
-                          ""};
+    running_ = RunningOccupation{.key = key,
+                                 .site = site_of(event),
+                                 .start = event.utc,
+                                 .set_ups = {event.utc},
+                                 .faces = {{event.utc, face_of(event)}},
+                                 .session = event.session,
+                                 .index = event.index,
+                                 .operator_name = detail(event, "operator"),
+                                 .note = {}};
     add_note(running_->note, event);
     running_->planned_set_ups = parse_planned_set_ups(detail(event, "set_ups"));
 }
@@ -135,7 +154,8 @@ void OccupationReplay::start(const Event& event) {
 void OccupationReplay::end_running(UtcTime end, bool is_stopped) {
     Ended ended{*std::move(running_), end, is_stopped};
     running_.reset();
-    if (!set_ups_of(ended.stay.set_ups, end).empty()) ended_.push_back(std::move(ended));
+    if (!set_ups_of(ended.stay, ended.stay.set_ups, end).empty())
+        ended_.push_back(std::move(ended));
 }
 
 /// Returns the ended stay that the event's key names; without a key, the last one that was not
@@ -208,7 +228,7 @@ std::vector<UtcTime> OccupationReplay::starts_of(const Ended& ended) {
 void OccupationReplay::renumber() {
     std::vector<RunningOccupation*> by_start;
     for (Ended& one : ended_)
-        if (!one.is_discarded && !set_ups_of(starts_of(one), one.end).empty())
+        if (!one.is_discarded && !set_ups_of(one.stay, starts_of(one), one.end).empty())
             by_start.push_back(&one.stay);
     std::ranges::stable_sort(by_start, {}, [](const RunningOccupation* one) { return one->start; });
     std::map<std::string, int> stays;
@@ -219,7 +239,7 @@ void OccupationReplay::renumber() {
 std::vector<Occupation> OccupationReplay::stays(bool are_discarded) const {
     std::vector<Occupation> occupations;
     for (const Ended& one : ended_) {
-        auto set_ups = set_ups_of(starts_of(one), one.end);
+        auto set_ups = set_ups_of(one.stay, starts_of(one), one.end);
         if (one.is_discarded != are_discarded || set_ups.empty()) continue;
         occupations.push_back({one.stay.key, one.stay.site, one.stay.number, std::move(set_ups),
                                one.stay.note, one.is_stopped, one.stay.not_moved_until,

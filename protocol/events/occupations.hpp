@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -22,6 +23,7 @@
 
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/event_log.hpp"
+#include "protocol/events/face.hpp"
 
 namespace a351::events {
 
@@ -50,6 +52,7 @@ struct Occupation {
     struct SetUp {
         UtcTime start;  ///< Time of the start of the stay, or of the event `setup`.
         UtcTime end;    ///< Start of the next set-up, or end of the stay; never equal to `start`.
+        StatedFace face = {};
     };
     /// Name of the benchmark as entered; empty if the event has none.  No table is consulted.
     std::string site;
@@ -74,6 +77,10 @@ struct RunningOccupation {
     UtcTime start;  ///< Start of the stay.
     /// Start of each set-up; the first is `start`.  A set-up without duration is still included.
     std::vector<UtcTime> set_ups;
+    /// Faces of the set-ups, by their starts as logged.
+    std::map<UtcTime, StatedFace> faces = {};
+    /// Returns the face of the set-up that runs at an instant: a moved start keeps its face.
+    [[nodiscard]] StatedFace face_at(UtcTime time) const;
     /// Session and index of the first sample; absent if the start was moved.
     std::optional<journal::SessionId> session;
     std::optional<std::int64_t> index;
@@ -89,6 +96,7 @@ struct RunningOccupation {
 ///
 /// - `start` begins an occupation.  If one runs, this ends it.
 /// - `setup` begins a further set-up of the running one, `stop` ends it.
+/// - The details `face` and `planned_face` of `start` and `setup` are + or -; other texts count as none.
 /// - `discard`, `restore`, `resume`, `rename`, `retime` and `note` apply to the stay that their
 ///   detail `key` names; with a key that names none they change nothing.
 /// - Without a key, `discard` and `rename` apply to the running occupation, or else to the last one

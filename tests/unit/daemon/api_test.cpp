@@ -56,6 +56,16 @@ TEST_CASE("a stay can have a plan of its own, which the log keeps", "[daemon][pa
     CHECK(is(status, "/occupation/planned_s", "3600.0"));
 }
 
+TEST_CASE("the log keeps the face that was entered", "[daemon][page][faces]") {
+    Page page;
+    const std::string start = R"({"site":"No.0","at":"2026-03-14T08:10:00Z","face":)";
+    CHECK(page.ask(post("/api/occupation/start", start + R"("up"})"), 400)["error"] ==
+          "body: key face = up: not a face; allowed: + or -");
+    page.ask(post("/api/occupation/start", start + R"("-"})"));
+    REQUIRE(page.recorder.log.size() == 1);
+    CHECK(page.recorder.log[0].details.at("face") == "-");
+}
+
 TEST_CASE("a request that breaks a rule is answered 409 with the reason", "[daemon][page]") {
     Page page;
     const auto answer = page.ask(post("/api/occupation/start", R"({"site":"No.7"})"), 409);

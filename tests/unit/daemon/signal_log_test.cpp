@@ -1,5 +1,7 @@
 #include "daemon/survey/operator_signal.hpp"
 
+#include <map>
+
 #include "tests/support/catch.hpp"
 #include "tests/unit/daemon/asked_page.hpp"
 #include "tests/unit/live/live_samples.hpp"
@@ -40,13 +42,24 @@ TEST_CASE("the log has each word with the time of the data, however seldom it is
     CHECK(logged(600) == often);
 }
 
-TEST_CASE("a turn that was forgotten is LOOK and does not count, and a planned one is not",
+TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong are LOOK",
           "[daemon][page][faces]") {
-    const auto words_of = [](bool turns) {
-        Page page;
+    struct Box {
+        double x_mgal, z_mgal;
+    };
+    static constexpr Box kUp{100.0, 980000.0}, kDown{100.0, -980000.0}, kOnItsSide{980000.0, 100.0};
+    struct Seen {
         std::vector<std::string> words;
+        std::string look;
+        std::map<std::string, std::string> logged;  ///< Details of the first set-up's event.
+    };
+    // The stay begins at 1500 s, the next set-up at 1650 s; at 1740 s the box is set down in the planned
+    // face.
+    const auto day_of = [](Box box, const std::string& entered) {
+        Page page;
+        Seen seen;
         survey::SignalLog log(page.occupations, page.live, [&](const events::Event& event) {
-            words.push_back(event.details.at("word"));
+            seen.words.push_back(event.details.at("word"));
         });
         page.occupations.use(
             two_sites(), {.planned = std::chrono::minutes(4), .planned_set_ups = 2, .faces = "+-"});
@@ -56,20 +69,23 @@ TEST_CASE("a turn that was forgotten is LOOK and does not count, and a planned o
             if (second == 1500) page.ask(post("/api/occupation/start", R"({"site":"No.0"})"));
             if (second == 1650) {
                 log.advance(page.status, {});
-                lifted = page.occupations.running()
-                             ? survey::signal_of({verdict::State::stable, {}, {}}, {},
-                                                 survey::planned_stay(page.occupations, page.live,
-                                                                      page.recorder.last.value()),
-                                                 "", {})
-                                   .sentence.english()
-                             : "";
-                page.ask(post("/api/occupation/setup", R"({"site":"No.0"})"));
+                lifted = survey::signal_of({verdict::State::stable, {}, {}}, {},
+                                           survey::planned_stay(page.occupations, page.live,
+                                                                page.recorder.last.value()),
+                                           "", {})
+                             .sentence.english();
+                page.ask(post("/api/occupation/setup", R"({"site":"No.0")" + entered + "}"));
+                seen.logged = page.recorder.log.back().details;
             }
-            if (second == 1740 && !turns)
+            if (second == 1739)
+                seen.look = survey::wrong_face(page.occupations, page.live,
+                                               minute(0) + std::chrono::seconds(second))
+                                .english();
+            if (second == 1740 && !seen.look.empty())
                 page.ask(post("/api/occupation/setup", R"({"site":"No.0"})"));
-            const double z_mgal = second >= (turns ? 1650 : 1740) ? -980000.0 : 980000.0;
+            const Box& is = second < 1650 ? kUp : second < 1740 ? box : kDown;
             for (std::int64_t i = 50 * second; i < 50 * (second + 1); ++i) {
-                auto sample = live::placed(i, 100.0, 0.0, z_mgal);
+                auto sample = live::placed(i, is.x_mgal, 0.0, is.z_mgal);
                 sample.counts[3] += second / 60 % 2;
                 page.live.take(sample);
             }
@@ -78,10 +94,24 @@ TEST_CASE("a turn that was forgotten is LOOK and does not count, and a planned o
         CHECK(lifted ==
               "No.0: set-up 1 of 2 is complete. Turn the box over, set it down level, then "
               "press Next set-up.");
-        return words;
+        return seen;
     };
-    CHECK(words_of(true) ==
+    const std::vector<std::string> looked{"no_data",  "go",   "keep_off", "lift",
+                                          "keep_off", "look", "keep_off", "go"};
+    const Seen turned = day_of(kDown, "");
+    CHECK(turned.words ==
           std::vector<std::string>{"no_data", "go", "keep_off", "lift", "keep_off", "go"});
-    CHECK(words_of(false) == std::vector<std::string>{"no_data", "go", "keep_off", "lift",
-                                                      "keep_off", "look", "keep_off", "go"});
+    CHECK(turned.logged ==
+          std::map<std::string, std::string>{{"planned_face", "-"}, {"site", "No.0"}});
+    const Seen forgotten = day_of(kUp, "");
+    CHECK(forgotten.words == looked);
+    CHECK(forgotten.look.starts_with("the box is not in the face that is planned for set-up 2"));
+    const Seen laid = day_of(kOnItsSide, "");
+    CHECK(laid.words == looked);
+    CHECK(laid.look.starts_with(events::kOnItsSide));
+    const Seen wrong = day_of(kDown, R"(,"face":"+")");
+    CHECK(wrong.look.starts_with("the box is in face -, but face + was entered"));
+    CHECK(wrong.logged.at("face") == "+");
+    CHECK(day_of(kDown, R"(,"face":"-")").words == turned.words);
+    CHECK(day_of(kUp, R"(,"face":"+")").look.empty());  // it stays up on purpose
 }

@@ -44,6 +44,37 @@ TEST_CASE("start and stop make an occupation", "[record][occupations]") {
     CHECK(shown({start("09:00", "A"), stop("09:10")}) == Lines{"A#1 09:00-09:10"});
 }
 
+TEST_CASE("what is said of a face stays with its set-up when the stay is re-timed",
+          "[record][occupations][faces]") {
+    std::vector<Event> events{
+        event_of("start", "09:00", {{"site", "A"}, {"key", "k"}, {"face", "+"}}),
+        event_of("setup", "09:10", {{"planned_face", "-"}}),
+        event_of("setup", "09:20", {{"face", "up"}, {"planned_face", "+"}}), stop("09:30")};
+    const auto expected = [&] {
+        std::vector<int> faces;
+        for (const auto& set_up : occupations_of(events).at(0).set_ups)
+            faces.push_back(set_up.face.expected().value_or(0));
+        return faces;
+    };
+    CHECK(expected() == std::vector{1, -1, 1});
+    CHECK_FALSE(occupations_of(events)[0].set_ups[2].face.entered);
+    const auto retimed = [&](const char* from) {
+        auto copy = events;
+        copy.push_back(event_of("retime", "09:40",
+                                {{"key", "k"}, {"from", std::string("2026-03-01T") + from}}));
+        std::swap(copy, events);
+        const auto faces = expected();
+        std::swap(copy, events);
+        return faces;
+    };
+    CHECK(retimed("08:50:00Z") == std::vector{1, -1, 1});
+    CHECK(retimed("09:12:00Z") == std::vector{-1, 1});
+    events[1].details["face"] = "+";
+    CHECK(expected() == std::vector{1, 1, 1});  // what was entered, before the plan
+    events[0].details.erase("face");
+    CHECK(expected() == std::vector{0, 1, 1});
+}
+
 TEST_CASE("occupations are numbered per site in time order", "[record][occupations]") {
     CHECK(shown({start("10:00", "A"), stop("10:10"), start("11:00", "B"), stop("11:10"),
                  start("12:00", "A"), stop("12:10"),

@@ -80,6 +80,26 @@ TEST_CASE("the result contains the record of each row and the temperature of the
     }
 }
 
+TEST_CASE("a face that was entered wrong is a finding, and the data decide",
+          "[survey][archive][faces]") {
+    Morning morning;
+    std::string rows = "site,occupation,start_utc,end_utc,face\n";
+    for (std::size_t i = 0; i < 4; ++i) {
+        const UtcTime start = Morning::start_of(i);
+        rows += kMorningSites[i] + (i == 3 ? ",2," : ",1,") + to_rfc3339(start) + ',' +
+                to_rfc3339(start + kStay) +
+                (i == 1   ? ",-\n"
+                 : i == 2 ? ",+\n"
+                          : ",\n");
+    }
+    morning.folder().write("faces.csv", rows);
+    const OccupationRows result = average(morning, "occupations='faces.csv'\n");
+    REQUIRE(result.findings.size() == 1);
+    CHECK(result.findings[0].kind == FindingKind::turned);
+    CHECK(result.findings[0].site == kMorningSites[1]);
+    CHECK(std::ranges::all_of(result.rows, [](const SurveyRow& row) { return row.face == 1; }));
+}
+
 TEST_CASE("two runs over the same archive are bit-identical", "[survey][archive]") {
     Morning morning;
     const auto a = average(morning);

@@ -37,6 +37,24 @@ TEST_CASE("occupations are sorted by time, with several set-ups of one stay",
     CHECK(list.windows[2].end - list.windows[2].start == std::chrono::minutes(12));
 }
 
+TEST_CASE("a table of occupations can say the faces of its set-ups",
+          "[survey][occupations][faces]") {
+    const test::TemporaryDirectory folder;
+    const std::string head = "site,occupation,start_utc,end_utc,face\n",
+                      row = "A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,";
+    const auto face = [&](const std::string& cell) {
+        return read_occupation_table(folder.write("faces.csv", head + row + cell + "\n"),
+                                     kListedSites)
+            .windows.at(0)
+            .face.entered;
+    };
+    CHECK(face("+") == 1);
+    CHECK(face("-") == -1);
+    CHECK_FALSE(face(""));
+    CHECK_THROWS_WITH(face("down"), ContainsSubstring(":2: face = down: not a face; allowed: +, - "
+                                                      "or empty"));
+}
+
 TEST_CASE("a bad table of occupations is refused with line, column and value",
           "[survey][occupations]") {
     const auto [rows, message] = GENERATE(table<std::string, std::string>({

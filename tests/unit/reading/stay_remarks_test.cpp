@@ -103,3 +103,22 @@ TEST_CASE("uncertain times and a clock that was set back are named", "[survey][r
     stepped.segments[1].anchors[0].time = kMorning + 3h + 16s;  // missing samples
     CHECK(stay_remarks(day(), stepped).empty());
 }
+
+TEST_CASE("a face other than entered or planned is named, and the entered one counts more",
+          "[survey][remarks][faces]") {
+    OccupationWindow window = day().front();
+    CHECK_FALSE(other_face(window, -1));
+    window.face.planned = 1;
+    CHECK_FALSE(other_face(window, 1));
+    const auto forgotten = other_face(window, -1);
+    REQUIRE(forgotten);
+    CHECK(forgotten->kind == FindingKind::turned);
+    CHECK(forgotten->code == "turn_forgotten");
+    CHECK_FALSE(is_remark(*forgotten));
+    CHECK(forgotten->text ==
+          "A (1): the set-up at 2020-05-01T06:00:00Z is in face -, but the plan asked for face +: "
+          "a turn was forgotten; the reading is used as it is");
+    window.face.entered = -1;
+    CHECK_FALSE(other_face(window, -1));
+    CHECK(other_face(window, 1)->code == "face_entered");
+}
