@@ -8,6 +8,7 @@
 #include <set>
 
 #include "corrector/archive_series/on_all_cores.hpp"
+#include "corrector/whole_day/day_regression.hpp"
 
 namespace a351::corrector::model {
 namespace {
@@ -166,9 +167,14 @@ std::vector<Coefficient> coefficients_of(const whole_day::DayFit& fit,
                 fit.outer->mgal_per_degc.at(k).standard_error);
         add(Scope::unit, std::string(whole_day::kOuterNames.back()), fit.outer->lag_s, {});
     }
-    for (std::size_t k = 0; k < fit.on_scale.size(); ++k)
-        add(Scope::unit, "scale_" + std::string(unit::kThermalNames.at(k)), fit.on_scale[k].value,
+    if (fit.scale_share)
+        add(Scope::unit, "scale_share", fit.scale_share->value, fit.scale_share->standard_error);
+    for (std::size_t k = 0; k < fit.on_scale.size(); ++k) {
+        const auto place = static_cast<std::size_t>(whole_day::DayRegression::kOnScale.at(k));
+        const adjustment::Term& term = *whole_day::kDayTermList.at(place);
+        add(term.scope, "scale_" + std::string(term.name), fit.on_scale[k].value,
             fit.on_scale[k].standard_error);
+    }
     const auto add_noise = [&](std::size_t place, std::string name, double mgal) {
         std::optional<double> error;
         if (fit.noise_log_errors) error = mgal * fit.noise_log_errors->at(place);

@@ -126,6 +126,30 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
             std::lround(missing_s / 60.0), std::lround(temperature.longest_gap_s() / 60.0)));
 }
 
+/// Adds which set-ups were turned over, and whether that pays.
+void remark_faces(Fit& result, const whole_day::DayFit& fit) {
+    if (!fit.scale_share) return;
+    // With this share + - - + attains what four set-ups in one face do (tests/bench/faces_bound.py).
+    constexpr double kNoGain = 0.9;
+    const auto turned = std::ranges::count_if(result.rows, [&result](const CorrectedRow& one) {
+        return one.row.face != result.rows.front().row.face;
+    });
+    const auto percent = [](double share) { return std::lround(100.0 * share); };
+    const auto share = percent(fit.scale_share->value),
+               u = percent(fit.scale_share->standard_error);
+    result.remarks.push_back(
+        fit.scale_share->value < kNoGain
+            ? text::message(
+                  "{} of {} set-ups were turned over; {} +- {} % of the errors are of the "
+                  "scale, which turning does not cancel: turning pays on this unit",
+                  turned, result.rows.size(), share, u)
+            : text::message(
+                  "{} of {} set-ups were turned over; {} +- {} % of the errors are of the "
+                  "scale, which turning does not cancel: turning does not pay on this "
+                  "unit",
+                  turned, result.rows.size(), share, u));
+}
+
 /// Enlarges the uncertainties of stations and differences if the model does not fit the day and the
 /// readings that were left out scatter more than stated.
 void check_fit(Fit& result, const std::vector<whole_day::FitTest>& tests) {
@@ -219,6 +243,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     }
     remark_sources(result, adjusted.fit(), priors,
                    options.calibration && options.calibration->thermal, day.temperature);
+    remark_faces(result, adjusted.fit());
     const double lead_s = seconds_between(day.temperature.series.start(), day.bins.front().time);
     if (lead_s < kWantedLead_s)
         result.remarks.push_back(

@@ -89,6 +89,12 @@ DayFit DayAdjustment::fit(std::size_t survey) const {
     fit.outer = regression.outer_response(fit.point, part.values, errors);
     for (Index k = regression.on_scale_begin(); k < regression.estimated(); ++k)
         fit.on_scale.push_back(estimate(k));
+    if (regression.on_scale() > 0) {
+        const SurveyPoint u_errors =
+            found_.u_errors.empty() ? SurveyPoint{} : problem_->part_of({found_.u_errors}, survey);
+        fit.scale_share = {regression.scale_share(fit.point),
+                           regression.scale_share_error(fit.point, u_errors)};
+    }
     fit.noise_log_errors = found_.noise_log_errors;
     fit.shift << fit.point[kFastLag], fit.point[kSlowLag], part.scaled.head(kTerms);
     // The lags are last in `scaled` and first in the shift.

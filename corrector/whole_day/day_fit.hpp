@@ -79,12 +79,13 @@ enum DayHyper : std::size_t {
     kWhite,
     kBiasSize,
     kOuterLag,
-    kOuterSize
+    kOuterSize,
+    kScaleShare
 };
 /// Both lags, placement, flicker, white noise, size of the axis biases, lag and size of the outer oven's
-/// effect: deviations from their priors in standard deviations; 0: medians of the priors.  The last two
-/// are 0 without an outer oven.
-using SurveyPoint = std::array<double, 8>;
+/// effect, share of the errors in the scale: deviations from their priors in standard deviations; 0: medians
+/// of the priors.  Those of an outer oven and of the scale are 0 without an outer oven and in one face.
+using SurveyPoint = std::array<double, 9>;
 
 /// One survey of an adjustment: coefficients, noise, set-ups.
 struct DayFit {
@@ -98,7 +99,9 @@ struct DayFit {
     std::array<Estimate, kDayTerms> coefficients;  ///< Errors include those of the lags.
     std::vector<Estimate> steps_mgal;              ///< Offsets of the steps, in order of time.
     std::optional<OuterResponse> outer;            ///< Absent without an outer oven.
-    /// Parts of rA, rS, rF that act on the scale; empty if the sensor was not turned over.
+    /// Share of the errors that act on the scale; absent if the sensor was not turned over.
+    std::optional<Estimate> scale_share;
+    /// Parts of rA, rS, rF, d and w that act on the scale; empty if the sensor was not turned over.
     std::vector<Estimate> on_scale;
     /// Standard errors of the logarithms of placement, flicker and white, from the curvature of the
     /// likelihood; absent if it has no maximum there.

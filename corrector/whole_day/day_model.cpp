@@ -1,6 +1,7 @@
 #include "corrector/whole_day/day_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -79,6 +80,9 @@ std::optional<DayAdjustment> adjust_planned_day(reading::DayRecord& record, DayS
                                                 const DayNoise& noise) {
     survey.record = &record;
     if (!is_any_held(survey)) return std::nullopt;
+    // The share of the scale is held, so that what is not known of it is added here.
+    survey.priors.share_spread =
+        std::hypot(survey.priors.share_spread, survey.priors.scale_share.deviation);
     // Nobody knows where the unknown stations are: the scale then has no part in them.
     const MilliGal usual = *std::ranges::find_if(survey.stations, [](const DayStation& station) {
                                 return station.gravity.has_value();

@@ -18,6 +18,7 @@ Eigen::Array<double, kProcesses, 1> decrease(double lag_s) {
 
 /// The mean of each process of variance 1 over a bin.
 struct BinMean {
+    double length_s = 0.0;
     /// Covariance with an instant outside the bin, divided by decrease() over the time from the
     /// bin's middle: sinh(y) / y, y = pi length / period.
     Eigen::Array<double, kProcesses, 1> factor;
@@ -32,6 +33,7 @@ BinMean mean_over(const reading::DayBin& bin) {
         step_s = std::min(step_s, seconds_between(bin.times[i - 1], bin.times[i]));
     const double length_s = step_s * static_cast<double>(bin.times.size());
     BinMean mean;
+    mean.length_s = length_s;
     for (Index k = 0; k < kProcesses; ++k) {
         const double y =
             std::numbers::pi * length_s / kFlickerPeriods_s.at(static_cast<std::size_t>(k));
@@ -39,6 +41,12 @@ BinMean mean_over(const reading::DayBin& bin) {
         mean.variance(k) = y > 0.0 ? (2.0 * y + std::expm1(-2.0 * y)) / (2.0 * y * y) : 1.0;
     }
     return mean;
+}
+
+/// Returns the mean of the error after a turn over a bin, divided by its value in the middle.
+double turn_factor(const BinMean& mean) {
+    const double y = 0.5 * mean.length_s / kTurn_s;
+    return y > 0.0 ? std::sinh(y) / y : 1.0;
 }
 
 /// Returns the variance of the white noise of a bin.
@@ -54,18 +62,34 @@ double whiten(const std::vector<reading::DayBin>& bins, const DayNoise& noise,
     return Whitening(bins).whiten(noise, columns);
 }
 
-Whitening::Whitening(const std::vector<reading::DayBin>& bins) {
+Whitening::Whitening(const std::vector<reading::DayBin>& bins)
+    : has_two_faces_(reading::has_two_faces(bins)) {
+    double end_s = 0.0;  // from the middle of the bin before to its end
     for (std::size_t i = 0; i < bins.size(); ++i) {
         const BinMean mean = mean_over(bins[i]);
-        bins_.push_back({i == 0 || bins[i].set_up != bins[i - 1].set_up,
-                         decrease(i == 0 ? 0.0 : seconds_between(bins[i - 1].time, bins[i].time)),
+        const double since_s = i == 0 ? 0.0 : seconds_between(bins[i - 1].time, bins[i].time);
+        bins_.push_back({i == 0 || bins[i].set_up != bins[i - 1].set_up, decrease(since_s),
                          mean.factor, (mean.variance - mean.factor.square()).sum(),
-                         static_cast<double>(bins[i].times.size())});
+                         static_cast<double>(bins[i].times.size()), bins[i].face});
+        Bin& bin = bins_.back();
+        bin.turn_keep = std::exp(-since_s / kTurn_s);
+        bin.turn_factor = turn_factor(mean);
+        if (i > 0 && bins[i].face != bins[i - 1].face)
+            bin.turn_variance = std::pow(kTurn_mgal * std::exp((end_s - since_s) / kTurn_s), 2);
+        end_s = 0.5 * mean.length_s;
     }
 }
 
 double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const {
-    constexpr Index kStates = kProcesses + 1;  // the last state is placement
+    return has_two_faces_ ? whiten_states<true>(noise, columns)
+                          : whiten_states<false>(noise, columns);
+}
+
+template <bool kTwoFaces>
+double Whitening::whiten_states(const DayNoise& noise, Eigen::MatrixXd& columns) const {
+    // Flicker, placement, then in two faces the flicker of the scale and the error after a turn.
+    constexpr Index kStates = kTwoFaces ? 2 * kProcesses + 2 : kProcesses + 1;
+    constexpr Index kOnScale = kProcesses + 1, kTurn = kStates - 1;
     using State = Eigen::Matrix<double, kStates, 1>;
     const double flicker_part =
         noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kProcesses);
@@ -73,7 +97,13 @@ double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const 
 
     Eigen::Matrix<double, kStates, kStates> covariance =
         Eigen::Matrix<double, kStates, kStates>::Zero();
-    covariance.diagonal().setConstant(flicker_part);
+    State variances = State::Constant(flicker_part);
+    if constexpr (kTwoFaces) {
+        variances.template head<kProcesses>() *= 1.0 - noise.scale_share;
+        variances.template segment<kProcesses>(kOnScale) *= noise.scale_share;
+        variances(kTurn) = 0.0;
+    }
+    covariance.diagonal() = variances;
     Eigen::Matrix<double, kStates, Eigen::Dynamic> state(kStates, columns.cols());
     state.setZero();
     Eigen::MatrixXd values = columns.transpose();  // those of a bin are together: half the time
@@ -86,17 +116,25 @@ double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const 
     for (Index row = 0; row < std::ssize(bins_); ++row) {
         const Bin& bin = bins_[static_cast<std::size_t>(row)];
         State keep;
-        keep << bin.keep, bin.is_new_set_up ? 0.0 : 1.0;
+        keep.template head<kProcesses + 1>() << bin.keep, bin.is_new_set_up ? 0.0 : 1.0;
+        if constexpr (kTwoFaces) keep.template tail<kProcesses + 1>() << bin.keep, bin.turn_keep;
         // Prediction: x = K x, P = K P K + Q.  A new set-up has a new placement.
         covariance = covariance.cwiseProduct(keep * keep.transpose());
         for (Index k = 0; k < kProcesses; ++k)
-            covariance(k, k) += flicker_part * (1.0 - keep(k) * keep(k));
+            covariance(k, k) += variances(k) * (1.0 - keep(k) * keep(k));
+        if constexpr (kTwoFaces) {
+            for (Index k = kOnScale; k < kTurn; ++k)
+                covariance(k, k) += variances(k) * (1.0 - keep(k) * keep(k));
+            covariance(kTurn, kTurn) += bin.turn_variance;
+        }
         if (bin.is_new_set_up) covariance(kProcesses, kProcesses) = placement;
 
         // Measurement: h times the states, and noise.  A mean varies less than h^2, so the noise may
         // have a negative variance; that of the reading is positive.
         State h;
-        h << bin.factor, 1.0;
+        h.template head<kProcesses + 1>() << bin.factor, 1.0;
+        if constexpr (kTwoFaces)
+            h.template tail<kProcesses + 1>() << bin.face * bin.factor, bin.turn_factor;
         const State gain = covariance * h;
         const double variance =
             gain.dot(h) + flicker_part * bin.within + white_variance(noise, bin.samples);
@@ -121,6 +159,11 @@ double Whitening::whiten(const DayNoise& noise, Eigen::MatrixXd& columns) const 
 Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const DayNoise& noise) {
     std::vector<BinMean> means;
     for (const reading::DayBin& bin : bins) means.push_back(mean_over(bin));
+    const auto turn = [&](std::size_t i, std::size_t at) {
+        const UtcTime time = bins[at - 1].time + from_seconds(0.5 * means[at - 1].length_s);
+        return kTurn_mgal * turn_factor(means[i]) *
+               std::exp(-seconds_between(time, bins[i].time) / kTurn_s);
+    };
     const double flicker_part =
         noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kProcesses);
     Eigen::MatrixXd covariance(std::ssize(bins), std::ssize(bins));
@@ -132,6 +175,9 @@ Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const
                        : flicker_part * (means[i].factor * means[k].factor *
                                          decrease(seconds_between(bins[k].time, bins[i].time)))
                                             .sum();
+            if (bins[i].face != bins[k].face) sum *= 1.0 - 2.0 * noise.scale_share;
+            for (std::size_t at = 1; at <= k; ++at)
+                if (bins[at].face != bins[at - 1].face) sum += turn(i, at) * turn(k, at);
             if (bins[i].set_up == bins[k].set_up) sum += std::pow(noise.placement_mgal, 2);
             covariance(static_cast<Index>(i), static_cast<Index>(k)) = sum;
             covariance(static_cast<Index>(k), static_cast<Index>(i)) = sum;

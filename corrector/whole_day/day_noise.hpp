@@ -28,7 +28,12 @@ struct DayNoise {
     double placement_mgal = 0.0;  ///< Placement: one error per set-up.
     double flicker_mgal = 0.0;  ///< Flicker: 1/f noise over the day, of the instantaneous reading.
     double white_mgal = 0.0;    ///< White noise of a complete bin (kBinSamples samples).
+    double scale_share = 0.0;  ///< Part of the flicker's variance that is one of the scale, 0 to 1.
 };
+
+/// Error by the gradient in the oven after the box was turned over: standard deviation at the turn, mGal,
+/// and time constant of its decay, s.  Assumed, because nobody has turned such an oven.
+inline constexpr double kTurn_mgal = 1.0, kTurn_s = 300.0;
 
 /// Noise of a unit that nobody has measured.
 ///
@@ -68,7 +73,9 @@ inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,
 ///     flicker^2 / 7 sum_k (2 y_ik - 1 + exp(-2 y_ik)) / (2 y_ik^2)   on the diagonal
 ///
 /// with y_ik = pi length_i / P_k, plus placement^2 within a set-up, plus white^2 kBinSamples /
-/// samples on the diagonal.  A Kalman filter runs over every column; its time is proportional to
+/// samples on the diagonal.  Bins count times their face: between two faces the flicker has the factor
+/// 1 - 2 scale_share.  Each turn adds kTurn_mgal^2 exp(-(t_i - t) / kTurn_s) exp(-(t_j - t) / kTurn_s)
+/// to the bins after it, with the means of these over the bins; t is the end of the bin before.  A Kalman filter runs over every column; its time is proportional to
 /// bins x columns.
 ///
 /// The order of the bins matters, because the filter goes from each bin to the next.  If set-ups
@@ -108,8 +115,17 @@ private:
         Processes factor;  ///< Covariance with an instant outside the bin, before the decrease.
         double within;     ///< Sum of what the variances of means exceed factor^2 by; negative.
         double samples;
+        double face;
+        double turn_keep = 0.0;      ///< Decrease of the error after a turn since the bin before.
+        double turn_variance = 0.0;  ///< What a turn before the bin adds, mGal^2.
+        double turn_factor = 0.0;    ///< Mean of this error over the bin / its value in the middle.
     };
+    /// @tparam kTwoFaces  false: without the states that only turned days have.
+    template <bool kTwoFaces>
+    double whiten_states(const DayNoise& noise, Eigen::MatrixXd& columns) const;
+
     std::vector<Bin> bins_;
+    bool has_two_faces_;
 };
 
 /// Returns the covariance (n, n) of the bins that whiten() removes, mGal^2.  Cost: 7 n^2 / 2

@@ -94,8 +94,9 @@ struct DayPriors {
     /// alike.  1: the standard deviations in `factor` are used as they are.
     double bias_factor = 1.0;
     LogNormalPrior placement_mgal = kUsualPlacement_mgal;  ///< Prior of the placement.
-    /// Prior of the share of rA, rS and rF that acts on the scale.
-    unit::ScaleShare scale_share = {};
+    unit::ScaleShare scale_share = {};  ///< Prior of the share of the scale in a unit's errors.
+    /// Standard deviation by which the share of a term in the scale differs from the unit's.  Assumed.
+    double share_spread = 0.1;
 
     /// Gives bx and by independent deviations of 2000 mGal/g, the limit of the data sheet, whatever
     /// the day says about their size.  Call it before observe() of an axis.

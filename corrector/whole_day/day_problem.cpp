@@ -134,6 +134,7 @@ void DayProblem::set_hypers() {
         for (const DayHyper part : {kFlicker, kWhite}) hypers_.push_back({part, {k}});
     for (std::size_t unit = 0; unit < unit_count_; ++unit) {
         hypers_.push_back({kBiasSize, surveys_of_unit(unit)});
+        if (on_scale_of(unit) > 0) hypers_.push_back({kScaleShare, surveys_of_unit(unit)});
         if (!has_outer(unit)) continue;
         for (const DayHyper part : {kOuterLag, kOuterSize})
             hypers_.push_back({part, surveys_of_unit(unit)});

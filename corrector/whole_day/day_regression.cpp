@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "protocol/core/units.hpp"
@@ -166,23 +167,25 @@ double DayRegression::lag_s(const Point& u, DayHyper lag) const {
                     priors_.factor(place, kSlowLag) * u[kSlowLag]);
 }
 
-Eigen::VectorXd DayRegression::on_scale_mean() const {
-    Eigen::VectorXd means(on_scale());
-    for (Index k = 0; k < on_scale(); ++k)
-        means(k) = priors_.scale_share.mean *
-                   priors_.mean(DayPriors::place_of(kOnScale.at(static_cast<std::size_t>(k))));
-    return means;
+double DayRegression::scale_share(const Point& u) const {
+    if (const unit::ScaleShare& share = priors_.scale_share; share.is_measured)
+        return share.mean + share.deviation * u[kScaleShare];
+    return 0.5 * std::erfc(-u[kScaleShare] / std::numbers::sqrt2);
+}
+
+double DayRegression::scale_share_error(const Point& u, const Point& errors) const {
+    if (priors_.scale_share.is_measured)
+        return priors_.scale_share.deviation * errors[kScaleShare];
+    return errors[kScaleShare] * std::exp(-0.5 * u[kScaleShare] * u[kScaleShare]) /
+           std::sqrt(2.0 * std::numbers::pi);
 }
 
 Eigen::VectorXd DayRegression::on_scale_sd() const {
-    const unit::ScaleShare& share = priors_.scale_share;
     Eigen::VectorXd deviations(on_scale());
     for (Index k = 0; k < on_scale(); ++k) {
         const Index place = DayPriors::place_of(kOnScale.at(static_cast<std::size_t>(k)));
-        // The deviation of a product of two independent factors.
-        deviations(k) =
-            std::hypot(share.deviation * priors_.mean(place),
-                       std::hypot(share.mean, share.deviation) * priors_.factor.row(place).norm());
+        deviations(k) = priors_.share_spread *
+                        std::hypot(priors_.mean(place), priors_.factor.row(place).norm());
     }
     return deviations;
 }
@@ -235,7 +238,10 @@ Eigen::VectorXd DayRegression::unscaled(const Point& u, const Eigen::VectorXd& s
     all << scaled, u[kFastLag], u[kSlowLag];
     Eigen::VectorXd values = unscaling(u) * all;
     values.head(kTerms) += priors_.mean.tail<kTerms>();
-    values.tail(on_scale()) += on_scale_mean();
+    for (Index k = 0; k < on_scale(); ++k)
+        values(on_scale_begin() + k) +=
+            scale_share(u) *
+            priors_.mean(DayPriors::place_of(kOnScale.at(static_cast<std::size_t>(k))));
     return values;
 }
 
@@ -248,14 +254,22 @@ Eigen::MatrixXd DayRegression::unscaling(const Point& u) const {
     derivative.diagonal()
         .segment(outer_begin(), on_scale_begin() - outer_begin())
         .setConstant(kOuterSize_mgal_per_degc.at(u[kOuterSize]));
-    derivative.diagonal().tail(on_scale()) = on_scale_sd();
     derivative.topRightCorner(kTerms, kLags) = factor.bottomLeftCorner<kTerms, kLags>();
+    const Eigen::VectorXd deviations = on_scale_sd();
+    for (Index k = 0; k < on_scale(); ++k) {
+        const Index part = on_scale_begin() + k;
+        derivative.row(part) =
+            scale_share(u) *
+            derivative.row(static_cast<Index>(kOnScale.at(static_cast<std::size_t>(k))));
+        derivative(part, part) = deviations(k);
+    }
     return derivative;
 }
 
 DayNoise DayRegression::noise(const Point& u) const {
     return {priors_.placement_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
-            white_mgal_.at(u[kWhite])};
+            white_mgal_.at(u[kWhite]),
+            has_two_faces_ ? std::clamp(scale_share(u), 0.0, 1.0) : 0.0};
 }
 
 DayRegression::Point DayRegression::point_of(const DayNoise& noise) const {
@@ -287,8 +301,11 @@ Eigen::MatrixXd DayRegression::scaled(const Point& u) const {
     const Eigen::MatrixXd x = design(u);
     Eigen::MatrixXd columns(x.rows(), x.cols() + 1);
     columns.col(0) = readings_mgal_ - x * unscaled(u, Eigen::VectorXd::Zero(estimated()));
-    columns.middleCols(1, kTerms) =
-        x.leftCols(kTerms) * prior_factor(u).bottomRightCorner<kTerms, kTerms>();
+    Eigen::MatrixXd terms = x.leftCols(kTerms);
+    for (Index k = 0; k < on_scale(); ++k)
+        terms.col(static_cast<Index>(kOnScale.at(static_cast<std::size_t>(k)))) +=
+            scale_share(u) * x.col(on_scale_begin() + k);
+    columns.middleCols(1, kTerms) = terms * prior_factor(u).bottomRightCorner<kTerms, kTerms>();
     columns.middleCols(1 + kTerms, gravity_sd_mgal_.size()) =
         x.middleCols(kTerms, gravity_sd_mgal_.size()) * gravity_sd_mgal_.asDiagonal();
     columns.middleCols(1 + states_begin(), states_sd_mgal_.size()) =

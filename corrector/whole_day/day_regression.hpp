@@ -57,10 +57,11 @@ class DayRegression {
 public:
     using Point = SurveyPoint;
 
-    /// Terms with a part that acts on the scale.  A day in one face and a calibration determine
-    /// only the sum of both parts, which is the term.  Two faces also determine the part on the
-    /// scale.
-    static constexpr std::array kOnScale{DayTerm::level, DayTerm::slow, DayTerm::fast};
+    /// Terms that have a part that acts on the scale.  The term is the sum of both parts, which is what a
+    /// day in one face and a calibration see; two faces show the part on the scale too.  The prior of the
+    /// part is the term times the unit's scale_share(), with the deviation share_spread.
+    static constexpr std::array kOnScale{DayTerm::level, DayTerm::slow, DayTerm::fast,
+                                         DayTerm::drift, DayTerm::warm_up};
 
     /// @param survey  kept by reference.
     /// @param rough_mgal  gravities from which the unknown ones count, by number; empty: from the
@@ -69,9 +70,11 @@ public:
 
     /// Returns the number of all estimated quantities.
     [[nodiscard]] Eigen::Index estimated() const { return on_scale_begin() + on_scale(); }
-    /// Returns the number of slopes that act on the scale: those of kOnScale, if the sensor was turned
+    /// Returns the number of parts that act on the scale: those of kOnScale, if the sensor was turned
     /// over.
-    [[nodiscard]] Eigen::Index on_scale() const { return has_two_faces_ ? std::ssize(kOnScale) : 0; }
+    [[nodiscard]] Eigen::Index on_scale() const {
+        return has_two_faces_ ? std::ssize(kOnScale) : 0;
+    }
     /// Returns the place of the first of them, the last of the estimated quantities.
     [[nodiscard]] Eigen::Index on_scale_begin() const {
         return outer_begin() + (has_outer() ? kOuterSlopes : 0);
@@ -110,6 +113,13 @@ public:
     [[nodiscard]] static double scale(const Eigen::VectorXd& values) {
         return 1.0 + values(static_cast<Eigen::Index>(DayTerm::scale));
     }
+
+    /// Returns the share of the unit's errors that act on the scale: normal if it was measured, else
+    /// evenly from 0 to 1 by its prior.
+    [[nodiscard]] double scale_share(const Point& u) const;
+    /// Returns the standard error of scale_share().
+    /// @param errors  of the point, in deviations.
+    [[nodiscard]] double scale_share_error(const Point& u, const Point& errors) const;
 
     /// Returns a lag at a point, s.
     /// @param lag  kFastLag or kSlowLag.
@@ -169,9 +179,8 @@ private:
     void set_states();
     [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
     [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
-    /// Return the prior of the slopes that act on the scale: mean and deviation of the share
-    /// DayPriors::scale_share of the term.
-    [[nodiscard]] Eigen::VectorXd on_scale_mean() const;
+    /// Returns the deviations of the parts that act on the scale, by their priors, if the terms and the
+    /// share are known.
     [[nodiscard]] Eigen::VectorXd on_scale_sd() const;
     /// Returns the columns (n, kOuterSlopes) of an outer oven, without their means.
     [[nodiscard]] Eigen::MatrixXd outer_columns(const Point& u) const;

@@ -125,7 +125,8 @@ std::vector<Block> blocks_of(const DayProblem& problem, const std::vector<DayHyp
 struct Blocks {
     explicit Blocks(const DayProblem& problem)
         : of_noise(blocks_of(problem, {kPlacement})),
-          of_units(blocks_of(problem, {kFastLag, kSlowLag, kBiasSize, kOuterLag, kOuterSize})) {
+          of_units(blocks_of(problem,
+                             {kFastLag, kSlowLag, kBiasSize, kOuterLag, kOuterSize, kScaleShare})) {
         for (Block& block : blocks_of(problem, {kFlicker, kWhite}))
             of_noise.push_back(std::move(block));
     }
@@ -259,6 +260,15 @@ DayPoint expected_point(const DayProblem& problem, DayPoint most_likely, Curvatu
     return most_likely;
 }
 
+/// Returns DaySearch::u_errors.
+std::vector<double> u_errors(const DayProblem& problem, Curvatures& curvatures) {
+    std::vector<double> errors(problem.hypers().size());
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        if (problem.hypers()[i].kind == kScaleShare)
+            errors[i] = 1.0 / std::sqrt(std::max(curvatures.of(i, i), 1.0));
+    return errors;
+}
+
 /// Returns DaySearch::noise_log_errors.
 std::optional<std::array<double, 3>> noise_log_errors(const DayProblem& problem,
                                                       Curvatures& curvatures) {
@@ -312,6 +322,7 @@ DaySearch search_alone(const DayProblem& problem, const SurveyPoint* nearby) {
     DaySearch found{walk.point(), {}, std::nullopt, std::nullopt};
     Curvatures curvatures(walk);
     found.expected = expected_point(problem, found.most_likely, curvatures);
+    found.u_errors = u_errors(problem, curvatures);
     found.noise_log_errors = noise_log_errors(problem, curvatures);
     return found;
 }
@@ -328,6 +339,7 @@ DaySearch search_together(const DayProblem& problem, DayPoint start) {
     found.most_likely = walk.point();
     Curvatures curvatures(walk);
     found.expected = expected_point(problem, found.most_likely, curvatures);
+    found.u_errors = u_errors(problem, curvatures);
     return found;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "corrector/whole_day/day_problem.hpp"
 
@@ -29,6 +30,9 @@ struct DaySearch {
     /// Standard errors of the logarithms of placement, flicker and white noise of a single survey, from
     /// the curvature of the cost with the other numbers held; absent if it has no minimum there.
     std::optional<std::array<double, 3>> noise_log_errors;
+    /// Standard errors of the shares of the scale in deviations, from the curvature of the cost; 0 for
+    /// all other numbers.  Empty if nothing was searched.
+    std::vector<double> u_errors = {};
 };
 
 /// Searches all numbers of a single survey at once.

@@ -24,6 +24,8 @@ adjustment::DenseResiduals set_up_residuals(const DaySurvey& survey, const DayFi
     Eigen::VectorXd values = Eigen::VectorXd::Zero(problem.estimated());
     for (std::size_t k = 0; k < kDayTerms; ++k)
         values(static_cast<Index>(k)) = fit.coefficients.at(k).value;
+    for (std::size_t k = 0; k < fit.on_scale.size(); ++k)
+        values(problem.on_scale_begin() + static_cast<Index>(k)) = fit.on_scale[k].value;
     const Eigen::MatrixXd lags = mean * problem.lag_columns(fit.expected, values);
     const Eigen::MatrixXd noise =
         mean * noise_covariance(record.bins, fit.expected_noise) * mean.transpose();

@@ -49,10 +49,13 @@ TEST_CASE("two faces separate what acts on the bias from what acts on the scale"
     CHECK(coefficient(*fit, DayTerm::level) == Approx(day.level).margin(0.1));
     CHECK(coefficient(*fit, DayTerm::fast) == Approx(day.fast).margin(0.02));
     CHECK(coefficient(*fit, DayTerm::drift) == Approx(day.drift).margin(0.01));
-    REQUIRE(fit->on_scale.size() == 3);
+    REQUIRE(fit->on_scale.size() == 5);
     CHECK(fit->on_scale[0].value == Approx(0.3 * day.level).margin(0.1));
     CHECK(fit->on_scale[1].value == Approx(0.3 * day.slow).margin(0.1));
     CHECK(fit->on_scale[2].value == Approx(0.3 * day.fast).margin(0.02));
+    REQUIRE(fit->scale_share);
+    CHECK(std::abs(fit->scale_share->value - 0.3) < 3.0 * fit->scale_share->standard_error);
+    CHECK(fit->scale_share->standard_error < 0.15);
     for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s)
         CHECK(fit->set_ups[s].corrected.value() ==
               Approx(MadeUpDay::gravity_mgal(s)).margin(0.001));
@@ -159,8 +162,8 @@ TEST_CASE("a planned day has the uncertainties of a measured one of the same uni
 }
 
 TEST_CASE("a measured share of the scale makes a turned day more certain", "[day][faces]") {
-    const auto u_with = [](const unit::ScaleShare& share, bool is_turned) {
-        DayRecord record = MadeUpDay{.is_turned = is_turned}.record();
+    const auto u_with = [](const unit::ScaleShare& share, bool has_two_faces) {
+        DayRecord record = MadeUpDay{.has_two_faces = has_two_faces}.record();
         auto stations = MadeUpDay::stations();
         for (std::size_t s = 1; s < stations.size(); ++s)
             if (s != MadeUpDay::kSites) stations[s].gravity.reset();  // one known site

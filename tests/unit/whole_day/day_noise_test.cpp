@@ -14,12 +14,13 @@ using namespace a351::corrector::reading;
 using namespace a351::corrector::whole_day;
 
 TEST_CASE("the filter whitens like the dense covariance", "[day]") {
-    std::vector<DayBin> bins = MadeUpDay{}.record().bins;
+    const double scale_share = GENERATE(0.0, 0.3, 1.0);
+    std::vector<DayBin> bins = MadeUpDay{.has_two_faces = scale_share > 0.0}.record().bins;
     for (std::size_t i = 0; i < bins.size(); i += 3) {
         bins[i].times.resize(9);
         bins[i].time = bins[i].times[4];
     }
-    const DayNoise noise{1.1, 0.8, 0.3};
+    const DayNoise noise{1.1, 0.8, 0.3, scale_share};
     const Eigen::MatrixXd columns =
         Eigen::MatrixXd::Random(static_cast<Eigen::Index>(bins.size()), 4);
     Eigen::MatrixXd white = columns;
@@ -72,6 +73,32 @@ TEST_CASE("means of simulated flicker have the covariance of the bins", "[day]")
     INFO("simulated\n" << sum << "\nexpected\n" << expected);
     CHECK((sum - expected).cwiseAbs().maxCoeff() < 0.06);  // three standard errors
     CHECK(expected(0, 0) < 0.8);                           // a point sample would have 1
+}
+
+TEST_CASE("flicker of the scale keeps its sign over a turn, and a turn leaves an error that decays",
+          "[day][faces]") {
+    std::vector<DayBin> bins(3);
+    for (std::size_t b = 0; b < bins.size(); ++b) {
+        bins[b].set_up = b;
+        bins[b].face = b == 0 ? 1.0 : -1.0;
+        bins[b].time = UtcTime{} + from_seconds(120.0 * static_cast<double>(b));
+        bins[b].times = {bins[b].time};
+    }
+    const auto covariance = [&](double flicker_mgal, double scale_share) {
+        return noise_covariance(bins, {0.0, flicker_mgal, 1.0, scale_share});
+    };
+    // A bin of one sample has no length.  Rows have the sign of the face.
+    const Eigen::MatrixXd turn = covariance(0.0, 0.0);
+    const double keep = std::exp(-120.0 / kTurn_s);
+    CHECK(turn(0, 1) == 0.0);
+    CHECK(turn(1, 2) == Approx(std::pow(kTurn_mgal * keep, 2) * keep));
+    const Eigen::MatrixXd of_bias = covariance(1.0, 0.0) - turn,
+                          of_scale = covariance(1.0, 1.0) - turn,
+                          half = covariance(1.0, 0.5) - turn;
+    CHECK(of_bias(0, 1) > 0.3);
+    CHECK(of_scale(0, 1) == Approx(-of_bias(0, 1)));
+    CHECK(of_scale(1, 2) == Approx(of_bias(1, 2)));
+    CHECK(half(0, 1) == Approx(0.0).margin(1e-12));
 }
 
 TEST_CASE("flicker is 1/f between its first and last period", "[day]") {
