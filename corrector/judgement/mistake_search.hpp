@@ -39,6 +39,7 @@ struct SearchedReading {
     std::optional<double> reference_mgal;
     bool is_accepted = true;  ///< False: it is outside the fit, and no mistake.
     std::size_t loop = 0;     ///< Readings of one loop have a constant in common.
+    int face = 1;             ///< As reading::SurveyRow::face.
 };
 
 /// Greatest p of a headline.  Reason: one clean day in a thousand may be told something false in its

@@ -91,6 +91,11 @@ std::vector<Mistake> possible_mistakes(const std::vector<SearchedReading>& readi
     for (const auto& [loop, numbers] : stays_of_loops) {
         // A step with one stay before or after it is the same as this stay being off.
         if (numbers.size() < 4) continue;
+        // A step of the bias has two signs in two faces, and their mean is free of it.
+        const int face = readings[stays[numbers.front()].readings.front()].face;
+        if (std::ranges::any_of(
+                readings, [face](const SearchedReading& reading) { return reading.face != face; }))
+            continue;
         const std::size_t first = stays[numbers[2]].readings.front(),
                           last = stays[numbers[numbers.size() - 2]].readings.front();
         for (std::size_t i = first; i <= last; ++i) {

@@ -37,6 +37,7 @@ std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
         if (has_loops) reading.loop = loops[i];
         reading.site = rows[i].site;
         reading.occupation = rows[i].occupation;
+        reading.face = rows[i].face;
         reading.is_accepted = choice.accepted[i];
         if (choice.in_use[i]) reading.reference_mgal = rows[i].reference->value();
     }

@@ -155,9 +155,10 @@ void DayRegression::set_fixed_columns() {
         column(DayTerm::y)(i) = bin.face * bin.y.value();
         const Index place = place_of(stations_[bin.set_up].number);
         if (place >= 0) fixed_(i, place) = bin.face;
+        // A shock moves the bias; of a day in one face a step is one of the readings.
         fixed_.row(i)
             .segment(steps_begin(), static_cast<Index>(stations_[bin.set_up].steps))
-            .setConstant(bin.face);
+            .setConstant(has_two_faces_ ? 1.0 : bin.face);
     }
 }
 

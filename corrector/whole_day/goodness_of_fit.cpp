@@ -94,7 +94,7 @@ std::vector<FitTest> goodness_of_fit(const DaySurvey& survey, const DayFit& fit)
     for (Index k = 1; k < set_ups; ++k) {
         Eigen::VectorXd after = Eigen::VectorXd::Ones(set_ups);
         after.head(k).setZero();
-        steps.push_back(residuals.direction(after));
+        steps.push_back(residuals.direction(face.cwiseProduct(after)));
     }
     for (Index k = 0; k < set_ups; ++k)
         singles.push_back(residuals.direction(Eigen::VectorXd::Unit(set_ups, k)));

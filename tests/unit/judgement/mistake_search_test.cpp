@@ -124,6 +124,15 @@ TEST_CASE("a reading, a reference, a swap and a step are found with their sizes"
     }
 }
 
+TEST_CASE("in two faces no step is searched for, because one of the bias has two signs",
+          "[mistake][faces]") {
+    MadeUp survey(5);
+    survey.add(7, 18, -11.0);
+    CHECK(survey.search().at(0).kind == MistakeKind::step);
+    for (std::size_t i = 1; i < survey.list.size(); i += 2) survey.list[i].face = -1;
+    for (const Mistake& found : survey.search()) CHECK(found.kind != MistakeKind::step);
+}
+
 TEST_CASE("several mistakes of one day are found together", "[mistake]") {
     MadeUp day(6);
     day.add(2, 3, 40.0);   // C

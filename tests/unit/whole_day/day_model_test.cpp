@@ -61,6 +61,21 @@ TEST_CASE("two faces separate what acts on the bias from what acts on the scale"
               Approx(MadeUpDay::gravity_mgal(s)).margin(0.001));
 }
 
+TEST_CASE("a step of a day in two faces is one of the bias", "[day][faces]") {
+    const MadeUpDay day{.has_two_faces = true};
+    DayRecord record = day.record();
+    constexpr std::size_t kFirst = 7;  // after the step; its set-ups are in both faces
+    for (auto& bin : record.bins)
+        if (bin.set_up >= kFirst) bin.reading = bin.reading + MilliGal(bin.face * 20.0);
+    auto stations = MadeUpDay::stations();
+    for (std::size_t s = kFirst; s < stations.size(); ++s) stations[s].steps = 1;
+    const auto fit = fit_day(record, stations);
+    REQUIRE(fit);
+    CHECK(fit->steps_mgal.at(0).value == Approx(20.0).margin(0.05));
+    for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s)
+        CHECK(fit->set_ups[s].corrected.value() == Approx(MadeUpDay::gravity_mgal(s)).margin(0.01));
+}
+
 TEST_CASE("reading, flicker and effects of a set-up add up to its corrected value", "[day]") {
     const bool has_two_faces = GENERATE(false, true);
     const auto fit =
