@@ -268,9 +268,10 @@ Eigen::MatrixXd DayRegression::unscaling(const Point& u) const {
 }
 
 DayNoise DayRegression::noise(const Point& u) const {
+    // Two independent flickers whose amplitudes are as the shares of the scale and of the bias.
+    const double scale = std::pow(scale_share(u), 2), bias = std::pow(1.0 - scale_share(u), 2);
     return {priors_.placement_mgal.at(u[kPlacement]), kFlickerPrior_mgal.at(u[kFlicker]),
-            white_mgal_.at(u[kWhite]),
-            has_two_faces_ ? std::clamp(scale_share(u), 0.0, 1.0) : 0.0};
+            white_mgal_.at(u[kWhite]), has_two_faces_ ? scale / (scale + bias) : 0.0};
 }
 
 DayRegression::Point DayRegression::point_of(const DayNoise& noise) const {
