@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/layout.hpp"
@@ -11,6 +12,7 @@
 #include "corrector/figure/row_marks.hpp"
 #include "corrector/judgement/reading_grade.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
@@ -219,6 +221,68 @@ Figure day_figure(const model::SurveyCorrection& result, const std::vector<Readi
     for (std::size_t k = 0; k < names.size(); ++k)
         if (std::isnan(places[k])) left_out.push_back(names[k].second);
     figure.caption += without_room(left_out);
+    return figure;
+}
+
+std::optional<Figure> faces_figure(const model::SurveyCorrection& result, const Print& print) {
+    struct Both {
+        std::array<double, 2> sum_mgal{}, count{};  ///< In the faces + and -.
+        Nanoseconds after{};                        ///< Sum of the times since the first row.
+    };
+    std::map<std::pair<std::string, int>, Both> stays;
+    const UtcTime first = result.rows.front().row.time, last = result.rows.back().row.time;
+    for (const model::CorrectedRow& one : result.rows) {
+        Both& stay = stays[{one.row.site, one.row.occupation}];
+        const std::size_t face = one.row.face < 0 ? 1U : 0U;
+        stay.sum_mgal.at(face) += one.row.reduced().value();
+        stay.count.at(face) += 1.0;
+        stay.after += one.row.time - first;
+    }
+    std::string differences, sums;
+    double sum_mgal = 0.0, count = 0.0;
+    for (const auto& [name, stay] : stays) {
+        if (stay.count[0] == 0.0 || stay.count[1] == 0.0) continue;
+        const double up_mgal = stay.sum_mgal[0] / stay.count[0],
+                     down_mgal = stay.sum_mgal[1] / stay.count[1];
+        const auto set_ups = static_cast<Nanoseconds::rep>(stay.count[0] + stay.count[1]);
+        const std::string time = to_rfc3339(first + stay.after / set_ups) + ' ',
+                          end = "# " + clean_utf8(name.first) + '\n';
+        const double half_mgal = 0.5 * (up_mgal - down_mgal);
+        differences += time + data_line("4", {half_mgal}, end);
+        sum_mgal += half_mgal;
+        count += 1.0;
+        const auto station =
+            std::ranges::find(result.stations, name.first, &model::StationValue::site);
+        if (station != result.stations.end())
+            sums += time +
+                    data_line("4", {0.5 * (up_mgal + down_mgal) - station->gravity.value()}, end);
+    }
+    if (count == 0.0) return std::nullopt;
+    Figure figure{
+        "faces",
+        tr("Both faces of the sensor, a point for each stay. Above: half the difference of the "
+           "readings in the faces + and -, minus the day's mean of {} mGal; this is the bias, with "
+           "drift and temperature. Below: half their sum minus the gravity found for the station; "
+           "what is left is of the scale, placement and noise. Figures of readings that are not "
+           "corrected are left out, because they show twice the bias between the faces.",
+           text::fixed(sum_mgal / count, 1)),
+        print.wide_mm(),
+        {{.y = {.label = tr("Half difference - mean (mGal)")},
+          .has_margin = true,
+          .height_mm = kStackedPanel_mm},
+         {.y = {.label = tr("Half sum - gravity (mGal)")},
+          .has_margin = true,
+          .height_mm = kStackedPanel_mm}}};
+    figure.plot("stays: time_utc half_difference_mgal", differences,
+                {Look::discs, Colour::blue, "", {{1}, {2, -sum_mgal / count}}});
+    figure.plot("stays: time_utc half_sum_minus_gravity_mgal", sums,
+                {Look::triangles, Colour::vermilion}, 1);
+    std::erase_if(figure.panels, [](const Panel& panel) { return panel.series.empty(); });
+    for (Panel& panel : figure.panels) {
+        panel.series.insert(panel.series.begin(),
+                            {.look = Look::line, .colour = Colour::grey, .source = kZero});
+        panel.x = time_axis(first, last, print);
+    }
     return figure;
 }
 

@@ -31,7 +31,8 @@ namespace a351::corrector::figure {
 /// The tide is not removed.  The line is a least-squares line through the rows in the fit; it is
 /// absent if there are fewer than three of them or if all have one reference.  The published lines
 /// are reproduced (figures_test.cpp).
-/// @return std::nullopt if no row has a reference; so does the next one.
+/// @return std::nullopt if no row has a reference, and in two faces, between which the readings differ by
+///         twice the bias; so does the next one.
 [[nodiscard]] std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result,
                                                         const Print& print);
 
@@ -124,5 +125,11 @@ struct ReadingRecord {
                                 const std::vector<ReadingRecord>& records,
                                 const std::vector<archive_series::MinuteTemperature>& course,
                                 const std::vector<reading::SignalSpan>& signal, const Print& print);
+
+/// Returns the figure of both faces through the day: for each stay that has both, half the difference of
+/// the readings, which is the bias, and half their sum minus the station's gravity.  Tides are removed.
+/// @return std::nullopt without such a stay.
+[[nodiscard]] std::optional<Figure> faces_figure(const model::SurveyCorrection& result,
+                                                 const Print& print);
 
 }  // namespace a351::corrector::figure

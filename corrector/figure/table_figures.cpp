@@ -99,6 +99,7 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
 
 std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result,
                                           const Print& print) {
+    if (model::has_two_faces(result.rows)) return std::nullopt;
     return with_rows(
         scatter("acceleration", tr("Reference gravity (mGal)"), tr("Acceleration (mGal)"),
                 tr("Acceleration as measured, tide not removed, over reference gravity; "
@@ -114,6 +115,7 @@ std::optional<Figure> acceleration_figure(const model::SurveyCorrection& result,
 }
 
 std::optional<Figure> difference_figure(const model::SurveyCorrection& result, const Print& print) {
+    if (model::has_two_faces(result.rows)) return std::nullopt;
     return with_rows(
         scatter("difference", tr("Temperature (°C)"), tr("Acceleration - reference - tide (mGal)"),
                 tr("Difference between the reading, tide removed, and reference gravity over "

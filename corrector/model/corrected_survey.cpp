@@ -1,5 +1,7 @@
 #include "corrector/model/corrected_survey.hpp"
 
+#include <algorithm>
+
 namespace a351::corrector::model {
 
 void CorrectedRow::subtract(adjustment::Correction correction, MilliGal effect) {
@@ -25,6 +27,11 @@ void CorrectedRow::subtract(adjustment::Correction correction, MilliGal effect) 
             *row.pressure_correction = *row.pressure_correction - effect;
             break;
     }
+}
+
+bool has_two_faces(const std::vector<CorrectedRow>& rows) {
+    return std::ranges::any_of(
+        rows, [&rows](const CorrectedRow& one) { return one.row.face != rows.front().row.face; });
 }
 
 }  // namespace a351::corrector::model

@@ -298,6 +298,9 @@ struct NetworkRow {
     double redundancy = 0.0;  ///< 0: uncontrolled, 1: fully controlled.
 };
 
+/// Returns true if the sensor was turned over between readings.
+[[nodiscard]] bool has_two_faces(const std::vector<CorrectedRow>& rows);
+
 /// Values that only `network` gives.
 struct NetworkPart {
     std::vector<NetworkRow> rows;         ///< Readings in use in order of time; datum; priors.

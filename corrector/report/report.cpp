@@ -32,6 +32,7 @@ SurveyFigures figures_of(const model::SurveyCorrection& result, const ReportSour
     SurveyFigures figures;
     figures.day = {
         figure::day_figure(result, records, sources.temperature_course, sources.signal, print)};
+    if (const auto faces = figure::faces_figure(result, print)) figures.day.push_back(*faces);
     if (const auto map = figure::map_figure(result, sources.sites, print)) figures.map = {*map};
     if (const auto figure = figure::side_by_side_figure(result, print))
         figures.side_by_side = {*figure};

@@ -194,8 +194,7 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         columns.push_back({"used_min",
                            [](const Row& row) { return cell(used_minutes(row)); },
                            {text::marked("Min used"), 1}});
-    if (std::ranges::any_of(result.rows,
-                            [&](const Row& row) { return row.row.face != first.row.face; }))
+    if (model::has_two_faces(result.rows))
         columns.push_back(
             {"face",
              [](const Row& row) -> Cell { return std::string(events::sign_of(row.row.face)); },

@@ -113,6 +113,36 @@ TEST_CASE("every row is in a block of its kind, and an empty block is not plotte
     CHECK_FALSE(acceleration_figure(unknown, {}).has_value());
 }
 
+TEST_CASE(
+    "half the difference and half the sum of both faces are drawn for the stays that have both",
+    "[report][figures][faces]") {
+    auto rows = made_up::day();
+    CHECK_FALSE(faces_figure(corrected(rows), {}));
+    SurveyCorrection result = corrected(rows);
+    for (std::size_t k : {0U, 1U}) {
+        CorrectedRow down = result.rows[k];
+        down.row.face = -1;
+        down.row.time += std::chrono::minutes(4);
+        // The bias has the other sign, and the scale adds 0.4 mGal in both faces.
+        const MilliGal gravity = result.stations[k].gravity;
+        const double bias_mgal = 1800.0 + static_cast<double>(k);
+        result.rows[k].row.acceleration = gravity + down.row.tide + MilliGal(bias_mgal + 0.4);
+        down.row.acceleration = gravity + down.row.tide - MilliGal(bias_mgal - 0.4);
+        result.rows.push_back(down);
+    }
+    const Figure figure = faces_figure(result, {}).value();
+    REQUIRE(figure.panels.size() == 2);
+    CHECK(figure.block_count == 2);
+    CHECK(figure.data.find("2020-05-01T00:02:00Z 1800.0000 # B") != std::string::npos);
+    CHECK(figure.data.find("1801.0000 # S1") != std::string::npos);
+    CHECK(count(figure.data, " 0.4000 # ") == 2);
+    CHECK_THAT(figure.caption, ContainsSubstring("the day's mean of 1800.5 mGal"));
+    // Readings that are not corrected differ by twice the bias.
+    CHECK_FALSE(difference_figure(result, {}));
+    CHECK_FALSE(acceleration_figure(result, {}));
+    CHECK(corrected_figure(result, {}));
+}
+
 TEST_CASE("a record belongs to the row with the same interval", "[report][figures]") {
     const UtcTime morning = made_up::kMorning;
     const std::vector<RepresentativeValue> values{record_at(morning),
