@@ -145,7 +145,7 @@ Plan turned(const Plan& plan) {
 std::optional<Change> change_of_faces(const Plan& plan) {
     if (is_turned(plan))
         return Change{"the same set-ups in one face",
-                      with_visits(plan, [](Visit& visit) { visit.faces = "+"; })};
+                      with_visits(plan, [](Visit& visit) { visit.faces.assign(1, '+'); })};
     Plan faces = turned(plan);
     if (faces.empty()) return std::nullopt;
     const bool is_cut = std::ranges::any_of(plan, [](const Visit& v) { return v.set_ups == 1; });

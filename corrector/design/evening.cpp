@@ -23,9 +23,10 @@ Plan visits_so_far(const std::vector<model::CorrectedRow>& rows) {
         const reading::SurveyRow& row = corrected.row;
         if (!row.start || !row.end) continue;
         const bool is_same = !plan.empty() && row.key == last_key && row.site == plan.back().site;
-        if (!is_same) plan.push_back({row.site, *row.start, 0, 0.0});
+        if (!is_same) plan.push_back({row.site, *row.start, 0, 0.0, ""});
         last_key = row.key;
         Visit& visit = plan.back();
+        visit.faces += row.face < 0 ? '-' : '+';
         ++visit.set_ups;
         const double minutes = seconds_between(visit.start, *row.end) / kSecondsPerMinute;
         visit.minutes_each = std::min(minutes / visit.set_ups, kMostMinutes);

@@ -78,16 +78,11 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
         std::string ends;
         for (const double end : {std::ranges::min(all_x), std::ranges::max(all_x)})
             ends += data_line("44", {end, fit.mean_y + fit.slope * (end - fit.mean_x)});
-        // About the mean: at x = 0 the line is far from every reading.
-        const auto sign = [](double value) { return value < 0.0 ? "\u2212" : "+"; };
-        figure.plot("line through those in the fit: " + columns, ends,
-                    {.look = Look::line,
-                     .colour = Colour::grey,
-                     .label = fmt::format(
-                         "y = {}{} (x {} {}) {} {}, R² = {}", fit.slope < 0.0 ? "\u2212" : "",
-                         text::fixed(std::abs(fit.slope), 4), sign(-fit.mean_x),
-                         text::fixed(std::abs(fit.mean_x), 2), sign(fit.mean_y),
-                         text::fixed(std::abs(fit.mean_y), 1), text::fixed(fit.r2, 4))});
+        figure.plot(
+            "line through those in the fit: " + columns, ends,
+            {.look = Look::line,
+             .colour = Colour::grey,
+             .label = tr("slope {}, R² = {}", text::fixed(fit.slope, 4), text::fixed(fit.r2, 4))});
     }
     Panel& panel = figure.panels.front();
     shorten(panel, panel.x, 1, all_x);

@@ -112,9 +112,10 @@ const AdjustedDay::Without* AdjustedDay::without(std::size_t row) const {
 whole_day::DaySurvey day_survey(const SurveyProblem& problem, const RowChoice& choice,
                                 const whole_day::DayPriors& priors) {
     whole_day::DaySurvey survey{problem.day, {}, priors};
-    survey.temperature = problem.temperature
-                             ? problem.temperature
-                             : std::make_shared<const whole_day::LaggedMeans>(*problem.day);
+    survey.temperature = problem.temperature;
+    // A survey of another model has no record.
+    if (!survey.temperature && problem.day != nullptr)
+        survey.temperature = std::make_shared<const whole_day::LaggedMeans>(*problem.day);
     std::map<std::string, std::size_t> numbers;
     for (std::size_t i = 0; i < problem.rows.size(); ++i) {
         const reading::SurveyRow& row = problem.rows[i];

@@ -70,7 +70,7 @@ Json part_json(bool is_there, const char* use, const std::optional<Disagreement>
 
 bool helps_to_correct_day(const std::optional<unit::Calibration>& calibration) {
     return calibration && (calibration->axis_bias || calibration->thermal ||
-                           calibration->placement || calibration->scale);
+                           calibration->placement || calibration->scale || calibration->faces);
 }
 
 whole_day::DayPriors day_priors_of(const SurveyOptions& options) {

@@ -77,7 +77,8 @@ std::variant<std::map<std::string, Reference>, std::string> held_references(
 }
 
 bool are_equal(const whole_day::DayPriors& a, const whole_day::DayPriors& b) {
-    return a.mean == b.mean && a.factor == b.factor && a.bias_factor == b.bias_factor;
+    return a.mean == b.mean && a.factor == b.factor && a.bias_factor == b.bias_factor &&
+           a.scale_share == b.scale_share;
 }
 
 /// Returns the time of the readings.

@@ -131,23 +131,17 @@ void remark_faces(Fit& result, const whole_day::DayFit& fit) {
     if (!fit.scale_share) return;
     // With this share + - - + attains what four set-ups in one face do (tests/bench/faces_bound.py).
     constexpr double kNoGain = 0.9;
-    const auto turned = std::ranges::count_if(result.rows, [&result](const CorrectedRow& one) {
-        return one.row.face != result.rows.front().row.face;
-    });
-    const auto percent = [](double share) { return std::lround(100.0 * share); };
-    const auto share = percent(fit.scale_share->value),
-               u = percent(fit.scale_share->standard_error);
-    result.remarks.push_back(
-        fit.scale_share->value < kNoGain
-            ? text::message(
-                  "{} of {} set-ups were turned over; {} +- {} % of the errors are of the "
-                  "scale, which turning does not cancel: turning pays on this unit",
-                  turned, result.rows.size(), share, u)
-            : text::message(
-                  "{} of {} set-ups were turned over; {} +- {} % of the errors are of the "
-                  "scale, which turning does not cancel: turning does not pay on this "
-                  "unit",
-                  turned, result.rows.size(), share, u));
+    const auto turned = std::ranges::count_if(
+        result.rows, [](const CorrectedRow& one) { return one.row.face < 0; });
+    const double share = fit.scale_share->value, u = fit.scale_share->standard_error;
+    text::Message remark = text::message(
+        "{} of {} set-ups were turned over; {} +- {} % of the errors are of the scale, which "
+        "turning does not cancel",
+        turned, result.rows.size(), std::lround(100.0 * share), std::lround(100.0 * u));
+    if (share + 2.0 * u < kNoGain) remark = remark + text::message(": turning pays on this unit");
+    if (share - 2.0 * u > kNoGain)
+        remark = remark + text::message(": turning does not pay on this unit");
+    result.remarks.push_back(std::move(remark));
 }
 
 /// Enlarges the uncertainties of stations and differences if the model does not fit the day and the

@@ -119,8 +119,6 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
             row.given_tide = MilliGal(table.number(i, "earth_tide_mgal", -1.0, 1.0));
             if (table.has_column("tide_system"))
                 row.given_tide_system = table.cell(i, "tide_system");
-            if (i > 0 && row.given_tide_system != rows.front().given_tide_system)
-                table.refuse(i, "tide_system", "not that of the first row", "one system");
         }
         // Gravity on Earth is 976000-984000 mGal, biases are some thousands.
         row.acceleration =

@@ -85,6 +85,11 @@ void take_given_system(Choice& choice, const std::vector<reading::SurveyRow>& ro
                        const std::string& origin) {
     choice.given_system.reset();
     if (choice.source != "given" || rows.empty() || rows.front().given_tide_system.empty()) return;
+    for (const reading::SurveyRow& row : rows)
+        if (row.given_tide_system != rows.front().given_tide_system)
+            throw InputError(
+                fmt::format("{}: tide_system = {}, and {} in the first row; allowed: one", origin,
+                            row.given_tide_system, rows.front().given_tide_system));
     choice.given_system = required_system(rows.front().given_tide_system, origin + ": tide_system");
     choice.system = *choice.given_system;
 }

@@ -31,7 +31,10 @@ std::vector<ErrorSource> sources_of(const DayRegression& survey, std::size_t set
     std::vector<ErrorSource> sources;
     for (const adjustment::Term* const term : kDayTermList) sources.push_back(source_of(*term));
     sources.resize(static_cast<std::size_t>(survey.states_begin()), ErrorSource::datum);
-    sources.resize(static_cast<std::size_t>(survey.estimated()), ErrorSource::thermal);
+    sources.resize(static_cast<std::size_t>(survey.on_scale_begin()), ErrorSource::thermal);
+    if (survey.on_scale() > 0)
+        for (const DayTerm term : DayRegression::kOnScale)
+            sources.push_back(source_of(*kDayTermList.at(static_cast<std::size_t>(term))));
     sources.resize(sources.size() + set_ups_of_box, ErrorSource::placement);
     sources.resize(sources.size() + kDayLags, ErrorSource::thermal);
     sources.resize(sources.size() + survey.base_mgal().size(), ErrorSource::datum);

@@ -13,6 +13,11 @@
 namespace a351::corrector::whole_day {
 namespace {
 
+/// Standard deviation of the scale that both faces show, the reading at 1 g divided by gravity, about the
+/// slope there, which days in one face and calibrations have: twice the quadratic term of 1 g, whose prior
+/// is 300 mGal (methods.md, "Calibration").
+constexpr double kSecant = 2.0 * 300.0 / 980665.0;
+
 using Index = Eigen::Index;
 
 constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
@@ -175,10 +180,10 @@ double DayRegression::scale_share(const Point& u) const {
 }
 
 double DayRegression::scale_share_error(const Point& u, const Point& errors) const {
-    if (priors_.scale_share.is_measured)
-        return priors_.scale_share.deviation * errors[kScaleShare];
-    return errors[kScaleShare] * std::exp(-0.5 * u[kScaleShare] * u[kScaleShare]) /
-           std::sqrt(2.0 * std::numbers::pi);
+    Point more = u, less = u;
+    more[kScaleShare] += errors[kScaleShare];
+    less[kScaleShare] -= errors[kScaleShare];
+    return 0.5 * (scale_share(more) - scale_share(less));
 }
 
 Eigen::VectorXd DayRegression::on_scale_sd() const {
@@ -231,6 +236,11 @@ DayPriors::Matrix DayRegression::prior_factor(const Point& u) const {
     DayPriors::Matrix factor = priors_.factor;
     for (const DayTerm axis : {DayTerm::x, DayTerm::y})
         factor.row(DayPriors::place_of(axis)) *= std::pow(priors_.bias_factor, u[kBiasSize]);
+    if (has_two_faces_) {
+        double& scale =
+            factor(DayPriors::place_of(DayTerm::scale), DayPriors::place_of(DayTerm::scale));
+        scale = std::hypot(scale, kSecant);
+    }
     return factor;
 }
 

@@ -272,23 +272,4 @@ std::optional<Level> Record::level_against(UtcTime from, UtcTime to) const {
     return level;
 }
 
-std::optional<std::array<double, 3>> Record::means_g(UtcTime from, UtcTime to) const {
-    const std::lock_guard lock(mutex_);
-    constexpr double kFewest = 10.0;  // Values of 2 s: longer than any knock.
-    std::array<double, 3> means_g{};
-    double count = 0.0;
-    for (auto one = std::ranges::lower_bound(thinned_, from + from_seconds(verdict::kReachSeconds),
-                                             {}, &verdict::LiveSample::time);
-         one != thinned_.end() && seconds_between(one->time, to) >= verdict::kReachSeconds; ++one) {
-        const verdict::LiveSample& sample = *one;
-        if (!std::isfinite(sample.axes[0].value())) continue;
-        for (std::size_t axis = 0; axis < means_g.size(); ++axis)
-            means_g.at(axis) += to_standard_gravity(sample.axes[axis]).value();
-        count += 1.0;
-    }
-    if (count < kFewest) return std::nullopt;
-    for (double& mean : means_g) mean /= count;
-    return means_g;
-}
-
 }  // namespace a351::daemon::live

@@ -124,9 +124,6 @@ public:
     /// the two is not known.  The set-up includes the lifting of the box at its end.
     [[nodiscard]] std::optional<Level> level_against(UtcTime from, UtcTime to) const;
 
-    /// Returns the means of the axes in [from, to), g; std::nullopt with less than 20 s of values.
-    [[nodiscard]] std::optional<std::array<double, 3>> means_g(UtcTime from, UtcTime to) const;
-
     [[nodiscard]] const wire::DeviceProfile& profile() const noexcept { return profile_; }
     [[nodiscard]] int rate_hz() const noexcept { return rate_hz_; }
 

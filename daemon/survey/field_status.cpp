@@ -1,9 +1,14 @@
 #include "daemon/survey/field_status.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "protocol/events/face.hpp"
+#include "protocol/signal/median.hpp"
+#include "protocol/signal/move_meaning.hpp"
 
 namespace a351::daemon::survey {
 namespace {
@@ -27,10 +32,29 @@ struct Faces {
     int number = 1;  ///< Number of the running set-up in the plan: wrong faces before do not count.
     std::optional<int> first, face;  ///< Faces of the first and the running set-up, if known.
     bool is_on_its_side = false;     ///< The running set-up has no face.
-    bool is_entered = false;         ///< Its face was entered.
-    bool is_wrong = false;           ///< It is in another face than entered or planned, or in none.
+    bool is_entered_wrong = false;   ///< Another face was entered than the data show.
+    bool is_wrong = false;           ///< It does not count: another face than planned, or none.
     int planned = 1, next = 1;       ///< Planned faces of it and of the next one, 1 as the first.
 };
+
+/// Returns the medians of the axes while the box stood in a set-up, g; std::nullopt with less than a
+/// minute of it.  Reason: *Next set-up* may come a minute before the box is lifted and turned.
+std::optional<std::array<double, 3>> medians_g(const live::Record& live,
+                                               const signal::EnteredSetUp& set_up) {
+    constexpr std::size_t kFewest = 31;  // values of 2 s
+    const auto samples = live.motion(std::max(set_up.start, set_up.end - kMoveMemory), set_up.end);
+    const signal::StillPart part = signal::judge_moves(samples, set_up).part;
+    std::array<double, 3> medians_g{};
+    for (std::size_t axis = 0; axis < medians_g.size(); ++axis) {
+        std::vector<double> values_g;
+        for (std::size_t i = part.first; i < part.end; ++i)
+            if (std::isfinite(samples[i].axes.at(axis).value()))
+                values_g.push_back(to_standard_gravity(samples[i].axes.at(axis)).value());
+        if (values_g.size() < kFewest) return std::nullopt;
+        medians_g.at(axis) = signal::median(std::move(values_g));
+    }
+    return medians_g;
+}
 
 Faces faces_of(const Occupations& occupations, const live::Record& live,
                const std::vector<SetUp>& set_ups) {
@@ -39,17 +63,23 @@ Faces faces_of(const Occupations& occupations, const live::Record& live,
     for (std::size_t k = 0; k < set_ups.size(); ++k) {
         if (k > 0 && !faces.is_wrong) ++faces.number;
         const std::optional<int> entered = occupations.running()->face_at(set_ups[k].start).entered;
-        faces.is_entered = entered.has_value();
         faces.planned = occupations.planned_face(faces.number);
-        const auto means_g = live.means_g(set_ups[k].start, set_ups[k].end);
-        if (k == 0 && means_g) vertical = events::vertical_axis(*means_g);
+        const auto stood_g =
+            medians_g(live, {.start = set_ups[k].start,
+                             .end = set_ups[k].end,
+                             .ended_by = k + 1 < set_ups.size() ? signal::SetUpEnd::next_set_up
+                                                                : signal::SetUpEnd::running,
+                             .began_with_next_set_up = k > 0});
+        if (k == 0 && stood_g) vertical = events::vertical_axis(*stood_g);
         faces.face =
-            means_g ? events::face_of(StandardGravity(means_g->at(vertical))) : std::nullopt;
+            stood_g ? events::face_of(StandardGravity(stood_g->at(vertical))) : std::nullopt;
         if (k == 0) faces.first = faces.face;
-        faces.is_on_its_side = faces.first && means_g && !faces.face;
-        const std::optional<int> expected =
-            entered || !faces.first ? entered : std::optional(*faces.first * faces.planned);
-        faces.is_wrong = faces.is_on_its_side || (faces.face && expected && faces.face != expected);
+        faces.is_on_its_side = faces.first && stood_g && !faces.face;
+        faces.is_entered_wrong = faces.face && entered && faces.face != entered;
+        // An operator who says so may leave the plan.
+        faces.is_wrong =
+            faces.is_on_its_side || (faces.face && faces.first && faces.face != entered &&
+                                     *faces.face != *faces.first * faces.planned);
     }
     faces.next = occupations.planned_face(faces.is_wrong ? faces.number : faces.number + 1);
     return faces;
@@ -101,19 +131,20 @@ text::Message wrong_face(const Occupations& occupations, const live::Record& liv
     const auto& running = occupations.running();
     if (!running) return {};
     const Faces faces = faces_of(occupations, live, set_ups_so_far(*running, now));
-    if (!faces.is_wrong) return {};
     if (faces.is_on_its_side)
         return text::message("{}: set it down level and press Next set-up, or press Checked",
                              text::marked_message(events::kOnItsSide));
-    if (faces.is_entered)
+    if (faces.is_wrong)
         return text::message(
-            "the box is in face {}, but face {} was entered: turn it over, set it down level and "
-            "press Next set-up, or press Checked",
+            "the box is not in the face that is planned for set-up {}: turn it over, set it down "
+            "level and press Next set-up, or press Checked",
+            faces.number);
+    if (faces.is_entered_wrong)
+        return text::message(
+            "the box is in face {}, but face {} was entered: press Checked if this is "
+            "right; the data decide",
             events::sign_of(*faces.face), events::sign_of(-*faces.face));
-    return text::message(
-        "the box is not in the face that is planned for set-up {}: turn it over, set it down level "
-        "and press Next set-up, or press Checked",
-        faces.number);
+    return {};
 }
 
 std::optional<int> next_planned_face(const Occupations& occupations, const live::Record& live,

@@ -8,7 +8,7 @@
 namespace a351::events {
 
 const char* const kOnItsSide =
-    text::marked("the box lay on its side, or was turned over during the set-up");
+    text::marked("the box is on its side, or was turned over during the set-up");
 
 std::size_t vertical_axis(const std::array<double, 3>& means_g) {
     return static_cast<std::size_t>(

@@ -181,6 +181,7 @@ int main(int count, char** arguments) {
          {Kind{"tsukuba", 1, Press::at_lifting}, Kind{"hot-afternoon", 1, Press::at_lifting},
           Kind{"tsukuba", 2, Press::at_lifting}, Kind{"hot-afternoon", 2, Press::at_lifting},
           Kind{"tsukuba", 2, Press::at_lifting, "+-"}, Kind{"tsukuba", 2, Press::beside_lifting},
+          Kind{"tsukuba", 4, Press::beside_lifting, "+--+"},
           Kind{"tsukuba", 2, Press::forgotten}}) {
         std::vector<std::future<std::vector<Stay>>> walks;
         std::size_t stays = 0, in_time = 0, looks = 0, named = 0;

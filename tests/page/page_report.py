@@ -69,7 +69,9 @@ def check_card(page, folder):
     said = run("pdfinfo", folder / "card.pdf").stdout
     demand(f"the card is one page A5 in each language: {said[-200:]}", "(A5)" in said and "Pages:           2" in said)
     catalogue = (TOP / "protocol/text/ja.po").read_text()
-    for english, japanese in zip(*page.run(SIGNAL)):
+    words = page.run(SIGNAL)
+    demand(f"both pages have the {len(words[0])} words of the signal", len(words[0]) == len(words[1]) == 6)
+    for english, japanese in zip(*words):
         demand(f"{english} and {japanese} are the words of the page", f'msgid "{english}"\nmsgstr "{japanese}"\n' in catalogue)
 
 

@@ -53,9 +53,9 @@ TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong
         std::string look;
         std::map<std::string, std::string> logged;  ///< Details of the first set-up's event.
     };
-    // The stay begins at 1500 s, the next set-up at 1650 s; at 1740 s the box is set down in the planned
-    // face.
-    const auto day_of = [](Box box, const std::string& entered) {
+    // The stay begins at 1500 s, the next set-up at 1650 s; from 1760 s the box is in the planned face.
+    // Each turn takes ten seconds.
+    const auto day_of = [](Box box, const std::string& entered, int turned_s = 1650) {
         Page page;
         Seen seen;
         survey::SignalLog log(page.occupations, page.live, [&](const events::Event& event) {
@@ -64,7 +64,7 @@ TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong
         page.occupations.use(
             two_sites(), {.planned = std::chrono::minutes(4), .planned_set_ups = 2, .faces = "+-"});
         std::string lifted;
-        for (int second = 0; second < 1900; ++second) {
+        for (int second = 0; second < 1940; ++second) {
             page.recorder.last = minute(0) + std::chrono::seconds(second);
             if (second == 1500) page.ask(post("/api/occupation/start", R"({"site":"No.0"})"));
             if (second == 1650) {
@@ -77,15 +77,21 @@ TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong
                 page.ask(post("/api/occupation/setup", R"({"site":"No.0")" + entered + "}"));
                 seen.logged = page.recorder.log.back().details;
             }
-            if (second == 1739)
+            if (second == 1759)
                 seen.look = survey::wrong_face(page.occupations, page.live,
                                                minute(0) + std::chrono::seconds(second))
                                 .english();
-            if (second == 1740 && !seen.look.empty())
+            if (second == 1760 && !seen.look.empty())
                 page.ask(post("/api/occupation/setup", R"({"site":"No.0"})"));
-            const Box& is = second < 1650 ? kUp : second < 1740 ? box : kDown;
+            const Box& is = second < turned_s ? kUp : second < 1760 ? box : kDown;
+            const auto is_in = [second](int first, bool turns) {
+                return turns && first <= second && second < first + 10;
+            };
+            const bool is_in_hands = is_in(turned_s, box.z_mgal != kUp.z_mgal) ||
+                                     is_in(1760, box.z_mgal != kDown.z_mgal);
             for (std::int64_t i = 50 * second; i < 50 * (second + 1); ++i) {
-                auto sample = live::placed(i, is.x_mgal, 0.0, is.z_mgal);
+                const double shaken_mgal = is_in_hands ? 20000.0 * std::sin(double(i)) : 0.0;
+                auto sample = live::placed(i, is.x_mgal + shaken_mgal, 0.0, is.z_mgal);
                 sample.counts[3] += second / 60 % 2;
                 page.live.take(sample);
             }
@@ -103,6 +109,9 @@ TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong
           std::vector<std::string>{"no_data", "go", "keep_off", "lift", "keep_off", "go"});
     CHECK(turned.logged ==
           std::map<std::string, std::string>{{"planned_face", "-"}, {"site", "No.0"}});
+    // The next set-up was entered before the box was turned, or after it.
+    CHECK(day_of(kDown, "", 1665).words == turned.words);
+    CHECK(day_of(kDown, "", 1630).words == turned.words);
     const Seen forgotten = day_of(kUp, "");
     CHECK(forgotten.words == looked);
     CHECK(forgotten.look.starts_with("the box is not in the face that is planned for set-up 2"));

@@ -61,10 +61,10 @@ TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines pr
     // Lines in the publication: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.  At the means of x,
     // 979892.35 and 42.67, these are 981730.6 and 1836.0.
     CHECK_THAT(script_of(acceleration_figure(result, {}).value()),
-               ContainsSubstring("'y = 0.9735 (x \u2212 979892.35) + 981728.3, R² = 0.9748'") &&
+               ContainsSubstring("'slope 0.9735, R² = 0.9748'") &&
                    ContainsSubstring("left out of the fit"));
     CHECK_THAT(script_of(difference_figure(result, {}).value()),
-               ContainsSubstring("'y = \u221229.2309 (x \u2212 42.67) + 1836.0, R² = 0.9257'"));
+               ContainsSubstring("'slope -29.2309, R² = 0.9257'"));
 }
 
 TEST_CASE("an axis of six digits counts from a whole thousand, and the data stay whole",
