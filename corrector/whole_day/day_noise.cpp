@@ -99,8 +99,8 @@ double Whitening::whiten_states(const DayNoise& noise, Eigen::MatrixXd& columns)
         Eigen::Matrix<double, kStates, kStates>::Zero();
     State variances = State::Constant(flicker_part);
     if constexpr (kTwoFaces) {
-        variances.template head<kProcesses>() *= 1.0 - noise.scale_share;
-        variances.template segment<kProcesses>(kOnScale) *= noise.scale_share;
+        variances.template head<kProcesses>() *= 1.0 - noise.flicker_on_scale;
+        variances.template segment<kProcesses>(kOnScale) *= noise.flicker_on_scale;
         variances(kTurn) = 0.0;
     }
     covariance.diagonal() = variances;
@@ -175,7 +175,7 @@ Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const
                        : flicker_part * (means[i].factor * means[k].factor *
                                          decrease(seconds_between(bins[k].time, bins[i].time)))
                                             .sum();
-            if (bins[i].face != bins[k].face) sum *= 1.0 - 2.0 * noise.scale_share;
+            if (bins[i].face != bins[k].face) sum *= 1.0 - 2.0 * noise.flicker_on_scale;
             for (std::size_t at = 1; at <= k; ++at)
                 if (bins[at].face != bins[at - 1].face) sum += turn(i, at) * turn(k, at);
             if (bins[i].set_up == bins[k].set_up) sum += std::pow(noise.placement_mgal, 2);

@@ -28,7 +28,7 @@ struct DayNoise {
     double placement_mgal = 0.0;  ///< Placement: one error per set-up.
     double flicker_mgal = 0.0;  ///< Flicker: 1/f noise over the day, of the instantaneous reading.
     double white_mgal = 0.0;    ///< White noise of a complete bin (kBinSamples samples).
-    double scale_share = 0.0;  ///< Part of the flicker's variance that is one of the scale, 0 to 1.
+    double flicker_on_scale = 0.0;  ///< Part of the flicker's variance that is of the scale.
 };
 
 /// Error by the gradient in the oven after the box was turned over: standard deviation at the turn, mGal,
@@ -73,10 +73,11 @@ inline constexpr std::array<double, 7> kFlickerPeriods_s{40.0,   126.5,   400.0,
 ///     flicker^2 / 7 sum_k (2 y_ik - 1 + exp(-2 y_ik)) / (2 y_ik^2)   on the diagonal
 ///
 /// with y_ik = pi length_i / P_k, plus placement^2 within a set-up, plus white^2 kBinSamples /
-/// samples on the diagonal.  Bins count times their face: between two faces the flicker has the factor
-/// 1 - 2 scale_share.  Each turn adds kTurn_mgal^2 exp(-(t_i - t) / kTurn_s) exp(-(t_j - t) / kTurn_s)
-/// to the bins after it, with the means of these over the bins; t is the end of the bin before.  A Kalman filter runs over every column; its time is proportional to
-/// bins x columns.
+/// samples on the diagonal.  Bins count times their face: between two faces the flicker has the
+/// factor 1 - 2 flicker_on_scale.  Each turn, at the end t of the bin before it, adds to the bins
+/// after it kTurn_mgal^2 exp(-(t_i - t) / kTurn_s) exp(-(t_j - t) / kTurn_s), with the means of these
+/// over the bins.  A Kalman filter runs over every column; its time is proportional to bins x
+/// columns.
 ///
 /// The order of the bins matters, because the filter goes from each bin to the next.  If set-ups
 /// are not in order of time, the correlation of the flicker is wrong.  A set-up whose bins are not
@@ -130,7 +131,7 @@ private:
 
 /// Returns the covariance (n, n) of the bins that whiten() removes, mGal^2.  Cost: 7 n^2 / 2
 /// exponentials.
-/// @param bins, noise  as whiten(); the order of the bins is free.
+/// @param bins, noise  as whiten(); in one face the order of the bins is free.
 [[nodiscard]] Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins,
                                                const DayNoise& noise);
 

@@ -35,6 +35,9 @@ SlowSignal::SlowSignal(const scenario::Scenario& scenario,
       flicker_(noise::RandomStream(seed, "flicker"), scenario.slow_noise.flicker_mgal,
                scenario.slow_noise.flicker_shortest_s, scenario.slow_noise.flicker_longest_s,
                kStepSeconds),
+      scale_flicker_(noise::RandomStream(seed, "flicker of the scale"),
+                     scenario.slow_noise.flicker_mgal, scenario.slow_noise.flicker_shortest_s,
+                     scenario.slow_noise.flicker_longest_s, kStepSeconds),
       resonant_(noise::RandomStream(seed, "resonant"), scenario.slow_noise.resonant_mgal,
                 scenario.slow_noise.resonant_period_s, scenario.slow_noise.resonant_quality,
                 kStepSeconds),
@@ -124,7 +127,6 @@ SlowValue SlowSignal::next() {
     term(Term::clock) = error_.terms().clock_mgal;
     term(Term::warm_up) = error_.terms().warm_up_mgal;
     term(Term::placement) = set_up.placement_mgal;
-    term(Term::flicker) = flicker_.next();
     term(Term::resonant) = resonant_.next();
     term(Term::white) = scenario_.slow_noise.white_mgal * white_gain * white_.normal();
     term(Term::drift) = drift_mgal(elapsed_s / 3600.0) + set_up.step_mgal;
@@ -134,19 +136,24 @@ SlowValue SlowSignal::next() {
                         (site.gravity->value() + tide.value() - kMilliGalPerStandardGravity);
     term(Term::turn) = turn_mgal(set_up.face);
     const double share = scenario_.sensor.scale_share;
-    const MilliGal errors =
-        temperature_error +
-        MilliGal(term(Term::flicker) + term(Term::resonant) + term(Term::white) +
-                 term(Term::drift) + term(Term::outer_oven) + term(Term::turn));
+    const MilliGal errors = temperature_error + MilliGal(term(Term::resonant) + term(Term::drift) +
+                                                         term(Term::outer_oven) + term(Term::turn));
+    // Bias and scale flicker by themselves; in one face their sum has the size of the scenario.
+    const double size = std::hypot(1.0 - share, share);
+    const double of_bias = (1.0 - share) / size * flicker_.next();
+    const double of_scale = share / size * scale_flicker_.next();
     value.along_z =
-        MilliGal(scenario_.sensor.bias_mgal + term(Term::placement)) + (1.0 - share) * errors;
-    value.along_vertical =
-        *site.gravity + tide + MilliGal(term(Term::ripple) + term(Term::scale)) + share * errors;
-    for (const Term bias : {Term::bias, Term::placement}) term(bias) *= set_up.face;
+        MilliGal(scenario_.sensor.bias_mgal + term(Term::placement) + of_bias + term(Term::white)) +
+        (1.0 - share) * errors;
+    value.along_vertical = *site.gravity + tide +
+                           MilliGal(term(Term::ripple) + term(Term::scale) + of_scale) +
+                           share * errors;
+    term(Term::flicker) = set_up.face * of_bias + of_scale;
+    for (const Term bias : {Term::bias, Term::placement, Term::white}) term(bias) *= set_up.face;
     const double sign = share + (1.0 - share) * set_up.face;
     for (const Term error :
-         {Term::crystal_static, Term::crystal_dynamic, Term::clock, Term::warm_up, Term::flicker,
-          Term::resonant, Term::white, Term::drift, Term::outer_oven, Term::turn})
+         {Term::crystal_static, Term::crystal_dynamic, Term::clock, Term::warm_up, Term::resonant,
+          Term::drift, Term::outer_oven, Term::turn})
         term(error) *= sign;
     value.temperature =
         ovens_.inner().body() +

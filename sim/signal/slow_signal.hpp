@@ -77,7 +77,7 @@ private:
     DegC ambient_;
     plant::Ovens ovens_;
     plant::TemperatureError error_;
-    noise::FlickerNoise flicker_;
+    noise::FlickerNoise flicker_, scale_flicker_;
     noise::ResonantNoise resonant_;
     noise::RandomStream white_, walk_, wander_, temperature_, turns_;
     std::int64_t step_ = 0;

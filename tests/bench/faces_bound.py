@@ -102,8 +102,8 @@ def bound(day, plan, share, is_known, gradient_mgal):
         of_period = numpy.outer(factor, factor) * numpy.exp(-2 * numpy.pi * apart_s / period_s)
         of_period[numpy.diag_indices(count)] = within
         noise += FLICKER_mgal ** 2 / len(FLICKER_PERIODS_s) * of_period
-    signs = face * (1.0 - share) + share
-    noise *= numpy.outer(signs, signs)
+    # Bias and scale flicker by themselves, and together as much as in one face.
+    noise *= (numpy.outer(face, face) * (1.0 - share) ** 2 + share ** 2) / ((1.0 - share) ** 2 + share ** 2)
     noise[numpy.diag_indices(count)] += PLACEMENT_mgal ** 2 + WHITE_mgal_s ** 2 / day.length_s
 
     design = numpy.array(columns).T

@@ -14,13 +14,14 @@ using namespace a351::corrector::reading;
 using namespace a351::corrector::whole_day;
 
 TEST_CASE("the filter whitens like the dense covariance", "[day]") {
-    const double scale_share = GENERATE(0.0, 0.3, 1.0);
-    std::vector<DayBin> bins = MadeUpDay{.has_two_faces = scale_share > 0.0}.record().bins;
+    const double on_scale = GENERATE(0.0, 0.3, 1.0);
+    const bool has_two_faces = GENERATE(false, true);
+    std::vector<DayBin> bins = MadeUpDay{.has_two_faces = has_two_faces}.record().bins;
     for (std::size_t i = 0; i < bins.size(); i += 3) {
         bins[i].times.resize(9);
         bins[i].time = bins[i].times[4];
     }
-    const DayNoise noise{1.1, 0.8, 0.3, scale_share};
+    const DayNoise noise{1.1, 0.8, 0.3, on_scale};
     const Eigen::MatrixXd columns =
         Eigen::MatrixXd::Random(static_cast<Eigen::Index>(bins.size()), 4);
     Eigen::MatrixXd white = columns;
@@ -84,8 +85,8 @@ TEST_CASE("flicker of the scale keeps its sign over a turn, and a turn leaves an
         bins[b].time = UtcTime{} + from_seconds(120.0 * static_cast<double>(b));
         bins[b].times = {bins[b].time};
     }
-    const auto covariance = [&](double flicker_mgal, double scale_share) {
-        return noise_covariance(bins, {0.0, flicker_mgal, 1.0, scale_share});
+    const auto covariance = [&](double flicker_mgal, double on_scale) {
+        return noise_covariance(bins, {0.0, flicker_mgal, 1.0, on_scale});
     };
     // A bin of one sample has no length.  Rows have the sign of the face.
     const Eigen::MatrixXd turn = covariance(0.0, 0.0);
