@@ -218,6 +218,12 @@ Layout named_layout(Form form, const std::vector<std::string_view>& names,
     return layout;
 }
 
+std::string_view name_of(Form form, std::string_view field) {
+    const auto column = std::ranges::find(columns(), field, &Column::field);
+    const ColumnName* const known = name_in(*column, form);
+    return known == nullptr ? std::string_view() : known->name;
+}
+
 std::vector<std::string_view> usual_names(Form form) {
     switch (form) {
         case cg5:
@@ -255,8 +261,6 @@ std::vector<std::string_view> usual_names(Form form) {
         case gcym:
             return {"meter",   "network",  "YYMMDDhhmm",     "station",
                     "reading", "pressure", "air temperature"};
-        case cg6_tsoft:
-            break;  // it always has names
         case cg6_lynx:
             return {"Year",
                     "Month",
@@ -293,8 +297,9 @@ std::vector<std::string_view> usual_names(Form form) {
                     "Rejected",
                     "InstHeight(m)",
                     "Gradient(mGals/cm)"};
+        default:
+            return {};  // its files always have names
     }
-    return {};
 }
 
 Layout usual_layout(Form form, const std::vector<std::string_view>& names,

@@ -6,7 +6,8 @@
 ///     if (!layout.trouble.empty()) return Refusal{layout.trouble};
 ///     const Fields fields(layout, split_at(line, '\t'));  // fields.hpp
 ///
-/// A column of a new maker is a name in the table.
+/// A column of a new maker is a name in the table; a form with a line of names is an entry in
+/// named_lines.cpp.
 
 #include <string>
 #include <string_view>
@@ -58,7 +59,10 @@ struct Layout {
 [[nodiscard]] Layout named_layout(Form form, const std::vector<std::string_view>& names,
                                   const std::vector<std::string_view>& absent = {});
 
-/// Returns the names of a form in its usual order.
+/// Returns the name of a field of the table in a form; empty if it has none.
+[[nodiscard]] std::string_view name_of(Form form, std::string_view field);
+
+/// Returns the names of a form in its usual order; empty if its files always have a line of names.
 [[nodiscard]] std::vector<std::string_view> usual_names(Form form);
 
 /// Returns the layout of a file without names, which has these in its usual order.

@@ -22,8 +22,13 @@ std::string_view next_line(std::string_view& text) {
 }
 
 const std::vector<Format>& formats() {
-    static const std::vector<Format> list{cg5_format(), cg6_format(), cg6_export_format(),
-                                          burris_format(), gcym_format()};
+    static const std::vector<Format> list = [] {
+        std::vector<Format> all{cg5_format()};
+        for (Format& format : named_formats()) all.push_back(std::move(format));
+        for (const auto format : {cg6_export_format, burris_format, gcym_format})
+            all.push_back(format());
+        return all;
+    }();
     return list;
 }
 

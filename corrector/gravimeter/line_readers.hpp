@@ -5,10 +5,12 @@
 /// A format has a function that recognises its first significant line, and one that makes a
 /// LineReader.
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "corrector/gravimeter/gravimeter_file.hpp"
 
@@ -43,9 +45,9 @@ public:
 struct Format {
     std::string_view name;
     std::string_view forms;  ///< Forms of its files that are read, for people.
-    bool (*begins_with)(std::string_view line);
+    std::function<bool(std::string_view line)> begins_with;
     /// Returns null if the files of this format do not say what an option has to say.
-    std::unique_ptr<LineReader> (*make_reader)(const ReadOptions& options);
+    std::function<std::unique_ptr<LineReader>(const ReadOptions& options)> make_reader;
 };
 
 /// Returns which known form, not read, a line belongs to, and the remedy; empty if none.
@@ -53,9 +55,8 @@ struct Format {
 
 /// Scintrex CG-5: headers that begin with `/`, then readings between blanks.
 [[nodiscard]] Format cg5_format();
-/// Scintrex CG-6: headers that begin with `/`, the last with the names of the columns, then readings
-/// between tabs.
-[[nodiscard]] Format cg6_format();
+/// All forms that are data: headers, a line of names, then readings between separators.  The CG-6.
+[[nodiscard]] std::vector<Format> named_formats();
 /// The files of Lynx LG, the program of the CG-6: headers that begin with `/`, then readings between
 /// blanks.
 [[nodiscard]] Format cg6_export_format();
