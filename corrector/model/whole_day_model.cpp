@@ -129,8 +129,9 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
 /// Adds which set-ups were turned over, and whether that pays.
 void remark_faces(Fit& result, const whole_day::DayFit& fit) {
     if (!fit.scale_share) return;
-    // With this share + - - + attains what four set-ups in one face do (tests/bench/faces_bound.py).
-    constexpr double kNoGain = 0.9;
+    // With this share + - - + is a tenth better than four set-ups in one face (tests/bench/faces_bound.py),
+    // the least gain for which a design proposes it.
+    constexpr double kLeastGain = 0.75;
     const auto turned = std::ranges::count_if(
         result.rows, [](const CorrectedRow& one) { return one.row.face < 0; });
     const double share = fit.scale_share->value, u = fit.scale_share->standard_error;
@@ -138,8 +139,9 @@ void remark_faces(Fit& result, const whole_day::DayFit& fit) {
         "{} of {} set-ups were turned over; {} +- {} % of the errors are of the scale, which "
         "turning does not cancel",
         turned, result.rows.size(), std::lround(100.0 * share), std::lround(100.0 * u));
-    if (share + 2.0 * u < kNoGain) remark = remark + text::message(": turning pays on this unit");
-    if (share - 2.0 * u > kNoGain)
+    if (share + 2.0 * u < kLeastGain)
+        remark = remark + text::message(": turning pays on this unit");
+    if (share - 2.0 * u > kLeastGain)
         remark = remark + text::message(": turning does not pay on this unit");
     result.remarks.push_back(std::move(remark));
 }

@@ -62,7 +62,7 @@ std::string ask_for_low_latency(int descriptor, const std::filesystem::path& dev
         is_low = ioctl(descriptor, TIOCGSERIAL, &serial) == 0 && (serial.flags & kLowLatency) != 0;
     }
     std::string text = is_low ? ", low latency" : ", low latency not available";
-    // Only FTDI's driver has this file.  Only root may write it; config/60-a351.rules does.
+    // Only FTDI's driver has this file.  Only root may write it; config/60-a351.rules lets udev do so.
     const auto timer = "/sys/class/tty" / device.filename() / "device/latency_timer";
     if (std::filesystem::exists(timer)) std::ofstream(timer) << 1;
     std::string timer_ms;

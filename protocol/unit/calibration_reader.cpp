@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "protocol/linear_algebra/cholesky.hpp"
@@ -144,15 +143,6 @@ std::vector<CalibrationData> data_of(text::TomlTable& document) {
 }
 
 }  // namespace
-
-ScaleShare scale_share_of(const Faces& faces) {
-    const double bias = faces.values(2), scale = faces.values(3), sum = bias + scale;
-    const Eigen::Vector2d gradient(-scale, bias);  // of the share, times sum^2
-    const double variance =
-        gradient.dot(faces.covariance.bottomRightCorner<2, 2>() * gradient) / std::pow(sum, 4);
-    const ScaleShare measured{scale / sum, std::sqrt(variance), true};
-    return measured.deviation < ScaleShare{}.deviation ? measured : ScaleShare{};
-}
 
 Calibration parse_calibration(std::string_view text, std::filesystem::path origin) {
     text::TomlTable document = text::parse_toml(text, std::move(origin));

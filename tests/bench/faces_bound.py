@@ -25,7 +25,7 @@ from programs import Scratch, rows
 
 KNOWN = "No.0"
 PLANS = {"1 x 12": "+", "2 x 6": "++", "4 x 3": "++++", "+ -": "+-", "+ - - +": "+--+"}
-SHARES = (0.0, 0.3, 1.0)
+SHARES = (0.0, 0.3, 0.75, 1.0)
 GRADIENTS_mgal = (0.0, 1.0, 3.0)  # Amplitude after a turn; assumed, because nobody has turned such an oven.
 GRADIENT_s = 300.0
 SLOPE_ERROR, SHARE_ERROR = 0.6, 12.0 ** -0.5

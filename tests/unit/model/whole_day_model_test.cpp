@@ -364,3 +364,24 @@ TEST_CASE("a temperature that begins late gives a remark", "[survey][day]") {
     REQUIRE(remarks.size() == 1);
     CHECK_THAT(remarks.front(), ContainsSubstring("begins 54 min before the first occupation"));
 }
+
+TEST_CASE("a report says whether turning the box over pays on this unit", "[survey][day][faces]") {
+    const auto remark_with = [](double share) {
+        const DayRecord day = MadeUpDay{.placement_mgal = 1.2,
+                                        .white_mgal = 0.2,
+                                        .has_two_faces = true,
+                                        .scale_share = share}
+                                  .record();
+        auto rows = rows_of(day);
+        for (std::size_t s = 0; s < rows.size(); ++s)
+            rows[s].face = day.bins[s * MadeUpDay::kBins].face < 0.0 ? -1 : 1;
+        const auto result = correct_survey(rows, by_model("day"), &day);
+        for (const text::Message& remark : result.remarks)
+            if (remark.english().starts_with("8 of 16 set-ups were turned over"))
+                return remark.english();
+        return std::string("no remark");
+    };
+    CHECK_THAT(remark_with(0.2), EndsWith(": turning pays on this unit"));
+    CHECK_THAT(remark_with(0.7), EndsWith("which turning does not cancel"));
+    CHECK_THAT(remark_with(1.0), EndsWith(": turning does not pay on this unit"));
+}
