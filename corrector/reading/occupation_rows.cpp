@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "corrector/archive_series/sample_grid.hpp"
@@ -14,6 +15,7 @@
 #include "corrector/reading/stay_remarks.hpp"
 #include "corrector/reading/vertical_axis.hpp"
 #include "protocol/archive/journal_tail.hpp"
+#include "protocol/core/sensor_limits.hpp"
 #include "protocol/events/face.hpp"
 
 namespace a351::corrector::reading {
@@ -59,6 +61,12 @@ std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyS
     return inputs;
 }
 
+/// Cause and remedy of values that no sensor sends.
+constexpr const char* kWrongProfile = text::marked(
+    "no sensor sends such values: its profile was wrong; find the right one with a351d --config "
+    "FILE --identify, and "
+    "write the archive again with a351-correct retime --profile");
+
 /// Returns the temperature from kBefore before the first occupation to the end of the last.
 std::optional<DayTemperature> temperature_of_day(const Samples& samples, const Epoch& epoch,
                                                  const std::vector<OccupationWindow>& windows) {
@@ -67,9 +75,11 @@ std::optional<DayTemperature> temperature_of_day(const Samples& samples, const E
     const auto grid =
         archive_series::sampling_grid(segments, segments.front().time_of(0), windows.back().end);
     if (!grid) return std::nullopt;
-    return day_temperature(TimeSeries<DegC>(
-        grid->origin, Hertz(grid->rate_hz),
-        archive_series::place_on_grid(segments, epoch.channels[kTemperature], *grid)));
+    auto values_degc = archive_series::place_on_grid(segments, epoch.channels[kTemperature], *grid);
+    for (double& degc : values_degc)
+        if (!is_temperature_believable(DegC(degc))) degc = std::nan("");
+    return day_temperature(
+        TimeSeries<DegC>(grid->origin, Hertz(grid->rate_hz), std::move(values_degc)));
 }
 
 /// Adds the temperature of an outer oven to the day, or a warning why it is not used.
@@ -126,6 +136,9 @@ AveragedSetUp average(const Samples& samples, const Epoch& epoch,
         set_up.trouble = text::marked("too few samples in a row");
     else if (!set_up.value->temperature)
         set_up.trouble = text::marked("no temperature");
+    else if (!is_norm_believable(to_standard_gravity(set_up.value->curve_mean)) ||
+             !is_temperature_believable(set_up.value->temperature->mean))
+        set_up.trouble = kWrongProfile;
     // A tumble has no faces: it fits all axes.
     else if (const auto face = is_tumbled ? set_up.face : events::face_of(set_up.value->z.mean);
              !face)
@@ -253,8 +266,6 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.findings.push_back(std::move(remark));
     result.findings.insert(result.findings.end(), findings.begin(), findings.end());
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
-    if (text::Message wrong = impossible_temperature(result.rows); !wrong.empty())
-        result.warnings.insert(result.warnings.begin(), std::move(wrong));
     for (text::Message& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));
     result.temperature_course = archive_series::temperature_course(samples[kTemperature].segments,

@@ -155,20 +155,6 @@ void set_backward_rates(std::vector<SurveyRow>& rows) {
     }
 }
 
-text::Message impossible_temperature(const std::vector<SurveyRow>& rows) {
-    // The sensors of the family are rated for -30 to +85 degC.
-    constexpr DegC kLeast(-40.0), kMost(90.0);
-    for (const SurveyRow& row : rows)
-        if (row.temperature < kLeast || row.temperature > kMost)
-            return text::message(
-                "the temperature at {} reads {:.1f} degC, but a sensor can have only -40 to +90 "
-                "degC: its profile was wrong; find the right one with a351d --identify, and write "
-                "the "
-                "archive again with a351-correct retime --profile",
-                row.site, row.temperature.value());
-    return {};
-}
-
 std::vector<text::Message> position_warnings(const std::vector<SurveyRow>& rows,
                                              const std::vector<text::Site>& sites) {
     std::vector<text::Message> warnings;

@@ -166,10 +166,6 @@ inline constexpr double kGreatestInstrumentHeight_m = 10.0;
 ///              is not checked.
 void set_backward_rates(std::vector<SurveyRow>& rows);
 
-/// Returns a warning if no sensor can have the temperature of a reading: it was recorded with a wrong
-/// profile.  A model with a term in temperature fits such a day as well as a right one.
-[[nodiscard]] text::Message impossible_temperature(const std::vector<SurveyRow>& rows);
-
 /// Returns a warning for every site of the rows without a known position, once per site, in order
 /// of the rows.  The site has the mean position of the others, which is good enough for the tide
 /// and not for a map.  A site that is not in the table gets no warning.

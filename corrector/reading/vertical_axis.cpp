@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/sensor_limits.hpp"
 #include "protocol/events/face.hpp"
 #include "protocol/signal/median.hpp"
 #include "protocol/station/station_xml.hpp"
@@ -20,7 +21,7 @@ using archive_series::kVertical;
 constexpr double kSteepDip_deg = 45.0;
 constexpr double kMps2PerG = kMilliGalPerStandardGravity * 1e-5;
 
-/// Returns the means of an axis over one sample per second of each window, g; none without samples.
+/// Returns the means of an axis over one sample per second of each window, g; NaN without samples.
 std::vector<double> means_g(const std::vector<archive::Segment>& segments,
                             const station::ChannelScale& scale,
                             const std::vector<OccupationWindow>& windows) {
@@ -38,10 +39,8 @@ std::vector<double> means_g(const std::vector<archive::Segment>& segments,
             counts[k] += 1.0;
         }
     }
-    std::vector<double> means;
-    for (std::size_t k = 0; k < sums.size(); ++k)
-        if (counts[k] > 0.0) means.push_back(sums[k] / counts[k] / kMps2PerG);
-    return means;
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= counts[k] * kMps2PerG;
+    return sums;
 }
 
 /// Returns the median size of the means.
@@ -78,12 +77,19 @@ text::Message put_vertical_last(std::vector<archive::ChannelData>& samples,
                                 const std::vector<OccupationWindow>& windows,
                                 const std::filesystem::path& file) {
     const std::vector<station::ChannelScale>& axes = epoch.channels;
+    std::array<std::vector<double>, kVertical + 1> all_g, used_g;
+    for (std::size_t k = 0; k < all_g.size(); ++k)
+        all_g[k] = means_g(samples[k].segments, axes[k], windows);
+    // Values of a wrong profile say nothing about the mounting; their windows are left out later.
+    for (std::size_t i = 0; i < windows.size(); ++i)
+        if (is_norm_believable(StandardGravity(std::hypot(all_g[0][i], all_g[1][i], all_g[2][i]))))
+            for (std::size_t k = 0; k < all_g.size(); ++k) used_g[k].push_back(all_g[k][i]);
+    if (used_g[0].empty()) return {};
     std::array<double, kVertical + 1> sizes{};
     std::array<bool, kVertical + 1> is_upside_down{};  ///< In all windows.
     std::string list;
     for (std::size_t k = 0; k < sizes.size(); ++k) {
-        const std::vector<double> means = means_g(samples[k].segments, axes[k], windows);
-        if (means.empty()) return {};
+        const std::vector<double>& means = used_g[k];
         sizes[k] = size_g(means);
         is_upside_down[k] = std::ranges::max(means) < 0.0;
         list += fmt::format("{}{} {}", k == 0 ? "" : ", ", axes[k].code,

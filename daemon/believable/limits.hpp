@@ -2,20 +2,10 @@
 /// @file
 /// Limits within which values of the sensor are believable.
 
+#include "protocol/core/sensor_limits.hpp"
 #include "protocol/core/units.hpp"
 
 namespace a351::daemon::believable {
-
-/// Limits of the norm of a box at rest.  Gravity on Earth is 0.997 to 1.003 g (9.78 to 9.83 m/s2:
-/// WGS 84).  The bias of an axis is 7 mg at most after a year: M-A352AD10 data sheet rev. 20251023,
-/// electrical characteristics (2 mg at first, 3 mg in a year, 2 mg over temperature).  The margin of
-/// ten is for an older unit; the nearest wrong scale is 0.5.
-inline constexpr StandardGravity kLeastNorm(0.9), kMostNorm(1.1);
-
-/// Returns true if a box at rest can have this norm.  NaN: false.
-[[nodiscard]] constexpr bool is_norm_believable(StandardGravity norm) noexcept {
-    return norm >= kLeastNorm && norm <= kMostNorm;
-}
 
 /// Largest half peak-to-peak value of an axis in a second for a box at rest, as a share of its norm,
 /// so that a wrong scale does not hide it.  The sensor's noise and traffic are below 0.0005.
@@ -45,15 +35,6 @@ inline constexpr double kMostOfRange = 1.1;
 /// samples.  A change of a higher byte leaves the lowest one as it is in 1 of 256 cases.  If the bytes
 /// of a word are exchanged, the excess is 0.2 in traffic of 20 mGal, and nearly 1 in a quiet room.
 inline constexpr double kMostByteExcess = 0.05;
-
-/// Limits of the temperature.  The family is rated for -30 to +85 degC: M-A352AD10 data sheet rev.
-/// 20251023, maximum ratings.  The rest is the error of its thermometer, "a reference value" (7.6).
-inline constexpr DegC kColdest(-40.0), kHottest(90.0);
-
-/// Returns true if the sensor can have this temperature.  NaN: false.
-[[nodiscard]] constexpr bool is_temperature_believable(DegC temperature) noexcept {
-    return temperature >= kColdest && temperature <= kHottest;
-}
 
 /// Largest difference between the temperatures of the sensor and of its oven: the heat of the
 /// sensor and the errors of both thermometers, with a margin.  The published unit in its oven was

@@ -149,11 +149,11 @@ private:
     void judge_norm(double norm_g) {
         const std::string found = fmt::format(
             "{:.5f} g, {:+.2f} mg from normal gravity at the position; at rest {:.1f} to {:.1f} g",
-            norm_g, 1e3 * (norm_g - expected_.gravity.value()), believable::kLeastNorm.value(),
-            believable::kMostNorm.value());
+            norm_g, 1e3 * (norm_g - expected_.gravity.value()), kLeastNorm.value(),
+            kMostNorm.value());
         changes_.acceleration_fraction_bits = profile_.acceleration_fraction_bits;
         const auto is_scale = [&](int excess) {
-            return believable::is_norm_believable(StandardGravity(std::ldexp(norm_g, -excess)));
+            return is_norm_believable(StandardGravity(std::ldexp(norm_g, -excess)));
         };
         if (is_scale(0)) return add(Verdict::confirmed, "norm", found);
         const int excess = norm_g > 0.0 ? static_cast<int>(std::lround(std::log2(norm_g))) : 0;

@@ -11,7 +11,7 @@ from programs import BIN, TOP, Scratch, demand, run
 SPEED = 20
 FRAMES = 1500  # Half a minute of samples: kConfirm_s of daemon/believable, and the delay of the sample times.
 WORDS = ("the acceleration reads 0.50 g, but a box at rest has 1 g", "degC, but the sensor can have only -40 to +90 degC")
-REMEDY = "check sensor.profile: stop the recorder and run a351d --identify"
+REMEDY = "check sensor.profile: stop the recorder and run a351d --config FILE --identify"
 
 
 def write_profile(file):

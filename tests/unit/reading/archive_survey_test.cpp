@@ -170,6 +170,28 @@ TEST_CASE("an occupation outside the archive is left out and reported", "[survey
     CHECK(result.warnings[0] == "S1 (1) at 2020-05-02T03:00:00Z is left out: no samples");
 }
 
+TEST_CASE("a stay with values of a wrong profile is left out, and the others do not see them",
+          "[survey][archive]") {
+    const auto right = average(Morning());
+    for (const auto sensors :
+         {Morning::Sensors::wrong_scale, Morning::Sensors::wrong_temperature}) {
+        Morning morning(sensors);
+        const auto result = average(morning);
+        REQUIRE(result.rows.size() == 3);
+        REQUIRE(result.left_out.size() == 1);
+        CHECK_THAT(result.left_out[0].reason, ContainsSubstring("a351-correct retime --profile"));
+        for (std::size_t i = 0; i < 3; ++i)
+            CHECK(result.rows[i].acceleration == right.rows[i].acceleration);
+        for (const double degc : result.day.value().temperature.series.values())
+            CHECK(std::abs(degc - 42.3) < 0.5);
+        morning.folder().write("late.csv",
+                               "site,occupation,start_utc,end_utc,used,note\n"
+                               "B,1,2020-05-02T00:02:20Z,2020-05-02T00:04:50Z,1,\n");
+        CHECK_THROWS_WITH(average(morning, "occupations='late.csv'\n"),
+                          ContainsSubstring("a351-correct retime --profile"));
+    }
+}
+
 TEST_CASE("a survey without any sample is refused", "[survey][archive]") {
     Morning morning;
     morning.folder().write("other.csv",

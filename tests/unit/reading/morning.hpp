@@ -31,9 +31,10 @@ public:
     inline static const std::vector<std::string> kSites{"B", "S1", "S2", "B"};
     inline static const std::vector<double> kGravity_mgal{979800.0, 979850.0, 979760.0, 979800.0};
 
-    /// The sensor is exchanged before the third stay: ten seconds have no samples, and the readings
+    /// Before the last stay a wrong profile begins: half of the acceleration, or 500 degC more.  Or the
+    /// sensor is exchanged before the third stay: ten seconds have no samples, and the readings
     /// of the second one are kOther_mgal higher.
-    enum class Sensors { one, exchanged };
+    enum class Sensors { one, exchanged, wrong_scale, wrong_temperature };
     static constexpr std::chrono::seconds kExchange{480}, kPause{10};
     static constexpr double kOther_mgal = 1000.0;
 
@@ -103,6 +104,10 @@ private:
                 const double reading = reading_mgal(seconds) + (is_other ? kOther_mgal : 0.0);
                 value = std::sqrt(reading * reading - kTilt_g * kTilt_g * g_mgal * g_mgal) * 1e-5;
             }
+            const bool is_wrong = from_seconds(seconds) >= 3 * kCycle;
+            if (is_wrong && sensors_ == Sensors::wrong_temperature && channel.code == "BK1")
+                value += 500.0;
+            if (is_wrong && sensors_ == Sensors::wrong_scale && channel.code != "BK1") value *= 0.5;
             counts.push_back(
                 static_cast<std::int32_t>(std::llround((value - channel.offset) / channel.gain)));
         }

@@ -138,16 +138,3 @@ TEST_CASE(
         CHECK_THROWS_AS(TableFile(header + refused).read(), InputError);
     }
 }
-
-TEST_CASE("a temperature that no sensor can have is named with its remedy", "[reading]") {
-    std::vector<SurveyRow> rows(3);
-    for (SurveyRow& row : rows) row.temperature = DegC(42.5);
-    rows[1].site = "No.7";
-    CHECK(impossible_temperature(rows).empty());
-    for (const double degc : {-40.1, 90.1, 482059.0}) {
-        rows[1].temperature = DegC(degc);
-        CHECK_THAT(impossible_temperature(rows).english(),
-                   StartsWith("the temperature at No.7 reads ") &&
-                       ContainsSubstring("a351-correct retime --profile"));
-    }
-}
