@@ -47,7 +47,7 @@ TEST_CASE("every kind of wrong sensor is named within its time, in the middle of
         REQUIRE(troubles->texts.size() == 1);
         CHECK(troubles->texts.front().find(wrong.words) != std::string::npos);
         if (!wrong.is_at_next_start)
-            CHECK(troubles->texts.front().find("a351d --identify") != std::string::npos);
+            CHECK(troubles->texts.front().find("a351d --config FILE --identify") != std::string::npos);
     }
 }
 
