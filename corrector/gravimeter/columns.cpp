@@ -218,12 +218,6 @@ Layout named_layout(Form form, const std::vector<std::string_view>& names,
     return layout;
 }
 
-std::string_view name_of(Form form, std::string_view field) {
-    const auto column = std::ranges::find(columns(), field, &Column::field);
-    const ColumnName* const known = name_in(*column, form);
-    return known == nullptr ? std::string_view() : known->name;
-}
-
 std::vector<std::string_view> usual_names(Form form) {
     switch (form) {
         case cg5:
@@ -297,9 +291,10 @@ std::vector<std::string_view> usual_names(Form form) {
                     "Rejected",
                     "InstHeight(m)",
                     "Gradient(mGals/cm)"};
-        default:
-            return {};  // its files always have names
+        case cg6_tsoft:
+            break;  // it always has names
     }
+    return {};
 }
 
 Layout usual_layout(Form form, const std::vector<std::string_view>& names,

@@ -59,10 +59,7 @@ struct Layout {
 [[nodiscard]] Layout named_layout(Form form, const std::vector<std::string_view>& names,
                                   const std::vector<std::string_view>& absent = {});
 
-/// Returns the name of a field of the table in a form; empty if it has none.
-[[nodiscard]] std::string_view name_of(Form form, std::string_view field);
-
-/// Returns the names of a form in its usual order; empty if its files always have a line of names.
+/// Returns the names of a form in its usual order; empty if it has none.
 [[nodiscard]] std::vector<std::string_view> usual_names(Form form);
 
 /// Returns the layout of a file without names, which has these in its usual order.

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 
 #include "corrector/gravimeter/fields.hpp"
@@ -17,6 +16,7 @@ struct NamedForm {
     char header_sign = '/';            ///< First letter of a header.
     char separator = '\t';             ///< Between columns.
     std::string_view title;            ///< First header of a file and of each survey in it.
+    std::string_view first_name;       ///< The line of names begins with it.
     std::string_view serial_number;    ///< Key of the header that has it; empty: a column has it.
     std::string_view instrument = {};  ///< Type, in front of the serial number.
 };
@@ -26,6 +26,7 @@ constexpr std::array kNamedForms{NamedForm{.form = Form::cg6,
                                            .name = "Scintrex CG-6",
                                            .forms = "of the instrument",
                                            .title = "CG-6 Survey",
+                                           .first_name = "Station",
                                            .serial_number = "Instrument Serial Number:",
                                            .instrument = "CG-6"}};
 
@@ -44,7 +45,7 @@ public:
         if (is_header) line = trimmed(line.substr(1));
         // A program that copies readings can leave out the sign of a header before the names.
         if (const auto cells = split_at(line, form_.separator);
-            std::ranges::find(cells, name_of(form_.form, "site")) != cells.end()) {
+            cells.size() > 1 && cells.front() == form_.first_name) {
             layout_ = named_layout(form_.form, cells);
             if (!layout_.trouble.empty()) return Refusal{layout_.trouble};
             return Comment{};
@@ -71,9 +72,9 @@ private:
     }
 
     [[nodiscard]] Line reading_line(std::string_view line) const {
-        const bool has_instrument = form_.serial_number.empty() || !instrument_.empty();
-        if (!has_instrument || layout_.places.empty())
-            return Refusal{"no header with serial number and names of columns before it"};
+        if (layout_.places.empty()) return Refusal{"no names of columns before it"};
+        if (instrument_.empty() && !form_.serial_number.empty())
+            return Refusal{"no header with the serial number before it"};
         if (!layout_.trouble.empty()) return Refusal{"its columns are not known"};
         Fields fields(layout_, split_at(line, form_.separator));
         const UtcTime time = fields.time();

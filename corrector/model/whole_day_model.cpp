@@ -129,19 +129,20 @@ void remark_sources(Fit& result, const whole_day::DayFit& fit, const whole_day::
 /// Adds which set-ups were turned over, and whether that pays.
 void remark_faces(Fit& result, const whole_day::DayFit& fit) {
     if (!fit.scale_share) return;
-    // With this share + - - + is a tenth better than four set-ups in one face (tests/bench/faces_bound.py),
+    // From this share on + - - + is less than a tenth better than four set-ups in one face (tests/bench/faces_bound.py),
     // the least gain for which a design proposes it.
-    constexpr double kLeastGain = 0.75;
-    const auto turned = std::ranges::count_if(
-        result.rows, [](const CorrectedRow& one) { return one.row.face < 0; });
+    constexpr double kShareOfLeastGain = 0.75;
+    const auto turned = std::ranges::count_if(result.rows, [&](const CorrectedRow& one) {
+        return one.row.face != result.rows.front().row.face;
+    });
     const double share = fit.scale_share->value, u = fit.scale_share->standard_error;
     text::Message remark = text::message(
         "{} of {} set-ups were turned over; {} +- {} % of the errors are of the scale, which "
         "turning does not cancel",
         turned, result.rows.size(), std::lround(100.0 * share), std::lround(100.0 * u));
-    if (share + 2.0 * u < kLeastGain)
+    if (share + 2.0 * u < kShareOfLeastGain)
         remark = remark + text::message(": turning pays on this unit");
-    if (share - 2.0 * u > kLeastGain)
+    if (share - 2.0 * u > kShareOfLeastGain)
         remark = remark + text::message(": turning does not pay on this unit");
     result.remarks.push_back(std::move(remark));
 }
@@ -212,6 +213,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     for (std::size_t i = 0; i < rows.size(); ++i)
         correct_row(result.rows[i], i, adjusted, averaged[i]);
     result.coefficients = coefficients_of(adjusted.fit());
+    const auto factor = priors.factor_in(reading::has_two_faces(day.bins));
     for (std::size_t k = 0; k < whole_day::kDayTerms; ++k) {
         const adjustment::Term& term = *whole_day::kDayTermList.at(k);
         // Nothing is known of the constant, and the day decides the size of the axis biases.
@@ -220,7 +222,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
         const auto at = whole_day::DayPriors::place_of(static_cast<whole_day::DayTerm>(k));
         const double without_effect = &term == &adjustment::kScaleTerm ? 1.0 : 0.0;
         result.coefficients[k].prior =
-            adjustment::Prior{priors.mean(at) + without_effect, priors.factor.row(at).norm()};
+            adjustment::Prior{priors.mean(at) + without_effect, factor.row(at).norm()};
     }
     const auto place = whole_day::DayPriors::place_of(whole_day::DayTerm::scale);
     const whole_day::Estimate& scale =
@@ -228,7 +230,7 @@ FitResult fit_whole_day(const SurveyProblem& problem, const RowChoice& choice) {
     result.scales.push_back({"",
                              1.0 + scale.value,
                              scale.standard_error,
-                             {1.0 + priors.mean(place), priors.factor.row(place).norm()}});
+                             {1.0 + priors.mean(place), factor.row(place).norm()}});
     set_day_stations(result, problem, choice, adjusted);
     if (options.calibration) {
         SurveyOptions without = options;

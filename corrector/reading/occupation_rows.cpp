@@ -64,8 +64,7 @@ std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyS
 /// Cause and remedy of values that no sensor sends.
 constexpr const char* kWrongProfile = text::marked(
     "no sensor sends such values: its profile was wrong; find the right one with a351d --config "
-    "FILE --identify, and "
-    "write the archive again with a351-correct retime --profile");
+    "FILE --identify, and write the archive again with a351-correct retime --profile");
 
 /// Returns the temperature from kBefore before the first occupation to the end of the last.
 std::optional<DayTemperature> temperature_of_day(const Samples& samples, const Epoch& epoch,
@@ -253,14 +252,19 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         averaged.push_back(std::move(set_up.window));
     }
     if (result.rows.empty()) {
+        const std::string origin = source.path.empty()
+                                       ? source.root.string()
+                                       : source.path.string() + ": root = " + source.root.string();
+        if (std::ranges::find(set_ups, kWrongProfile, &AveragedSetUp::trouble) != set_ups.end())
+            throw Refused("no_reading",
+                          fmt::format("{}: no occupation can be used: {}", origin, kWrongProfile));
         const text::Message cause =
             absent.empty() ? result.warnings.back() : archive_series::to_message(absent.front());
-        const std::string root = source.root.string();
         throw Refused(
             "no_reading",
             fmt::format(
                 "{}: no occupation has samples: {}; allowed: an archive that covers these hours",
-                source.path.empty() ? root : source.path.string() + ": root = " + root, cause));
+                origin, cause));
     }
     for (Finding& remark : stay_remarks(averaged, samples[kVertical]))
         result.findings.push_back(std::move(remark));
@@ -270,6 +274,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         result.warnings.push_back(std::move(warning));
     result.temperature_course = archive_series::temperature_course(samples[kTemperature].segments,
                                                                    epoch.channels[kTemperature]);
+    std::erase_if(result.temperature_course, [](const archive_series::MinuteTemperature& minute) {
+        return !is_temperature_believable(minute.mean);
+    });
     const auto events = events::read_events(source.root / "events").events;
     result.signal = signal_course(events, result.temperature_course);
     for (Finding& finding :

@@ -23,8 +23,9 @@ namespace a351::corrector::reading {
 /// the last.  The horizontal axes keep their order.
 ///
 /// The size is the median of the windows' means without their signs, over one sample per second: the
-/// sensor may be turned over between windows, or lie on its side in some.
-/// @param windows  occupations; if an axis has no sample in them, nothing is exchanged.
+/// sensor may be turned over between windows, or lie on its side in some.  Windows with a norm that no box
+/// at rest has are left out: their profile was wrong.
+/// @param windows  occupations; if none is left, nothing is exchanged.
 /// @param file     name of the metadata, for messages.
 /// @return a sentence for the user if another axis has a dip of more than 45 deg in the metadata, or
 ///         if the sensor is always upside down; the norm is the same then.  Otherwise empty.

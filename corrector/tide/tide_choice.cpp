@@ -84,12 +84,14 @@ void set_tide_option(Choice& choice, const std::string& text) {
 void take_given_system(Choice& choice, const std::vector<reading::SurveyRow>& rows,
                        const std::string& origin) {
     choice.given_system.reset();
-    if (choice.source != "given" || rows.empty() || rows.front().given_tide_system.empty()) return;
+    if (choice.source != "given" || rows.empty()) return;
+    const std::string& first = rows.front().given_tide_system;
     for (const reading::SurveyRow& row : rows)
-        if (row.given_tide_system != rows.front().given_tide_system)
-            throw InputError(
-                fmt::format("{}: tide_system = {}, and {} in the first row; allowed: one", origin,
-                            row.given_tide_system, rows.front().given_tide_system));
+        if (row.given_tide_system != first)
+            throw InputError(fmt::format(
+                "{}: tide_system = '{}' of {} ({}), but '{}' in the first row; allowed: one system",
+                origin, row.given_tide_system, row.site, row.occupation, first));
+    if (first.empty()) return;
     choice.given_system = required_system(rows.front().given_tide_system, origin + ": tide_system");
     choice.system = *choice.given_system;
 }

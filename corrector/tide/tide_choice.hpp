@@ -70,7 +70,7 @@ inline constexpr std::string_view kTideSystems = "tide-free, zero or mean";
 /// Takes the system that the rows name for their given tide, if the source is `given`; call it after
 /// the source is set.
 /// @param origin  name of the table, for the message.
-/// @throws InputError  the rows name something that is no system.
+/// @throws InputError  the rows name something that is no system, or several.
 void take_given_system(Choice& choice, const std::vector<reading::SurveyRow>& rows,
                        const std::string& origin);
 

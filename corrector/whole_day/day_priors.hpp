@@ -98,6 +98,11 @@ struct DayPriors {
     /// Standard deviation by which the share of a term in the scale differs from the unit's.  Assumed.
     double share_spread = 0.1;
 
+    /// Returns `factor` for a day in one face or two.  The scale that both faces show is the secant, the
+    /// reading at 1 g divided by gravity.  That of days in one face and of calibrations is the slope there.
+    /// They differ by twice the quadratic term, whose prior is 300 mGal (methods.md, "Calibration").
+    [[nodiscard]] Matrix factor_in(bool has_two_faces) const;
+
     /// Gives bx and by independent deviations of 2000 mGal/g, the limit of the data sheet, whatever
     /// the day says about their size.  Call it before observe() of an axis.
     void free_axes();

@@ -13,11 +13,6 @@
 namespace a351::corrector::whole_day {
 namespace {
 
-/// Standard deviation of the scale that both faces show, the reading at 1 g divided by gravity, about the
-/// slope there, which days in one face and calibrations have: twice the quadratic term of 1 g, whose prior
-/// is 300 mGal (methods.md, "Calibration").
-constexpr double kSecant = 2.0 * 300.0 / 980665.0;
-
 using Index = Eigen::Index;
 
 constexpr double kReferenceTemperature_degc = 42.5;  // T0: set point of the publication's oven
@@ -233,14 +228,9 @@ Eigen::MatrixXd DayRegression::design(const Point& u) const {
 }
 
 DayPriors::Matrix DayRegression::prior_factor(const Point& u) const {
-    DayPriors::Matrix factor = priors_.factor;
+    DayPriors::Matrix factor = priors_.factor_in(has_two_faces_);
     for (const DayTerm axis : {DayTerm::x, DayTerm::y})
         factor.row(DayPriors::place_of(axis)) *= std::pow(priors_.bias_factor, u[kBiasSize]);
-    if (has_two_faces_) {
-        double& scale =
-            factor(DayPriors::place_of(DayTerm::scale), DayPriors::place_of(DayTerm::scale));
-        scale = std::hypot(scale, kSecant);
-    }
     return factor;
 }
 

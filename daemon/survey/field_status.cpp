@@ -69,7 +69,10 @@ Faces faces_of(const Occupations& occupations, const live::Record& live,
                              .end = set_ups[k].end,
                              .ended_by = k + 1 < set_ups.size() ? signal::SetUpEnd::next_set_up
                                                                 : signal::SetUpEnd::running,
-                             .began_with_next_set_up = k > 0});
+                             .began_with_next_set_up = k > 0,
+                             .not_moved_until = k + 1 < set_ups.size()
+                                                    ? std::nullopt
+                                                    : occupations.running()->not_moved_until});
         if (k == 0 && stood_g) vertical = events::vertical_axis(*stood_g);
         faces.face =
             stood_g ? events::face_of(StandardGravity(stood_g->at(vertical))) : std::nullopt;
@@ -141,9 +144,11 @@ text::Message wrong_face(const Occupations& occupations, const live::Record& liv
             faces.number);
     if (faces.is_entered_wrong)
         return text::message(
-            "the box is in face {}, but face {} was entered: press Checked if this is "
-            "right; the data decide",
-            events::sign_of(*faces.face), events::sign_of(-*faces.face));
+            "the box is in face {}, but face {} was entered: face {} is used; press Checked, or "
+            "turn "
+            "the box over and press Next set-up",
+            events::sign_of(*faces.face), events::sign_of(-*faces.face),
+            events::sign_of(*faces.face));
     return {};
 }
 

@@ -45,9 +45,9 @@ struct FieldStatus {
 [[nodiscard]] std::optional<MovePrompt> moved_box(const Occupations& occupations,
                                                   const live::Record& live, UtcTime now);
 
-/// Returns a sentence if the running set-up is not in the face that was entered, or without one in that
-/// of the plan, compared with the first set-up of the stay, or if the box lies on its side; empty if it
-/// is, or if the face is not known.  A set-up in the wrong face does not count in the plan.
+/// Returns a sentence if the box lies on its side in the running set-up, or is not in the planned face,
+/// compared with the first set-up of the stay, and was not entered so, or not in the face that was
+/// entered; empty otherwise, or if the face is not known.  Only the first two do not count in the plan.
 [[nodiscard]] text::Message wrong_face(const Occupations& occupations, const live::Record& live,
                                        UtcTime now);
 

@@ -57,6 +57,16 @@ TEST_CASE("a CG-6 gives its own tide only if it was applied, and the receiver's 
     CHECK(kept(file.readings[0], "temperature_degc") == "43.2662");
 }
 
+TEST_CASE("a word of the names elsewhere in a line of a CG-6 is no line of names", "[gravimeter]") {
+    std::string reading = cg6_reading("A", "10:00:00");
+    reading.replace(reading.find("2066.1898\t1") + 10, 1, "Station");
+    const auto file = read("/\tCG-6 Survey\n/\tSurvey Name:\tStation\n" + cg6_header().substr(15) +
+                           reading + cg6_reading("B", "10:01:00"));
+    CHECK(file.refused.empty());
+    REQUIRE(file.readings.size() == 2);
+    CHECK(kept(file.readings[0], "line_name") == "Station");
+}
+
 TEST_CASE("a Burris is read with blanks or commas", "[gravimeter]") {
     const char separator = GENERATE(' ', ',', '\t');
     const auto file = read(burris_reading("rg37", "15:56:20", "2800", separator));

@@ -365,6 +365,24 @@ TEST_CASE("a temperature that begins late gives a remark", "[survey][day]") {
     CHECK_THAT(remarks.front(), ContainsSubstring("begins 54 min before the first occupation"));
 }
 
+TEST_CASE("in two faces the prior of a calibrated scale is wider", "[survey][day][faces]") {
+    const auto prior_with = [](bool has_two_faces) {
+        MadeUpDay made_up = kScattered;
+        made_up.has_two_faces = has_two_faces;
+        const DayRecord day = made_up.record();
+        SurveyOptions options = by_model("day");
+        options.calibration.emplace();
+        options.calibration->scale = {1.0, 1e-5};
+        const auto result = correct_survey(rows_of(day), options, &day);
+        const auto scale =
+            std::ranges::find(result.coefficients, "scale", &Coefficient::name)->prior.value();
+        CHECK(scale.sd == result.scales.at(0).prior.sd);
+        return scale.sd;
+    };
+    CHECK(prior_with(false) == Approx(1e-5));
+    CHECK(prior_with(true) == Approx(6.1e-4).epsilon(0.01));
+}
+
 TEST_CASE("a report says whether turning the box over pays on this unit", "[survey][day][faces]") {
     const auto remark_with = [](double share) {
         const DayRecord day = MadeUpDay{.placement_mgal = 1.2,

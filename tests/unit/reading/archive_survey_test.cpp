@@ -184,11 +184,15 @@ TEST_CASE("a stay with values of a wrong profile is left out, and the others do 
             CHECK(result.rows[i].acceleration == right.rows[i].acceleration);
         for (const double degc : result.day.value().temperature.series.values())
             CHECK(std::abs(degc - 42.3) < 0.5);
+        for (const auto& minute : result.temperature_course)
+            CHECK(std::abs(minute.mean.value() - 42.3) < 0.5);
         morning.folder().write("late.csv",
                                "site,occupation,start_utc,end_utc,used,note\n"
                                "B,1,2020-05-02T00:02:20Z,2020-05-02T00:04:50Z,1,\n");
-        CHECK_THROWS_WITH(average(morning, "occupations='late.csv'\n"),
-                          ContainsSubstring("a351-correct retime --profile"));
+        CHECK_THROWS_WITH(
+            average(morning, "occupations='late.csv'\n"),
+            ContainsSubstring("no occupation can be used: no sensor sends such values") &&
+                ContainsSubstring("a351-correct retime --profile"));
     }
 }
 

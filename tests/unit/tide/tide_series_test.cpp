@@ -163,7 +163,11 @@ TEST_CASE("the settings name the tide's source, model, factors and sign", "[surv
     CHECK(settings["permanent_tide"] == "as in the given tide");
     CHECK(settings["delta2"].is_null());
     SurveyRow row;
+    row.site = "No.5";
     row.given_tide_system = "mean";
+    CHECK_THROWS_WITH(
+        take_given_system(choice, {SurveyRow(), row}, "day.csv"),
+        "day.csv: tide_system = 'mean' of No.5 (1), but '' in the first row; allowed: one system");
     take_given_system(choice, {row}, "day.csv");
     describe_tide(settings, choice);
     CHECK(settings["tide_system"] == "mean");

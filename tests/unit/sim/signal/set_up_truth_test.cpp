@@ -5,6 +5,7 @@
 
 #include "protocol/text/csv.hpp"
 #include "sim/signal/signal_source.hpp"
+#include "sim/signal/slow_signal.hpp"
 
 using namespace a351::sim;
 using namespace a351;
@@ -172,4 +173,35 @@ TEST_CASE("tilting by two degrees to each side shows the axis bias", "[sim][trut
         CHECK(truth[3].tilt_mgal - truth[4].tilt_mgal ==
               Approx(-2.0 * bias_mgal[1] * sine).margin(0.01));
     }
+}
+
+TEST_CASE("bias and scale flicker by themselves, and together as much as the scenario says",
+          "[sim][truth]") {
+    const Scenario scenario = parse_scenario(
+        "base = \"ideal\"\nname = \"x\"\n[schedule]\nfaces = \"+\"\n[sensor]\nscale_share = 0.4\n"
+        "[slow_noise]\nflicker_mgal = 1.2\n",
+        "x.toml");
+    double product = 0.0, of_bias = 0.0, of_scale = 0.0;
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        const auto plan = plan_survey(scenario, seed);
+        SlowSignal signal(scenario, plan, seed);
+        for (int second = 0; second < 7200; ++second) {
+            const SlowValue value = signal.next();
+            if (second % 600 != 0) continue;
+            const double bias = value.along_z.value() - scenario.sensor.bias_mgal;
+            const double scale = value.along_vertical.value() -
+                                 plan[value.set_up].site.gravity->value() -
+                                 value.terms_mgal[static_cast<std::size_t>(Term::tide)];
+            CHECK(value.terms_mgal[static_cast<std::size_t>(Term::flicker)] ==
+                  Approx(bias + scale).margin(1e-6));
+            product += bias * scale;
+            of_bias += bias * bias;
+            of_scale += scale * scale;
+            ++count;
+        }
+    }
+    CHECK(std::sqrt((of_bias + of_scale) / count) == Approx(1.2).epsilon(0.1));
+    CHECK(std::sqrt(of_scale / of_bias) == Approx(0.4 / 0.6).epsilon(0.15));
+    CHECK(std::abs(product / count) < 0.1);  // one flicker: 0.66
 }
