@@ -12,7 +12,7 @@ namespace {
 /// A form of files with headers, a line of names, and one reading in each line after it.
 struct NamedForm {
     Form form;                         ///< Its names are in columns.cpp.
-    std::string_view name, forms;      ///< As those of Format.
+    std::string_view name, forms;      ///< Make, and forms that are read, for people.
     char header_sign = '/';            ///< First letter of a header.
     char separator = '\t';             ///< Between columns.
     std::string_view title;            ///< First header of a file and of each survey in it.

@@ -145,8 +145,7 @@ text::Message wrong_face(const Occupations& occupations, const live::Record& liv
     if (faces.is_entered_wrong)
         return text::message(
             "the box is in face {}, but face {} was entered: face {} is used; press Checked, or "
-            "turn "
-            "the box over and press Next set-up",
+            "turn the box over and press Next set-up",
             events::sign_of(*faces.face), events::sign_of(-*faces.face),
             events::sign_of(*faces.face));
     return {};

@@ -91,7 +91,8 @@ struct SensorParameters {
     double temperature_white_degc = 0.0;    ///< Rms per sample.
     double power_on_before_start_h = 0.0;   ///< At least OvenParameters::run_in_h.
     /// Share of each error, but for bias, placement and white noise, that is one of the scale: it keeps
-    /// its sign when the sensor is turned over.  Of the flicker it is the part of a second, independent one.
+    /// its sign when the sensor is turned over.  Bias and scale flicker
+    /// independently, with amplitudes as 1 - share to share.
     double scale_share = 0.0;
     double turn_mgal = 0.0;   ///< Standard deviation of the error at a turn, drawn for each.
     double turn_tau_s = 0.0;  ///< Time constant of its decay.
