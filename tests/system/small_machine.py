@@ -33,7 +33,8 @@ BOUND_S = 0.95 + SYNC_S  # a351d(1), DATA THAT CAN BE LOST
 DELAY_NS = 63_875_000 + 430_000 + 24 * 10 * 1_000_000_000 // 460_800
 ROW = struct.Struct("<q4iHHIB7x")  # sim/truth/truth-format.md
 STARTING_S = 90
-STARTING = "timing: unlocked", "archive: the last run's data", "no data: "  # Reasons that belong to a start.
+# Reasons that belong to a start.
+STARTING = "timing: unlocked", "archive: the last run's data", "no data: ", "No values arrive: last sample", "Values arrive. "
 HOST_STALLS = "the disk stalls"  # The disk of this host, which other programs use too.
 
 

@@ -73,10 +73,10 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     };
     CHECK(sentence(State::no_data, {}) ==
           "No values arrive: why. Check the sensor's plug and its power supply.");
-    verdict::Verdict first;
-    first.reasons.emplace_back().is_least = true;
-    CHECK(signal_of(first, {"why"}, {}, "", {}).sentence ==
-          "Values arrive. The first one takes 20 s.");
+    verdict::Verdict filling;  // Of filters, at a start or after a gap.
+    filling.reasons.resize(1);
+    CHECK(signal_of(filling, {"why"}, {}, "", {}).sentence ==
+          "Values arrive. The first good one takes 20 s without a gap.");
     CHECK(sentence(State::warming_up, {}) ==
           "The box is not at its operating temperature yet: why.");
     CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(1, 129.2)}) ==
