@@ -63,18 +63,18 @@ LiveStream::LiveStream(asio::io_context& io, const live::Record& live, Api& api,
     : live_(live),
       api_(api),
       patience_(patience),
-      news_(io, asio::steady_timer::time_point::max()) {}
+      news_(io, asio::steady_timer::time_point::max()),
+      step_(io) {}
 
 asio::awaitable<void> LiveStream::feed() {
-    asio::steady_timer step(co_await asio::this_coro::executor);
     for (;;) {
         error_code error;
-        step.expires_after(kStep);
-        co_await step.async_wait(into(error));
-        if (api_.use().streams == 0) {
-            cursor_ = live_.end();
-            continue;
-        }
+        if (api_.use().streams == 0)
+            step_.expires_at(asio::steady_timer::time_point::max());
+        else
+            step_.expires_after(kStep);
+        co_await step_.async_wait(into(error));
+        if (api_.use().streams == 0) continue;
         take_samples();
         take_status();
     }
@@ -99,6 +99,10 @@ void LiveStream::take_status() {
 }
 
 asio::awaitable<void> LiveStream::serve(beast::tcp_stream stream, HttpRequest request, Seat) {
+    if (api_.use().streams == 1) {  // Nobody looked, so no messages were made.
+        cursor_ = live_.end();
+        step_.cancel();
+    }
     const auto viewer = std::make_shared<Viewer>(std::move(stream), patience_);
     error_code error;
     co_await viewer->socket_.async_accept(request, into(error));

@@ -47,6 +47,7 @@ private:
     const std::chrono::milliseconds patience_;
     LiveMessages messages_;
     boost::asio::steady_timer news_;  ///< Timer that is cancelled when there are new messages.
+    boost::asio::steady_timer step_;  ///< Timer of feed(), cancelled by the first viewer.
     std::uint64_t cursor_ = 0;        ///< Position in live_.
     std::string told_;                ///< Api::urgent_status() of the last status sent.
     std::chrono::steady_clock::time_point next_status_{};

@@ -6,7 +6,7 @@
 namespace a351::daemon::store {
 namespace {
 
-constexpr std::chrono::milliseconds kWriteInterval{50};
+constexpr std::chrono::milliseconds kWriteInterval{250};
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kChunkInterval{50};  // Half of the promised 100 ms; the disk takes the rest.
+constexpr milliseconds kChunkInterval{100};  // Half of the promised 0.2 s; the disk takes the rest.
 constexpr seconds kClockInterval{1};        // Time between two clock readings: instrument time,
 constexpr milliseconds kShortestClockInterval{100};  // and real time.
 // Most bytes in a chunk.  With 12 bytes per stamp a chunk stays below the largest size.

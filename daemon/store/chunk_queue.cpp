@@ -8,6 +8,7 @@ bool ChunkQueue::push(std::uint64_t number, const journal::Chunk& chunk) {
     changed_.wait(lock, [this] { return is_closed_ || chunks_.bytes() < capacity_bytes_; });
     if (is_closed_) return true;
     chunks_.push(number, chunk);
+    lock.unlock();
     changed_.notify_all();
     return has_room;
 }

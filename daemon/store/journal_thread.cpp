@@ -11,8 +11,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kSyncLookInterval{50};      // Time between looks whether a sync is due.
-constexpr milliseconds kJournalSyncInterval{800};  // Leaves 0.15 s to read, and 0.05 s to sync.
+// Each chunk is an occasion to look whether a sync is due; without chunks there is a look after
+// this time.  A sync is then at most 0.95 s after the one before.
+constexpr milliseconds kSyncLookInterval{200};
+constexpr milliseconds kJournalSyncInterval{750};  // In steps of 0.1 s: a sync each 0.8 s.
 
 }  // namespace
 
@@ -62,11 +64,13 @@ bool JournalThread::finish() {
 }
 
 void JournalThread::push(std::uint64_t number, const journal::Chunk& chunk) {
-    const std::lock_guard lock(mutex_);
-    queued_.push(number, chunk);
-    while (overflow() == Overflow::oldest_dropped && drop_oldest()) {
+    {
+        const std::lock_guard lock(mutex_);
+        queued_.push(number, chunk);
+        while (overflow() == Overflow::oldest_dropped && drop_oldest()) {
+        }
+        has_news_ = true;
     }
-    has_news_ = true;
     woken_.notify_all();
 }
 

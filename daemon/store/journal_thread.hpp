@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The journal thread.  Received bytes go to disk within 100 ms and survive a power cut after
+/// The journal thread.  Received bytes go to disk within 0.2 s and survive a power cut after
 /// 0.95 s and the time of a sync, in real time (a351d(1), DATA THAT CAN BE LOST).  Only this thread
 /// waits for the journal's disk.  What it does on a full or failing disk is in disk_policy.hpp.
 
