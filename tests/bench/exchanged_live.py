@@ -1,0 +1,79 @@
+"""Measures how soon the recorder names another sensor that is attached at a random place of a day.
+
+usage: exchanged_live.py [FIRST_SEED [DAYS]]    (A351_BIN)
+FIRST_SEED: default 48001, DAYS: default 4.  Each day has an emulator and a recorder of its own, which start at a random instant of
+tsukuba's day and run five times as fast.  A stay starts, and on half of the days it has ended before the exchange.  After 10 to
+200 s of signal another sensor is attached.  Times are in s of signal: from the exchange, and from the first frame that the other sensor sent.
+"""
+
+import concurrent.futures
+import datetime
+import json
+import pathlib
+import random
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
+from emulated_session import Session, wait_for
+from programs import BIN, Scratch, daemon_status, run
+
+SPEED, AT_ONCE, DAY_H = 5, 3, 8.0
+OWN, OTHER = "00000001", "87654321"
+LIMIT_S = 10.0
+
+
+def starts(seed):
+    """Returns a random instant of the day, and the random numbers that follow."""
+    draw = random.Random(f"exchange {seed}")
+    with Scratch() as scratch:
+        plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", ".", cwd=scratch).stdout
+    begin = datetime.datetime.fromisoformat(dict(part.split("=", 1) for part in plan.split())["start_utc"].replace("Z", "+00:00"))
+    return (begin + datetime.timedelta(hours=draw.uniform(0, DAY_H))).strftime("%Y-%m-%dT%H:%M:%SZ"), draw
+
+
+def named(seed):
+    """Returns the seed, the start, the two times until the exchange is named, and what is wrong."""
+    start, draw = starts(seed)
+    with Scratch() as scratch:
+        session = Session(scratch, speed=SPEED, start=start)
+        session.wait_for_frames(50)
+        session.ctl("start", "No.1")
+        time.sleep(draw.uniform(10.0, 200.0) / SPEED)
+        if draw.random() < 0.5:
+            session.ctl("stop")
+        runs = len(session.emulated()["runs"])
+        began = time.monotonic()
+        session.order(f"other_unit serial_number={OTHER}")
+        sent = []
+
+        def is_named():
+            status = daemon_status(session.port) or {}
+            if not sent and len(session.emulated()["runs"]) > runs:
+                sent.append(time.monotonic())
+            return any(f"{OTHER} after {OWN}" in reason for reason in status.get("reasons", []))
+
+        wait_for("the exchange is named", is_named)
+        end = time.monotonic()
+        stays = json.loads(session.ctl("list", "--json"))["occupations"]
+        wrong = [] if len(stays) == 1 and session.status()["occupation"] is None else ["the stay was not cut"]
+        session.daemon.terminate()
+        session.daemon.wait(timeout=60)
+        session.sim.terminate()
+        session.sim.wait(timeout=60)
+        events = [json.loads(line) for file in (scratch / "data" / "events").glob("*.jsonl") for line in file.read_text().splitlines()]
+        if [(event["serial_number"], event["before"]) for event in events if event["type"] == "other_unit"] != [(OTHER, OWN)]:
+            wrong.append("not one event")
+        return seed, start, SPEED * (end - began), SPEED * (end - (sent or [end])[0]), wrong
+
+
+first, days = (list(map(int, sys.argv[1:])) + [48001, 4][len(sys.argv) - 1:])[:2]
+results = []
+with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
+    for seed, start, after_s, sent_s, wrong in pool.map(named, range(first, first + days)):
+        results.append((after_s, sent_s, wrong))
+        print(f"{seed}  {start}  {after_s:.1f} s after the exchange, {sent_s:.1f} s after the first frame  {'; '.join(wrong)}", flush=True)
+late = sum(result[1] > LIMIT_S or bool(result[2]) for result in results)
+print(f"{days} days: named at most {max(r[0] for r in results):.1f} s after the exchange, {max(r[1] for r in results):.1f} s after the "
+      f"first frame (limit {LIMIT_S:.0f} s); late or wrong: {late}")
+sys.exit(1 if late else 0)
