@@ -53,8 +53,9 @@ using namespace a351::daemon;
 enum ExitStatus { kDone = 0, kFailed = 1, kBadUsage = 2, kAlreadyRunning = 3, kDiffers = 4 };
 
 std::shared_ptr<spdlog::logger> make_log() {
-    // A full log queue must not stop the acquisition, so the oldest lines are dropped.
-    spdlog::init_thread_pool(4096, 1);
+    // A full log queue must not stop the acquisition, so the oldest lines are dropped.  Its memory
+    // is filled at once: 4096 lines would take 1.6 MB of the daemon's 11.
+    spdlog::init_thread_pool(256, 1);
     auto sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
     auto log = std::make_shared<spdlog::async_logger>(
         "a351d", sink, spdlog::thread_pool(), spdlog::async_overflow_policy::overrun_oldest);
