@@ -13,7 +13,7 @@ namespace a351::corrector::adjustment {
 namespace {
 
 std::string allowed_range(std::string_view name) {
-    if (name == kScale)
+    if (name.starts_with(kScale))
         return fmt::format("mean from {} to {}, sd from {} to {}",
                            text::shortest(1.0 - kGreatestScaleError),
                            text::shortest(1.0 + kGreatestScaleError), text::shortest(kLeastPriorSd),
@@ -23,7 +23,7 @@ std::string allowed_range(std::string_view name) {
 }
 
 bool is_in_range(std::string_view name, const Prior& prior) {
-    const bool is_scale = name == kScale;
+    const bool is_scale = name.starts_with(kScale);
     const double most = is_scale ? kGreatestScaleError : kGreatestPrior;
     return std::abs(prior.mean - (is_scale ? 1.0 : 0.0)) <= most && prior.sd >= kLeastPriorSd &&
            prior.sd <= most;
@@ -36,10 +36,16 @@ std::vector<std::string> prior_names() {
 }
 
 bool may_have_prior(std::string_view name) {
+    const std::string of_one = scale_name("");
+    if (name.starts_with(of_one) && name.size() > of_one.size()) return true;
     return std::ranges::find(terms_with_prior(), name, &Term::name) != terms_with_prior().end();
 }
 
 }  // namespace
+
+std::string scale_name(std::string_view instrument) {
+    return fmt::format("{} {}", kScale, instrument);
+}
 
 const Prior* Priors::find(std::string_view name) const {
     const auto found = values.find(name);
@@ -52,12 +58,13 @@ Prior Priors::in_use(std::string_view name, Prior prior) const {
 }
 
 Prior Priors::scale_of(std::string_view instrument) const {
-    if (const Prior* const given = find(kScale)) return *given;
+    for (const std::string& name : {scale_name(instrument), std::string(kScale)})
+        if (const Prior* const given = find(name)) return *given;
     return instrument.empty() ? kSensorScale : kGravimeterScale;
 }
 
 bool Priors::has_slope() const {
-    return std::ranges::any_of(values, [](const auto& one) { return one.first != kScale; });
+    return std::ranges::any_of(values, [](const auto& one) { return !one.first.starts_with(kScale); });
 }
 
 std::vector<std::string> unused_priors(const Priors& priors,

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <tuple>
 
 #include "corrector/command/commands.hpp"
@@ -30,6 +32,7 @@ struct TableOptions {
     std::string tide_system;
     std::string tide;  ///< Empty: given if the column exists, else direct.
     std::vector<std::tuple<std::string, double, double>> priors;
+    std::optional<double> reading_sd_mgal;  ///< Absent: that of the instrument.
     std::string out = "result";
     figure::FigureOptions figures;
     bool is_verbose = false;
@@ -59,7 +62,11 @@ void set_options(TableOptions& options, const std::vector<reading::SurveyRow>& r
         adjustment::set_prior(survey.survey.priors, "--prior", name, {mean, sd});
     number_option("--datum-sd", survey.survey.network.datum_sd_mgal, adjustment::kLeastSd_mgal,
                   adjustment::kGreatestSd_mgal);
-    number_option("--reading-sd", survey.survey.priors.reading_sd_mgal, adjustment::kLeastSd_mgal,
+    double& reading_sd_mgal = survey.survey.priors.reading_sd_mgal;
+    if (std::ranges::none_of(rows, &std::string::empty, &reading::SurveyRow::instrument))
+        reading_sd_mgal = adjustment::kGravimeterReadingSd_mgal;
+    reading_sd_mgal = options.reading_sd_mgal.value_or(reading_sd_mgal);
+    number_option("--reading-sd", reading_sd_mgal, adjustment::kLeastSd_mgal,
                   adjustment::kGreatestSd_mgal);
 }
 
@@ -151,8 +158,9 @@ void add_table_command(CLI::App& program) {
         "Coefficient known beforehand: its name in result.json, mean and standard deviation");
     add_with_default(command, "--datum-sd", "MGAL", correction.network.datum_sd_mgal,
                      "network: standard deviation of a reference that is held");
-    add_with_default(command, "--reading-sd", "MGAL", correction.priors.reading_sd_mgal,
-                     "Standard deviation of a reading: its weight against priors and datum");
+    add_option(command, "--reading-sd", "MGAL", options->reading_sd_mgal,
+               "Standard deviation of a reading: its weight against priors and datum "
+               "(default: 2, or 0.01 if all rows name an instrument)");
     add_with_default(command, "--drift-degree", "N", correction.network.drift_degree,
                      "network: degree of the polynomial in time that describes the drift, 0-3")
         ->check(CLI::Range(0, model::kGreatestDriftDegree));

@@ -31,7 +31,7 @@ ReferenceSurvey read_reference(text::TomlTable table) {
         table.refuse("observations", "no such file: " + reference.observations.string(),
                      "a table as a351-correct import writes it");
     reference.priors.reading_sd_mgal =
-        table.number_or("reading_sd_mgal", kReferenceReadingSd_mgal, adjustment::kLeastSd_mgal,
+        table.number_or("reading_sd_mgal", adjustment::kGravimeterReadingSd_mgal, adjustment::kLeastSd_mgal,
                         adjustment::kGreatestSd_mgal);
     reference.network.drift_degree = static_cast<int>(table.integer_or(
         "drift_degree", reference.network.drift_degree, 0, model::kGreatestDriftDegree));

@@ -28,10 +28,6 @@ struct ReferenceSurvey {
     model::NetworkOptions network;       ///< Drift of each loop.
 };
 
-/// Standard deviation of a reading of a reference gravimeter, mGal.  Reason: repeatability of spring
-/// gravimeters in the field.
-inline constexpr double kReferenceReadingSd_mgal = 0.01;
-
 /// One survey day, from table [survey] of its TOML file.  Paths in the file are relative to it.
 ///
 /// - `survey`: options of the correction, with the priors of table [prior].  `calibration` and

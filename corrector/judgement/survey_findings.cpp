@@ -227,13 +227,23 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         return result;
     };
     const auto search_and_hold = [&](model::SurveyCorrection& result) {
-        const std::vector<model::Coefficient> far = far_terms(result);
+        std::vector<model::Coefficient> far = far_terms(result);
         Search found = search(result, survey, options.priors, far);
         if (far.empty()) return found;
-        model::SurveyOptions with_held = options;
-        with_held.priors = held(options.priors, far);
-        model::SurveyCorrection fit =
-            model::correct_with_calibration(survey.rows, with_held, survey.day);
+        model::SurveyCorrection fit;
+        // A coefficient that is held can push another one away from its prior.
+        for (std::size_t held_count = 0; held_count != far.size();) {
+            held_count = far.size();
+            model::SurveyOptions with_held = options;
+            with_held.priors = held(options.priors, far);
+            fit = model::correct_with_calibration(survey.rows, with_held, survey.day);
+            for (const model::Coefficient& term : far_terms(fit)) {
+                if (std::ranges::count(far, term.name, &model::Coefficient::name) > 0) continue;
+                found.findings.push_back(far_term(fit, term, options.priors));
+                far.push_back(term);
+            }
+        }
+        std::ranges::stable_sort(found.findings, {}, rank_of);
         fit.remarks.insert(fit.remarks.end(), found.remarks.begin(), found.remarks.end());
         result = std::move(fit);
         return found;

@@ -151,7 +151,9 @@ Refusal undetermined(const AdjustedSurvey& adjusted) {
     return {fmt::format("the readings do not determine {}: {}", text::joined(names),
                         has_repeat(survey)
                             ? "there are fewer repeated readings than coefficients to determine"
-                            : "every station is occupied only once in its loop"),
+                            : fmt::format("every station is occupied only once in its loop, "
+                                          "and a pause of more than {} h begins a loop",
+                                          std::lround(adjustment::kLoopPause_h))),
             has_drift ? "further occupations of a station at other times, more datum stations, a "
                         "prior on time_mgal_per_h, or a smaller drift_degree"
                       : "further occupations, more datum stations, or a prior on a coefficient"};

@@ -157,6 +157,7 @@ void remark_unused(Fit& result, const Model& model, const SurveyOptions& options
     std::vector<std::string> used;
     for (const Coefficient& coefficient : result.coefficients)
         if (coefficient.prior) used.push_back(coefficient.name);
+    for (const auto& scale : result.scales) used.push_back(adjustment::scale_name(scale.instrument));
     std::vector<std::string> unused = adjustment::unused_priors(options.priors, used);
     for (std::string& name : unused) name = "prior " + name;
     const NetworkOptions usual;

@@ -60,7 +60,7 @@ std::string reading_caption(const model::SurveyCorrection& result) {
               "duration is below Min used. The residual is the error of placing the box, one "
               "value for each set-up. Left out: the value of the reading if the reference of its "
               "station is not used (cross-validated); u is the standard uncertainty of this value, "
-              "and t = (left out - reference) / u.");
+              "and t = (left out - reference) / sqrt(u^2 + (u of the reference)^2).");
 }
 
 std::string station_caption(const model::SurveyCorrection& result, const result::Table& table) {

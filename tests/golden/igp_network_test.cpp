@@ -50,11 +50,14 @@ std::vector<text::Site> sites() {
     return list;
 }
 
-/// Returns the readings with the scales of the published solution, and the references of `held`.
-std::vector<reading::SurveyRow> rows(const std::vector<std::string>& held) {
+const std::map<std::string, double> kScales{{"QSCW201508p.098", 1.00009},
+                                            {"QSCW201508p.099", 1.000637}};  // As published.
+
+/// Returns the readings, multiplied by these scales, and the references of `held`.
+std::vector<reading::SurveyRow> rows(const std::vector<std::string>& held,
+                                     const std::map<std::string, double>& scales = kScales) {
     std::vector<reading::SurveyRow> list;
-    for (const auto& [file, scale] : std::map<std::string, double>{{"QSCW201508p.098", 1.00009},
-                                                                   {"QSCW201508p.099", 1.000637}}) {
+    for (const auto& [file, scale] : scales) {
         const auto readings =
             gravimeter::read_gravimeter_file(A351_GOLDEN "/igp/" + file, {std::chrono::hours(8)})
                 .readings;
@@ -124,6 +127,27 @@ TEST_CASE("a campaign of 112 stations agrees with the solution published with it
                                  one.u_gravity->value());
         CHECK(std::abs(error_mgal) < 2.0 * one.u_gravity->value());
     }
+}
+
+TEST_CASE("the scales of the two meters come out as published, with the usual prior",
+          "[golden][igp]") {
+    model::SurveyOptions options;
+    options.priors.reading_sd_mgal = kReadingSd_mgal;
+    const auto result = judgement::correct_and_search(
+        {rows({"11014121", "13072402", "10114700"}, {{"QSCW201508p.098", 1.0}, {"QSCW201508p.099", 1.0}}),
+         {}, nullptr},
+        options);
+    REQUIRE(result.scales.size() == 2);
+    for (const model::ScaleEstimate& scale : result.scales) {
+        const double published = 1.0 / (scale.instrument.ends_with("98") ? 1.00009 : 1.000637);
+        std::cout << fmt::format("{}: {:.5f} +- {:.5f}, published {:.5f}\n", scale.instrument,
+                                 scale.value, scale.u, published);
+        CHECK(std::abs(scale.value - published) < 2.0 * scale.u);
+    }
+    CHECK(std::ranges::none_of(result.findings, [](const reading::Finding& finding) {
+        return finding.kind == reading::FindingKind::scale;
+    }));
+    CHECK(result.score.loso_mgal.value() < 0.05);
 }
 
 TEST_CASE("none of the sites of a real campaign is doubtful", "[golden][igp]") {

@@ -194,16 +194,16 @@ TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u 
         row.reference = *row.reference + MilliGal(kRange_mgal);
     }
     const double reference = std::ranges::find_if(rows, is_far)->reference->value();
-    const auto far_end = [&](std::optional<adjustment::Prior> scale) {
+    const auto far_end = [&](adjustment::Prior scale) {
         adjustment::Priors priors;
         priors.reading_sd_mgal = kReadingSd_mgal;
-        if (scale) adjustment::set_prior(priors, "test", "scale", *scale);
+        adjustment::set_prior(priors, "test", "scale", scale);
         const HoldOut end = value_of(rows, "rg57", {"rg37"}, priors, {}, reference);
         std::cout << fmt::format("far end off by {:+.4f} mGal, u {:.4f}\n", end.error_mgal,
                                  end.u_mgal);
         return end;
     };
-    const HoldOut held = far_end(adjustment::Prior{1.0, 1e-6}), free = far_end(std::nullopt);
+    const HoldOut held = far_end(adjustment::Prior{1.0, 1e-6}), free = far_end(adjustment::Prior{1.0, 1e-4});
     const Absolute value{reference, absolute_values("2017-12").at("rg57").u_mgal};
     CHECK(held.u_mgal < 0.013);
     CHECK(free.u_mgal == Approx(std::hypot(held.u_mgal, 1e-4 * kRange_mgal)).epsilon(0.01));

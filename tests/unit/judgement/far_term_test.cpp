@@ -1,5 +1,6 @@
 // Where a scale, a step and a reference meet: which of them is named, and with which uncertainty.
 #include <cmath>
+#include <fmt/core.h>
 #include <random>
 #include <set>
 #include "tests/support/catch.hpp"
@@ -95,7 +96,7 @@ std::vector<Finding> mistakes(const model::SurveyCorrection& result) {
 TEST_CASE("meters whose scales differ by more than their prior are named, and no reference is",
           "[judgement][scale]") {
     const Line six = day({1.0007, 1.0004, 1.0001, 0.9999, 0.9996, 0.9993});
-    const auto found = mistakes(six.corrected());
+    const auto found = mistakes(six.corrected(adjustment::Prior{1.0, 1e-4}));
     REQUIRE(!found.empty());
     std::set<std::string> texts;
     for (const Finding& finding : found) {
@@ -103,6 +104,34 @@ TEST_CASE("meters whose scales differ by more than their prior are named, and no
         CHECK(texts.insert(finding.text.english()).second);
     }
     CHECK(mistakes(six.corrected(adjustment::Prior{1.0, 0.001})).empty());
+}
+
+TEST_CASE("a scale that another one, which is held, pushes away is named too", "[judgement][scale]") {
+    // The reference of B says, with 0.02 mGal in 151, which of the meters is right.
+    Line two = day({1.0008, 1.0});
+    for (reading::SurveyRow& row : two.rows) {
+        if (row.site != "A" && row.site != "B") continue;
+        row.reference = MilliGal(980000.0 - (row.site == "B" ? 151.2 : 0.0));
+        row.u_reference = MilliGal(row.site == "B" ? 0.02 : 0.001);
+    }
+    const auto result = two.corrected(adjustment::Prior{1.0, 1e-4});
+    const auto found = mistakes(result);
+    REQUIRE(found.size() == 2);
+    for (std::size_t k = 0; k < 2; ++k) {
+        CHECK(found[k].kind == FindingKind::scale);
+        CHECK_THAT(found[k].text.english(), ContainsSubstring(fmt::format("M{}", k)));
+    }
+    // A prior of one meter concerns this meter only.
+    model::SurveyOptions options;
+    options.model = "network";
+    options.priors.reading_sd_mgal = kReadingSd_mgal;
+    adjustment::set_prior(options.priors, "test", "scale", {1.0, 1e-4});
+    adjustment::set_prior(options.priors, "test", "scale M0", {1.0008, 1e-4});
+    const auto own = judgement::correct_and_search({two.rows, {}, nullptr}, options);
+    CHECK(own.scales.at(0).value == Approx(1.0008).epsilon(0).margin(1e-4));
+    CHECK(own.scales.at(1).value == Approx(1.0).epsilon(0).margin(1e-4));
+    for (const text::Message& remark : own.remarks)
+        CHECK_THAT(remark.english(), !ContainsSubstring("does not use"));
 }
 
 TEST_CASE("a step is named with the uncertainty that the scale gives it, and the scale is not",
